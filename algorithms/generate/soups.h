@@ -1,0 +1,124 @@
+#pragma once
+// Triangles: in random places, and as a landscape.
+
+#include <sightline/algorithms/generate/random.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace sightline::generate {
+
+/// The integer r with r^3 <= n < (r + 1)^3. Exact: yes
+inline std::uint64_t cube_root(std::uint64_t n) {
+  std::uint64_t root = 0;
+  for (std::uint64_t bit = std::uint64_t{1} << 21; bit > 0; bit >>= 1) {
+    const std::uint64_t larger = root | bit;
+    if (static_cast<unsigned __int128>(larger) * larger * larger <= n) root = larger;
+  }
+  return root;
+}
+
+/// n random triangles in the unit cube with corners on the grid of step 2^-bits, none of zero area. Each corner is uniform in
+/// an axis-parallel cube of side 3/2 `edge_steps`, so that edges are 0.99 `edge_steps` long on average (the mean distance of
+/// two points of a unit cube is 0.6617). Pre: 4 <= edge_steps, bits <= 30. Cost: 0.3 s and 190 MB for n = 10^6.
+inline Polygon_soup soup_on_grid(std::size_t n, std::int64_t edge_steps, std::uint64_t seed, int bits) {
+  require(bits >= 4 && bits <= 30, "soup: bits must be in 4 .. 30");
+  require(edge_steps >= 4, "soup: the edge must be four steps of the grid or longer");
+  require(n <= 1000000000, "soup: at most 10^9 triangles");
+  const std::int64_t size = std::int64_t{1} << bits;
+  const std::int64_t reach = std::min(3 * std::min(edge_steps, size) / 4, size / 2);
+  const double step = std::ldexp(1.0, -bits);
+  Random random(seed);
+  Polygon_soup soup;
+  soup.file = "soup";
+  soup.coordinates.reserve(9 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    using Corner = std::array<std::int64_t, 3>;
+    std::array<Corner, 3> corners;
+    const auto has_area = [&] {
+      // Differences have at most 30 bits, so nothing overflows.
+      const auto [a, b, c] = corners;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        if ((b[i] - a[i]) * (c[j] - a[j]) != (b[j] - a[j]) * (c[i] - a[i])) return true;
+      }
+      return false;
+    };
+    do {
+      Corner centre;
+      for (std::int64_t& c : centre) c = random.between(reach, size - reach);
+      for (Corner& corner : corners)
+        for (std::size_t i = 0; i < 3; ++i) corner[i] = centre[i] + random.between(-reach, reach);
+    } while (!has_area());
+    Point_id first = 0;
+    for (const Corner& c : corners)
+      first = soup.add_point(static_cast<double>(c[0]) * step, static_cast<double>(c[1]) * step, static_cast<double>(c[2]) * step);
+    soup.add_face({first - 2, first - 1, first});
+  }
+  return soup;
+}
+
+/// n random triangles with edges about `edge` long in the unit cube, coordinates on the grid of step 2^-bits.
+/// Pre: edge is at least 4 steps, bits <= 30, or std::invalid_argument. Post: no zero area; three points for each face.
+inline Polygon_soup soup(std::size_t n, double edge, std::uint64_t seed, int bits = 26) {
+  require(std::isfinite(edge) && edge > 0 && bits >= 4 && bits <= 30, "soup: the edge must be positive, bits in 4 .. 30");
+  return soup_on_grid(n, std::llround(std::ldexp(std::min(edge, 1.0), bits)), seed, bits);
+}
+
+/// n random triangles in the unit cube, one for each cube of their own edge length: edge = n^(-1/3). A sightline then
+/// meets as many triangles per edge length for any n, and the number of faces seen from a point stays bounded.
+inline Polygon_soup soup_constant_density(std::size_t n, std::uint64_t seed) {
+  require(n <= 1000000000, "soup_constant_density: at most 10^9 triangles");
+  const std::uint64_t side = std::max<std::uint64_t>(cube_root(std::uint64_t{n} << 30), 1 << 10);  // 2^10 n^(1/3)
+  Polygon_soup result = soup_on_grid(n, static_cast<std::int64_t>((std::uint64_t{1} << 36) / side), seed, 26);
+  result.file = "soup_constant_density";
+  return result;
+}
+
+/// A landscape of at least n triangles over a square lattice of step 2^-10, front up: two for each of m x m cells, m the least.
+/// Heights are multiples of 2^-20, the sum of octaves whose amplitude and wave length halve. Post: a height field, every
+/// inner edge in two triangles, diagonals in random directions.
+inline Polygon_soup terrain(std::size_t n, std::uint64_t seed) {
+  require(n <= 1000000000, "terrain: at most 10^9 triangles");
+  std::size_t m = 1;
+  while (2 * m * m < n) ++m;
+  const std::size_t row = m + 1;
+  Random random(seed);
+
+  // Sum the octaves, each a lattice of random heights with bilinear interpolation in integers.
+  std::vector<std::int64_t> height(row * row, 0);  // in steps of 2^-20
+  std::size_t wave = 1;
+  while (2 * wave <= m) wave *= 2;
+  for (; wave > 0; wave /= 2) {
+    const std::size_t nodes = m / wave + 2;
+    const std::int64_t amplitude = static_cast<std::int64_t>(wave) << 8;  // a quarter of the wave length 2^-10 wave
+    std::vector<std::int32_t> node(nodes * nodes);
+    for (std::int32_t& h : node) h = static_cast<std::int32_t>(random.between(-amplitude, amplitude));
+    const std::int64_t w = static_cast<std::int64_t>(wave);
+    for (std::size_t j = 0; j < row; ++j)
+      for (std::size_t i = 0; i < row; ++i) {
+        const std::int64_t u = static_cast<std::int64_t>(i % wave), v = static_cast<std::int64_t>(j % wave);
+        const std::int32_t* at = &node[(j / wave) * nodes + i / wave];
+        const std::int64_t sum = (w - u) * (w - v) * at[0] + u * (w - v) * at[1] + (w - u) * v * at[nodes] + u * v * at[nodes + 1];
+        height[j * row + i] += sum / (w * w);
+      }
+  }
+
+  Polygon_soup soup;
+  soup.file = "terrain";
+  soup.coordinates.reserve(3 * row * row);
+  for (std::size_t j = 0; j < row; ++j)
+    for (std::size_t i = 0; i < row; ++i)
+      soup.add_point(static_cast<double>(i) * 0x1p-10, static_cast<double>(j) * 0x1p-10, static_cast<double>(height[j * row + i]) * 0x1p-20);
+  for (std::size_t j = 0; j < m; ++j)
+    for (std::size_t i = 0; i < m; ++i) {
+      const Point_id a = static_cast<Point_id>(j * row + i), b = a + 1, d = a + static_cast<Point_id>(row), c = d + 1;
+      if (random.chance(1, 2)) soup.add_face({a, b, c}), soup.add_face({a, c, d});
+      else soup.add_face({a, b, d}), soup.add_face({b, c, d});
+    }
+  return soup;
+}
+
+}  // namespace sightline::generate

@@ -1,0 +1,121 @@
+#include "common.h"
+
+#include <sightline/io/decimal.h>
+#include <sightline/io/read.h>
+
+#include <unistd.h>
+
+#include <fstream>
+#include <iostream>
+
+namespace sightline::app {
+
+void Common::add_to(CLI::App& command) {
+  command.add_option("SCENE", scene, "a scene: .obj .off .ply .stl .qoff")->required();
+  command.add_option("--json", json, "write everything as JSON to this file, - for standard output");
+  command.add_option("--coordinates", coordinates, "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
+      ->check(CLI::IsMember({"exact", "double"}))
+      ->capture_default_str();
+  command.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+  command.add_option("--seed", seed, "of random choices")->capture_default_str();
+  command.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")->check(CLI::NonNegativeNumber)->capture_default_str();
+}
+
+std::function<void(std::size_t, std::size_t)> Common::within_budget(std::function<void(std::size_t, std::size_t)> report) const {
+  return [report = std::move(report), limit = budget, watch = Stopwatch()](std::size_t done, std::size_t all) {
+    if (limit > 0 && watch.seconds() > limit) throw Out_of_budget(fmt::format("undecided: the budget of {} s ran out", limit));
+    report(done, all);
+  };
+}
+
+Polygon_soup Common::read() const {
+  Read_options options;
+  options.round_to_double = coordinates == "double";
+  return read_scene(std::filesystem::path(scene), options);
+}
+
+Exact_point parse_point(const std::string& text, const std::string& option) {
+  Exact_point p;
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
+    if (end == std::string::npos) throw Usage_error(option + " wants three numbers X,Y,Z, not '" + text + "'");
+    const std::string token = text.substr(begin, end - begin);
+    try {
+      if (token.find('/') != std::string::npos) {
+        p[k] = rational_from_string(token);
+      } else {
+        const Input input{option, token};
+        const Text_reader reader(input, Text_reader::Comments::hash);
+        p[k] = value_of(parse_decimal(reader, input.bytes));
+      }
+    } catch (const std::exception&) {
+      throw Usage_error(option + " wants three numbers X,Y,Z (decimals or p/q); '" + token + "' is none");
+    }
+    begin = end + 1;
+  }
+  return p;
+}
+
+Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(2) != 0) {}
+Progress::~Progress() {
+  if (shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
+}
+void Progress::operator()(std::size_t done, std::size_t all) {
+  if (!terminal_ || watch_.seconds() < 0.5) return;
+  // Fragments outnumber pieces, so the share can only be a guess below the end.
+  const int percent = all == 0 ? 0 : static_cast<int>(std::min<std::size_t>(99, 100 * done / all));
+  int before = shown_.load();
+  if (percent <= before || !shown_.compare_exchange_strong(before, percent)) return;
+  std::cerr << fmt::format("\r{} [{:<40}] {:2}%", what_, std::string(static_cast<std::size_t>(percent) * 40 / 100, '#'), percent) << std::flush;
+}
+
+Json point_json(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }
+
+Json predicates_json(const Predicate_counts& counts) {
+  return {{"total", counts.total()}, {"combinatorial", counts.combinatorial}, {"filtered", counts.filtered}, {"fixed", counts.fixed}, {"gmp", counts.gmp}};
+}
+
+Json scene_json(const Scene& scene) {
+  const Scene_counters& c = scene.counters();
+  Json set_aside = Json::array();
+  for (const Set_aside& entry : scene.set_aside()) set_aside.push_back({{"face", entry.face}, {"why", entry.why}});
+  return {{"file", scene.file()},
+          {"faces_read", c.faces_read},
+          {"faces", c.faces},
+          {"set_aside", std::move(set_aside)},
+          {"bits", scene.bits()},
+          {"arithmetic", std::string(name(scene.predicates().arithmetic()))},
+          {"grid_bits", scene.points().bits()},
+          {"pieces", c.pieces}};
+}
+
+bool write_json(const Common& common, const std::string& command, const Scene& scene, Json result, Json counters, Json seconds) {
+  if (common.json.empty()) return false;
+  Json document;
+  document["command"] = command;
+  document["scene"] = scene_json(scene);
+  document["result"] = std::move(result);
+  document["counters"] = std::move(counters);
+  document["seconds"] = std::move(seconds);
+  const std::string text = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (common.json == "-") std::cout << text << std::flush;
+  else write_file(common.json, text);
+  return common.json == "-";
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text << std::flush;
+  if (!out) throw std::runtime_error(path + ": cannot be written; check the folder and its permissions");
+}
+
+void row(const std::string& name, const std::string& value) { std::cout << fmt::format("{:<22} {}\n", name, value); }
+
+void scene_rows(const Scene& scene) {
+  const Scene_counters& c = scene.counters();
+  row("scene", scene.file());
+  row("faces", fmt::format("{} of {} read, {} set aside, {} convex pieces", c.faces, c.faces_read, scene.set_aside().size(), c.pieces));
+}
+
+}  // namespace sightline::app

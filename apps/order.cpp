@@ -1,0 +1,107 @@
+// sightline order: the exact back-to-front order of a scene from an eye, its picture and its certificate.
+
+#include "picture.h"
+
+#include <sightline/algorithms/verify/certificate_json.h>
+
+#include <iostream>
+
+namespace sightline::app {
+
+struct Order_arguments {
+  Common common;
+  std::string eye, kernel = "exact", certificate, svg, look, up;
+  double field = 60;
+};
+
+/// What `verify` needs beside the fragments: the pieces of faces that were cut, and what is set aside.
+static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn) {
+  Order_certificate certificate;
+  certificate.eye = eye;
+  for (const Drawn& item : drawn) certificate.fragments.push_back(item.fragment);
+  std::vector<bool> cut(scene.counters().faces_read);
+  for (const Piece& piece : scene.pieces())
+    if (piece.number > 0) cut[piece.face] = true;
+  for (const Face_id face : scene.non_planar()) cut[face] = true;
+  for (const Piece& piece : scene.pieces()) {
+    if (!cut[piece.face]) continue;
+    Order_certificate::Piece& part = certificate.pieces.emplace_back();
+    part.face = piece.face, part.piece = piece.number;
+    for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
+  }
+  for (const Set_aside& entry : scene.set_aside()) certificate.set_aside.push_back({entry.face, entry.why});
+  return certificate;
+}
+
+static std::array<double, 3> parse_direction(const std::string& text, const std::string& option) {
+  const Exact_point p = parse_point(text, option);
+  return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+}
+
+static Exit run(const Order_arguments& arguments) {
+  const Common& common = arguments.common;
+  const Exact_point eye = parse_point(arguments.eye, "--eye");
+  Scene scene(common.read());
+  Progress progress("building");
+  Task task;
+  task.eye = eye;
+  task.bsp.seed = common.seed, task.bsp.threads = common.threads;
+  task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const Outcome outcome = run_method(arguments.kernel, scene, task);
+
+  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, outcome.drawn)).dump() + "\n");
+  if (!arguments.svg.empty()) {
+    View view{eye};
+    if (!arguments.look.empty()) view.look = parse_direction(arguments.look, "--look");
+    if (!arguments.up.empty()) view.up = parse_direction(arguments.up, "--up");
+    view.field = arguments.field;
+    if (scene.counters().faces > 0) view = aimed(view, scene);
+    task.near = near_plane(view, scene);
+    write_file(arguments.svg, painted(view, task.near ? run_method(arguments.kernel, scene, task).drawn : outcome.drawn));
+  }
+
+  Json fragments = Json::array();
+  if (!common.json.empty())
+    for (const Drawn& item : outcome.drawn) {
+      Json vertices = Json::array();
+      for (const Exact_point& p : item.fragment.vertices) vertices.push_back(point_json(p));
+      fragments.push_back({{"face", item.fragment.face}, {"piece", item.number}, {"vertices", std::move(vertices)}});
+    }
+  const Bsp_counters& c = outcome.tree;
+  Json result{{"eye", point_json(eye)}, {"fragments", std::move(fragments)}};
+  const Json counters{{"kernel", arguments.kernel}, {"nodes", c.nodes}, {"depth", c.depth}, {"splits", c.splits}, {"fragments", c.fragments}, {"free_planes", c.free_planes},
+                      {"eye_on_planes", outcome.walk.on_planes}, {"not_finite", outcome.not_finite}, {"degenerate", c.degenerate},
+                      {"predicates", predicates_json(c.predicates)}, {"eye_predicates", predicates_json(outcome.walk.predicates)}};
+  if (write_json(common, "order", scene, std::move(result), counters, {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}})) return Exit::done;
+
+  scene_rows(scene);
+  row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(), outcome.walk.on_planes));
+  if (outcome.not_finite + c.degenerate > 0) row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
+  row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds, arguments.kernel));
+  if (arguments.certificate.empty() && arguments.svg.empty()) {
+    constexpr std::size_t shown = 20;
+    for (std::size_t i = 0; i < std::min(shown, outcome.drawn.size()); ++i)
+      std::cout << fmt::format("{:>6}. face {}, piece {}{}\n", i + 1, outcome.drawn[i].fragment.face, outcome.drawn[i].number,
+                               outcome.drawn[i].side == CGAL::ZERO ? ", edge-on" : outcome.drawn[i].side == CGAL::NEGATIVE ? ", from behind" : "");
+    if (outcome.drawn.size() > shown) std::cout << fmt::format("   ... {} more: --json - prints them all, --svg draws them\n", outcome.drawn.size() - shown);
+  }
+  return Exit::done;
+}
+
+}  // namespace sightline::app
+
+void add_order(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("order", "The exact back-to-front order of a scene from an eye, with a picture and a certificate");
+  auto a = std::make_shared<sightline::app::Order_arguments>();
+  a->common.add_to(*command);
+  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q")->required();
+  command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember(sightline::app::kernel_names))->capture_default_str();
+  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  command->add_option("--svg", a->svg, "draw the order as a painter would");
+  command->add_option("--look", a->look, "direction X,Y,Z of the picture; by default to the centre of the scene");
+  command->add_option("--up", a->up, "up direction X,Y,Z of the picture (0,0,1)");
+  command->add_option("--field", a->field, "width of the picture's view in degrees")->check(CLI::Range(1.0, 170.0))->capture_default_str();
+  command->footer("Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
+                  "A fragment is [face, piece]; the certificate's `piece` is the convex piece of the face that the fragment is a part of.");
+  set_action(*command, [a] { return sightline::app::run(*a); });
+}

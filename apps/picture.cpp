@@ -1,0 +1,80 @@
+#include "picture.h"
+
+#include <sightline/io/svg.h>
+
+namespace sightline::app {
+
+using Direction3 = std::array<double, 3>;
+
+static double dot(const Direction3& a, const Direction3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static Direction3 cross(const Direction3& a, const Direction3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+static Direction3 unit(const Direction3& a) {
+  const double size = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
+  if (!(size > 0)) return {};
+  const Direction3 scaled{a[0] / size, a[1] / size, a[2] / size};
+  const double length = std::sqrt(dot(scaled, scaled));
+  return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
+}
+static Direction3 difference(const Exact_point& a, const Exact_point& b) {
+  return {nearest_double(a[0] - b[0]), nearest_double(a[1] - b[1]), nearest_double(a[2] - b[2])};
+}
+
+View aimed(View view, const Scene& scene) {
+  if (view.look == Direction3{}) {
+    const auto box = scene.box();
+    Exact_point centre;
+    for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2;
+    view.look = difference(centre, view.eye);
+    if (view.look == Direction3{}) view.look = {1, 0, 0};
+  }
+  view.look = unit(view.look);
+  Direction3 right = cross(view.look, unit(view.up));
+  if (dot(right, right) < 1e-6) view.up = std::fabs(view.look[1]) < 0.9 ? Direction3{0, 1, 0} : Direction3{1, 0, 0};
+  return view;
+}
+
+std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& scene) {
+  std::array<Integer, 4> h;
+  for (std::size_t k = 0; k < 3; ++k) h[k] = static_cast<long>(std::lround(view.look[k] * 1024));
+  const Located_point eye = scene.locate(view.eye);
+  Integer reach = 1;
+  mpz_mul_2exp(reach.get_mpz_t(), reach.get_mpz_t(), static_cast<mp_bitcnt_t>(scene.points().bits()));
+  // h . eye, rounded up, and 1024 times a thousandth of the size.
+  Integer at = h[0] * eye.x + h[1] * eye.y + h[2] * eye.z;
+  mpz_cdiv_q(at.get_mpz_t(), at.get_mpz_t(), eye.w.get_mpz_t());
+  h[3] = -(at + reach + 1);
+  for (std::uint32_t p = 0; p < scene.points().size(); ++p)
+    if (sgn(Integer(h[0] * scene.points().integer(p, 0) + h[1] * scene.points().integer(p, 1) + h[2] * scene.points().integer(p, 2) + h[3])) <= 0) return h;
+  return std::nullopt;
+}
+
+std::string painted(const View& view, const std::vector<Drawn>& drawn) {
+  const Direction3 right = unit(cross(view.look, unit(view.up))), up = cross(right, view.look), light = unit({0.3, -0.5, 0.8});
+  const double scale = view.width / 2.0 / std::tan(view.field * 3.14159265358979 / 360);
+  Svg svg(view.width, view.height, "#f4f3ef");
+  for (const Drawn& item : drawn) {
+    std::vector<Flat_point> points;
+    std::vector<Direction3> corners;
+    for (const Exact_point& p : item.fragment.vertices) {
+      const Direction3 v = difference(p, view.eye);
+      corners.push_back(v);
+      const double depth = dot(v, view.look);
+      points.push_back({view.width / 2.0 + scale * dot(v, right) / depth, view.height / 2.0 - scale * dot(v, up) / depth});
+    }
+    // A hue for each face, a shade for the way it faces; back sides are duller.
+    Direction3 normal{};
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      const auto arm = [&](std::size_t k) { return Direction3{corners[k][0] - corners[0][0], corners[k][1] - corners[0][1], corners[k][2] - corners[0][2]}; };
+      const Direction3 part = cross(arm(i - 1), arm(i));
+      for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
+    }
+    const double shade = dot(unit(normal), light);
+    const double hue = std::fmod(item.fragment.face * 137.50776405, 360.0);
+    const bool front = item.side == CGAL::POSITIVE;
+    const std::string fill = fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue, front ? 45 : 12, (front ? 62 : 55) + 18 * shade);
+    svg.polygon(std::move(points), fill, "#00000055", 0.5);
+  }
+  return svg.text();
+}
+
+}  // namespace sightline::app

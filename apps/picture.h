@@ -1,0 +1,25 @@
+#pragma once
+// A perspective picture of an order, drawn as a painter would.
+
+#include "methods.h"
+
+namespace sightline::app {
+
+/// Where one looks from, and where to.
+struct View {
+  Exact_point eye;
+  std::array<double, 3> look{};   ///< a direction; zero: to the centre of the scene
+  std::array<double, 3> up{0, 0, 1};
+  double field = 60;              ///< degrees, of the picture's width
+  int width = 960, height = 720;
+};
+
+/// Fills in the direction where it is zero.
+View aimed(View view, const Scene& scene);
+/// The near plane of a view in grid coordinates: across the direction, a thousandth of the scene's size in front of the eye. Nothing where all of
+/// the scene is in front of it.
+std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& scene);
+/// Pre: nothing drawn is behind the near plane.
+std::string painted(const View& view, const std::vector<Drawn>& drawn);
+
+}  // namespace sightline::app

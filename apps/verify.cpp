@@ -1,0 +1,48 @@
+// sightline verify: checks a certificate against a scene.
+
+#include "common.h"
+
+#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/order.h>
+#include <sightline/io/input.h>
+
+#include <fstream>
+#include <iostream>
+
+namespace sightline::app {
+
+static Exit run(const Common& common, const std::string& file) {
+  const Polygon_soup soup = common.read();
+  std::ifstream in(file);
+  if (!in) throw Input_error::of_file(file, "cannot be opened; check the path");
+  Order_certificate certificate;
+  try {
+    certificate = read_order_certificate(in);
+  } catch (const std::invalid_argument& error) {
+    throw Input_error::of_file(file, error.what());
+  }
+  const Stopwatch watch;
+  Progress progress("verifying");
+  Verify_options options;
+  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const Verdict verdict = verify_order(soup, certificate, options);
+  const double seconds = watch.seconds();
+  const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
+  Json result{{"accepted", verdict.accepted}, {"why", verdict.why}, {"fragments", verdict.fragments}};
+  if (write_json(common, "verify", Scene(soup), result, {{"fragments", certificate.fragments.size()}}, {{"verify", seconds}})) return exit;
+  row(verdict.accepted ? "accepted" : "REJECTED", verdict.why);
+  row("seconds", fmt::format("{:.3f}", seconds));
+  return exit;
+}
+
+}  // namespace sightline::app
+
+void add_verify(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("verify", "Checks a certificate against a scene, by code that shares nothing with what made it");
+  auto common = std::make_shared<sightline::app::Common>();
+  auto certificate = std::make_shared<std::string>();
+  common->add_to(*command);
+  command->add_option("CERTIFICATE", *certificate, "a file that --certificate wrote")->required();
+  command->footer("Exit code 0: accepted; 1: rejected; 3: scene or certificate cannot be read.");
+  set_action(*command, [common, certificate] { return sightline::app::run(*common, *certificate); });
+}

@@ -1,0 +1,34 @@
+#pragma once
+// Numbers in binary data, of either byte order.
+
+#include <sightline/io/input.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+
+namespace sightline {
+
+/// The Value whose bytes stand at `offset`. Pre: they are all there.
+template <class Value>
+Value load(std::string_view bytes, std::size_t offset, std::endian order) {
+  char raw[sizeof(Value)];
+  std::memcpy(raw, bytes.data() + offset, sizeof(Value));
+  if (order != std::endian::native)
+    for (std::size_t i = 0; i < sizeof(Value) / 2; ++i) std::swap(raw[i], raw[sizeof(Value) - 1 - i]);
+  Value value;
+  std::memcpy(&value, raw, sizeof(Value));
+  return value;
+}
+
+/// Appends the bytes of a value, least significant first.
+template <class Value>
+void store(std::string& bytes, Value value) {
+  char raw[sizeof(Value)];
+  std::memcpy(raw, &value, sizeof(Value));
+  if constexpr (std::endian::native == std::endian::big)
+    for (std::size_t i = 0; i < sizeof(Value) / 2; ++i) std::swap(raw[i], raw[sizeof(Value) - 1 - i]);
+  bytes.append(raw, sizeof(Value));
+}
+
+}  // namespace sightline

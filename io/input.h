@@ -1,0 +1,75 @@
+#pragma once
+// The bytes of a file, and the one way to complain about them.
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace sightline {
+
+/// Text made fit for a message of one line: control characters (and, if only_ascii, bytes above 127) become \xNN, and what is
+/// longer than `limit` is cut off with "...".
+inline std::string printable(std::string_view text, std::size_t limit, bool only_ascii) {
+  constexpr const char* hex = "0123456789ABCDEF";
+  std::string result;
+  for (const char c : text.substr(0, limit)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 32 || byte == 127 || (only_ascii && byte > 127)) (((result += "\\x") += hex[byte >> 4]) += hex[byte & 15]);
+    else result += c;
+  }
+  return text.size() > limit ? result + "..." : result;
+}
+
+/// A token in quotes, for a message.
+inline std::string quoted(std::string_view token) { return "\"" + printable(token, 40, true) + "\""; }
+
+/// What is wrong with a file, and where. what() is one line: `FILE:LINE:COLUMN: message; what to do` in text,
+/// `FILE: byte OFFSET: message; what to do` in binary data, and `FILE: message; what to do` where no place is to blame.
+class Input_error : public std::runtime_error {
+ public:
+  /// Line and column count from 1; a column is a byte of its line (a tab is one, a byte order mark is none).
+  static Input_error in_text(const std::string& file, std::size_t line, std::size_t column, const std::string& message) {
+    return {file, line, column, std::nullopt, ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + message};
+  }
+  static Input_error in_binary(const std::string& file, std::size_t byte, const std::string& message) {
+    return {file, 0, 0, byte, ": byte " + std::to_string(byte) + ": " + message};
+  }
+  static Input_error of_file(const std::string& file, const std::string& message) { return {file, 0, 0, std::nullopt, ": " + message}; }
+
+  std::string file;
+  std::size_t line, column;         ///< 0 where the error is not in text
+  std::optional<std::size_t> byte;  ///< from 0, where the error is in binary data
+
+ private:
+  Input_error(const std::string& file_, std::size_t line_, std::size_t column_, std::optional<std::size_t> byte_, const std::string& rest)
+      : std::runtime_error(printable(file_, file_.size(), false) + rest), file(file_), line(line_), column(column_), byte(byte_) {}
+};
+
+inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // UTF-8
+
+/// A file's name and its bytes, which somebody else keeps alive.
+struct Input {
+  std::string name;
+  std::string_view bytes;
+
+  /// Throws the Input_error of a place in text. A line ends with \n, \r\n or \r.
+  /// Pre: place points into bytes or to their end. Cost: one pass over what is before it.
+  [[noreturn]] void fail(const char* place, const std::string& message) const {
+    const char* const end = bytes.data() + bytes.size();
+    const char* line_begin = bytes.data();
+    if (bytes.starts_with(byte_order_mark) && place >= line_begin + byte_order_mark.size()) line_begin += byte_order_mark.size();
+    std::size_t line = 1;
+    for (const char* p = line_begin; p < place; ++p) {
+      const bool ends_line = *p == '\n' || (*p == '\r' && (p + 1 == end || p[1] != '\n'));
+      if (ends_line) ++line, line_begin = p + 1;
+    }
+    throw Input_error::in_text(name, line, static_cast<std::size_t>(place - line_begin) + 1, message);
+  }
+
+  /// Throws the Input_error of a place in binary data.
+  [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& message) const { throw Input_error::in_binary(name, offset, message); }
+};
+
+}  // namespace sightline

@@ -1,0 +1,116 @@
+#pragma once
+// Integers of a fixed width for exact signs: no allocation, no branches, as many bits as the scene's budget asks for.
+
+#include <sightline/kernel/number.h>
+
+#include <array>
+
+namespace sightline {
+
+using Limb = std::uint64_t;
+
+/// A two's complement integer of 64 x Limbs bits. Arithmetic is modulo 2^(64 Limbs), so a sum of products is exact whenever its
+/// final value fits, whatever its intermediate values do. Nothing checks the range at run time: the bit budget (P-02) is the proof.
+/// Cost: Limbs^2/2 multiplications a product. Exact: yes, within the budget.
+template <int Limbs>
+class Fixed_integer {
+  static_assert(Limbs >= 1);
+
+ public:
+  static constexpr int bits = 64 * Limbs;
+
+  Fixed_integer() = default;
+  /// Sign-extends a two's complement number of `count` limbs, least significant first. Pre: 1 <= count <= Limbs.
+  Fixed_integer(const Limb* limbs, int count) {
+    for (int i = 0; i < Limbs; ++i) limb_[i] = i < count ? limbs[i] : extension(limbs[count - 1]);
+  }
+  explicit Fixed_integer(std::int64_t value) {
+    const Limb low = static_cast<Limb>(value);
+    limb_[0] = low;
+    for (int i = 1; i < Limbs; ++i) limb_[i] = extension(low);
+  }
+
+  friend Fixed_integer operator+(const Fixed_integer& a, const Fixed_integer& b) {
+    Fixed_integer sum;
+    Wide carry = 0;
+    for (int i = 0; i < Limbs; ++i) {
+      carry += Wide{a.limb_[i]} + b.limb_[i];
+      sum.limb_[i] = static_cast<Limb>(carry);
+      carry >>= 64;
+    }
+    return sum;
+  }
+  friend Fixed_integer operator-(const Fixed_integer& a, const Fixed_integer& b) {
+    Fixed_integer difference;
+    Wide carry = 1;
+    for (int i = 0; i < Limbs; ++i) {
+      carry += Wide{a.limb_[i]} + static_cast<Limb>(~b.limb_[i]);
+      difference.limb_[i] = static_cast<Limb>(carry);
+      carry >>= 64;
+    }
+    return difference;
+  }
+  friend Fixed_integer operator*(const Fixed_integer& a, const Fixed_integer& b) {
+    Fixed_integer product{};
+    for (int i = 0; i < Limbs; ++i) {
+      Wide carry = 0;
+      for (int j = 0; i + j < Limbs; ++j) {
+        carry += Wide{a.limb_[i]} * b.limb_[j] + product.limb_[i + j];
+        product.limb_[i + j] = static_cast<Limb>(carry);
+        carry >>= 64;
+      }
+    }
+    return product;
+  }
+
+  /// -1, 0 or +1.
+  int sign() const {
+    if (static_cast<std::int64_t>(limb_[Limbs - 1]) < 0) return -1;
+    Limb any = 0;
+    for (const Limb limb : limb_) any |= limb;
+    return any != 0;
+  }
+
+ private:
+  using Wide = unsigned __int128;
+  static constexpr Limb extension(Limb top) { return static_cast<Limb>(static_cast<std::int64_t>(top) >> 63); }
+  std::array<Limb, Limbs> limb_;
+};
+
+/// Writes n as a two's complement number of `count` limbs. Pre: it fits, or std::overflow_error.
+inline void to_limbs(const Integer& n, Limb* limbs, int count) {
+  const bool negative = sgn(n) < 0;
+  const Integer magnitude = negative ? Integer(-n - 1) : n;  // the complement of a negative number
+  if (bit_length(magnitude) >= static_cast<std::size_t>(64 * count)) throw std::overflow_error("integer wider than its limbs");
+  std::size_t written = 0;
+  mpz_export(limbs, &written, -1, sizeof(Limb), 0, 0, magnitude.get_mpz_t());
+  for (std::size_t i = written; i < static_cast<std::size_t>(count); ++i) limbs[i] = 0;
+  if (negative)
+    for (int i = 0; i < count; ++i) limbs[i] = ~limbs[i];
+}
+
+/// The integer that `count` two's complement limbs hold.
+inline Integer from_limbs(const Limb* limbs, int count) {
+  if (count == 1) return Integer(static_cast<long>(static_cast<std::int64_t>(limbs[0])));
+  Integer n;
+  mpz_import(n.get_mpz_t(), static_cast<std::size_t>(count), -1, sizeof(Limb), 0, 0, limbs);
+  if (static_cast<std::int64_t>(limbs[count - 1]) < 0) {
+    Integer modulus;
+    mpz_setbit(modulus.get_mpz_t(), static_cast<mp_bitcnt_t>(64 * count));
+    n -= modulus;
+  }
+  return n;
+}
+
+/// n x 2^-shift as a double, within one unit in the last place (relative error < 2^-52; exact where n fits 53 bits and no
+/// underflow occurs; an underflow loses at most 2^-1074).
+inline double approximate(const Limb* limbs, int count, long shift) {
+  if (count == 1 && shift == 0) return static_cast<double>(static_cast<std::int64_t>(limbs[0]));
+  if (count == 2 && shift == 0)
+    return static_cast<double>(static_cast<__int128>((static_cast<unsigned __int128>(limbs[1]) << 64) | limbs[0]));
+  long exponent = 0;
+  const double mantissa = mpz_get_d_2exp(&exponent, from_limbs(limbs, count).get_mpz_t());  // truncates
+  return std::ldexp(mantissa, static_cast<int>(exponent - shift));
+}
+
+}  // namespace sightline

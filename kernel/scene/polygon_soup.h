@@ -1,0 +1,66 @@
+#pragma once
+// What a file says, before anything is decided about it: points with exact coordinates and faces as loops of points.
+
+#include <sightline/kernel/coordinates.h>
+
+#include <array>
+#include <span>
+#include <string>
+
+namespace sightline {
+
+using Point_id = std::uint32_t;
+using Face_id = std::uint32_t;  ///< 0-based place of a face in the input
+using Exact_point = std::array<Rational, 3>;
+
+/// A polygon soup. A face is one or more loops of point ids: the first is the outer contour, seen counterclockwise from the
+/// face's front; further loops are holes (either sense). Nothing is checked here but index ranges by the readers:
+/// repeated points, non-planar, concave and zero-area faces are all welcome. Points may be unused or repeated.
+struct Polygon_soup {
+  std::string file;         ///< where it came from, for messages and for JSON
+  Coordinates coordinates;  ///< x, y, z of point 0, then of point 1, ...
+
+  std::size_t point_count() const { return coordinates.size() / 3; }
+  Exact_point point(Point_id p) const { return {coordinates[3 * std::size_t{p}], coordinates[3 * std::size_t{p} + 1], coordinates[3 * std::size_t{p} + 2]}; }
+
+  std::size_t face_count() const { return face_begin_.size() - 1; }
+  std::size_t loop_count(Face_id f) const { return face_begin_[f + 1] - face_begin_[f]; }
+  std::span<const Point_id> loop(Face_id f, std::size_t k = 0) const {
+    const std::size_t l = face_begin_[f] + k;
+    return {corners_.data() + loop_begin_[l], corners_.data() + loop_begin_[l + 1]};
+  }
+
+  /// Appends a point and returns its id.
+  Point_id add_point(const Rational& x, const Rational& y, const Rational& z) {
+    coordinates.push(x), coordinates.push(y), coordinates.push(z);
+    return static_cast<Point_id>(point_count() - 1);
+  }
+  Point_id add_point(double x, double y, double z) {
+    coordinates.push_double(x), coordinates.push_double(y), coordinates.push_double(z);
+    return static_cast<Point_id>(point_count() - 1);
+  }
+  /// Appends a face of one loop (possibly of fewer than three points) and returns its id.
+  Face_id add_face(std::span<const Point_id> outer) {
+    add_loop(outer);
+    face_begin_.push_back(loop_begin_.size() - 1);
+    return static_cast<Face_id>(face_count() - 1);
+  }
+  Face_id add_face(std::initializer_list<Point_id> outer) { return add_face(std::span(outer.begin(), outer.size())); }
+  /// Appends a hole to the face added last. Pre: there is one.
+  void add_hole(std::span<const Point_id> hole) {
+    add_loop(hole);
+    face_begin_.back() = loop_begin_.size() - 1;
+  }
+  void add_hole(std::initializer_list<Point_id> hole) { add_hole(std::span(hole.begin(), hole.size())); }
+
+ private:
+  void add_loop(std::span<const Point_id> loop) {
+    corners_.insert(corners_.end(), loop.begin(), loop.end());
+    loop_begin_.push_back(corners_.size());
+  }
+  std::vector<Point_id> corners_;
+  std::vector<std::size_t> loop_begin_{0};  // loop l is corners_[loop_begin_[l] .. loop_begin_[l + 1])
+  std::vector<std::size_t> face_begin_{0};  // face f has loops [face_begin_[f] .. face_begin_[f + 1])
+};
+
+}  // namespace sightline

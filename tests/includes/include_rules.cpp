@@ -1,0 +1,117 @@
+// The include rules, on the tree itself and on small trees that break them one at a time.
+
+#include "include_rules.h"
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <iterator>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace include_rules;
+
+std::vector<std::string> words(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+TEST(IncludeRules, the_tree_keeps_them) {
+  const Rules rules{SIGHTLINE_SOURCE_DIR, words(SIGHTLINE_OUTSIDE_HEADERS)};
+  ASSERT_FALSE(sources_in(rules.root, "kernel").empty()) << "looked in the wrong place: " << rules.root;
+  ASSERT_FALSE(rules.outside.empty());
+  for (const std::string& breach : breaches(rules)) ADD_FAILURE() << breach;
+}
+
+TEST(IncludeRules, the_tree_has_no_cycle) { EXPECT_EQ(cycle(SIGHTLINE_SOURCE_DIR), ""); }
+
+// No failure: a header this long asks to be read again, and perhaps to be cut in two.
+TEST(IncludeRules, long_files_are_named) {
+  constexpr std::size_t many = 600;
+  for (const char* layer : {"kernel", "algorithms", "io", "apps", "tests", "bench"})
+    for (const std::string& file : sources_in(SIGHTLINE_SOURCE_DIR, layer)) {
+      std::ifstream in(fs::path(SIGHTLINE_SOURCE_DIR) / file);
+      const auto lines = static_cast<std::size_t>(std::count(std::istreambuf_iterator<char>(in), {}, '\n'));
+      if (lines > many) std::cout << "[  LONG    ] " << file << ": " << lines << " lines\n";
+    }
+}
+
+// A tree of four headers and a program that keeps every rule, in which a test then plants one breach.
+class PlantedBreach : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    root_ = fs::temp_directory_path() / ("sightline_includes_" + std::to_string(getpid()) + '_' + test->name());
+    write("kernel/number.h", "#pragma once\n#include <vector>\n#include <gmpxx.h>\n");
+    write("kernel/scene/scene.h", "#pragma once\n#include <sightline/kernel/number.h>\n");
+    write("algorithms/order.h", "#pragma once\n#include <sightline/kernel/number.h>\n#include <CGAL/Gmpq.h>\n");
+    write("algorithms/bsp/tree.h", "#pragma once\n#include <sightline/algorithms/order.h>\n// #include <sightline/io/obj.h>\n");
+    write("io/obj.h", "#pragma once\n#include <sightline/kernel/scene/scene.h>\n");
+    write("apps/command.h", "#pragma once\n#include <CLI/CLI.hpp>\n");
+    write("apps/main.cpp", "#include \"command.h\"\n#include <sightline/io/obj.h>\n#include <sightline/algorithms/bsp/tree.h>\n");
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  void write(const std::string& file, const std::string& text) {
+    fs::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << text;
+  }
+  std::vector<std::string> found() const { return breaches({root_, {"CGAL/", "gmpxx.h"}}); }
+  using Found = std::vector<std::string>;
+
+  fs::path root_;
+};
+
+TEST_F(PlantedBreach, none) {
+  EXPECT_EQ(found(), Found{});
+  EXPECT_EQ(cycle(root_), "");
+}
+
+TEST_F(PlantedBreach, the_wrong_direction) {
+  write("kernel/plane.h", "#pragma once\n#include <cmath>\n  #  include <sightline/io/obj.h>  // for reading\n");
+  write("io/svg.h", "#pragma once\n#include <sightline/algorithms/order.h>\n");
+  write("algorithms/draw.h", "#pragma once\n#include <sightline/io/obj.h>\n");
+  write("algorithms/run.h", "#pragma once\n#include <sightline/apps/command.h>\n");
+  EXPECT_EQ(found(), (Found{"algorithms/draw.h:2: algorithms must not include <sightline/io/obj.h>",
+                            "algorithms/run.h:2: algorithms must not include <sightline/apps/command.h>",
+                            "io/svg.h:2: io must not include <sightline/algorithms/order.h>",
+                            "kernel/plane.h:3: kernel must not include <sightline/io/obj.h>"}));
+}
+
+TEST_F(PlantedBreach, quotes_in_the_library) {
+  write("kernel/plane.h", "#pragma once\n#include \"number.h\"\n");
+  EXPECT_EQ(found(), Found{"kernel/plane.h:2: own includes are spelled <sightline/...>: \"number.h\""});
+}
+
+TEST_F(PlantedBreach, a_header_that_is_not_there) {
+  write("io/off.h", "#pragma once\n#include <sightline/kernel/scene.h>\n");
+  write("apps/info.cpp", "#include \"commands.h\"\n");
+  EXPECT_EQ(found(), (Found{"apps/info.cpp:1: no such neighbour: \"commands.h\"", "io/off.h:2: no such header: <sightline/kernel/scene.h>"}));
+}
+
+TEST_F(PlantedBreach, no_guard) {
+  write("kernel/plane.h", "// Planes.\n#pragma once\n");
+  EXPECT_EQ(found(), Found{"kernel/plane.h:1: does not begin with #pragma once"});
+}
+
+TEST_F(PlantedBreach, a_source_file_in_the_library) {
+  write("kernel/plane.cpp", "#include <sightline/kernel/number.h>\n");
+  EXPECT_EQ(found(), Found{"kernel/plane.cpp:1: the library is headers only"});
+}
+
+TEST_F(PlantedBreach, a_dependency_that_is_not_announced) {
+  write("kernel/plane.h", "#pragma once\n#include <mpfr.h>\n#include <CGAL/Gmpq.h>\n#include <Eigen/Core>\n");
+  EXPECT_EQ(found(), (Found{"kernel/plane.h:2: <mpfr.h> is not among the dependencies in CMakeLists.txt",
+                            "kernel/plane.h:4: <Eigen/Core> is not among the dependencies in CMakeLists.txt"}));
+}
+
+TEST_F(PlantedBreach, a_cycle) {
+  write("kernel/number.h", "#pragma once\n#include <sightline/kernel/scene/scene.h>\n");
+  EXPECT_EQ(cycle(root_), "kernel/number.h -> kernel/scene/scene.h -> kernel/number.h");
+}
+
+}  // namespace

@@ -1,0 +1,181 @@
+// Orders known by construction, and the test of pairs against a clipping of polygons in space.
+
+#include "scenes.h"
+
+#include <rapidcheck.h>
+
+#include <random>
+
+namespace {
+
+using namespace verify_test;
+
+using Dice = std::mt19937;
+long roll(Dice& dice, long least, long most) { return least + static_cast<long>(dice() % static_cast<unsigned long>(most - least + 1)); }
+
+/// An affine map of space with small integers. Post: invertible; sometimes mirrored.
+struct Affine {
+  std::array<std::array<long, 3>, 3> rows{};
+  explicit Affine(Dice& dice) {
+    const auto determinant = [&] {
+      const auto& m = rows;
+      return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    };
+    do
+      for (auto& row : rows)
+        for (long& entry : row) entry = roll(dice, -3, 3);
+    while (determinant() == 0);
+  }
+  Exact_point operator()(const Exact_point& p) const {
+    Exact_point q;
+    for (std::size_t r = 0; r < 3; ++r) q[r] = Rational(rows[r][0] * p[0] + rows[r][1] * p[1] + rows[r][2] * p[2] + static_cast<long>(r));
+    return q;
+  }
+  Points operator()(Points points) const {
+    for (Exact_point& p : points) p = (*this)(p);
+    return points;
+  }
+};
+
+TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged) {
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    SCOPED_TRACE(seed);
+    Dice dice(seed);
+    const bool tilted = roll(dice, 0, 1) == 1;
+    const long count = roll(dice, 2, 7);
+    const Affine map(dice);
+    // Quad k lies strictly between the heights k and k + 1; those on the axis all overlap in the view from the axis.
+    std::vector<Points> stack;
+    std::vector<std::size_t> on_axis;
+    for (long k = 0; k < count; ++k) {
+      const bool axis = k < 2 || roll(dice, 0, 2) > 0;
+      const long x0 = roll(dice, -6, -1), y0 = roll(dice, -6, -1), shift = axis ? 0 : roll(dice, 2, 9);
+      const Rational a = tilted ? ratio(roll(dice, -5, 5), 200) : Rational(0), b = tilted ? ratio(roll(dice, -5, 5), 200) : Rational(0);
+      Points quad = rectangle(x0 + shift, roll(dice, 1, 3) + shift, y0, roll(dice, 1, 6), 0);
+      for (Exact_point& p : quad) p[2] = k + ratio(1, 2) + a * (p[0] - shift) + b * p[1];
+      if (roll(dice, 0, 1)) quad = reversed(quad);
+      stack.push_back(map(quad));
+      if (axis) on_axis.push_back(static_cast<std::size_t>(k));
+    }
+    const bool from_above = roll(dice, 0, 1) == 1;
+    Scene empty;
+    empty.seen_from(map(at(0, 0, from_above ? count + roll(dice, 0, 50) : -roll(dice, 0, 50))));
+    for (const Points& quad : stack) empty.face(quad);
+    std::vector<Face_id> order;
+    for (Face_id f = 0; f < stack.size(); ++f) order.push_back(from_above ? f : static_cast<Face_id>(stack.size() - 1 - f));
+    const auto drawn = [&] {
+      Scene scene = empty;
+      for (const Face_id f : order) scene.draw(f, stack[f]);
+      return scene;
+    };
+    expect_accepted(drawn());
+    const std::size_t k = dice() % (on_axis.size() - 1);
+    std::swap(*std::find(order.begin(), order.end(), on_axis[k]), *std::find(order.begin(), order.end(), on_axis[k + 1]));
+    const Verdict verdict = drawn().verdict();
+    EXPECT_FALSE(verdict.accepted);
+    EXPECT_NE(verdict.why.find("is nearer"), std::string::npos) << verdict.why;
+    EXPECT_EQ(verdict.fragments.size(), 2u);
+  }
+}
+
+// ---- The oracle: clip polygon a in space by the planes through the eye (the origin) and b's edges ------------------------------
+
+Rational determinant(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
+  const Exact_point n = order_check::cross(a, b);
+  return n[0] * c[0] + n[1] * c[1] + n[2] * c[2];
+}
+
+Points clipped(Points a, const Points& b) {
+  Exact_point middle;
+  for (const Exact_point& p : b)
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += p[k];
+  for (std::size_t j = 0; j < b.size(); ++j) {
+    const Exact_point &b0 = b[j], &b1 = b[(j + 1) % b.size()];
+    const int inner = sgn(determinant(b0, b1, middle));
+    const auto value = [&](const Exact_point& p) { return Rational(inner * determinant(b0, b1, p)); };
+    Points kept;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      const Exact_point &from = a[i], &to = a[(i + 1) % a.size()];
+      const Rational u = value(from), v = value(to);
+      if (sgn(u) >= 0) kept.push_back(from);
+      if (sgn(u) * sgn(v) < 0) {
+        const Rational t = u / (u - v);
+        kept.push_back({Rational(from[0] + t * (to[0] - from[0])), Rational(from[1] + t * (to[1] - from[1])), Rational(from[2] + t * (to[2] - from[2]))});
+      }
+    }
+    a = kept;
+  }
+  return a;
+}
+bool has_area(const Points& p) {
+  for (std::size_t i = 1; i + 1 < p.size(); ++i)
+    if (sgn(determinant(p[0], p[i], p[i + 1])) != 0) return true;
+  return false;
+}
+/// Whether a is strictly nearer to the origin than b in some direction inside both cones.
+bool nearer_by_clipping(const Points& a, const Points& b) {
+  const Points common = clipped(a, b);
+  if (!has_area(common)) return false;
+  const Exact_point u = order_check::minus(b[b.size() / 2], b[0]), v = order_check::minus(b.back(), b[0]);  // never collinear here
+  const int eye_side = -sgn(determinant(u, v, b[0]));
+  for (const Exact_point& p : common)
+    if (sgn(determinant(u, v, order_check::minus(p, b[0]))) * eye_side > 0) return true;
+  return false;
+}
+
+/// A triangle, parallelogram, or parallelogram without a corner, with small coordinates. Post: the origin is not in its plane.
+Points random_polygon(Dice& dice, long size, bool flat) {
+  while (true) {
+    const auto vector = [&] { return at(2 * roll(dice, -size, size), 2 * roll(dice, -size, size), flat ? 0 : 2 * roll(dice, -size, size)); };
+    Exact_point o = vector();
+    const Exact_point u = vector(), v = vector();
+    if (flat) o[2] = 2;
+    if (sgn(determinant(o, u, v)) == 0) continue;
+    const auto corner = [&](const Rational& s, const Rational& t) { return at(o[0] + s * u[0] + t * v[0], o[1] + s * u[1] + t * v[1], o[2] + s * u[2] + t * v[2]); };
+    const long kind = roll(dice, 0, 3);
+    if (kind == 0) return {corner(0, 0), corner(1, 0), corner(0, 1)};
+    if (kind == 1) return {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
+    if (kind == 2) return {corner(0, 0), corner(1, 0), corner(1, ratio(1, 2)), corner(ratio(1, 2), 1), corner(0, 1)};
+    return {corner(0, 0), corner(ratio(1, 3), 0), corner(1, 0), corner(0, 1), corner(0, ratio(1, 2))};  // with straight corners
+  }
+}
+
+TEST(Pair_check, agrees_with_clipping_in_space) {
+  std::size_t trials = 0, nearer = 0, overlapping = 0;
+  rc::check("nearer_somewhere() is nearer_by_clipping()", [&] {
+    const auto seed = *rc::gen::arbitrary<unsigned>();
+    Dice dice(seed);
+    for (int trial = 0; trial < 50; ++trial) {
+      const long size = trial % 3 + 1;
+      const Points a = random_polygon(dice, size, false), b = random_polygon(dice, size, false);
+      const order_check::Cone cone_a(a, at(0, 0, 0)), cone_b(b, at(0, 0, 0));
+      order_check::Pair_check check;
+      const bool expected = nearer_by_clipping(a, b);
+      RC_ASSERT(check.nearer_somewhere(cone_a, cone_b) == expected);
+      ++trials, nearer += expected, overlapping += has_area(clipped(a, b));
+      // And through the front door, in both orders.
+      Scene scene;
+      scene.face(a), scene.face(b), scene.draw(0, a).draw(1, b);
+      RC_ASSERT(scene.verdict().accepted == !expected);
+      std::swap(scene.certificate.fragments[0], scene.certificate.fragments[1]);
+      RC_ASSERT(scene.verdict().accepted == !nearer_by_clipping(b, a));
+    }
+  });
+  EXPECT_GT(20 * nearer, trials);  // the trials are worth something
+  EXPECT_GT(overlapping, nearer);
+}
+
+TEST(Pair_check, separation_in_a_plane_agrees_with_clipping) {
+  Dice dice(7);
+  std::size_t overlapping = 0;
+  for (int trial = 0; trial < 10000; ++trial) {
+    const Points a = random_polygon(dice, trial % 4 + 1, true), b = random_polygon(dice, trial % 4 + 1, true);
+    const order_check::Cone cone_a(a, at(0, 0, 0)), cone_b(b, at(0, 0, 0));
+    const bool expected = has_area(clipped(a, b));
+    ASSERT_EQ(!separates(cone_a, cone_b) && !separates(cone_b, cone_a), expected) << trial;
+    overlapping += expected;
+  }
+  EXPECT_GT(overlapping, 1000u);
+}
+
+}  // namespace

@@ -1,0 +1,298 @@
+// Fragments tile their faces, pieces tile non-planar ones (P-21, P-22).
+
+#include "scenes.h"
+
+namespace {
+
+using namespace verify_test;
+
+const Exact_point above = at(1, 2, 10);
+const Points square = rectangle(0, 4, 0, 4, 0);
+
+Scene one_face(const Points& outer, const std::vector<Points>& holes = {}) {
+  Scene scene;
+  scene.seen_from(above).face(outer, holes);
+  return scene;
+}
+Scene one_face_drawn(const Points& outer, const std::vector<Points>& parts, const std::vector<Points>& holes = {}) {
+  Scene scene = one_face(outer, holes);
+  for (const Points& part : parts) scene.draw(0, part);
+  return scene;
+}
+
+TEST(Tiling, by_the_face_itself_from_any_first_vertex) {
+  Points turned = square;
+  for (int k = 0; k < 4; ++k) {
+    expect_accepted(one_face_drawn(square, {turned}));
+    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+  }
+}
+
+TEST(Tiling, missing_doubled_and_foreign_fragments_are_found) {
+  const Points left = rectangle(0, 1, 0, 4, 0), right = rectangle(1, 4, 0, 4, 0);
+  expect_accepted(one_face_drawn(square, {left, right}));
+  expect_rejected(one_face_drawn(square, {}), "face 0 has no fragment and is not set aside");
+  expect_rejected(one_face_drawn(square, {left}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(square, {left, right, right}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(square, {square, square}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(square, {left, right, rectangle(5, 6, 0, 1, 0)}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(square, {rectangle(5, 9, 0, 4, 0)}), "face 0 is not tiled");
+}
+
+TEST(Tiling, is_exact_to_any_bit) {
+  for (const unsigned bits : {1u, 60u, 500u}) {
+    const Rational e = tiny(bits);
+    const Points left = rectangle(0, 1, 0, 4, 0);
+    expect_rejected(one_face_drawn(square, {left, rectangle(1 + e, 4, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(square, {left, rectangle(1 - e, 4, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(square, {rectangle(0, 4 + e, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(square, {rectangle(0, 4 - e, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(square, {rectangle(e, 4 + e, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(square, {rectangle(0, 4, 0, 4, e)}), "off the plane", {0});
+    Points bent = square;
+    bent[2][2] = e;
+    expect_rejected(one_face_drawn(square, {bent}), "off the plane", {0});
+    Points dented = {at(0, 0, 0), at(2, e, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)};
+    expect_rejected(one_face_drawn(square, {dented}), "is not convex", {0});
+    dented[1][1] = -e;
+    expect_rejected(one_face_drawn(square, {dented}), "is not tiled");
+  }
+}
+
+TEST(Tiling, fragments_are_convex_counterclockwise_polygons) {
+  expect_rejected(one_face_drawn(square, {reversed(square)}), "is clockwise", {0});
+  expect_rejected(one_face_drawn(square, {{}}), "fewer than three", {0});
+  expect_rejected(one_face_drawn(square, {{square[0]}}), "fewer than three", {0});
+  expect_rejected(one_face_drawn(square, {{square[0], square[1]}}), "fewer than three", {0});
+  expect_rejected(one_face_drawn(square, {{square[0], square[0], square[1], square[2], square[3]}}), "repeated vertex", {0});
+  expect_rejected(one_face_drawn(square, {{square[0], square[1], square[2], square[3], square[0]}}), "repeated vertex", {0});
+  expect_rejected(one_face_drawn(square, {square, {square[0], square[1], at(2, 0, 0)}}), "zero area", {1});
+  expect_rejected(one_face_drawn(square, {square, {square[0], square[1], square[0], square[1]}}), "zero area", {1});
+  // A spike on a straight edge, out and back.
+  const Scene spiked = one_face_drawn(square, {{square[0], at(6, 0, 0), square[1], square[2], square[3]}});
+  expect_rejected(spiked, "is not convex", {0});
+  EXPECT_EQ(spiked.verdict().why, "fragment 0 of face 0 is not convex");
+  // A dent that keeps all of its edges in one half of the directions, from each corner; it is its face's own contour.
+  Points dented = {at(0, 0, 0), at(4, 0, 0), at(3, 1, 0), at(4, 2, 0), at(4, 4, 0), at(0, 4, 0)};
+  for (std::size_t k = 0; k < dented.size(); ++k) {
+    expect_rejected(one_face_drawn(dented, {dented}), "is not convex", {0});
+    std::rotate(dented.begin(), dented.begin() + 1, dented.end());
+  }
+  // Twice around: every corner is convex.
+  Points twice = square;
+  twice.insert(twice.end(), square.begin(), square.end());
+  expect_rejected(one_face_drawn(square, {twice}), "more than once around", {0});
+  const Points star = {at(0, 0, 0), at(4, 1, 0), at(0, 3, 0), at(2, -1, 0), at(3, 4, 0)};
+  expect_rejected(one_face_drawn(square, {star}), "more than once around", {0});
+  // The same, begun at each corner: the count of rounds may not depend on it.
+  Points turned = star;
+  for (int k = 0; k < 5; ++k) {
+    std::rotate(turned.begin(), turned.begin() + 1, turned.end());
+    expect_rejected(one_face_drawn(square, {turned}), "more than once around", {0});
+  }
+}
+
+TEST(Tiling, straight_corners_and_t_junctions_are_welcome) {
+  const Points with_middle = {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)};
+  expect_accepted(one_face_drawn(square, {with_middle}));
+  expect_accepted(one_face_drawn(with_middle, {square}));
+  // One side of the cut x = 2 in one part, the other in three, none of which lists the other's corners.
+  const std::vector<Points> parts = {rectangle(0, 2, 0, 4, 0), rectangle(2, 4, 0, 1, 0), rectangle(2, 4, 1, 3, 0), rectangle(2, 4, 3, 4, 0)};
+  expect_accepted(one_face_drawn(square, parts));
+  std::vector<Points> swapped = parts;
+  std::swap(swapped[0], swapped[3]);
+  expect_accepted(one_face_drawn(square, swapped));
+  swapped[1] = rectangle(2, 4, 0, 2, 0);
+  expect_rejected(one_face_drawn(square, swapped), "is not tiled");
+}
+
+TEST(Tiling, tilted_and_turned_faces_work_alike) {
+  // x + 2y + 3z = 6, and its reverse.
+  const Points triangle = {at(6, 0, 0), at(0, 3, 0), at(0, 0, 2)};
+  const Exact_point middle = at(3, ratio(3, 2), 0);
+  const Points first = {triangle[0], middle, triangle[2]}, second = {middle, triangle[1], triangle[2]};
+  expect_accepted(one_face_drawn(triangle, {first, second}));
+  expect_accepted(one_face_drawn(reversed(triangle), {reversed(first), reversed(second)}));
+  expect_rejected(one_face_drawn(reversed(triangle), {reversed(first), second}), "is clockwise", {1});
+  // For each coordinate plane in turn.
+  for (std::size_t k = 0; k < 3; ++k) {
+    Points side = square, whole = square;
+    for (Exact_point& p : whole) std::rotate(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(k), p.end());
+    expect_accepted(one_face_drawn(whole, {whole}));
+    expect_rejected(one_face_drawn(whole, {reversed(whole)}), "is clockwise", {0});
+  }
+}
+
+TEST(Tiling, of_a_concave_face) {
+  const Points ell = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(2, 2, 0), at(2, 4, 0), at(0, 4, 0)};
+  expect_accepted(one_face_drawn(ell, {rectangle(0, 4, 0, 2, 0), rectangle(0, 2, 2, 4, 0)}));
+  expect_rejected(one_face_drawn(ell, {ell}), "is not convex", {0});
+  expect_rejected(one_face_drawn(ell, {square}), "is not tiled");
+  expect_rejected(one_face_drawn(ell, {rectangle(0, 4, 0, 2, 0), rectangle(0, 2, 0, 4, 0)}), "is not tiled");
+}
+
+TEST(Tiling, of_a_face_with_holes_of_either_sense) {
+  const Points hole = rectangle(1, 2, 1, 2, 0), other = rectangle(3, ratio(7, 2), 1, 2, 0);
+  const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0), rectangle(2, 4, 1, 2, 0)};
+  std::vector<Points> two = ring;
+  two.back() = rectangle(2, 3, 1, 2, 0), two.push_back(rectangle(ratio(7, 2), 4, 1, 2, 0));
+  for (const Points& h : {hole, reversed(hole)}) {
+    expect_accepted(one_face_drawn(square, ring, {h}));
+    expect_rejected(one_face_drawn(square, {square}, {h}), "is not tiled");
+    expect_rejected(one_face_drawn(square, two, {h}), "is not tiled");
+    for (const Points& o : {other, reversed(other)}) {
+      expect_accepted(one_face_drawn(square, two, {h, o}));
+      expect_rejected(one_face_drawn(square, ring, {h, o}), "is not tiled");
+    }
+    std::vector<Points> from_behind;
+    for (const Points& part : ring) from_behind.push_back(reversed(part));
+    expect_accepted(one_face_drawn(reversed(square), from_behind, {h}));
+  }
+}
+
+TEST(Tiling, of_keyhole_faces_repeated_points_and_spikes) {
+  const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0), rectangle(2, 4, 1, 2, 0)};
+  const Points keyhole = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 0, 0), at(1, 1, 0), at(1, 2, 0), at(2, 2, 0), at(2, 1, 0), at(1, 1, 0)};
+  expect_accepted(one_face_drawn(keyhole, ring));
+  expect_rejected(one_face_drawn(keyhole, {square}), "is not tiled");
+  const Points stutter = {square[0], square[0], square[0], square[1], square[2], square[2], square[3], square[0]};
+  expect_accepted(one_face_drawn(stutter, {square}));
+  const Points spiked = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(9, 2, 0), at(4, 2, 0), at(4, 4, 0), at(0, 4, 0)};
+  expect_accepted(one_face_drawn(spiked, {square}));
+}
+
+TEST(Tiling, of_a_face_that_winds_twice_is_an_overlap) {
+  Points twice = square;
+  twice.insert(twice.end(), square.begin(), square.end());
+  expect_rejected(one_face_drawn(twice, {square, square}), "overlap", {0, 1});
+  expect_rejected(one_face_drawn(twice, {square, rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 0, 4, 0)}), "overlap", {0, 1});
+  // Two squares in one contour, overlapping in [3, 4] x [1, 3], joined at (3, 1).
+  const Points both = {at(3, 1, 0), at(0, 1, 0), at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 1, 0), at(3, 1, 0), at(6, 1, 0), at(6, 3, 0), at(3, 3, 0)};
+  expect_rejected(one_face_drawn(both, {square, rectangle(3, 6, 1, 3, 0)}), "overlap", {0, 1});
+  // Nothing overlaps where parts only touch, in a contour that is not convex.
+  const Points pinched = {at(0, 0, 0), at(2, 0, 0), at(2, 2, 0), at(4, 2, 0), at(4, 4, 0), at(2, 4, 0), at(2, 2, 0), at(0, 2, 0)};
+  expect_accepted(one_face_drawn(pinched, {rectangle(0, 2, 0, 2, 0), rectangle(2, 4, 2, 4, 0)}));
+}
+
+TEST(Tiling, a_planar_face_may_have_pieces) {
+  const Points ell = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(2, 2, 0), at(2, 4, 0), at(0, 4, 0)};
+  const Points first = {ell[0], ell[1], ell[2], ell[3]}, second = {ell[0], ell[3], ell[4], ell[5]};
+  Scene scene = one_face(ell);
+  scene.cut(0, 7, first).cut(0, 9, second);
+  Scene good = scene, wrong_number = scene, unknown = scene, half = scene;
+  expect_accepted(good.draw(0, first, 7).draw(0, second, 9));
+  expect_rejected(wrong_number.draw(0, first, 9).draw(0, second, 7), "is not tiled");
+  expect_rejected(unknown.draw(0, first, 7).draw(0, second, 8), "a piece that its face does not have", {1});
+  expect_rejected(half.draw(0, first, 7), "face 0, piece 9 has no fragment");
+  Scene foreign = one_face(ell);
+  expect_rejected(foreign.cut(0, 0, rectangle(0, 4, 0, 2, 0)).cut(0, 1, rectangle(0, 2, 2, 4, 0)).draw(0, first, 0).draw(0, second, 1), "not one of the face's");
+  Scene one_only = one_face(ell);
+  expect_rejected(one_only.cut(0, 0, first).draw(0, first, 0), "is not tiled");
+  Scene turned = one_face(ell);
+  expect_rejected(turned.cut(0, 0, reversed(first)).cut(0, 1, reversed(second)).draw(0, reversed(first), 0).draw(0, reversed(second), 1), "is clockwise");
+  Points twice = square;
+  twice.insert(twice.end(), square.begin(), square.end());
+  Scene doubled = one_face(twice);
+  expect_rejected(doubled.cut(0, 0, square).cut(0, 1, square).draw(0, square, 0).draw(0, square, 1), "overlap");
+}
+
+// ---- Non-planar faces -------------------------------------------------------------------------------------------------------
+
+const Points skew = {at(0, 0, 0), at(4, 0, 1), at(4, 4, 0), at(0, 4, 1)};
+
+Points corners(const Points& all, std::initializer_list<std::size_t> which) {
+  Points result;
+  for (const std::size_t k : which) result.push_back(all[k]);
+  return result;
+}
+Scene skew_face(const std::vector<Points>& pieces) {
+  Scene scene = one_face(skew);
+  for (std::size_t k = 0; k < pieces.size(); ++k) scene.cut(0, static_cast<std::uint32_t>(k), pieces[k]).draw(0, pieces[k], static_cast<std::uint32_t>(k));
+  return scene;
+}
+
+TEST(Non_planar, a_skew_quad_may_be_cut_along_either_diagonal) {
+  const Points s012 = corners(skew, {0, 1, 2}), s023 = corners(skew, {0, 2, 3}), s013 = corners(skew, {0, 1, 3}), s123 = corners(skew, {1, 2, 3});
+  expect_accepted(skew_face({s012, s023}));
+  expect_accepted(skew_face({s013, s123}));
+  expect_rejected(skew_face({s012, s123}), "is not bounded as its pieces are");
+  expect_rejected(skew_face({s012}), "is not bounded as its pieces are");
+  expect_rejected(skew_face({reversed(s012), reversed(s023)}), "is not bounded as its pieces are");
+  expect_rejected(skew_face({s012, s012, s023}), "is not bounded as its pieces are");
+  expect_rejected(skew_face({skew}), "piece 0 of face 0 has a vertex off the plane");
+  expect_rejected(skew_face({s012, s023, {}}), "piece 2 of face 0 is empty");
+  expect_rejected(skew_face({s012, s023, corners(skew, {0, 1, 0})}), "piece 2 of face 0 has zero area");
+  expect_rejected(skew_face({s012, corners(skew, {0, 2, 3, 3})}), "repeated vertex");
+  // A triangle and its reverse cancel; so does a closed surface.
+  expect_rejected(skew_face({s012, s023, s013, reversed(s013)}), "wrong number of pieces");
+  expect_rejected(skew_face({s012, s023, s012, s023, reversed(s013), reversed(s123)}), "wrong number of pieces");
+  Scene plain = one_face(skew);
+  expect_rejected(plain.draw(0, skew), "is not planar and has no pieces");
+  Scene lost = one_face(skew);
+  expect_rejected(lost.cut(0, 0, s012).cut(0, 1, s023).draw(0, s012, 0), "face 0, piece 1 has no fragment");
+  Scene twice = one_face(skew);
+  expect_rejected(twice.cut(0, 0, s012).cut(0, 0, s023).draw(0, s012, 0), "has piece 0 twice");
+  // On points of its own: the same boundary, but not the face's corners.
+  const Exact_point m = at(2, 2, 2);
+  expect_rejected(skew_face({{skew[0], skew[1], m}, {skew[1], skew[2], m}, {skew[2], skew[3], m}, {skew[3], skew[0], m}}), "not one of the face's");
+}
+
+TEST(Non_planar, one_corner_off_the_plane_is_enough) {
+  for (const int height : {-1, 1})  // symmetric about the z axis, so that the Newell normal is vertical
+    for (std::size_t first = 0; first < 6; ++first) {
+      Points bent = {at(2, 0, 0), at(1, 2, height), at(-1, 2, 0), at(-2, 0, 0), at(-1, -2, height), at(1, -2, 0)};
+      std::rotate(bent.begin(), bent.begin() + static_cast<std::ptrdiff_t>(first), bent.end());
+      Scene scene = one_face(bent), aside = scene;
+      expect_rejected(scene.draw(0, square), "is not planar and has no pieces");
+      expect_rejected(aside.leave_out(0, "self-intersecting"), "is not planar");
+    }
+}
+
+TEST(Non_planar, pieces_are_tiled_by_fragments) {
+  const Points s012 = corners(skew, {0, 1, 2}), s023 = corners(skew, {0, 2, 3});
+  const Exact_point middle = at(2, 2, 0);
+  Scene scene = one_face(skew);
+  scene.cut(0, 0, s012).cut(0, 1, s023);
+  Scene good = scene, wrong = scene;
+  expect_accepted(good.draw(0, {skew[0], skew[1], middle}, 0).draw(0, s023, 1).draw(0, {skew[1], skew[2], middle}, 0));
+  expect_rejected(wrong.draw(0, {skew[0], skew[1], middle}, 0).draw(0, s023, 1).draw(0, {skew[1], skew[2], middle}, 1), "face 0, piece 0 is not tiled");
+}
+
+TEST(Non_planar, the_pieces_are_in_the_order_too) {
+  // The fold along either diagonal, seen so that one triangle hides part of the other.
+  const Points fold = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(3, 1, 3)};
+  const Points bottom = corners(fold, {0, 1, 2}), flap = corners(fold, {0, 2, 3});
+  for (const bool bottom_first : {false, true}) {
+    Scene scene;
+    scene.seen_from(at(3, 1, 20)).face(fold);
+    scene.cut(0, 0, bottom).cut(0, 1, flap);
+    if (bottom_first) expect_accepted(scene.draw(0, bottom, 0).draw(0, flap, 1));
+    else expect_rejected(scene.draw(0, flap, 1).draw(0, bottom, 0), "is nearer", {0, 1});
+  }
+}
+
+TEST(Non_planar, larger_pieces_and_holes_are_counted) {
+  // A roof: a planar pentagon side and a triangle, one convex piece of four corners.
+  const Points roof = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(-2, 2, 3)};
+  Scene scene = one_face(roof);
+  const Points floor = corners(roof, {0, 1, 2, 3}), flap = corners(roof, {0, 3, 4});
+  expect_accepted(scene.cut(0, 0, floor).cut(0, 1, flap).draw(0, floor, 0).draw(0, flap, 1));
+  // A collinear corner, so that one triangle of the fan has no area and may be left out.
+  const Points bent = {at(0, 0, 0), at(2, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 1)};
+  Scene fewer = one_face(bent);
+  const Points first = corners(bent, {0, 2, 3}), second = corners(bent, {0, 3, 4});
+  expect_accepted(fewer.cut(0, 0, first).cut(0, 1, second).draw(0, first, 0).draw(0, second, 1));
+  // A triangle with a triangular hole, lifted at one corner: six triangles, and not the outer one minus the inner one.
+  const Points outer = {at(0, 0, 0), at(12, 0, 0), at(0, 12, 3)}, inner = {at(2, 2, 1), at(4, 2, 0), at(2, 4, 0)};
+  const std::vector<Points> ring = {{outer[0], outer[1], inner[1]}, {outer[0], inner[1], inner[0]}, {outer[1], outer[2], inner[2]},
+                                    {outer[1], inner[2], inner[1]}, {outer[2], outer[0], inner[0]}, {outer[2], inner[0], inner[2]}};
+  for (const Points& hole : {inner, reversed(inner)}) {
+    Scene whole = one_face(outer, {hole}), capped = one_face(outer, {hole});
+    for (std::uint32_t k = 0; k < 6; ++k) whole.cut(0, k, ring[k]).draw(0, ring[k], k);
+    whole.seen_from(at(1, 2, 100));
+    expect_accepted(whole);
+    expect_rejected(capped.cut(0, 0, outer).cut(0, 1, reversed(inner)).draw(0, outer, 0).draw(0, reversed(inner), 1), "wrong number of pieces");
+  }
+}
+
+}  // namespace
