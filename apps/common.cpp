@@ -17,8 +17,8 @@ void Common::add_to(CLI::App& command) {
       ->check(CLI::IsMember({"exact", "double"}))
       ->capture_default_str();
   command.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
-  command.add_option("--seed", seed, "of random choices")->capture_default_str();
-  command.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")->check(CLI::NonNegativeNumber)->capture_default_str();
+  command.add_option("--seed", seed, "of random choices")->check(whole_number)->capture_default_str();
+  command.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")->check(CLI::NonNegativeNumber & finite_number)->capture_default_str();
 }
 
 std::function<void(std::size_t, std::size_t)> Common::within_budget(std::function<void(std::size_t, std::size_t)> report) const {
@@ -55,6 +55,22 @@ Exact_point parse_point(const std::string& text, const std::string& option) {
     begin = end + 1;
   }
   return p;
+}
+
+Exact_point eye_of(const std::string& text, const Scene& scene) {
+  if (!text.empty()) return parse_point(text, "--eye");
+  if (scene.points().size() == 0) return {};
+  const auto box = scene.box();
+  Rational size = 1;
+  Exact_point eye;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational side = box[1][k] - box[0][k];
+    if (k == 0 || size < side) size = side;
+    eye[k] = (box[0][k] + box[1][k]) / 2;
+  }
+  const std::array<Rational, 3> away{Rational(-3, 5), Rational(-11, 10), Rational(7, 10)};
+  for (std::size_t k = 0; k < 3; ++k) eye[k] += size * away[k];
+  return eye;
 }
 
 Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(2) != 0) {}

@@ -40,8 +40,16 @@ struct Usage_error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Checks that CLI11's own conversions leave out: they wrap -1 to 2^64 - 1, and let nan through every range.
+inline const CLI::Validator whole_number([](std::string& text) { return !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos ? "" : '"' + text + "\" is not a whole number below 10^19"; }, "");
+inline const CLI::Validator finite_number([](std::string& text) { return text.find_first_of("nN") == std::string::npos ? "" : '"' + text + "\" is not a finite number"; }, "");
+inline const CLI::Validator not_empty([](std::string& text) { return text.empty() ? "is empty; leave the option out, or give it a value" : ""; }, "");
+
 /// "X,Y,Z" with exact decimals or p/q. Errors: Usage_error naming the option.
 Exact_point parse_point(const std::string& text, const std::string& option);
+
+/// The eye that --eye names, or, where it is empty, a place outside the scene's box from which all of it is seen.
+Exact_point eye_of(const std::string& text, const Scene& scene);
 
 class Stopwatch {
  public:

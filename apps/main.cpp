@@ -16,6 +16,9 @@ int main(int argc, char** argv) {
   CLI::App app("Exact 3D visibility: who can see what, with answers that can be checked.", "sightline");
   app.set_version_flag("--version", "sightline " SIGHTLINE_VERSION);
   app.require_subcommand(1);
+  app.failure_message([](const CLI::App* at, const CLI::Error& error) {  // one line, with the word that is no command
+    return fmt::format("sightline: {}{}; --help says more\n", error.what(), at->remaining().empty() ? "" : " ('" + at->remaining().front() + "' is none)");
+  });
   add_info(app), add_bsp(app), add_order(app), add_verify(app), add_compare(app), add_make(app);
 
   try {
@@ -30,5 +33,7 @@ int main(int argc, char** argv) {
     const bool budget = dynamic_cast<const sightline::app::Out_of_budget*>(&error) != nullptr;
     return static_cast<int>(usage ? Exit::usage : budget ? Exit::undecided : Exit::bad_input);
   }
-  return static_cast<int>(Exit::done);
+  if (std::cout.flush()) return static_cast<int>(Exit::done);
+  std::cerr << "sightline: standard output cannot be written; check that its disk is not full\n";
+  return static_cast<int>(Exit::bad_input);
 }

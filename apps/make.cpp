@@ -19,8 +19,8 @@ void add_make(CLI::App& app) {
   };
   auto arguments = std::make_shared<Arguments>();
   command->add_option("KIND", arguments->kind, "which kind, see below")->required();
-  command->add_option("--size", arguments->size, "how large; 0: the kind's own example size")->capture_default_str();
-  command->add_option("--seed", arguments->seed, "of random choices")->capture_default_str();
+  command->add_option("--size", arguments->size, "how large; 0: the kind's own example size")->check(sightline::app::whole_number)->capture_default_str();
+  command->add_option("--seed", arguments->seed, "of random choices")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--out", arguments->out, "the file to write: .off .obj .ply .stl .qoff")->required();
   set_action(*command, [arguments] {
     std::size_t size = arguments->size;

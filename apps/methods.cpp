@@ -1,65 +1,10 @@
-#include "methods.h"
+#include "methods_of.h"
 
-#include <sightline/kernel/exact_traits.h>
-#include <sightline/kernel/lockstep_traits.h>
-#include <sightline/kernel/point_traits.h>
-
-#include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Simple_cartesian.h>
 
 namespace sightline::app {
 
-template <class Traits>
-static Outcome run(const Scene& scene, const Traits& traits, const Task& task, Bsp_options options) {
-  Outcome outcome;
-  const Stopwatch build_watch;
-  const Bsp_tree<Traits> tree = build_bsp(traits, options);
-  outcome.build_seconds = build_watch.seconds();
-  outcome.tree = tree.counters;
-  if (!task.eye) return outcome;
-
-  std::vector<std::pair<const Fragment<Traits>*, Sign>> order;
-  order.reserve(tree.fragments.size());
-  const Stopwatch order_watch;
-  outcome.walk = traverse(traits, tree, traits.eye(*task.eye), Direction::back_to_front, [&](const Fragment<Traits>& fragment, Sign side) {
-    order.emplace_back(&fragment, fragment.same_sense ? side : -side);
-  });
-  outcome.order_seconds = order_watch.seconds();
-  if (!task.keep_fragments) return outcome;
-
-  // With a near plane at the root, what is behind the plane was drawn after all else or before it; take the part in front.
-  const Fragment<Traits>* behind_begin = nullptr;
-  const Fragment<Traits>* behind_end = nullptr;
-  if (task.near && !tree.nodes.empty()) {
-    const auto& root = tree.nodes[0];
-    const auto first_of = [&](std::int32_t node) { return tree.fragments.data() + (node == Bsp_tree<Traits>::leaf ? tree.fragments.size() : tree.nodes[static_cast<std::size_t>(node)].first); };
-    behind_begin = first_of(root.behind), behind_end = tree.fragments.data() + tree.fragments.size();  // preorder: the back child comes last
-  }
-  outcome.drawn.reserve(order.size());
-  for (const auto& [fragment, side] : order) {
-    if (behind_begin != nullptr && fragment >= behind_begin && fragment < behind_end) continue;
-    const Piece& piece = scene.pieces()[fragment->polygon.piece];
-    Drawn drawn{{piece.face, piece.number, {}}, fragment->number, side};
-    try {
-      for (const Corner<Traits>& corner : fragment->polygon) drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
-    } catch (const std::domain_error&) {
-      ++outcome.not_finite;
-      continue;
-    }
-    outcome.drawn.push_back(std::move(drawn));
-  }
-  return outcome;
-}
-
-template <class K>
-static Outcome run_points(const Scene& scene, const Task& task, std::optional<Plane> near) {
-  Point_traits<K> traits(scene);
-  Bsp_options options = task.bsp;
-  if (near) options.first.push_back(traits.add_plane(scene.file_coefficients(*near)));
-  return run(scene, traits, task, options);
-}
+Outcome run_epeck(const Scene& scene, const Task& task, std::optional<Plane> near) { return run_points<CGAL::Epeck>(scene, task, near); }
 
 Outcome run_method(const std::string& kernel, Scene& scene, const Task& task) {
   std::optional<Plane> near;
@@ -67,34 +12,14 @@ Outcome run_method(const std::string& kernel, Scene& scene, const Task& task) {
   if (kernel == "exact") {
     Bsp_options options = task.bsp;
     if (near) options.first.push_back(*near);
-    return run(scene, Exact_traits(scene), task, options);
+    return run_traits(scene, Exact_traits(scene), task, options);
   }
-  if (kernel == "epeck") return run_points<CGAL::Epeck>(scene, task, near);
-  if (kernel == "gmpq") return run_points<CGAL::Cartesian<CGAL::Gmpq>>(scene, task, near);
-  if (kernel == "epick") return run_points<CGAL::Epick>(scene, task, near);
-  if (kernel == "double") return run_points<CGAL::Simple_cartesian<double>>(scene, task, near);
-  if (kernel == "float") return run_points<CGAL::Simple_cartesian<float>>(scene, task, near);
+  if (kernel == "epeck") return run_epeck(scene, task, near);
+  if (kernel == "gmpq") return run_gmpq(scene, task, near);
+  if (kernel == "epick") return run_epick(scene, task, near);
+  if (kernel == "double") return run_double(scene, task, near);
+  if (kernel == "float") return run_float(scene, task, near);
   throw Usage_error("no kernel '" + kernel + "'");
-}
-
-template <class K>
-static Lockstep lockstep(const Scene& scene, const Task& task) {
-  const Exact_traits truth(scene);
-  const Point_traits<K> judged(scene);
-  const Lockstep_traits<Exact_traits, Point_traits<K>> both(truth, judged);
-  const auto tree = build_bsp(both, task.bsp);
-  if (task.eye) traverse(both, tree, both.eye(*task.eye), Direction::back_to_front, [](const auto&, Sign) {});
-  const auto mistakes = both.mistakes();
-  return {mistakes.asked, mistakes.opposite, mistakes.false_zero, mistakes.missed_zero};
-}
-
-Lockstep run_lockstep(const std::string& kernel, const Scene& scene, const Task& task) {
-  if (kernel == "epeck") return lockstep<CGAL::Epeck>(scene, task);
-  if (kernel == "gmpq") return lockstep<CGAL::Cartesian<CGAL::Gmpq>>(scene, task);
-  if (kernel == "epick") return lockstep<CGAL::Epick>(scene, task);
-  if (kernel == "double") return lockstep<CGAL::Simple_cartesian<double>>(scene, task);
-  if (kernel == "float") return lockstep<CGAL::Simple_cartesian<float>>(scene, task);
-  return {};  // exact against itself
 }
 
 }  // namespace sightline::app

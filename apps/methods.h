@@ -36,10 +36,10 @@ struct Outcome {
 /// Builds the tree of a scene by the named kernel and walks it. The scene takes the near plane. Errors: Usage_error for a name that is none.
 Outcome run_method(const std::string& kernel, Scene& scene, const Task& task);
 
-/// Sides that the kernel would have got wrong while the exact kernel builds its tree and walks it.
+/// Sides that the kernel would have got wrong while the exact kernel builds its tree and walks it; nothing for kernels whose numbers are exact.
 struct Lockstep {
   std::uint64_t asked = 0, opposite = 0, false_zero = 0, missed_zero = 0;
 };
-Lockstep run_lockstep(const std::string& kernel, const Scene& scene, const Task& task);
+std::optional<Lockstep> run_lockstep(const std::string& kernel, const Scene& scene, const Task& task);
 
 }  // namespace sightline::app

@@ -40,8 +40,9 @@ static std::array<double, 3> parse_direction(const std::string& text, const std:
 
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
-  const Exact_point eye = parse_point(arguments.eye, "--eye");
+  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
   Scene scene(common.read());
+  const Exact_point eye = eye_of(arguments.eye, scene);
   Progress progress("building");
   Task task;
   task.eye = eye;
@@ -55,8 +56,7 @@ static Exit run(const Order_arguments& arguments) {
     if (!arguments.look.empty()) view.look = parse_direction(arguments.look, "--look");
     if (!arguments.up.empty()) view.up = parse_direction(arguments.up, "--up");
     view.field = arguments.field;
-    if (scene.counters().faces > 0) view = aimed(view, scene);
-    task.near = near_plane(view, scene);
+    if (scene.counters().faces > 0) view = aimed(view, scene), task.near = near_plane(view, scene);
     write_file(arguments.svg, painted(view, task.near ? run_method(arguments.kernel, scene, task).drawn : outcome.drawn));
   }
 
@@ -75,6 +75,7 @@ static Exit run(const Order_arguments& arguments) {
   if (write_json(common, "order", scene, std::move(result), counters, {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}})) return Exit::done;
 
   scene_rows(scene);
+  row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
   row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(), outcome.walk.on_planes));
   if (outcome.not_finite + c.degenerate > 0) row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
   row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds, arguments.kernel));
@@ -94,13 +95,13 @@ void add_order(CLI::App& app) {
   CLI::App* command = app.add_subcommand("order", "The exact back-to-front order of a scene from an eye, with a picture and a certificate");
   auto a = std::make_shared<sightline::app::Order_arguments>();
   a->common.add_to(*command);
-  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q")->required();
+  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")->check(sightline::app::not_empty);
   command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember(sightline::app::kernel_names))->capture_default_str();
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->add_option("--svg", a->svg, "draw the order as a painter would");
   command->add_option("--look", a->look, "direction X,Y,Z of the picture; by default to the centre of the scene");
   command->add_option("--up", a->up, "up direction X,Y,Z of the picture (0,0,1)");
-  command->add_option("--field", a->field, "width of the picture's view in degrees")->check(CLI::Range(1.0, 170.0))->capture_default_str();
+  command->add_option("--field", a->field, "width of the picture's view in degrees")->check(CLI::Range(1.0, 170.0) & sightline::app::finite_number)->capture_default_str();
   command->footer("Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
                   "A fragment is [face, piece]; the certificate's `piece` is the convex piece of the face that the fragment is a part of.");
   set_action(*command, [a] { return sightline::app::run(*a); });

@@ -177,7 +177,7 @@ class Ply_text_values {
   /// How many values there is room for, at most.
   std::size_t room(Ply_type) const { return text_.bytes_left() / 2; }
   std::size_t room(const Ply_element& element) const {
-    return element.properties.empty() ? std::numeric_limits<std::size_t>::max() : (text_.bytes_left() + 1) / (2 * element.properties.size());
+    return element.properties.empty() ? std::numeric_limits<std::size_t>::max() : text_.bytes_left() / (2 * element.properties.size());
   }
   [[noreturn]] void fail(const std::string& message) const { text_.fail(token_, message); }
 

@@ -26,7 +26,6 @@ class Text_reader {
     if (in_line_) finish_line();
     for (; cursor_ != end_; finish_line()) {
       skip_blanks();
-      token_end_ = cursor_;
       if (!at_end_of_tokens()) return in_line_ = true;
     }
     return false;
@@ -96,7 +95,7 @@ class Text_reader {
   const Input& input_;
   const char* cursor_;
   const char* end_;
-  const char* token_end_;  // of the token given out last, or where the line's first one begins
+  const char* token_end_;  // of the token given out last
   bool hash_, backslash_;
   bool in_line_ = false;
 };
@@ -123,7 +122,7 @@ inline std::size_t read_count(const Text_reader& text, std::string_view token, c
   if (!count || *count < 0)
     text.fail(token, (token.empty() ? "the number of " + what + " is missing" : quoted(token) + " is not a number of " + what) + "; write a count such as 8");
   const std::size_t announced = static_cast<std::size_t>(*count);
-  if (announced > (text.bytes_left() + 1) / least_bytes)  // + 1: the last line may lack its end
+  if (announced > text.bytes_left() / least_bytes)  // the last line may lack its end, but this one has one
     text.fail(token, std::to_string(announced) + " " + what + " are announced, but only " + std::to_string(text.bytes_left()) +
                          " bytes follow; correct the count, or fetch the file again if it is cut off");
   return announced;

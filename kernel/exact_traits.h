@@ -10,7 +10,10 @@ namespace sightline {
 class Exact_traits {
  public:
   using Vertex = sightline::Vertex;
-  using Edge = Plane;  ///< the bounding plane, interior in its front
+  struct Edge {
+    Plane bound;           ///< the bounding plane, interior in its front
+    std::uint32_t beyond;  ///< another plane that is known to hold the edge (the neighbouring face's), or Vertex::no_plane
+  };
   using Cutter = Prepared_plane;
   using Eye = Located_point;
   static constexpr bool is_exact = true;
@@ -30,16 +33,18 @@ class Exact_traits {
     const std::span<const Piece_corner> corners = scene_->corners(piece);
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Piece_corner& before = corners[k == 0 ? corners.size() - 1 : k - 1];
-      function(predicates_.input_vertex(corners[k].point, piece.support.id(), before.edge.id(), corners[k].edge.id()), corners[k].edge);
+      const std::uint32_t next = corners[k + 1 == corners.size() ? 0 : k + 1].point;
+      const std::uint32_t beyond = scene_->incidences().other_plane(corners[k].point, next, piece.support.id());
+      function(predicates_.input_vertex(corners[k].point, piece.support.id(), before.edge.id(), corners[k].edge.id()), Edge{corners[k].edge, beyond});
     }
   }
 
   Cutter prepare(Plane plane) const { return predicates_.prepare(plane); }
   Sign side(const Vertex& v, const Cutter& cutter, Predicate_counts& counts) const { return predicates_.side(v, cutter, counts); }
   Vertex meet(std::uint32_t piece, const Corner<Exact_traits>& from, const Corner<Exact_traits>&, Sign, const Cutter& cutter) const {
-    return predicates_.meet(supporting_plane(piece).id(), from.edge.id(), cutter.plane.id());
+    return predicates_.meet(supporting_plane(piece).id(), from.edge.bound.id(), cutter.plane.id(), from.edge.beyond);
   }
-  Edge bound(const Cutter& cutter, Sign keep) const { return keep == CGAL::POSITIVE ? cutter.plane : cutter.plane.opposite(); }
+  Edge bound(const Cutter& cutter, Sign keep) const { return {keep == CGAL::POSITIVE ? cutter.plane : cutter.plane.opposite(), Vertex::no_plane}; }
   bool same_plane(Plane g, Plane h) const { return g.id() == h.id(); }
   bool same_sense(Plane g, Plane h) const { return g == h; }  // planes of faces are interned
 

@@ -24,7 +24,7 @@ class Fixed_integer {
   Fixed_integer(const Limb* limbs, int count) {
     for (int i = 0; i < Limbs; ++i) limb_[i] = i < count ? limbs[i] : extension(limbs[count - 1]);
   }
-  explicit Fixed_integer(std::int64_t value) {
+  Fixed_integer(std::int64_t value) {
     const Limb low = static_cast<Limb>(value);
     limb_[0] = low;
     for (int i = 1; i < Limbs; ++i) limb_[i] = extension(low);
@@ -62,6 +62,13 @@ class Fixed_integer {
     }
     return product;
   }
+
+  Fixed_integer operator-() const { return Fixed_integer(0) - *this; }
+  Fixed_integer& operator+=(const Fixed_integer& b) { return *this = *this + b; }
+  friend bool operator==(const Fixed_integer&, const Fixed_integer&) = default;
+  friend bool operator<(const Fixed_integer& a, const Fixed_integer& b) { return (a - b).sign() < 0; }
+  friend bool operator>(const Fixed_integer& a, const Fixed_integer& b) { return b < a; }
+  const Limb* limbs() const { return limb_.data(); }
 
   /// -1, 0 or +1.
   int sign() const {

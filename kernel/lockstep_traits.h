@@ -2,6 +2,7 @@
 // Two models of Partition_traits side by side: the first decides, the second is asked the same and its mistakes are counted.
 
 #include <sightline/kernel/partition_traits.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
 #include <atomic>
 

@@ -85,7 +85,7 @@ inline Rational rational_from_string(std::string_view text) {
   };
   const auto integer = [](std::string_view s) {
     if (s.front() == '+') s.remove_prefix(1);
-    return Integer(std::string(s));
+    return Integer(std::string(s), 10);  // base 10 also after a leading zero
   };
   const std::size_t slash = text.find('/');
   const std::string_view top = text.substr(0, slash);

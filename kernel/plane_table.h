@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 #include <vector>
 
 namespace sightline {
@@ -53,6 +54,41 @@ class Grid_points {
   int limbs_per_ = 1;
   long shift_ = 0;
   Row_table rows_{3};
+};
+
+/// Which supporting planes pass through each input point, as far as faces with a corner there say.
+class Point_planes {
+ public:
+  Point_planes() = default;
+  /// Pre: pairs (point, plane id), points below `points`. Cost: O(pairs log valence).
+  Point_planes(std::size_t points, std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs) : begin_(points + 1), planes_(pairs.size()) {
+    for (const auto& [point, plane] : pairs) ++begin_[point + 1];
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+    for (const auto& [point, plane] : pairs) planes_[next[point]++] = plane;
+    for (std::size_t p = 0; p < points; ++p) std::sort(planes_.begin() + static_cast<std::ptrdiff_t>(begin_[p]), planes_.begin() + static_cast<std::ptrdiff_t>(begin_[p + 1]));
+  }
+
+  /// Ascending, with repetitions.
+  std::span<const std::uint32_t> at(std::uint32_t point) const {
+    if (point + std::size_t{1} >= begin_.size()) return {};
+    return {planes_.data() + begin_[point], begin_[point + 1] - begin_[point]};
+  }
+  bool contains(std::uint32_t point, std::uint32_t plane) const {
+    const std::span<const std::uint32_t> list = at(point);
+    return std::binary_search(list.begin(), list.end(), plane);
+  }
+  /// A plane through both points other than the given one, or Vertex::no_plane: the face on the other side of an edge. Looks at few planes only.
+  std::uint32_t other_plane(std::uint32_t p, std::uint32_t q, std::uint32_t than) const {
+    const std::span<const std::uint32_t> list = at(p);
+    for (const std::uint32_t plane : list.first(std::min<std::size_t>(list.size(), 24)))
+      if (plane != than && contains(q, plane)) return plane;
+    return ~std::uint32_t{0};
+  }
+
+ private:
+  std::vector<std::size_t> begin_;
+  std::vector<std::uint32_t> planes_;
 };
 
 /// Interned planes with integer coefficients in canonical form: gcd(a, b, c, d) = 1 and the first non-zero of a, b, c positive.

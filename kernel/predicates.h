@@ -47,11 +47,11 @@ struct Located_point {
   double error;            ///< their absolute error; infinity where doubles say nothing
 };
 
-/// The predicates over one scene's points and planes. Cheap to copy: two references and a width.
+/// The predicates over one scene's points and planes, and what is known of incidences. Cheap to copy: three references and a width.
 class Predicates {
  public:
-  Predicates(const Grid_points& points, const Plane_table& planes)
-      : points_(&points), planes_(&planes), arithmetic_(planes.budget().arithmetic()), range_(points.shift() == 0 ? std::ldexp(1.0, points.bits()) : 1.0) {}
+  Predicates(const Grid_points& points, const Plane_table& planes, const Point_planes& incidences)
+      : points_(&points), planes_(&planes), incidences_(&incidences), arithmetic_(planes.budget().arithmetic()), range_(points.shift() == 0 ? std::ldexp(1.0, points.bits()) : 1.0) {}
 
   const Grid_points& points() const { return *points_; }
   const Plane_table& planes() const { return *planes_; }
@@ -65,9 +65,9 @@ class Predicates {
     return {points_->approximate(point, 0), points_->approximate(point, 1), points_->approximate(point, 2), error, {p, q, r}, point};
   }
 
-  /// The meet of three planes. Pre: their normals are linearly independent, or std::domain_error. Exact: its position, yes; the doubles
+  /// The meet of three planes; `fourth`, where given, is known to pass through it. Pre: their normals are linearly independent, or std::domain_error. Exact: its position, yes; the doubles
   /// beside it are within `error`. Proof: P-04
-  Vertex meet(std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
+  Vertex meet(std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t fourth = Vertex::no_plane) const {
     const Approximate_plane f = approximate(p), g = approximate(q), h = approximate(r);
     // Cofactors of the last row of (f; g; h; .): the homogeneous coordinates of the meet.
     const double bc = g.b * h.c - g.c * h.b, ca = g.c * h.a - g.a * h.c, ab = g.a * h.b - g.b * h.a;
@@ -81,8 +81,8 @@ class Predicates {
     const double size_w = 6 * nf * ng * nh;
     const double size_x = 2 * (std::fabs(f.d) * ng * nh + nf * (std::fabs(g.d) * nh + ng * std::fabs(h.d)));
     // Entries carry a relative 2^-52 each, products and sums 2^-53 a step: below 16 x 2^-53 of the size. P-04
-    const double error_w = 0x1p-49 * size_w, error_x = 0x1p-49 * size_x;
-    Vertex v{0, 0, 0, std::numeric_limits<double>::infinity(), {p, q, r}, Vertex::no_point};
+    const double error_w = 0x1p-49 * size_w, error_x = 0x1p-49 * size_x + (points_->shift() == 0 ? 0 : 0x1p-1000);  // and underflow, where entries are below 1
+    Vertex v{0, 0, 0, std::numeric_limits<double>::infinity(), {p, q, r}, Vertex::with_plane(fourth)};
     const bool integers = points_->shift() == 0 && size_w < 0x1p53 && size_x < 0x1p53;  // then nothing was rounded
     if (integers ? w == 0 : !(std::fabs(w) > 2 * error_w)) {  // also where w is not a number
       const int orientation = integers ? 0 : orientation_exact(p, q, r);
@@ -119,8 +119,11 @@ class Predicates {
 
   // ---- Stages of side() ---------------------------------------------------------------------------------------------
 
-  /// Stage 1: whether the plane is one of those that made the vertex.
-  static bool incident(const Vertex& v, std::uint32_t plane) { return v.plane[0] == plane || v.plane[1] == plane || v.plane[2] == plane; }
+  /// Stage 1: whether the plane is one of those that made the vertex, or of a face with a corner there.
+  bool incident(const Vertex& v, std::uint32_t plane) const {
+    if (v.plane[0] == plane || v.plane[1] == plane || v.plane[2] == plane) return true;
+    return v.is_input() ? incidences_->contains(v.point, plane) : v.fourth_plane() == plane;
+  }
 
   /// Stage 2: the sign in doubles where their error bound allows, else uncertain. Proof: P-03
   static CGAL::Uncertain<Sign> side_filtered(const Vertex& v, const Prepared_plane& h) {
@@ -135,9 +138,10 @@ class Predicates {
   /// Stages 3 and 4: the sign of an exact determinant in the given number type. Pre: Number is wide enough for the scene. Proof: P-02
   template <class Number>
   Sign side_exact(const Vertex& v, Plane plane) const {
-    const Row<Number> h = row<Number>(plane.id());
     int sign = 0;
-    if (v.is_input()) {
+    if (v.is_input() && plane.is_axis_plane()) {
+      sign = signum(Number(coordinate<Number>(v.point, plane.axis()) - coordinate<Number>(plane.axis_point(), plane.axis())));
+    } else if (const Row<Number> h = row<Number>(plane.id()); v.is_input()) {
       Number value = h[3];
       for (int k = 0; k < 3; ++k) value = value + h[static_cast<std::size_t>(k)] * coordinate<Number>(v.point, k);
       sign = signum(value);
@@ -178,7 +182,7 @@ class Predicates {
     const double value = h.a * q.ax + h.b * q.ay + h.c * q.az + h.d;
     // As in prepare(), but at the point's own distance.
     const double size = std::fabs(h.a * q.ax) + std::fabs(h.b * q.ay) + std::fabs(h.c * q.az) + std::fabs(h.d);
-    const double bound = 0x1p-50 * size + h.norm * q.error;
+    const double bound = 0x1p-50 * size + h.norm * q.error + 0x1p-1000;  // the last for underflow: the point may be closer to the origin than doubles go
     if (std::fabs(value) > bound) {
       ++counts.filtered;
       return sign_of(value);
@@ -284,6 +288,7 @@ class Predicates {
 
   const Grid_points* points_;
   const Plane_table* planes_;
+  const Point_planes* incidences_;
   Arithmetic arithmetic_;
   double range_;  // |grid coordinate| x 2^-shift <= range_
 };

@@ -1,7 +1,8 @@
 #pragma once
 // Vertices of plane-defined polygons: an input point, or the meet of three planes, with a double beside it that knows its error.
 
-#include <cstdint>
+#include <sightline/kernel/plane.h>
+
 #include <limits>
 
 namespace sightline {
@@ -12,10 +13,14 @@ struct Vertex {
   double x, y, z;          ///< grid coordinates times 2^-shift, each within `error` of the truth
   double error;            ///< 0: x, y, z are exact integers; infinity: they say nothing
   std::uint32_t plane[3];  ///< ids of planes that meet here; for a meet, their normals in this order are positively oriented
-  std::uint32_t point;     ///< an input point, or no_point
+  std::uint32_t point;     ///< an input point; or no_point; or with_plane(id), a fourth plane that is known to pass through the meet
 
   static constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
-  bool is_input() const { return point != no_point; }
+  static constexpr std::uint32_t no_plane = no_point;
+  static constexpr std::uint32_t with_plane(std::uint32_t id) { return ~(id + 1); }  // no_point for no_plane
+  bool is_input() const { return point < Plane::max_axis_point; }
+  /// The fourth plane, or no_plane. Pre: not an input point.
+  std::uint32_t fourth_plane() const { return ~point - 1; }
 };
 static_assert(sizeof(Vertex) == 48);
 

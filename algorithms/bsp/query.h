@@ -71,7 +71,7 @@ class Grid_ray {
   /// The parameters t in [low, high] of the ray that a fragment holds, if the ray lies in its plane.
   std::optional<std::array<Rational, 2>> range_within(const Convex_polygon<Exact_traits>& polygon, Rational low, std::optional<Rational> high) const {
     for (const Corner<Exact_traits>& corner : polygon) {
-      const Line_value v = value(corner.edge);
+      const Line_value v = value(corner.edge.bound);
       if (v.slope == 0) {
         if (v.at < 0) return std::nullopt;
         continue;
@@ -87,7 +87,7 @@ class Grid_ray {
   Sign side_within(const Convex_polygon<Exact_traits>& polygon, const Rational& t) const {
     Sign all = CGAL::POSITIVE;
     for (const Corner<Exact_traits>& corner : polygon) {
-      const int s = sgn(value(corner.edge)(t));
+      const int s = sgn(value(corner.edge.bound)(t));
       if (s < 0) return CGAL::NEGATIVE;
       if (s == 0) all = CGAL::ZERO;
     }
@@ -150,7 +150,7 @@ inline std::vector<Face_id> faces_at(const Exact_traits& traits, const Exact_tre
     if (side != CGAL::POSITIVE && node.behind != Exact_tree::leaf) stack.push_back(node.behind);
     if (side != CGAL::ZERO) continue;
     for (const Fragment<Exact_traits>& fragment : tree.on(node))
-      if (std::all_of(fragment.polygon.begin(), fragment.polygon.end(), [&](const auto& corner) { return traits.side(q, corner.edge, counts) != CGAL::NEGATIVE; }))
+      if (std::all_of(fragment.polygon.begin(), fragment.polygon.end(), [&](const auto& corner) { return traits.side(q, corner.edge.bound, counts) != CGAL::NEGATIVE; }))
         faces.push_back(traits.face(fragment.polygon.piece));
   }
   std::sort(faces.begin(), faces.end());

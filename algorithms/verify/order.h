@@ -197,7 +197,6 @@ class Boundary_chain {
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Exact_point &from = loop[i], &to = loop[(i + 1) % loop.size()];
       Integer_vector direction = primitive(minus(to, from));
-      if (is_zero(direction)) continue;
       if (direction < Integer_vector{}) direction = negated(direction);
       arrivals_[{direction, to}] += multiplicity;
       arrivals_[{direction, from}] -= multiplicity;
@@ -249,10 +248,7 @@ struct Cone {
     }
     const Integer_vector inward = front ? negated(normal) : normal;
     for (std::size_t k = 0; k < 3; ++k) nearness[k] = inward[k] * height.get_den();
-    distance = abs(height.get_num());
-    const Integer divisor = gcd(gcd(gcd(nearness[0], nearness[1]), nearness[2]), distance);
-    for (Integer& coefficient : nearness) coefficient /= divisor;
-    distance /= divisor;
+    distance = abs(height.get_num());  // coprime to nearness, as the normal is primitive and the height reduced
   }
 };
 
@@ -309,13 +305,12 @@ class Pair_check {
       if (sign_of_dot(b.nearness, d) > 0) common_.push_back(primitive(d));  // otherwise -d is in b's cone, not d
     }
 
-    // Is the common part open? Then the sum of what spans it is strictly inside every edge plane.
+    // Has the common part an inside? Then the sum of what spans it is strictly inside a's edge planes.
     Integer_vector middle;
     for (const Integer_vector& d : common_)
       for (std::size_t k = 0; k < 3; ++k) middle[k] += d[k];
-    for (const Cone* cone : {&a, &b})
-      for (const Integer_vector& plane : cone->edge_planes)
-        if (sign_of_dot(plane, middle) <= 0) return false;
+    for (const Integer_vector& plane : a.edge_planes)
+      if (sign_of_dot(plane, middle) <= 0) return false;
 
     // 1/t of b minus 1/t of a is linear in the direction: a may nowhere be the nearer one.
     Integer_vector farther;

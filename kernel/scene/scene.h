@@ -52,6 +52,11 @@ class Scene {
     const std::vector<std::uint32_t> merged = place_points(soup);
     planes_ = Plane_table(points_);
     add_faces(soup, merged);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    pairs.reserve(corners_.size());
+    for (const Piece& piece : pieces_)
+      for (const Piece_corner& corner : corners(piece)) pairs.emplace_back(corner.point, piece.support.id());
+    incidences_ = Point_planes(points_.size(), pairs);
     counters_.points = points_.size(), counters_.pieces = pieces_.size();
     counters_.faces = counters_.faces_read - set_aside_.size();
   }
@@ -65,7 +70,8 @@ class Scene {
   const std::vector<Face_id>& non_planar() const { return non_planar_; }
   const std::vector<Face_id>& concave() const { return concave_; }
   const Scene_counters& counters() const { return counters_; }
-  Predicates predicates() const { return {points_, planes_}; }
+  const Point_planes& incidences() const { return incidences_; }
+  Predicates predicates() const { return {points_, planes_, incidences_}; }
 
   /// Bit length of the largest coordinate once the whole scene is scaled to integers, and of that scale.
   int bits() const { return bits_read_; }
@@ -222,7 +228,7 @@ class Scene {
       if (twin != end) {
         set_aside_.push_back({f, "duplicate of " + std::to_string(twin->second)});
         ++counters_.duplicates;
-      } else if (const char* flaw = points_.bits() <= 30 ? add_face<__int128>(f, loops) : add_face<Integer>(f, loops)) {
+      } else if (const char* flaw = points_.bits() <= 30 ? add_face<__int128>(f, loops) : points_.bits() <= 72 ? add_face<Fixed_integer<4>>(f, loops) : add_face<Integer>(f, loops)) {
         set_aside_.push_back({f, flaw});
         ++(flaw[0] == 'z' ? counters_.zero_area : counters_.self_intersecting);
       } else {
@@ -231,16 +237,22 @@ class Scene {
     }
   }
 
+  // Faces are made in the narrowest of three number types. In g-bit coordinates a normal has 2 g + 2 bits, a normal times a difference 3 g + 6, and
+  // the area vector of a loop of up to 2^28 corners 28 more: 30 bits fit 128, 72 bits fit 256.
   template <class Number>
   using Vector = std::array<Number, 3>;
 
   template <class Number>
   Vector<Number> at(std::uint32_t p) const {
-    if constexpr (std::is_same_v<Number, Integer>) return {points_.integer(p, 0), points_.integer(p, 1), points_.integer(p, 2)};
-    else return {points_.small(p, 0), points_.small(p, 1), points_.small(p, 2)};
+    const auto coordinate = [&](int k) -> Number {
+      if constexpr (std::is_same_v<Number, Integer>) return points_.integer(p, k);
+      else if constexpr (std::is_same_v<Number, __int128>) return points_.small(p, k);
+      else return Number(points_.coordinate(p, k), points_.limbs());
+    };
+    return {coordinate(0), coordinate(1), coordinate(2)};
   }
   template <class Number>
-  static Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+  static Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) { return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])}; }
   template <class Number>
   static Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -433,6 +445,10 @@ class Scene {
     };
     return planes_.intern(wide(n[0]), wide(n[1]), wide(n[2]), wide(d));
   }
+  Plane intern(const Vector<Fixed_integer<4>>& n, const Fixed_integer<4>& d) {
+    const auto wide = [](const Fixed_integer<4>& x) { return from_limbs(x.limbs(), 4); };
+    return planes_.intern(wide(n[0]), wide(n[1]), wide(n[2]), wide(d));
+  }
   Plane intern(const Vector<Integer>& n, const Integer& d) { return planes_.intern(n[0], n[1], n[2], d); }
 
   /// Adds a convex piece. Each edge is bounded by the plane through it parallel to the dominant axis of the normal: half as many bits
@@ -463,6 +479,7 @@ class Scene {
   int bits_read_ = 0;
   Grid_points points_;
   Plane_table planes_;
+  Point_planes incidences_;
   std::vector<Piece> pieces_;
   std::vector<Piece_corner> corners_;
   std::vector<Set_aside> set_aside_;

@@ -129,7 +129,7 @@ TEST(Ply, a_header_that_is_none_is_an_error) {
 TEST(Ply, counts_larger_than_the_file_are_an_error_before_any_memory_is_taken) {
   expect_error_at(3, 16, "1000000000 elements are announced, but only 123 bytes follow", header("ascii", "1000000000", "1") + "0 0 0\n", ply);
   expect_error_at(3, 16, "40 elements \"vertex\" are announced, but there is room for 1 at most", header("ascii", "40", "1") + "0 0 0\n", ply);
-  expect_error_at(7, 14, "5 elements \"face\" are announced, but there is room for 3 at most", header("ascii", "1", "5") + "0 0 0\n0\n0\n", ply);
+  expect_error_at(7, 14, "5 elements \"face\" are announced, but there is room for 2 at most", header("ascii", "1", "5") + "0 0 0\n0\n0\n", ply);
   expect_error_at(3, 16, "2 elements \"vertex\" are announced, but there is room for 1 at most", header("binary_little_endian", "2", "0") + std::string(23, '\0'), ply);
   expect_error_at(7, 14, "9 elements \"face\" are announced, but there is room for 8 at most", header("binary_little_endian", "1", "9") + std::string(20, '\0'), ply);
   expect_error_at(11, 1, "a list of 1000000000 numbers, but there is room for 2 at most", header("ascii", "1", "1") + "0 0 0\n1000000000 0 0", ply);
@@ -146,6 +146,10 @@ TEST(Ply, text_that_is_cut_off_or_too_long_is_an_error) {
   expect_error_at(11, 1, "the file ends after 1 of 2 elements \"vertex\"", header("ascii", "2", "0") + "0.0000000 0 0\n", ply);
   expect_error_at(10, 4, "a coordinate is missing", header("ascii", "1", "0") + "0 0\n\n\n", ply);
   expect_error_at(11, 4, "a number is missing", header("ascii", "1", "1") + "0 0 0\n3 0\n\n\n\n", ply);
+  const std::string coloured = "ply\nformat ascii 1.0\nelement vertex 1\n" + points + "property uchar red\nend_header\n";
+  expect_error_at(9, 6, "a number is missing; complete the line", coloured + "0 0 0\n\n\n", ply);
+  expect_error_at(9, 7, "\"#\" is not a number", coloured + "0 0 0 # 7\n", ply);  // there are no comments here
+  EXPECT_EQ(read_text(coloured + "0 0 0 7", ply), "0 0 0 |");                       // exactly as many bytes as need be
   expect_error_at(10, 7, "unexpected \"0\"; an element has no more properties", header("ascii", "1", "0") + "0 0 0 0\n", ply);
   expect_error_at(11, 1, "more lines than the header announces", header("ascii", "1", "0") + "0 0 0\n3 0 0 0\n", ply);
 }

@@ -58,6 +58,7 @@ TEST(Stl, a_word_out_of_place_is_an_error) {
   expect_error_at(3, 7, "unexpected \"vertex\"; write loop", "solid\nfacet normal 0 0 1\nouter vertex\n", stl);
   expect_error_at(4, 1, "unexpected \"endfacet\"; write vertex or endloop", "solid\nfacet normal 0 0 1\nouter loop\nendfacet\n", stl);
   expect_error_at(5, 1, "unexpected \"facet\"; write endfacet", "solid\nfacet normal 0 0 1\nouter loop\nendloop\nfacet\n", stl);
+  expect_error_at(2, 1, "unexpected \"#\"; write facet or endsolid", "solid\n# no comments here\nendsolid\n", stl);
   expect_error_at(3, 1, "unexpected \"facet\"; write solid", "solid\nendsolid\nfacet\n", stl);
 }
 

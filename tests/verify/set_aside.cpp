@@ -34,6 +34,8 @@ TEST(Set_aside, for_zero_area) {
   // No front, but a hole with area: nothing says which way it would face.
   Scene inside_out;
   inside_out.seen_from(at(0, 0, 10)).face({at(0, 0, 0), at(4, 0, 0), at(0, 4, 0), at(4, 0, 0)}, {square});
+  Scene aside = inside_out;
+  expect_accepted(aside.leave_out(0, "zero area"));
   expect_rejected(inside_out.draw(0, square), "face 0 has no front and is not set aside");
 }
 
@@ -98,6 +100,7 @@ TEST(Set_aside, as_a_duplicate) {
   expect_rejected(pair(square, moved, why), "but differs");
   expect_rejected(pair(square, shared_prefix, why), "but differs");
   expect_rejected(pair(square, {square[0], square[1], square[2]}, why), "but differs");
+  expect_rejected(pair({square[0], square[1], square[2]}, square, why), "but differs");  // part of it, in order
   expect_rejected(pair(square, square, why, {}, {rectangle(1, 2, 1, 2, 0)}), "but differs");
   expect_rejected(pair(square, square, why, {rectangle(1, 2, 1, 2, 0)}), "but differs");
   for (const std::string bad : {"duplicate of 1", "duplicate of 2", "duplicate of ", "duplicate of x", "duplicate of 99999999999999999999999999", "duplicate of -1", "duplicate of 4294967296",

@@ -172,6 +172,11 @@ TEST(Tiling, of_a_face_that_winds_twice_is_an_overlap) {
   // Nothing overlaps where parts only touch, in a contour that is not convex.
   const Points pinched = {at(0, 0, 0), at(2, 0, 0), at(2, 2, 0), at(4, 2, 0), at(4, 4, 0), at(2, 4, 0), at(2, 2, 0), at(0, 2, 0)};
   expect_accepted(one_face_drawn(pinched, {rectangle(0, 2, 0, 2, 0), rectangle(2, 4, 2, 4, 0)}));
+  // An edge of one part only separates the two: the triangle points at the square.
+  const Points arrow = {at(0, -1, 0), at(2, -1, 0), at(2, 0, 0), at(4, -1, 0), at(4, 1, 0), at(2, 0, 0), at(2, 1, 0), at(0, 1, 0)};
+  const Points block = rectangle(0, 2, -1, 1, 0), head = {arrow[2], arrow[3], arrow[4]};
+  expect_accepted(one_face_drawn(arrow, {block, head}));
+  expect_accepted(one_face_drawn(arrow, {head, block}));
 }
 
 TEST(Tiling, a_planar_face_may_have_pieces) {
