@@ -39,7 +39,7 @@ Exact_point parse_point(const std::string& text, const std::string& option) {
   std::size_t begin = 0;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
-    if (end == std::string::npos) throw Usage_error(option + " wants three numbers X,Y,Z, not '" + text + "'");
+    if (end == std::string::npos) throw Usage_error(option + " wants three numbers X,Y,Z, not " + sightline::quoted(text));
     const std::string token = text.substr(begin, end - begin);
     try {
       if (token.find('/') != std::string::npos) {
@@ -50,7 +50,7 @@ Exact_point parse_point(const std::string& text, const std::string& option) {
         p[k] = value_of(parse_decimal(reader, input.bytes));
       }
     } catch (const std::exception&) {
-      throw Usage_error(option + " wants three numbers X,Y,Z (decimals or p/q); '" + token + "' is none");
+      throw Usage_error(option + " wants three numbers X,Y,Z (decimals or p/q); " + sightline::quoted(token) + " is none");
     }
     begin = end + 1;
   }

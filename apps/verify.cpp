@@ -18,7 +18,7 @@ static Exit run(const Common& common, const std::string& file) {
   Order_certificate certificate;
   try {
     certificate = read_order_certificate(in);
-  } catch (const std::invalid_argument& error) {
+  } catch (const std::exception& error) {  // not a certificate, or not a file
     throw Input_error::of_file(file, error.what());
   }
   const Stopwatch watch;

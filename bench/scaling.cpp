@@ -80,7 +80,7 @@ int main(int argc, char** argv) {
     cases.push_back({"convex_sphere", faces, n});
     cases.push_back({"rooms", static_cast<std::size_t>(std::lround(std::sqrt(n / 220))), n});
   }
-  for (const std::size_t n : {500u, 2000u, 8000u}) cases.push_back({"dense_soup", n, 10.0 * static_cast<double>(n)});
+  for (const std::size_t n : {100u, 300u, 1000u}) cases.push_back({"dense_soup", n, static_cast<double>(n)});
   for (const std::size_t n : {6u, 15u, 32u, 69u}) cases.push_back({"lattice", n, 3.0 * static_cast<double>(n * n * n)});
   for (const std::size_t n : {2u, 3u, 4u}) cases.push_back({"menger_sponge_merged", n, n == 2 ? 1e3 : n == 3 ? 1e4 : 2e5});
   const char* scenes = std::getenv("SIGHTLINE_SCENES");

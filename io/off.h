@@ -15,21 +15,19 @@ inline constexpr std::size_t largest_common_denominator_bits = 8192;
 
 namespace detail {
 
-/// The least common multiple of denominators as they come along, up to the limit. Cost: a division by the new one where it has not come before.
+/// The least common multiple of denominators as they come along, up to the limit. Cost: a division by the new one; a look into a table where it has come before.
 class Common_denominator {
  public:
   /// Takes one more in; false once the multiple needs more bits than allowed.
   bool include(const Integer& denominator) {
-    if (denominator == previous_) return true;
-    if (bit_length(denominator) > largest_common_denominator_bits) return false;
-    previous_ = denominator;
+    if (bit_length(denominator) > largest_common_denominator_bits) return false;  // at once, however long it is
     if (fits_int64(denominator) && !seen_.insert(denominator.get_si()).second) return true;
     if (!mpz_divisible_p(common_.get_mpz_t(), denominator.get_mpz_t())) common_ = lcm(common_, denominator);
     return bit_length(common_) <= largest_common_denominator_bits;
   }
 
  private:
-  Integer common_ = 1, previous_ = 1;
+  Integer common_ = 1;
   std::unordered_set<std::int64_t> seen_;
 };
 
@@ -106,7 +104,7 @@ class Off_reader {
       if (token.empty()) text_.fail(token, "corner " + std::to_string(k + 1) + " of " + std::to_string(count) + " is missing; write them all on one line");
       const std::optional<std::int64_t> index = parse_integer(token);
       if (!index) text_.fail(token, quoted(token) + " is not a vertex index; write an integer");
-      if (*index < 0 || *index >= static_cast<std::int64_t>(points_) || token.front() == '-')
+      if (*index >= static_cast<std::int64_t>(points_) || token.front() == '-')
         text_.fail(token, "vertex index " + quoted(token) + " is out of range; there are " + std::to_string(points_) + " vertices, counted from 0");
       corners_.push_back(static_cast<Point_id>(*index));
     }

@@ -313,7 +313,7 @@ class Ply_reader {
 
   std::size_t list_length(const Ply_property& list) {
     const std::int64_t length = values_.integer(*list.count_type);
-    if (length < 0 || static_cast<std::size_t>(length) > values_.room(list.type))
+    if (static_cast<std::size_t>(length) > values_.room(list.type))  // one below 0 is beyond any room, too
       values_.fail("a list of " + std::to_string(length) + " numbers, but there is room for " + std::to_string(values_.room(list.type)) +
                    " at most; correct the length, or fetch the file again if it is cut off");
     return static_cast<std::size_t>(length);

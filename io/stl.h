@@ -168,6 +168,7 @@ inline Polygon_soup read_stl_binary(const Input& input) {
 /// Reads STL, text or binary. Points are merged by exact value; facet normals, names and spare bytes are passed over.
 /// Throws Input_error. Exact: yes (the floats of binary data as they are). Cost: one pass, and a hash table of the points.
 inline Polygon_soup read_stl(const Input& input, const Read_options& options = {}) {
+  // The size has the last word beyond 16 million facets; a smaller count has a zero byte, which text has not.
   if (!detail::has_binary_stl_size(input.bytes) && detail::looks_like_stl_text(input)) return detail::Stl_text_reader(input, options).read();
   return detail::read_stl_binary(input);
 }

@@ -16,15 +16,14 @@ class Coordinates {
   std::size_t size() const { return entries_.size(); }
   void reserve(std::size_t n) { entries_.reserve(n); }
 
-  /// Appends mantissa x 10^exponent.
+  /// Appends mantissa x 10^exponent, over the least denominator 2^a 5^b.
   void push_decimal(std::int64_t mantissa, int exponent) {
     if (mantissa == 0) exponent = 0;
-    while (exponent < 0 && mantissa % 10 == 0) mantissa /= 10, ++exponent;  // 1.500 is 15/10: no wider than it need be
-    if (exponent < 0) {
-      entries_.push_back({mantissa, decimal_denominator(-exponent)});
-      return;
-    }
-    push(exact_decimal(Integer(static_cast<long>(mantissa)), exponent));
+    if (exponent > 0) return push(exact_decimal(Integer(static_cast<long>(mantissa)), exponent));
+    int twos = -exponent, fives = -exponent;
+    for (; twos > 0 && mantissa % 2 == 0; --twos) mantissa /= 2;
+    for (; fives > 0 && mantissa % 5 == 0; --fives) mantissa /= 5;
+    entries_.push_back({mantissa, two_five_denominator(twos, fives)});
   }
 
   /// Appends the double as the number it is. Pre: finite.
@@ -33,12 +32,13 @@ class Coordinates {
     std::int64_t mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
     exponent -= 53;
     if (mantissa == 0) {
-      entries_.push_back({0, denominator_id(1)});
+      entries_.push_back({0, two_five_denominator(0, 0)});
       return;
     }
     const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
     mantissa >>= zeros, exponent += zeros;
-    if (exponent < 0) entries_.push_back({mantissa, binary_denominator(-exponent)});
+    if (exponent <= 0) entries_.push_back({mantissa, two_five_denominator(-exponent, 0)});
+    else if (std::fabs(value) < 0x1p62) entries_.push_back({mantissa * (std::int64_t{1} << exponent), two_five_denominator(0, 0)});
     else push(exact(value));
   }
 
@@ -58,6 +58,15 @@ class Coordinates {
     Rational value(Integer(static_cast<long>(entry.numerator)), denominators_[static_cast<std::size_t>(entry.denominator)]);
     value.canonicalize();
     return value;
+  }
+
+  /// Every denominator, and how many numbers have it; wide numbers are not counted.
+  std::vector<std::pair<Integer, std::size_t>> denominators() const {
+    std::vector<std::pair<Integer, std::size_t>> all;
+    for (const Integer& d : denominators_) all.emplace_back(d, 0);
+    for (const Entry& entry : entries_)
+      if (entry.denominator != wide) ++all[static_cast<std::size_t>(entry.denominator)].second;
+    return all;
   }
 
   /// The least common denominator of all numbers (1 for none).
@@ -104,24 +113,25 @@ class Coordinates {
     if (fresh) denominators_.push_back(d);
     return place->second;
   }
-  std::int32_t power_id(std::vector<std::int32_t>& cache, unsigned long base, int exponent) {
-    if (static_cast<std::size_t>(exponent) >= cache.size()) cache.resize(static_cast<std::size_t>(exponent) + 1, wide);
-    std::int32_t& id = cache[static_cast<std::size_t>(exponent)];
-    if (id == wide) {
-      Integer power;
-      mpz_ui_pow_ui(power.get_mpz_t(), base, static_cast<unsigned long>(exponent));
-      id = denominator_id(power);
-    }
+  /// The id of 2^a 5^b.
+  std::int32_t two_five_denominator(int a, int b) {
+    const std::size_t place = static_cast<std::size_t>(a) * 32 + static_cast<std::size_t>(b);
+    const bool usual = b < 32 && a < 2048;
+    if (usual && place >= two_five_.size()) two_five_.resize(place + 1, wide);
+    if (usual && two_five_[place] != wide) return two_five_[place];
+    Integer power;
+    mpz_ui_pow_ui(power.get_mpz_t(), 5, static_cast<unsigned long>(b));
+    power <<= static_cast<unsigned long>(a);
+    const std::int32_t id = denominator_id(power);
+    if (usual) two_five_[place] = id;
     return id;
   }
-  std::int32_t decimal_denominator(int exponent) { return power_id(tens_, 10, exponent); }
-  std::int32_t binary_denominator(int exponent) { return power_id(twos_, 2, exponent); }
 
   std::vector<Entry> entries_;
   std::vector<Rational> wide_;
   std::vector<Integer> denominators_;
   std::map<Integer, std::int32_t> ids_;
-  std::vector<std::int32_t> tens_, twos_;
+  std::vector<std::int32_t> two_five_;  // ids of 2^a 5^b at 32 a + b
 };
 
 }  // namespace sightline

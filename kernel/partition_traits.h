@@ -54,9 +54,10 @@ struct Convex_polygon {
 /// Models: Exact_traits (planes, exact, the default), Point_traits<K> (any CGAL kernel), Lockstep_traits<A, B> (both, compared).
 template <class T>
 concept Partition_traits = requires(const T t, typename T::Vertex v, typename T::Cutter cutter, typename T::Eye eye, Plane h, Sign s, Predicate_counts counts,
-                                    std::uint32_t i, const Corner<T>& corner, int axis) {
+                                    std::uint32_t i, const Corner<T>& corner, int axis, void (*visit)(typename T::Vertex, typename T::Edge)) {
   typename T::Edge;
   { t.piece_count() } -> std::convertible_to<std::size_t>;
+  t.append_corners(i, visit);
   { t.face(i) } -> std::same_as<std::uint32_t>;
   { t.supporting_plane(i) } -> std::same_as<Plane>;
   { t.prepare(h) } -> std::same_as<typename T::Cutter>;

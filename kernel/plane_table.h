@@ -13,47 +13,86 @@
 
 namespace sightline {
 
-/// a x + b y + c z + d in doubles, each coefficient within a relative 2^-52 of the plane's own times one common power of two.
+/// a x + b y + c z + d in doubles for approximate coordinates (see Grid_points), each coefficient within a relative 2^-52 of the plane's own times
+/// one common factor.
 struct Approximate_plane {
   double a, b, c, d;
+  bool exact;  ///< integers without error, where they are below 2^53
 };
 
 /// The input points on the scene's integer grid (see Scene), equal points once, as two's complement limbs.
-/// Doubles are grid coordinates times 2^-shift(), where shift() is 0 unless coordinates are wider than 53 bits.
+/// Approximate coordinates, in doubles, are grid coordinates over `divisor` times 2^-shift. Up to 53 bits both change nothing. A wider grid is
+/// mostly one where few coordinates are to blame: then the divisor takes most of them back to small integers, which doubles hold exactly; with no such
+/// divisor (1), the shift makes them less than 1.
 class Grid_points {
  public:
   Grid_points() = default;
-  /// Pre: |every coordinate| < 2^coordinate_bits.
-  explicit Grid_points(int coordinate_bits)
-      : bits_(coordinate_bits), limbs_per_(coordinate_bits / 64 + 1), shift_(coordinate_bits <= 53 ? 0 : coordinate_bits), rows_(static_cast<std::size_t>(3 * limbs_per_)) {}
+  /// Pre: |every coordinate| < 2^coordinate_bits; divisor >= 1, and 1 where coordinate_bits <= 53.
+  explicit Grid_points(int coordinate_bits, Integer divisor = 1)
+      : bits_(coordinate_bits),
+        limbs_per_(coordinate_bits / 64 + 1),
+        divisor_(std::move(divisor)),
+        shift_(coordinate_bits <= 53 || divisor_ > 1 ? 0 : coordinate_bits),
+        rows_(static_cast<std::size_t>(3 * limbs_per_)) {
+    Rational range;
+    mpz_setbit(range.get_num().get_mpz_t(), static_cast<mp_bitcnt_t>(bits_ - shift_));
+    range_ = nearest_double(range / divisor_) * (1 + 0x1p-50);
+  }
 
   int bits() const { return bits_; }
   int limbs() const { return limbs_per_; }
   long shift() const { return shift_; }
+  const Integer& divisor() const { return divisor_; }
+  /// At least the size of every approximate coordinate.
+  double range() const { return range_; }
   std::size_t size() const { return rows_.size(); }
   void reserve(std::size_t n) { rows_.reserve(n); }
 
   /// The id of a point, new or not.
   std::uint32_t intern(const std::array<std::int64_t, 3>& p) {  // Pre: limbs() == 1
     const Limb row[3] = {static_cast<Limb>(p[0]), static_cast<Limb>(p[1]), static_cast<Limb>(p[2])};
-    return rows_.intern(row);
+    return remember(rows_.intern(row));
   }
   std::uint32_t intern(const std::array<Integer, 3>& p) {
     std::vector<Limb> row(rows_.stride());
     for (std::size_t k = 0; k < 3; ++k) to_limbs(p[k], &row[k * static_cast<std::size_t>(limbs_per_)], limbs_per_);
-    return rows_.intern(row.data());
+    return remember(rows_.intern(row.data()));
   }
 
   const Limb* coordinate(std::uint32_t point, int axis) const { return rows_[point] + axis * limbs_per_; }
   std::int64_t small(std::uint32_t point, int axis) const { return static_cast<std::int64_t>(*coordinate(point, axis)); }  // Pre: limbs() == 1
   Integer integer(std::uint32_t point, int axis) const { return from_limbs(coordinate(point, axis), limbs_per_); }
-  double approximate(std::uint32_t point, int axis) const { return sightline::approximate(coordinate(point, axis), limbs_per_, shift_); }
+
+  double approximate(std::uint32_t point, int axis) const { return is_narrow() ? static_cast<double>(small(point, axis)) : wide_[3 * std::size_t{point} + static_cast<std::size_t>(axis)].value; }
+  /// Whether the approximate coordinate is an integer without error.
+  bool is_exact(std::uint32_t point, int axis) const { return is_narrow() || wide_[3 * std::size_t{point} + static_cast<std::size_t>(axis)].exact; }
 
  private:
+  bool is_narrow() const { return bits_ <= 53; }
+  /// Wide coordinates are approximated once.
+  std::uint32_t remember(std::uint32_t id) {
+    if (is_narrow() || 3 * std::size_t{id} < wide_.size()) return id;
+    for (int axis = 0; axis < 3; ++axis) {
+      Rational value(integer(id, axis), divisor_);
+      value.canonicalize();
+      const bool whole = divisor_ > 1 && value.get_den() == 1 && bit_length(value.get_num()) <= 53;
+      mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(shift_));
+      wide_.push_back({nearest_double(value), whole});
+    }
+    return id;
+  }
+
+  struct Wide {
+    double value;
+    bool exact;
+  };
   int bits_ = 0;
   int limbs_per_ = 1;
+  Integer divisor_ = 1;
   long shift_ = 0;
+  double range_ = 1;
   Row_table rows_{3};
+  std::vector<Wide> wide_;
 };
 
 /// Which supporting planes pass through each input point, as far as faces with a corner there say.
@@ -98,7 +137,7 @@ class Plane_table {
   Plane_table() : Plane_table(Grid_points(1)) {}
   /// For planes through points of the given grid: rows are as wide as such planes can be (P-02), wider ones are refused.
   explicit Plane_table(const Grid_points& points)
-      : shift_(points.shift()), normal_limbs_((2 * points.bits() + 3) / 64 + 1), offset_limbs_((3 * points.bits() + 5) / 64 + 1), rows_(static_cast<std::size_t>(3 * normal_limbs_ + offset_limbs_)) {
+      : divisor_(points.divisor()), shift_(points.shift()), normal_limbs_((2 * points.bits() + 3) / 64 + 1), offset_limbs_((3 * points.bits() + 5) / 64 + 1), rows_(static_cast<std::size_t>(3 * normal_limbs_ + offset_limbs_)) {
     budget_.coordinate = points.bits();
   }
 
@@ -154,7 +193,7 @@ class Plane_table {
   /// Coefficient k (0..2: normal, 3: offset) of a plane in its canonical orientation. Pre: not an axis plane.
   const Limb* coefficient(std::uint32_t id, int k) const { return rows_[id] + k * normal_limbs_; }
   Integer integer(std::uint32_t id, int k) const { return from_limbs(coefficient(id, k), k == 3 ? offset_limbs_ : normal_limbs_); }
-  /// The canonical plane in doubles. Where it is wider than 53 bits it is scaled by a power of two so that its normal is about 1.
+  /// The canonical plane in doubles, for approximate coordinates.
   const Approximate_plane& approximate(std::uint32_t id) const { return approximate_[id]; }
 
   /// The plane a x + b y + c z + d = 0 if the table holds it. Thread-safe beside other reads.
@@ -189,12 +228,18 @@ class Plane_table {
     return id;
   }
   Approximate_plane approximation(std::uint32_t id, int normal_width) const {
-    // Points are scaled by 2^-shift_, so the offset is too, relative to the normal; then all by a power of two where wide.
-    const long scale = shift_ == 0 ? 0 : normal_width;
     const auto in_double = [&](int k, long shift) { return sightline::approximate(coefficient(id, k), k == 3 ? offset_limbs_ : normal_limbs_, shift); };
-    return {in_double(0, scale), in_double(1, scale), in_double(2, scale), in_double(3, scale + shift_)};
+    if (divisor_ == 1 && shift_ == 0) return {in_double(0, 0), in_double(1, 0), in_double(2, 0), in_double(3, 0), true};
+    // Points are divided by divisor_ 2^shift_, so the offset is too, relative to the normal; then all by a power of two where that is wide.
+    const long scale = shift_ == 0 && normal_width <= 53 ? 0 : normal_width;
+    Rational offset(integer(id, 3), divisor_);
+    offset.canonicalize();
+    const bool exact = shift_ == 0 && scale == 0 && offset.get_den() == 1;
+    mpq_div_2exp(offset.get_mpq_t(), offset.get_mpq_t(), static_cast<mp_bitcnt_t>(scale + shift_));
+    return {in_double(0, scale), in_double(1, scale), in_double(2, scale), nearest_double(offset), exact};
   }
 
+  Integer divisor_;
   long shift_;
   int normal_limbs_, offset_limbs_;
   Bit_budget budget_;

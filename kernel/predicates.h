@@ -51,7 +51,7 @@ struct Located_point {
 class Predicates {
  public:
   Predicates(const Grid_points& points, const Plane_table& planes, const Point_planes& incidences)
-      : points_(&points), planes_(&planes), incidences_(&incidences), arithmetic_(planes.budget().arithmetic()), range_(points.shift() == 0 ? std::ldexp(1.0, points.bits()) : 1.0) {}
+      : points_(&points), planes_(&planes), incidences_(&incidences), arithmetic_(planes.budget().arithmetic()), range_(points.range()) {}
 
   const Grid_points& points() const { return *points_; }
   const Plane_table& planes() const { return *planes_; }
@@ -61,7 +61,8 @@ class Predicates {
 
   /// An input point as a corner where the three given planes meet.
   Vertex input_vertex(std::uint32_t point, std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
-    const double error = points_->bits() <= 53 ? 0.0 : 0x1p-51;  // coordinates below 1, truncated after 53 bits
+    const bool exact = points_->is_exact(point, 0) && points_->is_exact(point, 1) && points_->is_exact(point, 2);
+    const double error = exact ? 0.0 : 0x1p-53 * range_;  // each coordinate is the nearest double
     return {points_->approximate(point, 0), points_->approximate(point, 1), points_->approximate(point, 2), error, {p, q, r}, point};
   }
 
@@ -83,7 +84,7 @@ class Predicates {
     // Entries carry a relative 2^-52 each, products and sums 2^-53 a step: below 16 x 2^-53 of the size. P-04
     const double error_w = 0x1p-49 * size_w, error_x = 0x1p-49 * size_x + (points_->shift() == 0 ? 0 : 0x1p-1000);  // and underflow, where entries are below 1
     Vertex v{0, 0, 0, std::numeric_limits<double>::infinity(), {p, q, r}, Vertex::with_plane(fourth)};
-    const bool integers = points_->shift() == 0 && size_w < 0x1p53 && size_x < 0x1p53;  // then nothing was rounded
+    const bool integers = f.exact && g.exact && h.exact && size_w < 0x1p53 && size_x < 0x1p53;  // then nothing was rounded
     if (integers ? w == 0 : !(std::fabs(w) > 2 * error_w)) {  // also where w is not a number
       const int orientation = integers ? 0 : orientation_exact(p, q, r);
       if (orientation == 0) throw std::domain_error("three planes without a common point");
@@ -108,12 +109,12 @@ class Predicates {
   /// A plane made ready for side(). Proof of the bound: P-03
   Prepared_plane prepare(Plane plane) const {
     Approximate_plane f = approximate(plane.id());
-    if (plane.flipped()) f = {-f.a, -f.b, -f.c, -f.d};
+    if (plane.flipped()) f = {-f.a, -f.b, -f.c, -f.d, f.exact};
     const double norm = (std::fabs(f.a) + std::fabs(f.b) + std::fabs(f.c)) * (1 + 0x1p-50);
     // The value a x + b y + c z + d: 2^-52 in each coefficient, three products and three sums of 2^-53, at coordinates up to twice the range:
     // below 6 x 2^-53 (norm 2 range + |d|) (1 + 2^-50), so 8 x 2^-53 covers it and the rounding of the bound.
     const double size = norm * (2 * range_) + std::fabs(f.d);
-    const bool exact = points_->shift() == 0 && size < 0x1p53;  // all terms and sums are integers below 2^53
+    const bool exact = f.exact && size < 0x1p53;  // all terms and sums are integers below 2^53
     return {plane, exact, f.a, f.b, f.c, f.d, norm, 0x1p-50 * size};
   }
 
@@ -233,7 +234,8 @@ class Predicates {
     const Plane plane(id, false);
     if (!plane.is_axis_plane()) return planes_->approximate(id);
     const int axis = plane.axis();
-    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, -points_->approximate(plane.axis_point(), axis)};
+    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, -points_->approximate(plane.axis_point(), axis),
+            points_->is_exact(plane.axis_point(), axis)};
   }
 
   template <class Number>
@@ -290,7 +292,7 @@ class Predicates {
   const Plane_table* planes_;
   const Point_planes* incidences_;
   Arithmetic arithmetic_;
-  double range_;  // |grid coordinate| x 2^-shift <= range_
+  double range_;  // |approximate coordinate| <= range_
 };
 
 }  // namespace sightline

@@ -10,7 +10,7 @@ namespace sightline {
 /// A vertex of a fragment. Its exact position is the input point, where it has one, or else the meet of its three planes; the doubles
 /// only speed up decisions. It is never rounded into coordinates that are cut again, so cutting does not make it wider. Proof: P-05
 struct Vertex {
-  double x, y, z;          ///< grid coordinates times 2^-shift, each within `error` of the truth
+  double x, y, z;          ///< approximate coordinates (see Grid_points), each within `error` of the truth
   double error;            ///< 0: x, y, z are exact integers; infinity: they say nothing
   std::uint32_t plane[3];  ///< ids of planes that meet here; for a meet, their normals in this order are positively oriented
   std::uint32_t point;     ///< an input point; or no_point; or with_plane(id), a fourth plane that is known to pass through the meet

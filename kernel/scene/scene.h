@@ -101,6 +101,7 @@ class Scene {
     std::array<double*, 3> place{&q.ax, &q.ay, &q.az};
     for (std::size_t k = 0; k < 3; ++k) {
       Rational scaled = grid[k];
+      scaled /= points_.divisor();
       mpq_div_2exp(scaled.get_mpq_t(), scaled.get_mpq_t(), static_cast<mp_bitcnt_t>(points_.shift()));
       *place[k] = nearest_double(scaled);
       if (exact_or_infinite(*place[k], scaled)) continue;
@@ -146,11 +147,27 @@ class Scene {
       const auto at = wide.find(i);
       return at == wide.end() ? Integer(static_cast<long>(narrow[i])) : at->second;
     };
-    return wide.empty() ? place<std::int64_t>(count, [&](std::size_t i) { return narrow[i]; }) : place<Integer>(count, read);
+    if (wide.empty()) return place<std::int64_t>(count, 1, [&](std::size_t i) { return narrow[i]; });
+    return place<Integer>(count, scale_ / usual_denominator(soup.coordinates), read);
   }
 
+  /// The common denominator of most coordinates, where the rest of them is what makes the grid fine; else that of all.
+  Integer usual_denominator(const Coordinates& coordinates) const {
+    auto by_use = coordinates.denominators();
+    std::stable_sort(by_use.begin(), by_use.end(), [](const auto& a, const auto& b) { return a.second > b.second; });
+    Integer usual = 1;
+    std::size_t covered = 0;
+    for (const auto& [denominator, uses] : by_use) {
+      const Integer next = lcm(usual, denominator);
+      if (bit_length(next) > 20) continue;  // leaves doubles room for coordinates and their products
+      usual = next, covered += uses;
+    }
+    return 2 * covered > coordinates.size() ? usual : scale_;
+  }
+
+  /// `divisor`: scaled coordinates that are its multiples are to be exact in doubles, where the grid is too wide for that otherwise.
   template <class Number, class Read>
-  std::vector<std::uint32_t> place(std::size_t count, Read read) {
+  std::vector<std::uint32_t> place(std::size_t count, Integer divisor, Read read) {
     std::array<Number, 3> low{}, high{}, first{};
     Number common{}, largest{};
     const auto magnitude = [](const Number& n) { return n < 0 ? Number(-n) : n; };
@@ -164,18 +181,23 @@ class Scene {
       if (common != 1) common = greatest_divisor(common, Number(n - first[k]));
     }
     if (common == 0) common = 1;
-    // The centre of each axis, moved to the grid that the first point is on.
+    // The centre of each axis, moved to the grid that the first point is on, or to a multiple of the divisor.
     Number reach = 1;
     std::array<Number, 3> offset;
+    if (common != 1) divisor = 1;
     for (std::size_t k = 0; k < 3; ++k) {
-      offset[k] = first[k] + common * ((low[k] + (high[k] - low[k]) / 2 - first[k]) / common);
+      const Number centre = low[k] + (high[k] - low[k]) / 2;
+      offset[k] = first[k] + common * ((centre - first[k]) / common);
+      if constexpr (std::is_same_v<Number, Integer>)
+        if (divisor > 1) offset[k] = divisor * (centre / divisor);
       box_[0][k] = integer((low[k] - offset[k]) / common), box_[1][k] = integer((high[k] - offset[k]) / common);
       for (const Number& end : {low[k], high[k]})
         if (const Number far = magnitude(Number((end - offset[k]) / common)); reach < far) reach = far;
       offset_[k] = integer(offset[k]);
     }
     unit_ = integer(common), bits_read_ = static_cast<int>(bit_length(integer(largest)));
-    points_ = Grid_points(static_cast<int>(bit_length(integer(reach))));
+    const int bits = static_cast<int>(bit_length(integer(reach)));
+    points_ = Grid_points(bits, bits <= 53 ? Integer(1) : divisor);
     points_.reserve(count / 3);
 
     std::vector<std::uint32_t> merged(count / 3);

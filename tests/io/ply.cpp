@@ -92,6 +92,7 @@ TEST(Ply, binary_data_begin_right_behind_the_header_whatever_its_line_ends) {
     std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty int x\nproperty float y\nproperty float z\nend_header\n";
     for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += line_end.size()) text.replace(at, 1, line_end);
     EXPECT_EQ(read_text(text + data, ply), "10 0 0 |") << printable(line_end, 5, true);
+    EXPECT_EQ(read_text(text + "\1" + data.substr(1), ply), "1 0 0 |") << printable(line_end, 5, true);
   }
 }
 

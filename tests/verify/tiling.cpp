@@ -28,6 +28,11 @@ TEST(Tiling, by_the_face_itself_from_any_first_vertex) {
   }
 }
 
+TEST(Tiling, piece_numbers_mean_nothing_where_there_are_no_pieces) {
+  Scene scene = one_face(square);
+  expect_accepted(scene.draw(0, rectangle(0, 1, 0, 4, 0), 5).draw(0, rectangle(1, 4, 0, 4, 0), UINT32_MAX));
+}
+
 TEST(Tiling, missing_doubled_and_foreign_fragments_are_found) {
   const Points left = rectangle(0, 1, 0, 4, 0), right = rectangle(1, 4, 0, 4, 0);
   expect_accepted(one_face_drawn(square, {left, right}));
@@ -169,6 +174,11 @@ TEST(Tiling, of_a_face_that_winds_twice_is_an_overlap) {
   // Two squares in one contour, overlapping in [3, 4] x [1, 3], joined at (3, 1).
   const Points both = {at(3, 1, 0), at(0, 1, 0), at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 1, 0), at(3, 1, 0), at(6, 1, 0), at(6, 3, 0), at(3, 3, 0)};
   expect_rejected(one_face_drawn(both, {square, rectangle(3, 6, 1, 3, 0)}), "overlap", {0, 1});
+  // A convex contour whose hole is a bow-tie: one lobe is cut out, the other is covered twice.
+  const Points bow_tie = {at(1, 1, 0), at(3, 3, 0), at(3, 1, 0), at(1, 3, 0)};
+  const std::vector<Points> once_and_twice = {rectangle(0, 2, 0, 4, 0), rectangle(3, 4, 0, 4, 0), {at(2, 0, 0), at(3, 0, 0), at(3, 1, 0), at(2, 2, 0)},
+                                              {at(2, 2, 0), at(3, 3, 0), at(3, 4, 0), at(2, 4, 0)}, {at(2, 2, 0), at(1, 3, 0), at(1, 1, 0)}};
+  expect_rejected(one_face_drawn(square, once_and_twice, {bow_tie}), "overlap", {0, 4});
   // Nothing overlaps where parts only touch, in a contour that is not convex.
   const Points pinched = {at(0, 0, 0), at(2, 0, 0), at(2, 2, 0), at(4, 2, 0), at(4, 4, 0), at(2, 4, 0), at(2, 2, 0), at(0, 2, 0)};
   expect_accepted(one_face_drawn(pinched, {rectangle(0, 2, 0, 2, 0), rectangle(2, 4, 2, 4, 0)}));
