@@ -35,7 +35,10 @@ static Order_certificate certificate_of(const Scene& scene, const Exact_point& e
 
 static std::array<double, 3> parse_direction(const std::string& text, const std::string& option) {
   const Exact_point p = parse_point(text, option);
-  return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+  const std::array<double, 3> direction{nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+  for (const double x : direction)
+    if (!std::isfinite(x)) throw Usage_error(option + " wants a direction in the range of doubles");
+  return direction;
 }
 
 static Exit run(const Order_arguments& arguments) {

@@ -8,6 +8,7 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/algorithms/generate/scenes.h>
+#include <sightline/algorithms/generate/transform.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/exact_traits.h>
 #include <sightline/kernel/point_traits.h>
@@ -57,6 +58,13 @@ static Run run_kernel(const std::string& kernel, const Scene& scene) {
   return run(scene, Point_traits<CGAL::Epeck>(scene), 1);
 }
 
+static Polygon_soup soup_of(const std::string& kind, std::size_t size, const char* scenes) {
+  if (size == 0) return read_scene(std::filesystem::path(scenes) / kind);
+  if (kind == "dense_soup") return generate::soup(size, 0.4, 1);
+  if (const std::size_t end = kind.find(" rotated"); end != std::string::npos) return generate::rotated(generate::make(kind.substr(0, end), size, 1), generate::rotation(1, 2, 3, 4));
+  return generate::make(kind, size, 1);
+}
+
 int main(int argc, char** argv) {
   double max_faces = 1e5, slow = 20;
   std::string folder;
@@ -81,8 +89,11 @@ int main(int argc, char** argv) {
     cases.push_back({"rooms", static_cast<std::size_t>(std::lround(std::sqrt(n / 220))), n});
   }
   for (const std::size_t n : {100u, 300u, 1000u}) cases.push_back({"dense_soup", n, static_cast<double>(n)});
-  for (const std::size_t n : {6u, 15u, 32u, 69u}) cases.push_back({"lattice", n, 3.0 * static_cast<double>(n * n * n)});
-  for (const std::size_t n : {2u, 3u, 4u}) cases.push_back({"menger_sponge_merged", n, n == 2 ? 1e3 : n == 3 ? 1e4 : 2e5});
+  // Axis-parallel on small integers, where an interval is as good as a number, and turned by a rational rotation, where it is not.
+  for (const std::string turned : {"", " rotated"}) {
+    for (const std::size_t n : {6u, 15u, 32u, 69u}) cases.push_back({"lattice" + turned, n, 3.0 * static_cast<double>(n * n * n)});
+    for (const std::size_t n : {2u, 3u, 4u}) cases.push_back({"menger_sponge_merged" + turned, n, n == 2 ? 1e3 : n == 3 ? 1e4 : 2e5});
+  }
   const char* scenes = std::getenv("SIGHTLINE_SCENES");
   if (scenes != nullptr)
     for (const char* name : {"a_interior/fd1_E1M1.qoff", "a_interior/lq_lq_e0m4.world.qoff", "a_interior/gpl/id_dm4.world.qoff", "a_interior/gpl/id_e1m7.world.qoff"})
@@ -100,7 +111,7 @@ int main(int argc, char** argv) {
   std::map<std::string, std::map<double, double>> growth;
   for (const Case& c : cases) {
     if (c.faces > max_faces * 1.01) continue;
-    const Polygon_soup soup = c.size == 0 ? read_scene(std::filesystem::path(scenes) / c.kind) : c.kind == "dense_soup" ? generate::soup(c.size, 0.4, 1) : generate::make(c.kind, c.size, 1);
+    const Polygon_soup soup = soup_of(c.kind, c.size, scenes);
     const Scene scene(soup);
     std::map<std::string, double> seconds;
     for (const std::string kernel : {"exact", "exact_2_threads", "double", "epeck"}) {

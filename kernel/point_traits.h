@@ -68,6 +68,7 @@ class Point_traits {
     for (const Piece& piece : scene.pieces()) {
       const auto corner = [&](std::uint32_t k) { return points_[scene.corners(piece)[k].point]; };
       planes_.emplace_back(corner(0), corner(1), corner(2));
+      require_finite(planes_.back().a() + planes_.back().b() + planes_.back().c() + planes_.back().d());
     }
   }
 
@@ -102,6 +103,7 @@ class Point_traits {
     const typename K::FT low = value(behind), high = value(front);
     if (high == low) return {front, sightline::Vertex::no_point};  // an inexact sign lied
     const typename K::FT t = low / (low - high);
+    require_finite(t);
     return {Point_3(behind.x() + t * (front.x() - behind.x()), behind.y() + t * (front.y() - behind.y()), behind.z() + t * (front.z() - behind.z())),
             sightline::Vertex::no_point};
   }
@@ -130,6 +132,12 @@ class Point_traits {
   Exact_point position(const Vertex& v) const { return {number::to(v.point.x()), number::to(v.point.y()), number::to(v.point.z())}; }
 
  private:
+  /// Epick's exact stages end the program on infinity and NaN, so they must not get there; plain floats only get things wrong.
+  static void require_finite(const typename K::FT& value) {
+    if constexpr (std::is_floating_point_v<typename K::FT> && K::Has_filtered_predicates)
+      if (!std::isfinite(value)) throw std::domain_error("coordinates are beyond the range of this kernel's numbers; take an exact kernel");
+  }
+
   using number = Field_number<typename K::FT>;
 
   Plane_3 across(int axis, const Point_3& p) const {

@@ -51,7 +51,7 @@ struct Located_point {
 class Predicates {
  public:
   Predicates(const Grid_points& points, const Plane_table& planes, const Point_planes& incidences)
-      : points_(&points), planes_(&planes), incidences_(&incidences), arithmetic_(planes.budget().arithmetic()), range_(points.range()) {}
+      : points_(&points), planes_(&planes), incidences_(&incidences), arithmetic_(planes.budget().arithmetic()), range_(points.range()), underflow_(points.bits() <= 53 ? 0 : 0x1p-1000) {}
 
   const Grid_points& points() const { return *points_; }
   const Plane_table& planes() const { return *planes_; }
@@ -62,7 +62,7 @@ class Predicates {
   /// An input point as a corner where the three given planes meet.
   Vertex input_vertex(std::uint32_t point, std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
     const bool exact = points_->is_exact(point, 0) && points_->is_exact(point, 1) && points_->is_exact(point, 2);
-    const double error = exact ? 0.0 : 0x1p-53 * range_;  // each coordinate is the nearest double
+    const double error = exact ? 0.0 : 0x1p-53 * range_ + 0x1p-1000;  // each coordinate is the nearest double, or underflows
     return {points_->approximate(point, 0), points_->approximate(point, 1), points_->approximate(point, 2), error, {p, q, r}, point};
   }
 
@@ -82,7 +82,7 @@ class Predicates {
     const double size_w = 6 * nf * ng * nh;
     const double size_x = 2 * (std::fabs(f.d) * ng * nh + nf * (std::fabs(g.d) * nh + ng * std::fabs(h.d)));
     // Entries carry a relative 2^-52 each, products and sums 2^-53 a step: below 16 x 2^-53 of the size. P-04
-    const double error_w = 0x1p-49 * size_w, error_x = 0x1p-49 * size_x + (points_->shift() == 0 ? 0 : 0x1p-1000);  // and underflow, where entries are below 1
+    const double error_w = 0x1p-49 * size_w, error_x = 0x1p-49 * size_x + underflow_ * size_w;
     Vertex v{0, 0, 0, std::numeric_limits<double>::infinity(), {p, q, r}, Vertex::with_plane(fourth)};
     const bool integers = f.exact && g.exact && h.exact && size_w < 0x1p53 && size_x < 0x1p53;  // then nothing was rounded
     if (integers ? w == 0 : !(std::fabs(w) > 2 * error_w)) {  // also where w is not a number
@@ -115,7 +115,7 @@ class Predicates {
     // below 6 x 2^-53 (norm 2 range + |d|) (1 + 2^-50), so 8 x 2^-53 covers it and the rounding of the bound.
     const double size = norm * (2 * range_) + std::fabs(f.d);
     const bool exact = f.exact && size < 0x1p53;  // all terms and sums are integers below 2^53
-    return {plane, exact, f.a, f.b, f.c, f.d, norm, 0x1p-50 * size};
+    return {plane, exact, f.a, f.b, f.c, f.d, norm, 0x1p-50 * size + underflow_};
   }
 
   // ---- Stages of side() ---------------------------------------------------------------------------------------------
@@ -183,7 +183,8 @@ class Predicates {
     const double value = h.a * q.ax + h.b * q.ay + h.c * q.az + h.d;
     // As in prepare(), but at the point's own distance.
     const double size = std::fabs(h.a * q.ax) + std::fabs(h.b * q.ay) + std::fabs(h.c * q.az) + std::fabs(h.d);
-    const double bound = 0x1p-50 * size + h.norm * q.error + 0x1p-1000;  // the last for underflow: the point may be closer to the origin than doubles go
+    // The last term is for underflow: the point may be as close to the origin, and the coefficients as unequal, as doubles do not go. P-03
+    const double bound = 0x1p-50 * size + h.norm * q.error + 0x1p-1000 * (1 + std::fabs(q.ax) + std::fabs(q.ay) + std::fabs(q.az));
     if (std::fabs(value) > bound) {
       ++counts.filtered;
       return sign_of(value);
@@ -293,6 +294,7 @@ class Predicates {
   const Point_planes* incidences_;
   Arithmetic arithmetic_;
   double range_;  // |approximate coordinate| <= range_
+  double underflow_;  // covers what is lost below 2^-1074: nothing where doubles are integers. P-03, P-04
 };
 
 }  // namespace sightline

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/bsp/tree.h>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
@@ -49,6 +50,8 @@ class Builder {
   Tree build() {
     Tree tree;
     Branch* root = nullptr;
+    std::optional<tbb::global_control> more;  // threads than processors
+    if (options_.threads > tbb::info::default_concurrency()) more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
     tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
     arena.execute([&] {
       tbb::task_group group;

@@ -1,0 +1,147 @@
+// Certificates that somebody has changed are rejected, with exit code 1 and a reason.
+
+#include "program.h"
+
+#include <sightline/kernel/number.h>
+
+#include <functional>
+#include <set>
+
+namespace program {
+
+class Certificates : public Program {
+ protected:
+  const std::string cornell = (corpus / "general" / "cornell.obj").string(), duplicates = (corpus / "robust" / "duplicates.off").string();
+
+  Json certificate(const std::string& scene, const std::string& eye) {
+    const std::string to = path("made.json").string();
+    const Outcome r = run({"order", scene, "--eye", eye, "--certificate", to});
+    EXPECT_EQ(r.code, done) << r;
+    const Json made = Json::parse(read_file(to));
+    expect_accepted(scene, made);
+    return made;
+  }
+  Outcome verify(const std::string& scene, const Json& certificate) { return run({"verify", scene, file("changed.json", certificate.dump()), "--json", "-"}); }
+  void expect_accepted(const std::string& scene, const Json& certificate) {
+    const Outcome r = verify(scene, certificate);
+    EXPECT_EQ(r.code, done) << r;
+    EXPECT_EQ(r.json()["result"]["accepted"], true) << r;
+  }
+  /// Returns why.
+  std::string expect_rejected(const std::string& scene, const Json& certificate) {
+    const Outcome r = verify(scene, certificate);
+    EXPECT_EQ(r.code, disagreement) << r;
+    EXPECT_EQ(r.err, "") << r;
+    const Json d = r.json();
+    EXPECT_EQ(d["result"]["accepted"], false) << r;
+    const std::string why = d["result"]["why"];
+    EXPECT_FALSE(why.empty() || why.find('\n') != std::string::npos) << why;
+    return why;
+  }
+  std::string expect_rejected_after(const std::string& scene, Json certificate, const std::function<void(Json&)>& change) {
+    change(certificate);
+    return expect_rejected(scene, certificate);
+  }
+};
+
+TEST_F(Certificates, a_vertex_moved_by_two_to_the_minus_sixty_is_rejected) {
+  const Json made = certificate(cornell, "5,-20,5");
+  sightline::Rational tiny(1);
+  mpq_div_2exp(tiny.get_mpq_t(), tiny.get_mpq_t(), 60);
+  for (std::size_t f = 0; f < made["fragments"].size(); f += 5)
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const bool up : {false, true})
+        expect_rejected_after(cornell, made, [&](Json& c) {
+          Json& x = c["fragments"][f]["vertices"][f % 3][k];
+          x = sightline::to_string(sightline::rational_from_string(x.get<std::string>()) + (up ? tiny : sightline::Rational(-tiny)));
+        });
+}
+
+TEST_F(Certificates, two_fragments_that_overlap_and_change_places_are_rejected) {
+  const std::string stacked = path("stacked.off").string();
+  ASSERT_EQ(run({"make", "stacked", "--size", "6", "--out", stacked}).code, done);
+  const Json made = certificate(stacked, "0.5,0.25,100");
+  ASSERT_EQ(made["fragments"].size(), 6u);
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = i + 1; j < 6; ++j) expect_rejected_after(stacked, made, [&](Json& c) { std::swap(c["fragments"][i], c["fragments"][j]); });
+}
+
+TEST_F(Certificates, fragments_that_do_not_overlap_may_change_places) {
+  const std::string scene = file("beside.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 5 1\n6 5 1\n5 6 1\n3 0 1 2\n3 3 4 5\n");
+  Json made = certificate(scene, "0,0,10");
+  std::swap(made["fragments"][0], made["fragments"][1]);
+  expect_accepted(scene, made);
+}
+
+TEST_F(Certificates, a_fragment_dropped_or_doubled_or_turned_is_rejected) {
+  const Json made = certificate(cornell, "5,-20,5");
+  const std::size_t n = made["fragments"].size();
+  for (std::size_t f = 0; f < n; ++f) expect_rejected_after(cornell, made, [&](Json& c) { c["fragments"].erase(f); });
+  expect_rejected_after(cornell, made, [&](Json& c) { c["fragments"].push_back(c["fragments"][n - 1]); });
+  expect_rejected_after(cornell, made, [&](Json& c) { std::reverse(c["fragments"][3]["vertices"].begin(), c["fragments"][3]["vertices"].end()); });
+  expect_rejected_after(cornell, made, [](Json& c) { c["fragments"].clear(); });
+}
+
+TEST_F(Certificates, a_fragment_said_to_be_of_another_face_is_rejected) {
+  const Json made = certificate(cornell, "5,-20,5");
+  expect_rejected_after(cornell, made, [](Json& c) { c["fragments"][0]["face"] = (c["fragments"][0]["face"].get<int>() + 1) % 16; });
+  expect_rejected_after(cornell, made, [](Json& c) { c["fragments"][0]["face"] = 16; });
+  expect_rejected_after(cornell, made, [](Json& c) { c["fragments"][0]["face"] = 4294967295; });
+}
+
+TEST_F(Certificates, lies_about_what_is_set_aside_are_rejected) {
+  const Json made = certificate(cornell, "5,-20,5");
+  for (const char* why : {"zero area", "duplicate of 1", "duplicate of 0", "duplicate of 4294967295", "duplicate of", "self-intersecting", "not needed", ""}) {
+    std::set<std::string> reasons;
+    const std::string reason = expect_rejected_after(cornell, made, [&](Json& c) {
+      Json kept = Json::array();
+      for (const Json& fragment : c["fragments"])
+        if (fragment["face"] != 0) kept.push_back(fragment);
+      c["fragments"] = kept;
+      c["set_aside"].push_back({{"face", 0}, {"why", why}});
+    });
+    EXPECT_NE(reason.find("face 0"), std::string::npos) << reason;
+  }
+  expect_rejected_after(cornell, made, [](Json& c) { c["set_aside"].push_back({{"face", 16}, {"why", "zero area"}}); });
+}
+
+TEST_F(Certificates, what_was_set_aside_must_be_said) {
+  const Json made = certificate(duplicates, "1,1,10");
+  ASSERT_EQ(made["set_aside"].size(), 3u);
+  expect_rejected_after(duplicates, made, [](Json& c) { c["set_aside"].erase(0); });
+  expect_rejected_after(duplicates, made, [](Json& c) { c.erase("set_aside"); });
+  // Two that vouch for each other: 1 is a duplicate of 0, and 0 of 1.
+  expect_rejected_after(duplicates, made, [](Json& c) {
+    Json kept = Json::array();
+    for (const Json& fragment : c["fragments"])
+      if (fragment["face"] != 0) kept.push_back(fragment);
+    c["fragments"] = kept;
+    c["set_aside"].push_back({{"face", 0}, {"why", "duplicate of 1"}});
+  });
+  // The back of a face is no duplicate of it.
+  expect_rejected_after(duplicates, made, [](Json& c) {
+    Json kept = Json::array();
+    for (const Json& fragment : c["fragments"])
+      if (fragment["face"] != 3) kept.push_back(fragment);
+    c["fragments"] = kept;
+    c["set_aside"].push_back({{"face", 3}, {"why", "duplicate of 0"}});
+  });
+}
+
+TEST_F(Certificates, another_eye_or_another_scene_is_rejected) {
+  const Json made = certificate(cornell, "5,-20,5");
+  expect_rejected_after(cornell, made, [](Json& c) { c["eye"] = {"5", "40", "5"}; });
+  expect_rejected((corpus / "general" / "cube.off").string(), made);
+}
+
+TEST_F(Certificates, pieces_of_a_cut_face_that_are_changed_are_rejected) {
+  const std::string scene = (corpus / "robust" / "non_planar.off").string();
+  const Json made = certificate(scene, "2,2,10");
+  ASSERT_GE(made["pieces"].size(), 2u);
+  expect_rejected_after(scene, made, [](Json& c) { c["pieces"].erase(0); });
+  expect_rejected_after(scene, made, [](Json& c) { c["pieces"].clear(); });
+  expect_rejected_after(scene, made, [](Json& c) { c["pieces"][0]["vertices"][0][2] = "7"; });
+  expect_rejected_after(scene, made, [](Json& c) { std::swap(c["pieces"][0]["vertices"], c["pieces"][1]["vertices"]); });
+}
+
+}  // namespace program

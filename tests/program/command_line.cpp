@@ -1,0 +1,152 @@
+// The command line: help that teaches, and usage errors.
+
+#include "program.h"
+
+#include <map>
+
+namespace program {
+
+class Command_line : public Program {
+ protected:
+  const std::string cube = (corpus / "general" / "cube.off").string();
+
+  void expect_usage_error(const std::vector<std::string>& arguments, const std::string& mentions = "") {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_EQ(r.out, "") << r;
+    EXPECT_FALSE(r.err.empty()) << r;
+    EXPECT_NE(r.err.find(mentions), std::string::npos) << "no '" << mentions << "' in: " << r;
+  }
+  void expect_bad_eye(const std::string& eye) {
+    SCOPED_TRACE("--eye '" + eye + "'");
+    const Outcome r = run({"order", cube, "--eye", eye});
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find("--eye"), std::string::npos) << r;
+    EXPECT_EQ(r.out, "") << r;
+  }
+};
+
+static const std::map<std::string, std::vector<std::string>> commands{
+    {"info", {"SCENE"}},
+    {"bsp", {"SCENE", "--kernel", "--candidates"}},
+    {"order", {"SCENE", "--eye", "--kernel", "--certificate", "--svg", "--look", "--up", "--field"}},
+    {"verify", {"SCENE", "CERTIFICATE"}},
+    {"compare", {"SCENE", "--eye", "--kernels", "--max-fragments"}},
+    {"make", {"KIND", "--size", "--seed", "--out"}},
+};
+
+TEST_F(Command_line, help_names_every_command) {
+  for (const char* option : {"--help", "-h"}) {
+    const Outcome r = run({option});
+    EXPECT_EQ(r.code, done) << r;
+    EXPECT_EQ(r.err, "") << r;
+    for (const auto& [command, options] : commands) EXPECT_NE(r.out.find("  " + command + " "), std::string::npos) << command << r;
+  }
+}
+
+TEST_F(Command_line, help_of_each_command_names_each_of_its_options) {
+  for (const auto& [command, options] : commands) {
+    const Outcome r = run({command, "--help"});
+    EXPECT_EQ(r.code, done) << r;
+    EXPECT_EQ(r.err, "") << r;
+    std::vector<std::string> all = options;
+    if (command != "make") all.insert(all.end(), {"--json", "--coordinates", "--threads", "--seed", "--budget"});
+    for (const std::string& option : all) EXPECT_NE(r.out.find(option), std::string::npos) << option << " is not in " << r;
+  }
+}
+
+TEST_F(Command_line, help_of_make_lists_the_kinds_with_the_meaning_of_their_size) {
+  const Outcome r = run({"make", "--help"});
+  EXPECT_NE(r.out.find("rooms "), std::string::npos) << r;
+  EXPECT_NE(r.out.find("(size:"), std::string::npos) << r;
+}
+
+TEST_F(Command_line, version_is_a_line) {
+  const Outcome r = run({"--version"});
+  EXPECT_EQ(r.code, done) << r;
+  EXPECT_EQ(r.out.rfind("sightline ", 0), 0u) << r;
+}
+
+TEST_F(Command_line, no_command_or_an_unknown_one_is_a_usage_error) {
+  expect_usage_error({});
+  expect_usage_error({"watch", cube}, "watch");
+  expect_usage_error({cube});
+}
+
+TEST_F(Command_line, unknown_options_are_usage_errors) {
+  for (const auto& [command, options] : commands) expect_usage_error({command, "--no-such-option"});
+  expect_usage_error({"info", cube, "--eye", "0,0,0"}, "eye");
+}
+
+TEST_F(Command_line, missing_and_surplus_arguments_are_usage_errors) {
+  for (const auto& [command, options] : commands) expect_usage_error({command});
+  expect_usage_error({"info", cube, cube});
+  expect_usage_error({"verify", cube}, "CERTIFICATE");
+  expect_usage_error({"make", "rooms"}, "--out");
+  expect_usage_error({"info", cube, "--json"}, "--json");
+}
+
+TEST_F(Command_line, values_out_of_range_are_usage_errors) {
+  for (const char* threads : {"-1", "1025", "two", "1.5", ""}) expect_usage_error({"info", cube, "--threads", threads}, "--threads");
+  for (const char* seed : {"-1", "x", "18446744073709551616", "1e3"}) expect_usage_error({"bsp", cube, "--seed", seed}, "--seed");
+  for (const char* budget : {"-1", "soon"}) expect_usage_error({"bsp", cube, "--budget", budget}, "--budget");
+  for (const char* field : {"0", "180", "wide", "nan"}) expect_usage_error({"order", cube, "--eye", "3,4,5", "--field", field}, "--field");
+  for (const char* candidates : {"0", "1001", "-1"}) expect_usage_error({"bsp", cube, "--candidates", candidates}, "--candidates");
+  expect_usage_error({"bsp", cube, "--kernel", "exakt"}, "exakt");
+  expect_usage_error({"info", cube, "--coordinates", "float"}, "float");
+  expect_usage_error({"compare", cube, "bsp", "--kernels", "exact,magic"}, "magic");
+  expect_usage_error({"compare", cube, "cutset"}, "cutset");
+}
+
+TEST_F(Command_line, a_budget_that_is_no_number_is_a_usage_error) {
+  expect_usage_error({"bsp", cube, "--budget", "nan"}, "--budget");
+}
+
+TEST_F(Command_line, order_wants_an_eye_of_three_exact_numbers) {
+  for (const char* eye : {"", "1,2", "1,2,3,4", "1,2,", ",1,2", ",,", "a,b,c", "1;2;3", "1 2 3", "1, 2, 3", "nan,0,0", "inf,0,0", "0,-inf,0", "1/0,0,0", "1/,0,0", "/2,0,0",
+                          "1/2/3,0,0", "0x10,0,0", "1e999999999,0,0", "1e,0,0", "--1,0,0", "1.2.3,0,0", "1.5/2,0,0", "1#,0,0", "1,2,3\n"})
+    expect_bad_eye(eye);
+}
+
+TEST_F(Command_line, order_takes_decimals_fractions_signs_and_exponents_as_eye) {
+  for (const auto& [eye, read] : std::map<std::string, std::vector<std::string>>{
+           {"-1,-2,-3", {"-1", "-2", "-3"}}, {"1/3,-2/4,+5", {"1/3", "-1/2", "5"}}, {"0.1,1e2,-.5", {"1/10", "100", "-1/2"}}, {"1e-30,0,1.", {"1/1000000000000000000000000000000", "0", "1"}}}) {
+    for (const std::vector<std::string>& spelling : {std::vector<std::string>{"--eye", eye}, {"--eye=" + eye}}) {
+      std::vector<std::string> words{"order", cube, "--json", "-"};
+      words.insert(words.end(), spelling.begin(), spelling.end());
+      const Outcome r = run(words);
+      ASSERT_EQ(r.code, done) << r;
+      EXPECT_EQ(r.json()["result"]["eye"], Json(read)) << r;
+    }
+  }
+}
+
+TEST_F(Command_line, directions_of_a_picture_are_three_exact_numbers) {
+  const std::string svg = path("a.svg").string();
+  expect_usage_error({"order", cube, "--eye", "3,4,5", "--svg", svg, "--look", "1,2"}, "--look");
+  expect_usage_error({"order", cube, "--eye", "3,4,5", "--svg", svg, "--up", "up"}, "--up");
+}
+
+TEST_F(Command_line, an_eye_that_is_not_given_is_outside_the_scene) {
+  const Outcome r = run({"order", cube, "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json eye = r.json()["result"]["eye"];
+  ASSERT_EQ(eye.size(), 3u);
+  EXPECT_EQ(eye[1].get<std::string>()[0], '-') << "before the scene: " << eye;
+  EXPECT_EQ(run({"compare", cube, "order", "--kernels", "exact,double"}).code, done);
+  EXPECT_EQ(run({"order", (corpus / "robust" / "huge.off").string()}).code, done);
+}
+
+TEST_F(Command_line, compare_wants_an_eye_of_three_numbers_if_any) {
+  expect_usage_error({"compare", cube, "order", "--eye", "1,2"}, "--eye");
+  expect_usage_error({"compare", cube, "order", "--eye", ""}, "--eye");
+  EXPECT_EQ(run({"compare", cube, "bsp", "--kernels", "exact"}).code, done);
+}
+
+TEST_F(Command_line, make_wants_a_kind_that_there_is) {
+  expect_usage_error({"make", "castle", "--out", path("a.off").string()}, "castle");
+  EXPECT_FALSE(fs::exists(path("a.off")));
+}
+
+}  // namespace program

@@ -1,0 +1,119 @@
+// compare: exact kernels make no errors, and inexact ones do on the scenes that were made for it. And budgets.
+
+#include "program.h"
+
+#include <map>
+
+namespace program {
+
+class Compare : public Program {
+ protected:
+  std::map<std::string, Json> rows(const std::string& scene, const std::string& eye, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{"compare", scene, "order", "--eye", eye, "--json", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, done) << r;
+    std::map<std::string, Json> by_kernel;
+    const Json d = r.json();
+    for (const Json& row : d["result"]["rows"]) {
+      EXPECT_EQ(row["status"], "done") << row;
+      by_kernel[row["kernel"]] = row["errors"];
+    }
+    return by_kernel;
+  }
+  static void expect_no_error(const Json& errors) {
+    EXPECT_EQ(errors["pairs_wrong"], 0) << errors;
+    EXPECT_EQ(errors["pairs_wrong_beyond_rounding"], 0) << errors;
+    EXPECT_EQ(errors["tiles_exactly"], true) << errors;
+    for (const char* key : {"area_lost", "area_overlapping", "area_outside", "fragments_degenerate", "fragments_not_finite"}) EXPECT_EQ(errors[key], 0) << key << errors;
+    EXPECT_EQ(errors.value("sides_wrong", 0), 0) << errors;
+  }
+};
+
+TEST_F(Compare, doubles_and_epick_order_far_leaves_wrongly_and_exact_kernels_do_not) {
+  for (const char* seed : {"1", "2", "3"}) {
+    const auto errors = rows((corpus / "robust" / "far_leaves.off").string(), "8000000000000058,5714285714285786,5333333333333380", {"--seed", seed});
+    for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
+    for (const char* kernel : {"epick", "double"}) {
+      EXPECT_GE(errors.at(kernel)["pairs_wrong_beyond_rounding"], 1) << kernel << errors.at(kernel);
+      EXPECT_GE(errors.at(kernel)["sides_wrong"], 1) << kernel << errors.at(kernel);
+    }
+    EXPECT_GT(errors.at("float")["area_lost"], 0.5) << "2^53 is out of reach of a float";
+  }
+}
+
+TEST_F(Compare, floats_order_leaves_wrongly_that_doubles_order_rightly) {
+  const auto errors = rows((corpus / "robust" / "far_leaves_float.off").string(), "8000058,5714356,5333380");
+  for (const char* kernel : {"exact", "epeck", "gmpq", "epick", "double"}) expect_no_error(errors.at(kernel));
+  EXPECT_GE(errors.at("float")["pairs_wrong_beyond_rounding"], 1) << errors.at("float");
+}
+
+TEST_F(Compare, exact_kernels_are_right_where_coordinates_leave_the_range_of_doubles) {
+  for (const char* name : {"huge.off", "subnormal.off", "thirds.qoff", "non_planar.off"}) {
+    const auto errors = rows((corpus / "robust" / name).string(), "7/3,1,2", {"--kernels", "exact,epeck,gmpq"});
+    for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
+  }
+}
+
+TEST_F(Compare, whatever_becomes_of_an_inexact_kernel_is_its_status_and_no_disagreement) {
+  const Outcome r = run({"compare", (corpus / "robust" / "huge.off").string(), "order", "--eye", "7/3,1,2", "--json", "-"});
+  EXPECT_EQ(r.code, done) << r;
+  const Json d = r.json();
+  EXPECT_EQ(d["result"]["rows"].size(), 6u);
+  for (const Json& row : d["result"]["rows"]) EXPECT_TRUE(row["status"].is_string() && row["status"] != "") << row;
+}
+
+TEST_F(Compare, only_the_kernels_asked_for_are_compared) {
+  const auto errors = rows((corpus / "general" / "cornell.obj").string(), "5,-20,5", {"--kernels", "exact,double"});
+  EXPECT_EQ(errors.size(), 2u);
+  expect_no_error(errors.at("exact"));
+}
+
+TEST_F(Compare, too_many_fragments_leave_the_pairs_open) {
+  const auto errors = rows((corpus / "general" / "cornell.obj").string(), "5,-20,5", {"--kernels", "exact", "--max-fragments", "3"});
+  EXPECT_TRUE(errors.at("exact")["pairs_wrong"].is_null()) << errors.at("exact");
+}
+
+class Budget : public Program {};
+
+TEST_F(Budget, that_runs_out_is_exit_4_and_one_line) {
+  const std::string soup = path("soup.off").string();
+  ASSERT_EQ(run({"make", "soup_constant_density", "--size", "20000", "--out", soup}).code, done);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"bsp", soup}, {"order", soup, "--eye", "0.3,-2,0.1"}, {"bsp", soup, "--json", "-"}, {"bsp", soup, "--threads", "2"}, {"bsp", soup, "--kernel", "double"}}) {
+    std::vector<std::string> with_budget = words;
+    with_budget.insert(with_budget.end(), {"--budget", "0.001"});
+    const Outcome r = run(with_budget);
+    EXPECT_EQ(r.code, undecided) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_EQ(r.out, "") << r;
+  }
+}
+
+TEST_F(Budget, that_runs_out_in_verify_is_exit_4) {
+  const std::string scene = path("soup.off").string(), certificate = path("c.json").string();
+  ASSERT_EQ(run({"make", "soup", "--size", "300", "--out", scene}).code, done);
+  ASSERT_EQ(run({"order", scene, "--eye", "3,2,1", "--certificate", certificate}).code, done);
+  const Outcome r = run({"verify", scene, certificate, "--budget", "0.001"});
+  EXPECT_EQ(r.code, undecided) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+}
+
+TEST_F(Budget, of_compare_is_for_each_kernel_and_an_exact_one_that_is_late_is_exit_4) {
+  const std::string scene = path("soup.off").string();
+  ASSERT_EQ(run({"make", "soup", "--size", "1000", "--out", scene}).code, done);
+  const Outcome r = run({"compare", scene, "bsp", "--budget", "0.001", "--json", "-"});
+  EXPECT_EQ(r.code, undecided) << r;
+  const Json d = r.json();
+  for (const Json& row : d["result"]["rows"]) EXPECT_EQ(row["status"], "timed out") << row;
+}
+
+TEST_F(Budget, that_suffices_changes_nothing) {
+  const std::string cube = (corpus / "general" / "cube.off").string();
+  for (const char* seconds : {"30", "1e12", "0"}) {
+    EXPECT_EQ(run({"bsp", cube, "--budget", seconds}).code, done) << seconds;
+    EXPECT_EQ(run({"compare", cube, "bsp", "--kernels", "exact,double", "--budget", seconds}).code, done) << seconds;
+  }
+}
+
+}  // namespace program

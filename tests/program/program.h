@@ -1,0 +1,169 @@
+#pragma once
+// The program as a user meets it: a command line, files in a folder of its own, what it prints, its exit code. Limits on time and memory.
+
+#include <stdexcept>
+#include <string>
+
+namespace program {
+[[noreturn]] inline void json_lacks(const char* condition) { throw std::logic_error(std::string("JSON is not as expected: ") + condition); }
+}  // namespace program
+#define JSON_ASSERT(condition) ((condition) ? static_cast<void>(0) : program::json_lacks(#condition))  // a failed test, not an abort
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#ifndef SIGHTLINE_PROGRAM  // the program is not built here
+#define SIGHTLINE_PROGRAM ""
+#endif
+
+extern char** environ;
+
+namespace program {
+
+using Json = nlohmann::ordered_json;
+namespace fs = std::filesystem;
+
+/// Exit codes (design.md, section 7).
+inline constexpr int done = 0, disagreement = 1, usage = 2, bad_input = 3, undecided = 4;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool sanitized = true;  // shadow memory: no limit on addresses, and all takes longer
+#else
+inline constexpr bool sanitized = false;
+#endif
+
+struct Limits {
+  double seconds = 60;
+  std::size_t mebibytes = 4096;  ///< of addresses, with those of threads' stacks
+};
+
+/// What became of a run of the program.
+struct Outcome {
+  int code = -1;          ///< of exit; -1 where a signal ended it, or the time ran out
+  std::string out, err;
+  std::string ended;      ///< "exit 3", "signal 11", "no end within 60 s"
+  std::string command;    ///< for messages
+
+  /// Whether stderr is exactly one line.
+  bool one_line_of_error() const { return !err.empty() && err.find('\n') == err.size() - 1; }
+  Json json() const { return Json::parse(out, nullptr, false); }
+};
+
+inline std::ostream& operator<<(std::ostream& to, const Outcome& run) {
+  return to << run.command << "\n  -> " << run.ended << "\n  stdout: " << run.out.substr(0, 1000) << "\n  stderr: " << run.err.substr(0, 1000);
+}
+
+inline std::string read_file(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+inline const fs::path corpus = fs::path(SIGHTLINE_SOURCE_DIR) / "tests" / "corpus";
+
+/// Tests of the program: a fresh folder for each, gone afterwards.
+class Program : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::string_view(SIGHTLINE_PROGRAM).empty()) GTEST_SKIP() << "the program is not built here";
+    std::string pattern = (fs::temp_directory_path() / "sightline-XXXXXX").string();
+    ASSERT_NE(mkdtemp(pattern.data()), nullptr);
+    folder_ = pattern;
+  }
+  void TearDown() override {
+    std::error_code ignored;
+    if (!folder_.empty()) fs::remove_all(folder_, ignored);
+  }
+
+  fs::path path(const std::string& name) const { return folder_ / name; }
+
+  std::string file(const std::string& name, std::string_view bytes) const {
+    std::ofstream out(path(name), std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    EXPECT_TRUE(out);
+    return path(name).string();
+  }
+
+  Outcome run(const std::vector<std::string>& arguments, Limits limits = {}) const { return run_to(path("stdout").string(), arguments, limits); }
+
+  /// A run whose standard output goes to a file of its own choice.
+  Outcome run_to(const std::string& out, const std::vector<std::string>& arguments, Limits limits = {}) const {
+    const std::string err = path("stderr").string();
+    std::vector<std::string> words{"/bin/sh", "-c", sanitized ? "exec \"$@\"" : "ulimit -v " + std::to_string(limits.mebibytes * 1024) + " && ulimit -c 0 && exec \"$@\"", "sh",
+                                   SIGHTLINE_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    Outcome result;
+    result.command = "sightline";
+    for (const std::string& argument : arguments) result.command += " " + (argument.size() > 200 ? argument.substr(0, 200) + "..." : argument);
+    pid_t child = 0;
+    const int failed = posix_spawn(&child, words[0].c_str(), &actions, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&actions);
+    if (failed != 0) {
+      result.ended = "could not be started";
+      return result;
+    }
+
+    const double allowed = limits.seconds * (sanitized ? 10 : 1);
+    const auto start = std::chrono::steady_clock::now();
+    int status = 0;
+    auto pause = std::chrono::microseconds(500);
+    while (waitpid(child, &status, WNOHANG) == 0) {
+      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > allowed) {
+        kill(child, SIGKILL);
+        waitpid(child, &status, 0);
+        result.ended = "no end within " + std::to_string(allowed) + " s";
+        break;
+      }
+      std::this_thread::sleep_for(pause);
+      pause = std::min(2 * pause, std::chrono::microseconds(20000));
+    }
+    if (result.ended.empty()) {
+      if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
+      result.ended = WIFEXITED(status) ? "exit " + std::to_string(result.code) : "signal " + std::to_string(WTERMSIG(status));
+    }
+    if (fs::is_regular_file(out)) result.out = read_file(out);
+    result.err = read_file(err);
+    return result;
+  }
+
+ private:
+  fs::path folder_;
+};
+
+/// The files of a folder of the corpus that are scenes, sorted.
+inline std::vector<fs::path> scenes_in(const fs::path& folder) {
+  std::vector<fs::path> scenes;
+  std::error_code error;
+  for (fs::recursive_directory_iterator at(folder, error), end; !error && at != end; at.increment(error))
+    for (const std::string_view ending : {".obj", ".off", ".qoff", ".ply", ".stl"})
+      if (at->path().extension() == ending && at->is_regular_file()) scenes.push_back(at->path());
+  std::sort(scenes.begin(), scenes.end());
+  return scenes;
+}
+
+}  // namespace program
