@@ -20,7 +20,7 @@ class Fixed_integer {
   static constexpr int bits = 64 * Limbs;
 
   Fixed_integer() = default;
-  /// Sign-extends a two's complement number of `count` limbs, least significant first. Pre: 1 <= count <= Limbs.
+  /// Sign-extends a two's complement number of `count` limbs, least significant first. Pre: 1 <= count, and the value fits this width.
   Fixed_integer(const Limb* limbs, int count) {
     for (int i = 0; i < Limbs; ++i) limb_[i] = i < count ? limbs[i] : extension(limbs[count - 1]);
   }

@@ -45,7 +45,7 @@ class Builder {
   using Polygons = std::vector<Polygon>;
   using Tree = Bsp_tree<Traits>;
 
-  Builder(const Traits& traits, const Bsp_options& options) : traits_(traits), options_(options) {}
+  Builder(const Traits& traits, const Bsp_options& options) : traits_(traits), options_(options) { options_.sample = std::max(1u, options_.sample); }
 
   Tree build() {
     Tree tree;
@@ -293,7 +293,7 @@ class Builder {
   }
 
   const Traits& traits_;
-  const Bsp_options& options_;
+  Bsp_options options_;
   tbb::enumerable_thread_specific<Workspace> workspaces_;
   std::atomic<std::size_t> settled_{0};
   std::size_t all_ = 0;

@@ -232,7 +232,16 @@ class Scene {
     };
     seen.reserve(soup.face_count());
     const auto rotated = [](std::vector<Loop> of) {
-      for (Loop& loop : of) std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+      for (Loop& loop : of) {
+        std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+        const Loop begun = loop;  // where the least point comes back, as in a keyhole, the least of the rotations that begin with it
+        for (std::size_t k = 1; k < begun.size(); ++k) {
+          if (begun[k] != begun[0]) continue;
+          Loop turned = begun;
+          std::rotate(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(k), turned.end());
+          loop = std::min(loop, turned);
+        }
+      }
       return of;
     };
     for (Face_id f = 0; f < soup.face_count(); ++f) {
@@ -317,7 +326,12 @@ class Scene {
       return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t p) { return dot(normal, difference(at<Number>(p), origin)) == 0; });
     });
     if (planar) return add_planar_face(f, normal, loops);
-    if (is_zero(normal) && all_coplanar<Number>(outer)) return "self-intersecting";
+    if (is_zero(normal) && all_coplanar<Number>(outer)) {  // a contour that goes back on all its edges, or one that crosses itself
+      Vector<Number> across{};
+      for (std::size_t i = 0; is_zero(across); ++i) across = area_vector<Number>({outer[i], outer[i + 1], outer[(i + 2) % outer.size()]});
+      std::vector<std::uint32_t> ids;
+      return project(loops, dominant(across), false, ids, convex_parts).contour == Contour::zero_area ? "zero area" : "self-intersecting";
+    }
     return add_non_planar_face(f, normal, loops);
   }
 
@@ -352,7 +366,7 @@ class Scene {
       std::vector<std::uint32_t> ids;
       if (hides_a_point(loops, axis)) continue;
       const Convex_parts parts = project(loops, axis, normal[static_cast<std::size_t>(axis)] < 0, ids, triangles);
-      if (parts.contour != Contour::simple) continue;
+      if (parts.contour != Contour::simple || !has_boundary<Number>(parts, ids, loops, axis)) continue;
       for (std::uint32_t number = 0; number < parts.pieces.size(); ++number) {
         const Loop triangle = named(parts.pieces[number], ids);
         add_piece(f, number, area_vector<Number>(triangle), triangle);
@@ -361,7 +375,7 @@ class Scene {
     }
     if (loops.size() > 1) {
       --counters_.non_planar, non_planar_.pop_back();
-      return "self-intersecting";
+      return "not planar, with holes, and simple along no axis";
     }
     // No simple projection along an axis: the fan of the first vertex, as most programs draw it.
     ++counters_.fanned;
@@ -371,7 +385,25 @@ class Scene {
       const Vector<Number> n = area_vector<Number>(triangle);
       if (!is_zero(n)) add_piece(f, number++, n, triangle);
     }
-    return nullptr;
+    if (number > 0) return nullptr;
+    --counters_.fanned, --counters_.non_planar, non_planar_.pop_back();  // spikes only
+    return "zero area";
+  }
+
+  /// Whether the pieces' directed edges add up to those of the loops: in a projection an edge-on part of a non-planar face can get lost.
+  template <class Number>
+  bool has_boundary(const Convex_parts& parts, const std::vector<std::uint32_t>& ids, const std::vector<Loop>& loops, int axis) const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> net;
+    const auto add = [&](const Loop& loop, int sign) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::uint32_t p = loop[i], q = loop[i + 1 == loop.size() ? 0 : i + 1];
+        net[std::minmax(p, q)] += p < q ? sign : -sign;
+      }
+    };
+    for (const auto& piece : parts.pieces) add(named(piece, ids), 1);
+    const auto sense = [&](const Loop& loop) { return area_vector<Number>(loop)[static_cast<std::size_t>(axis)] < 0; };  // holes run against the contour
+    for (const Loop& loop : loops) add(loop, &loop != &loops[0] && sense(loop) == sense(loops[0]) ? 1 : -1);
+    return std::all_of(net.begin(), net.end(), [](const auto& entry) { return entry.second == 0; });
   }
 
   template <class Number>

@@ -61,34 +61,32 @@ TEST(Exact_traits, pieces_begin_with_their_corners_on_their_planes_and_inside_th
 }
 
 TEST(Exact_traits, a_cut_of_an_edge_is_known_to_lie_on_both_its_faces) {
-  Polygon_soup soup;
-  add_cube(soup, 0, 0, 0, 4);
-  const Point_id first = static_cast<Point_id>(soup.point_count());
-  for (const auto& p : {std::array<long, 3>{1, -9, 0}, {2, 9, -9}, {1, 9, 9}}) soup.add_point(Rational(p[0]), Rational(p[1]), Rational(p[2]));
-  soup.add_face({first, first + 1, first + 2});
+  // A tetrahedron (no wall is the edge plane of another) and a triangle that cuts four of its edges.
+  Polygon_soup soup = soup_of({{0, 0, 0}, {7, 1, 2}, {2, 8, 1}, {1, 2, 9}, {-9, 1, 3}, {12, -5, 2}, {3, 14, 4}});
+  soup.add_face({0, 2, 1}), soup.add_face({0, 1, 3}), soup.add_face({1, 2, 3}), soup.add_face({2, 0, 3}), soup.add_face({4, 5, 6});
   const Scene scene(soup);
   const Exact_traits traits(scene);
   Polygon_store<Exact_traits> store;
   Predicate_counts counts;
-  const auto cutter = traits.prepare(traits.supporting_plane(6));
-  int cut = 0;
-  for (std::uint32_t i = 0; i < 6; ++i) {
+  const auto cutter = traits.prepare(traits.supporting_plane(4));
+  int crossings = 0;
+  for (std::uint32_t i = 0; i < 4; ++i) {
     const Convex_polygon<Exact_traits> polygon = store.piece(traits, i);
     if (position(traits, polygon, cutter, counts) != Position::across) continue;
-    ++cut;
-    const auto parts = checked_split(traits, polygon, cutter, scene.file_coefficients(traits.supporting_plane(6)), store, counts);
+    const auto parts = checked_split(traits, polygon, cutter, scene.file_coefficients(traits.supporting_plane(4)), store, counts);
     for (const auto& part : parts)
       for (const auto& corner : part) {
         if (corner.vertex->is_input()) continue;
+        ++crossings;
         std::size_t known = 0;
-        for (std::uint32_t j = 0; j < 7; ++j) {
+        for (std::uint32_t j = 0; j < 5; ++j) {
           Predicate_counts one;
           known += traits.side(*corner.vertex, traits.prepare(traits.supporting_plane(j)), one) == CGAL::ZERO && one.combinatorial == 1;
         }
         EXPECT_EQ(known, 3u);  // its own face, the face beyond the edge, the cutter
       }
   }
-  EXPECT_EQ(cut, 4);
+  EXPECT_GE(crossings, 12);
 }
 
 TEST(Split, every_way_in_which_a_plane_meets_a_square) {
@@ -144,7 +142,7 @@ TEST(Split, every_way_in_which_a_plane_meets_a_square) {
 }
 
 TEST(Split, cutting_fifty_deep_stays_exact_and_its_error_does_not_grow) {
-  for (const int bits : {12, 26, 50}) {
+  for (const int bits : {12, 50}) {
     Random random(static_cast<std::uint64_t>(bits));
     Polygon_soup soup;
     const long m = (1l << bits) - 1;

@@ -215,13 +215,36 @@ TEST(Coordinates, the_ends_of_the_double_range_come_back_exactly) {
 
 TEST(Coordinates, no_numbers_have_the_common_denominator_one) { EXPECT_EQ(Coordinates().common_denominator(), 1); }
 
+RC_GTEST_PROP(Coordinates, the_common_denominator_is_the_least_and_denominators_are_counted, (std::vector<std::pair<std::int32_t, std::uint8_t>> numbers)) {
+  Coordinates column;
+  Integer least = 1;
+  for (const auto& [mantissa, power] : numbers) {
+    if (power % 2) column.push_decimal(mantissa, -(power % 40));
+    else column.push_double(std::ldexp(mantissa, -(power % 70)));
+    least = lcm(least, column[column.size() - 1].get_den());
+  }
+  RC_ASSERT(column.common_denominator() == least);
+  std::size_t counted = 0;
+  for (const auto& [denominator, uses] : column.denominators()) {
+    std::size_t expected = 0;
+    for (std::size_t i = 0; i < column.size(); ++i) expected += column[i].get_den() == denominator;
+    RC_ASSERT(uses == expected);
+    counted += uses;
+  }
+  RC_ASSERT(counted == column.size());
+}
+
 TEST(Coordinates, trailing_zeros_of_a_decimal_cost_no_bits) {
   Coordinates column;
   column.push_decimal(1500, -3);
   column.push_decimal(0, -300);
   column.push_decimal(2000, -3);
-  EXPECT_EQ(column.common_denominator(), 10);
+  EXPECT_EQ(column.common_denominator(), 2);
   EXPECT_EQ(column[0], Rational(3, 2));
+  column.push_decimal(75, -2);
+  EXPECT_EQ(column.common_denominator(), 4);
+  column.push_decimal(8, -1);
+  EXPECT_EQ(column.common_denominator(), 20);
 }
 
 TEST(Coordinates, small_numbers_end_just_below_two_to_the_61) {

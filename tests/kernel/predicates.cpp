@@ -40,7 +40,7 @@ Coefficients random_plane(Random& random, int bits, bool small) {
 }
 
 /// Asks every stage for the side of a vertex, and all must agree with the oracle's position of it.
-void expect_agreement(const Grid& grid, const Predicates& predicates, const Vertex& v, const Position& x, Plane plane, const Coefficients& h) {
+void expect_agreement(const Grid& grid, const Predicates& predicates, const Vertex& v, const kernel_test::Position& x, Plane plane, const Coefficients& h) {
   const Sign truth = sign(evaluate(h, x));
   for (const bool opposite : {false, true}) {
     const Plane g = opposite ? plane.opposite() : plane;
@@ -76,7 +76,7 @@ void expect_agreement(const Grid& grid, const Predicates& predicates, const Vert
 }
 
 /// The doubles of a vertex are within its error of its exact position.
-void expect_error_bound(const Grid& grid, const Vertex& v, const Position& x) {
+void expect_error_bound(const Grid& grid, const Vertex& v, const kernel_test::Position& x) {
   if (v.error == infinity) return;
   const std::array<double, 3> rounded{v.x, v.y, v.z};
   for (std::size_t k = 0; k < 3; ++k) ASSERT_TRUE(abs(exact(rounded[k]) - grid.approximated(x[k])) <= exact(v.error)) << v.x << ' ' << v.y << ' ' << v.z << " error " << v.error;
@@ -91,7 +91,7 @@ void check_all(const Grid& grid, std::size_t most_triples = 60) {
       for (std::size_t k = j + 1; k < grid.handles.size(); ++k) {
         if (++triples > most_triples) return;
         std::array<std::uint32_t, 3> ids{grid.handles[i].id(), grid.handles[j].id(), grid.handles[k].id()};
-        const std::optional<Position> x = meeting_point(grid.made[i], grid.made[j], grid.made[k]);
+        const std::optional<kernel_test::Position> x = meeting_point(grid.made[i], grid.made[j], grid.made[k]);
         std::sort(ids.begin(), ids.end());
         do {
           if (!x) {
@@ -122,7 +122,7 @@ int bits_of(const Integer& n) { return static_cast<int>(bit_length(n)); }
 /// One input point, as a corner of planes that no one asks about.
 Vertex lone_input(const Predicates& predicates, std::uint32_t point) { return predicates.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane); }
 
-Position position_of(const Grid& grid, std::uint32_t point) {
+kernel_test::Position position_of(const Grid& grid, std::uint32_t point) {
   const std::array<Integer, 3> p = grid.at(point);
   return {p[0], p[1], p[2]};
 }
@@ -329,7 +329,7 @@ TEST_P(Side_at_width, all_stages_agree_at_input_points_and_across_axes) {
         const std::size_t i = random() % grid.handles.size();
         Coefficients g{0, 0, 0, -grid.at(p)[static_cast<std::size_t>((axis + 1) % 3)]};
         g[static_cast<std::size_t>((axis + 1) % 3)] = 1;
-        const std::optional<Position> x = meeting_point(h, g, grid.made[i]);
+        const std::optional<kernel_test::Position> x = meeting_point(h, g, grid.made[i]);
         const Plane other = Plane::across((axis + 1) % 3, p);
         if (!x) {
           ASSERT_THROW(predicates.meet(across.id(), other.id(), grid.handles[i].id()), std::domain_error);
@@ -430,7 +430,7 @@ TEST_P(Side_at_width, the_error_of_a_meet_covers_its_doubles_and_not_by_far) {
       for (int i = 0; i < 3; ++i) grid.plane(random_plane(random, bits, round % 3 == 1));
     }
     grid_range = grid.points.range();
-    const std::optional<Position> x = meeting_point(grid.made[0], grid.made[1], grid.made[2]);
+    const std::optional<kernel_test::Position> x = meeting_point(grid.made[0], grid.made[1], grid.made[2]);
     if (!x) continue;
     const Vertex v = grid.predicates().meet(grid.handles[0].id(), grid.handles[1].id(), grid.handles[2].id());
     ASSERT_NO_FATAL_FAILURE(expect_error_bound(grid, v, *x));
@@ -455,6 +455,28 @@ TEST(Meet, a_grid_point_is_known_to_be_one_and_others_are_not) {
   EXPECT_GT(broken.error, 0.0);  // (3, -2, -5/2)
 }
 
+TEST(Meet, and_points_that_the_divisor_makes_exact_see_planes_that_miss_them_by_less_than_doubles_can_say) {
+  const Integer d = power_of_two(100);
+  Grid grid(128, d);
+  const std::uint32_t point = grid.point({5 * d, 6 * d, 7 * d});
+  const Plane on = grid.plane({1, 1, 1, -18 * d}), front = grid.plane({1, 1, 1, -18 * d + 1}), behind = grid.plane({1, 1, 1, -18 * d - 1});
+  const Plane p = grid.plane({1, 0, 0, -5 * d}), q = grid.plane({0, 1, 0, -6 * d}), r = grid.plane({0, 0, 1, -7 * d}), almost = grid.plane({0, 0, 1, -7 * d - 1});
+  const Predicates predicates = grid.predicates();
+  for (const Vertex& v : {lone_input(predicates, point), predicates.meet(p.id(), q.id(), r.id())}) {
+    EXPECT_EQ(v.error, 0.0);
+    for (const auto& [plane, expected] : {std::pair{on, CGAL::ZERO}, {front, CGAL::POSITIVE}, {behind, CGAL::NEGATIVE}}) {
+      Predicate_counts counts;
+      EXPECT_EQ(predicates.side(v, predicates.prepare(plane), counts), expected);
+      EXPECT_EQ(deciding_stage(counts), plane == on ? "filtered" : "fixed");
+    }
+  }
+  const Vertex above = predicates.meet(p.id(), q.id(), almost.id());
+  EXPECT_GT(above.error, 0.0);
+  Predicate_counts counts;
+  EXPECT_EQ(predicates.side(above, predicates.prepare(on), counts), CGAL::POSITIVE);
+  ASSERT_NO_FATAL_FAILURE(check_all(grid));
+}
+
 TEST(Meet, far_outside_the_range_the_doubles_say_nothing) {
   Grid grid(8);
   const Plane p = grid.plane({1, 0, 0, 0}), q = grid.plane({100, 1, 0, -300}), r = grid.plane({0, 0, 1, 0}), near = grid.plane({100, 1, 0, -100});
@@ -471,7 +493,7 @@ TEST(Meet, a_point_that_underflows_is_within_its_error) {
   grid.plane({1, 1, 1, -9}), grid.plane({1, -1, 2, -8}), grid.plane({2, 1, -1, 0});
   grid.plane({power_of_two(4300) + 1, 3, 5, -power_of_two(4300) - 35});
   const Predicates predicates = grid.predicates();
-  const std::optional<Position> x = meeting_point(grid.made[0], grid.made[1], grid.made[2]);
+  const std::optional<kernel_test::Position> x = meeting_point(grid.made[0], grid.made[1], grid.made[2]);
   const Vertex v = predicates.meet(grid.handles[0].id(), grid.handles[1].id(), grid.handles[2].id());
   ASSERT_NO_FATAL_FAILURE(expect_error_bound(grid, v, *x));
   ASSERT_NO_FATAL_FAILURE(check_all(grid));

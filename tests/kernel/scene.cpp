@@ -8,15 +8,16 @@ namespace {
 
 using Points = std::vector<std::array<long, 3>>;
 
-/// One face, each of its loops given as points.
-Polygon_soup one_face(const std::vector<Points>& loops) {
+/// One face, each of its loops given as points, scaled; where that is not by 1, a point that no face uses keeps the grid as fine as it was.
+Polygon_soup one_face(const std::vector<Points>& loops, const Integer& scale = 1) {
   Polygon_soup soup;
   for (const Points& loop : loops) {
     std::vector<Point_id> ids;
-    for (const auto& p : loop) ids.push_back(soup.add_point(Rational(p[0]), Rational(p[1]), Rational(p[2])));
+    for (const auto& p : loop) ids.push_back(soup.add_point(Rational(p[0] * scale), Rational(p[1] * scale), Rational(p[2] * scale)));
     if (&loop == &loops[0]) soup.add_face(ids);
     else soup.add_hole(ids);
   }
+  if (scale != 1) soup.add_point(Rational(1), Rational(2), Rational(3));
   return soup;
 }
 
@@ -38,16 +39,16 @@ std::vector<Polygon_soup> variants(const std::vector<Points>& loops) {
   std::vector<Polygon_soup> all;
   for (int turn = 0; turn < 3; ++turn)
     for (const bool mirrored : {false, true})
-      for (const long scale : {1l, 1l << 34})
+      for (const unsigned scale_bits : {0u, 31u, 60u, 80u})
         for (const long shear : {0l, 3l}) {
           std::vector<Points> moved = loops;
           for (Points& loop : moved)
             for (auto& p : loop) {
               p = {p[0], p[1], p[2] + shear * p[0] - 2 * shear * p[1]};
-              p = {p[static_cast<std::size_t>(turn)] * scale, p[static_cast<std::size_t>((turn + 1) % 3)] * scale, p[static_cast<std::size_t>((turn + 2) % 3)] * scale + 5};
+              p = {p[static_cast<std::size_t>(turn)], p[static_cast<std::size_t>((turn + 1) % 3)], p[static_cast<std::size_t>((turn + 2) % 3)] + 5};
               if (mirrored) p[0] = -p[0];
             }
-          all.push_back(one_face(moved));
+          all.push_back(one_face(moved, Integer(1) << scale_bits));
         }
   return all;
 }
@@ -117,7 +118,21 @@ TEST(Scene_policy, a_non_planar_quad_is_two_triangles) {
 }
 TEST(Scene_policy, a_non_planar_pentagon_is_three_triangles_concave_or_not) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 1}, {6, 3, 0}, {3, 6, 2}, {-1, 4, 0}}})) expect_kept(soup, 3, false);
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 1}, {2, 1, 0}, {3, 6, 2}, {-1, 4, 0}}})) expect_kept(soup, 3, false);
+  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 1}, {2, 1, 0}, {3, 6, 2}, {-1, 4, 0}}})) {
+    expect_kept(soup, 3, false);
+    EXPECT_EQ(Scene(soup).counters().fanned, 0u);
+  }
+}
+TEST(Scene_policy, a_non_planar_face_is_cut_as_its_largest_projection_is) {
+  // Seen along z, where it is largest, the short diagonal is 1-3; seen along x it is 0-2.
+  const Polygon_soup soup = one_face({{{0, 0, -30}, {500, -100, 0}, {1000, 0, 30}, {500, 100, 5}}});
+  const Scene scene(soup);
+  ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
+  ASSERT_EQ(scene.pieces().size(), 2u);
+  for (const Piece& piece : scene.pieces()) {
+    const std::vector<Exact_point> corners = corners_of(scene, piece);
+    for (const Point_id p : {1u, 3u}) EXPECT_NE(std::find(corners.begin(), corners.end(), soup.point(p)), corners.end());
+  }
 }
 TEST(Scene_policy, a_non_planar_face_whose_projection_crosses_itself_is_triangulated_all_the_same) {
   // A closed path whose three projections all cross themselves.
@@ -128,10 +143,15 @@ TEST(Scene_policy, a_non_planar_face_whose_projection_crosses_itself_is_triangul
   }
 }
 TEST(Scene_policy, a_non_planar_face_with_a_hole_is_cut_around_it) {
-  const Polygon_soup soup = one_face({{{0, 0, 0}, {9, 0, 0}, {9, 9, 1}, {0, 9, 0}}, {{3, 3, 0}, {3, 6, 0}, {6, 6, 0}, {6, 3, 0}}});
-  const Scene scene(soup);
-  ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
-  EXPECT_EQ(scene.pieces().size(), 8u);
+  for (const bool reversed : {false, true}) {
+    Points hole{{3, 3, 0}, {3, 6, 0}, {6, 6, 0}, {6, 3, 0}};
+    if (reversed) std::reverse(hole.begin(), hole.end());
+    for (const Polygon_soup& soup : variants({{{0, 0, 0}, {9, 0, 0}, {9, 9, 1}, {0, 9, 0}}, hole})) {
+      const Scene scene(soup);
+      ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
+      EXPECT_EQ(scene.pieces().size(), 8u) << "hole " << (reversed ? "counterclockwise" : "clockwise");
+    }
+  }
 }
 TEST(Scene_policy, a_non_planar_face_with_an_edge_along_the_projection_keeps_all_its_corners) {
   // The last corner is straight above the first.
@@ -411,6 +431,13 @@ TEST(Scene_grid, the_grid_is_the_coarsest_and_centred) {
   const Scene scene(soup);
   ASSERT_NO_FATAL_FAILURE(expect_exact_points(soup, scene));
   EXPECT_LE(scene.points().bits(), 4);  // z: 0, -36, -144 in steps of 6
+}
+TEST(Scene_grid, both_ends_of_every_axis_fit_its_bits) {
+  for (long last = 1; last < 70; ++last)
+    for (const long first : {0l, -3l, 1000000l}) {
+      const Polygon_soup soup = soup_of({{first, 0, 0}, {first + last, 0, 0}, {first + 1, 0, 1}});
+      ASSERT_NO_FATAL_FAILURE(expect_exact_points(soup, Scene(soup)));
+    }
 }
 TEST(Scene_grid, a_scene_without_points_is_empty) {
   const Scene scene((Polygon_soup()));
