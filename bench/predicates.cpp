@@ -56,7 +56,7 @@ void side_of_a_meet_by_the_cascade(benchmark::State& state) {
   }
   state.counters["beyond_doubles"] = static_cast<double>(counts.fixed + counts.gmp) / static_cast<double>(std::max<std::uint64_t>(1, counts.total()));
 }
-BENCHMARK(side_of_a_meet_by_the_cascade)->Arg(12)->Arg(26)->Arg(48);
+BENCHMARK(side_of_a_meet_by_the_cascade)->Arg(12)->Arg(26)->Arg(30);
 
 template <class Number>
 void side_of_a_meet_in(benchmark::State& state) {
@@ -69,7 +69,7 @@ void side_of_a_meet_in(benchmark::State& state) {
 }
 BENCHMARK(side_of_a_meet_in<Fixed_integer<2>>)->Arg(12)->Name("side_of_a_meet_in_128_bits");
 BENCHMARK(side_of_a_meet_in<Fixed_integer<4>>)->Arg(26)->Name("side_of_a_meet_in_256_bits");
-BENCHMARK(side_of_a_meet_in<Fixed_integer<8>>)->Arg(48)->Name("side_of_a_meet_in_512_bits");
+BENCHMARK(side_of_a_meet_in<Fixed_integer<8>>)->Arg(30)->Name("side_of_a_meet_in_512_bits");
 BENCHMARK(side_of_a_meet_in<Integer>)->Arg(26)->Name("side_of_a_meet_in_GMP");
 
 void meet_of_three_planes(benchmark::State& state) {

@@ -9,7 +9,8 @@
 namespace sightline {
 
 /// Runs model `Judged` in lockstep with the exact model `Truth`: every side is decided by Truth and also asked of Judged, every vertex is made by both.
-/// So both see the same queries throughout, and a wrong sign is counted once instead of changing all that follows. Exact: yes, as Truth is.
+/// So both see the same queries throughout, and a wrong sign is counted once instead of changing all that follows. Pre: Judged names planes by piece, as
+/// Point_traits does; planes asked for are supporting planes of pieces or axis planes. Exact: yes, as Truth is.
 template <class Truth, class Judged>
 class Lockstep_traits {
  public:

@@ -165,7 +165,9 @@ TEST(Generate, scenes_are_the_same_everywhere_and_differ_by_seed) {
       {"convex_sphere", 15272415975494666540u},
       {"crossing", 15083811948795330693u},
       {"grid", 7038090722155783299u},
+      {"lattice", 12077981401367600343u},
       {"menger_sponge", 7480419304083887745u},
+      {"menger_sponge_merged", 7925202077407358754u},
       {"rooms", 11635159072090337317u},
       {"soup", 5957434815199489955u},
       {"soup_constant_density", 4547890741699796672u},
@@ -176,8 +178,30 @@ TEST(Generate, scenes_are_the_same_everywhere_and_differ_by_seed) {
     const std::uint64_t h = hash(generate::make(kind.name, kind.example_size, 1));
     const auto known = expected.find(kind.name);
     EXPECT_TRUE(known != expected.end() && known->second == h) << "{\"" << kind.name << "\", " << h << "u},";
-    const bool random = kind.name != "bars" && kind.name != "crossing" && kind.name != "grid" && kind.name != "menger_sponge" && kind.name != "stacked";
+    const std::set<std::string_view> without_chance{"bars", "crossing", "grid", "lattice", "menger_sponge", "menger_sponge_merged", "stacked"};
+    const bool random = without_chance.count(kind.name) == 0;
     EXPECT_EQ(h != hash(generate::make(kind.name, kind.example_size, 2)), random) << kind.name;
+  }
+}
+
+TEST(Generate, lattice_and_merged_sponge_have_the_area_of_their_unit_quads) {
+  const auto area = [](const Polygon_soup& soup) {  // axis-parallel faces only
+    const Integer_soup integers{soup};
+    Integer_soup::Wide twice = 0;
+    for (Face_id f = 0; f < soup.face_count(); ++f)
+      for (const Integer_soup::Wide n : integers.normal(f)) twice += n < 0 ? -n : n;
+    return static_cast<long>(twice / 2);
+  };
+  for (const std::size_t n : {1u, 2u, 5u}) {
+    EXPECT_EQ(generate::lattice(n).face_count(), 3 * (n + 1));
+    EXPECT_EQ(area(generate::lattice(n)), area(generate::grid(n)));
+  }
+  for (const std::size_t level : {0u, 1u, 2u}) {
+    const Polygon_soup merged = generate::menger_sponge(level, true), unit = generate::menger_sponge(level);
+    EXPECT_EQ(area(merged), area(unit));
+    EXPECT_EQ(area(merged), static_cast<long>(unit.face_count()));
+    if (level == 0) { EXPECT_EQ(merged.face_count(), 6u); }
+    if (level > 0) { EXPECT_LE(3 * merged.face_count(), 2 * unit.face_count()); }
   }
 }
 
