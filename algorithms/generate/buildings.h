@@ -44,8 +44,9 @@ class Lattice_points {
     for_each_wall(is_solid, [&](const std::array<std::size_t, 3>& p, std::size_t axis, bool positive) {
       walls[{axis, p[axis], positive}].emplace(p[(axis + 2) % 3], p[(axis + 1) % 3]);
     });
-    for (auto& [place, cells] : walls) {
-      const auto [axis, plane, positive] = place;
+    for (auto& entry : walls) {
+      auto& cells = entry.second;
+      const auto [axis, plane, positive] = entry.first;
       while (!cells.empty()) {
         const auto [c, b] = *cells.begin();
         std::size_t width = 1, height = 1;
