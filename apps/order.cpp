@@ -14,22 +14,12 @@ struct Order_arguments {
   double field = 60;
 };
 
-/// What `verify` needs beside the fragments: the pieces of faces that were cut, and what is set aside.
+/// What `verify` reads.
 static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn) {
   Order_certificate certificate;
   certificate.eye = eye;
   for (const Drawn& item : drawn) certificate.fragments.push_back(item.fragment);
-  std::vector<bool> cut(scene.counters().faces_read);
-  for (const Piece& piece : scene.pieces())
-    if (piece.number > 0) cut[piece.face] = true;
-  for (const Face_id face : scene.non_planar()) cut[face] = true;
-  for (const Piece& piece : scene.pieces()) {
-    if (!cut[piece.face]) continue;
-    Order_certificate::Piece& part = certificate.pieces.emplace_back();
-    part.face = piece.face, part.piece = piece.number;
-    for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
-  }
-  for (const Set_aside& entry : scene.set_aside()) certificate.set_aside.push_back({entry.face, entry.why});
+  add_pieces(certificate, scene);
   return certificate;
 }
 

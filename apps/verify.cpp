@@ -3,7 +3,6 @@
 #include "common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
-#include <sightline/algorithms/verify/order.h>
 #include <sightline/io/input.h>
 
 #include <fstream>
@@ -15,9 +14,9 @@ static Exit run(const Common& common, const std::string& file) {
   const Polygon_soup soup = common.read();
   std::ifstream in(file);
   if (!in) throw Input_error::of_file(file, "cannot be opened; check the path");
-  Order_certificate certificate;
+  std::variant<Order_certificate, Graph_certificate> certificate;
   try {
-    certificate = read_order_certificate(in);
+    certificate = read_certificate(in);
   } catch (const std::exception& error) {  // not a certificate, or not a file
     throw Input_error::of_file(file, error.what());
   }
@@ -25,11 +24,12 @@ static Exit run(const Common& common, const std::string& file) {
   Progress progress("verifying");
   Verify_options options;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const Verdict verdict = verify_order(soup, certificate, options);
+  const auto* const order = std::get_if<Order_certificate>(&certificate);
+  const Verdict verdict = order != nullptr ? verify_order(soup, *order, options) : verify_graph(soup, std::get<Graph_certificate>(certificate), options);
   const double seconds = watch.seconds();
   const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
   Json result{{"accepted", verdict.accepted}, {"why", verdict.why}, {"fragments", verdict.fragments}};
-  if (write_json(common, "verify", Scene(soup), result, {{"fragments", certificate.fragments.size()}}, {{"verify", seconds}})) return exit;
+  if (write_json(common, "verify", Scene(soup), result, {{"fragments", std::visit([](const Covering& covering) { return covering.fragments.size(); }, certificate)}}, {{"verify", seconds}})) return exit;
   row(verdict.accepted ? "accepted" : "REJECTED", verdict.why);
   row("seconds", fmt::format("{:.3f}", seconds));
   return exit;

@@ -18,6 +18,7 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <random>
 #include <sstream>
 
 using namespace sightline;
@@ -58,9 +59,28 @@ static Run run_kernel(const std::string& kernel, const Scene& scene) {
   return run(scene, Point_traits<CGAL::Epeck>(scene), 1);
 }
 
+/// n random triangles: a centre in the unit cube, corners up to 1/5 from it on each axis; all on a grid of 2^-20. Each is cut tens of times.
+static Polygon_soup deep_soup(std::size_t n) {
+  std::mt19937_64 random(1);
+  const auto between = [&](long low, long high) { return static_cast<double>(low + static_cast<long>(random() % static_cast<unsigned long>(high - low + 1))) * 0x1p-20; };
+  Polygon_soup soup;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double centre[3] = {between(0, 1 << 20), between(0, 1 << 20), between(0, 1 << 20)};
+    Point_id last = 0;
+    for (int k = 0; k < 3; ++k) {
+      const double x = between(-209715, 209715), y = between(-209715, 209715), z = between(-209715, 209715);
+      last = soup.add_point(centre[0] + x, centre[1] + y, centre[2] + z);
+    }
+    soup.add_face({last - 2, last - 1, last});
+  }
+  return soup;
+}
+
 static Polygon_soup soup_of(const std::string& kind, std::size_t size, const char* scenes) {
   if (size == 0) return read_scene(std::filesystem::path(scenes) / kind);
   if (kind == "dense_soup") return generate::soup(size, 0.4, 1);
+  if (kind == "deep_soup") return deep_soup(size);
+  if (const std::size_t end = kind.find(" in 27ths"); end != std::string::npos) return generate::scaled(generate::make(kind.substr(0, end), size, 1), Rational(1, 27));
   if (const std::size_t end = kind.find(" rotated"); end != std::string::npos) return generate::rotated(generate::make(kind.substr(0, end), size, 1), generate::rotation(1, 2, 3, 4));
   return generate::make(kind, size, 1);
 }
@@ -89,8 +109,9 @@ int main(int argc, char** argv) {
     cases.push_back({"rooms", static_cast<std::size_t>(std::lround(std::sqrt(n / 220))), n});
   }
   for (const std::size_t n : {100u, 300u, 1000u}) cases.push_back({"dense_soup", n, static_cast<double>(n)});
-  // Axis-parallel on small integers, where an interval is as good as a number, and turned by a rational rotation, where it is not.
-  for (const std::string turned : {"", " rotated"}) {
+  for (const std::size_t n : {500u, 1000u, 2000u}) cases.push_back({"deep_soup", n, static_cast<double>(n)});
+  // Axis-parallel on small integers, where an interval is as good as a number, and in 27ths or turned by a rational rotation, where it is not.
+  for (const std::string turned : {"", " in 27ths", " rotated"}) {
     for (const std::size_t n : {6u, 15u, 32u, 69u}) cases.push_back({"lattice" + turned, n, 3.0 * static_cast<double>(n * n * n)});
     for (const std::size_t n : {2u, 3u, 4u}) cases.push_back({"menger_sponge_merged" + turned, n, n == 2 ? 1e3 : n == 3 ? 1e4 : 2e5});
   }

@@ -57,6 +57,11 @@ class Exact_traits {
     return known.valid() ? known : Plane::across(axis, v.point);
   }
   double coordinate(const Vertex& v, int axis) const { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+  Approximate_point approximate(const Vertex& v) const { return {v.x, v.y, v.z, v.error}; }
+  Approximate_plane approximate(Plane plane) const {
+    const Prepared_plane h = predicates_.prepare(plane);
+    return {h.a, h.b, h.c, h.d, h.exact};
+  }
 
   Exact_point position(const Vertex& v) const { return scene_->position(predicates_.homogeneous(v)); }
 

@@ -26,6 +26,7 @@ struct Convex_polygon {
   const Corner<Traits>* corners;
   std::uint32_t size;
   std::uint32_t piece;
+  Plane support;  ///< the piece's supporting plane
 
   const Corner<Traits>* begin() const { return corners; }
   const Corner<Traits>* end() const { return corners + size; }
@@ -71,6 +72,17 @@ concept Partition_traits = requires(const T t, typename T::Vertex v, typename T:
   { t.coordinate(v, axis) } -> std::same_as<double>;
 };
 
+/// Bounded_traits: Partition_traits that also say where things are in doubles, and how wrong those may be: what a spatial index needs.
+///
+///   t.approximate(v)       a vertex, with a bound on the error of each coordinate
+///   t.approximate(h)       an oriented plane, in the same unit, up to a common factor: each coefficient within a relative 2^-51
+/// Models: Exact_traits, Point_traits<K>.
+template <class T>
+concept Bounded_traits = Partition_traits<T> && requires(const T t, typename T::Vertex v, Plane h) {
+  { t.approximate(v) } -> std::same_as<Approximate_point>;
+  { t.approximate(h) } -> std::same_as<Approximate_plane>;
+};
+
 /// Memory for polygons that live as long as what they were made for. Addresses stay; nothing is freed before the whole.
 template <class Traits>
 class Polygon_store {
@@ -89,7 +101,7 @@ class Polygon_store {
   Convex_polygon<Traits> piece(const Traits& traits, std::uint32_t i) {
     scratch_.clear();
     traits.append_corners(i, [&](Vertex vertex, typename Traits::Edge edge) { scratch_.push_back({add(std::move(vertex)), edge}); });
-    return keep(scratch_, i);
+    return keep(scratch_, i, traits.supporting_plane(i));
   }
   /// A list that lives as long as the store.
   template <class T>
@@ -99,8 +111,8 @@ class Polygon_store {
     std::uninitialized_copy(items.begin(), items.end(), kept);
     return {kept, items.size()};
   }
-  Convex_polygon<Traits> keep(std::span<const Corner<Traits>> corners, std::uint32_t piece) {
-    return {list(corners).data(), static_cast<std::uint32_t>(corners.size()), piece};
+  Convex_polygon<Traits> keep(std::span<const Corner<Traits>> corners, std::uint32_t piece, Plane support) {
+    return {list(corners).data(), static_cast<std::uint32_t>(corners.size()), piece, support};
   }
 
  private:
@@ -168,7 +180,7 @@ Convex_polygon<Traits> part(const Convex_polygon<Traits>& polygon, Sign keep, ty
       scratch.corners.push_back({*crossing++, corner.edge});
     }
   }
-  return store.keep(scratch.corners, polygon.piece);
+  return store.keep(scratch.corners, polygon.piece, polygon.support);
 }
 
 /// Splits a polygon that is across a plane, as classify() found it with the same scratch. Returns its part behind and its part in front.

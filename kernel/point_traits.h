@@ -127,6 +127,25 @@ class Point_traits {
     return Plane::across(axis, v.input);
   }
   double coordinate(const Vertex& v, int axis) const { return CGAL::to_double(v.point[axis]); }
+  Approximate_point approximate(const Vertex& v) const {
+    Approximate_point p{0, 0, 0, 0};
+    const std::array<double*, 3> place{&p.x, &p.y, &p.z};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto [low, high] = CGAL::to_interval(v.point[axis]);
+      *place[static_cast<std::size_t>(axis)] = low + (high - low) / 2;
+      p.error = std::max(p.error, high - low);
+      if (!std::isfinite(*place[static_cast<std::size_t>(axis)])) return {0, 0, 0, std::numeric_limits<double>::infinity()};
+    }
+    return p;
+  }
+  Approximate_plane approximate(Plane plane) const {
+    const Cutter h = prepare(plane);
+    const auto nearest = [](const typename K::FT& x) {
+      if constexpr (std::is_floating_point_v<typename K::FT>) return static_cast<double>(x);
+      else return nearest_double(number::to(x));
+    };
+    return {nearest(h.a()), nearest(h.b()), nearest(h.c()), nearest(h.d()), false};
+  }
 
   /// Errors: std::domain_error where an inexact construction overflowed.
   Exact_point position(const Vertex& v) const { return {number::to(v.point.x()), number::to(v.point.y()), number::to(v.point.z())}; }

@@ -7,6 +7,11 @@
 
 namespace sightline {
 
+/// A point in doubles, each coordinate within `error` of the truth; infinity: they say nothing.
+struct Approximate_point {
+  double x, y, z, error;
+};
+
 /// A vertex of a fragment. Its exact position is the input point, where it has one, or else the meet of its three planes; the doubles
 /// only speed up decisions. It is never rounded into coordinates that are cut again, so cutting does not make it wider. Proof: P-05
 struct Vertex {

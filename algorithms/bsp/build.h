@@ -159,7 +159,7 @@ class Builder {
   /// The plane for a cell, and the polygon it is taken from (no_root for a free plane).
   std::pair<Plane, std::size_t> choose(const Polygons& polygons, Random& random, Workspace& mine) {
     const std::size_t n = polygons.size();
-    const auto plane_of = [&](std::size_t i) { return traits_.supporting_plane(polygons[i].piece); };
+    const auto plane_of = [&](std::size_t i) { return polygons[i].support; };
     if (n == 1) return {plane_of(0), 0};
     const std::size_t tries = std::min<std::size_t>(n, std::max(1u, options_.candidates));
     std::size_t best = no_root, best_cost = ~std::size_t{0};
@@ -206,7 +206,7 @@ class Builder {
   /// Whether a polygon is known to lie on the plane without looking at its corners.
   bool is_on(const Polygon& polygon, Plane plane, Workspace& mine) {
     ++mine.counters.polygon_tests;
-    if (!traits_.same_plane(traits_.supporting_plane(polygon.piece), plane)) return false;
+    if (!traits_.same_plane(polygon.support, plane)) return false;
     ++mine.counters.predicates.combinatorial;
     return true;
   }
@@ -275,7 +275,7 @@ class Builder {
       for (const Polygon& polygon : branch->on) {
         const std::uint32_t face = traits_.face(polygon.piece);
         if (face >= fragments_of.size()) fragments_of.resize(face + 1);
-        const bool same = traits_.same_sense(traits_.supporting_plane(polygon.piece), branch->plane);
+        const bool same = traits_.same_sense(polygon.support, branch->plane);
         tree.fragments.push_back({polygon, same, fragments_of[face]++});
       }
       if (branch->behind != nullptr) stack.emplace_back(branch->behind, 2 * number + 1);

@@ -1,19 +1,22 @@
 #pragma once
 // Certificates as JSON text.
 
+#include <sightline/algorithms/verify/graph.h>
 #include <sightline/algorithms/verify/order.h>
 
 #include <nlohmann/json.hpp>
 
 #include <istream>
+#include <variant>
 
 namespace sightline {
 
 namespace certificate_json {
 
 inline constexpr const char* order_format = "sightline order 1";
+inline constexpr const char* graph_format = "sightline graph 1";
 
-[[noreturn]] inline void fail(const std::string& place, const std::string& what) { throw std::invalid_argument("order certificate: " + place + ": " + what); }
+[[noreturn]] inline void fail(const std::string& place, const std::string& what) { throw std::invalid_argument("certificate: " + place + ": " + what); }
 
 inline const nlohmann::json& member(const nlohmann::json& object, const char* key, const std::string& place) {
   if (!object.is_object()) fail(place, "expected an object");
@@ -59,6 +62,38 @@ std::vector<Part> parts(const nlohmann::json& certificate, const char* key) {
   return result;
 }
 
+inline std::size_t place(const nlohmann::json& value, std::size_t below, const std::string& at) {
+  const std::uint32_t number = number32(value, at);
+  if (number >= below) fail(at, "expected a number below " + std::to_string(below));
+  return number;
+}
+
+/// What every certificate has.
+inline void read_covering(const nlohmann::json& value, Covering& covering) {
+  covering.fragments = parts<Order_fragment>(value, "fragments");
+  if (value.contains("pieces")) covering.pieces = parts<Covering::Piece>(value, "pieces");
+  if (!value.contains("set_aside")) return;
+  for (const nlohmann::json& entry : array(value["set_aside"], "set_aside")) {
+    const std::string at = "set_aside[" + std::to_string(covering.set_aside.size()) + ']';
+    const nlohmann::json& why = member(entry, "why", at);
+    if (!why.is_string()) fail(at + ".why", "expected a string");
+    covering.set_aside.push_back({number32(member(entry, "face", at), at + ".face"), why.get<std::string>()});
+  }
+}
+
+inline bool has_format(const nlohmann::json& value, const char* format) {
+  const nlohmann::json& found = member(value, "format", "top level");
+  return found.is_string() && found.get_ref<const std::string&>() == format;
+}
+
+inline nlohmann::json parse(std::istream& in) {
+  try {
+    return nlohmann::json::parse(in);
+  } catch (const nlohmann::json::exception& error) {
+    throw std::invalid_argument(std::string("certificate: ") + error.what());
+  }
+}
+
 inline nlohmann::json write(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }
 template <class Part>
 nlohmann::json write(const std::vector<Part>& all) {
@@ -71,6 +106,12 @@ nlohmann::json write(const std::vector<Part>& all) {
   return result;
 }
 
+inline nlohmann::json write(const char* format, const Covering& covering) {
+  nlohmann::json set_aside = nlohmann::json::array();
+  for (const auto& entry : covering.set_aside) set_aside.push_back({{"face", entry.face}, {"why", entry.why}});
+  return {{"format", format}, {"fragments", write(covering.fragments)}, {"pieces", write(covering.pieces)}, {"set_aside", std::move(set_aside)}};
+}
+
 }  // namespace certificate_json
 
 /// The certificate that a JSON value holds. "pieces" and "set_aside" may be left out where there are none; further keys are
@@ -78,40 +119,55 @@ nlohmann::json write(const std::vector<Part>& all) {
 /// certificate is right is for verify_order() to say. Exact: yes
 inline Order_certificate order_certificate_from_json(const nlohmann::json& value) {
   using namespace certificate_json;
-  const nlohmann::json& format = member(value, "format", "top level");
-  if (!format.is_string() || format.get_ref<const std::string&>() != order_format) fail("format", std::string("expected \"") + order_format + '"');
+  if (!has_format(value, order_format)) fail("format", std::string("expected \"") + order_format + '"');
   Order_certificate certificate;
   certificate.eye = point(member(value, "eye", "top level"), "eye");
-  certificate.fragments = parts<Order_fragment>(value, "fragments");
-  if (value.contains("pieces")) certificate.pieces = parts<Order_certificate::Piece>(value, "pieces");
-  if (value.contains("set_aside"))
-    for (const nlohmann::json& entry : array(value["set_aside"], "set_aside")) {
-      const std::string place = "set_aside[" + std::to_string(certificate.set_aside.size()) + ']';
-      const nlohmann::json& why = member(entry, "why", place);
-      if (!why.is_string()) fail(place + ".why", "expected a string");
-      certificate.set_aside.push_back({number32(member(entry, "face", place), place + ".face"), why.get<std::string>()});
-    }
+  read_covering(value, certificate);
   return certificate;
 }
 
-/// Reads a certificate from JSON text. Throws std::invalid_argument where the text is not JSON or not a certificate.
-inline Order_certificate read_order_certificate(std::istream& in) {
-  nlohmann::json value;
-  try {
-    value = nlohmann::json::parse(in);
-  } catch (const nlohmann::json::exception& error) {
-    throw std::invalid_argument(std::string("order certificate: ") + error.what());
+/// The same for verify_graph().
+inline Graph_certificate graph_certificate_from_json(const nlohmann::json& value) {
+  using namespace certificate_json;
+  if (!has_format(value, graph_format)) fail("format", std::string("expected \"") + graph_format + '"');
+  Graph_certificate certificate;
+  read_covering(value, certificate);
+  const std::size_t count = certificate.fragments.size();
+  for (const nlohmann::json& size : array(member(value, "sizes", "top level"), "sizes"))
+    certificate.sizes.push_back(number32(size, "sizes[" + std::to_string(certificate.sizes.size()) + ']'));
+  for (const nlohmann::json& arc : array(member(value, "arcs", "top level"), "arcs")) {
+    const std::string at = "arcs[" + std::to_string(certificate.arcs.size()) + ']';
+    if (array(arc, at).size() != 4) fail(at, "expected [from, to, corner of from, corner of to]");
+    const std::size_t from = place(arc[0], count, at), to = place(arc[1], count, at);
+    certificate.arcs.push_back({from, to, place(arc[2], certificate.fragments[from].vertices.size(), at), place(arc[3], certificate.fragments[to].vertices.size(), at)});
   }
+  return certificate;
+}
+
+/// Reads a certificate from JSON text. Throws std::invalid_argument where the text is not JSON or not a certificate of that kind.
+inline Order_certificate read_order_certificate(std::istream& in) { return order_certificate_from_json(certificate_json::parse(in)); }
+
+/// The same for a certificate of whatever kind its "format" says.
+inline std::variant<Order_certificate, Graph_certificate> read_certificate(std::istream& in) {
+  const nlohmann::json value = certificate_json::parse(in);
+  if (certificate_json::has_format(value, certificate_json::graph_format)) return graph_certificate_from_json(value);
   return order_certificate_from_json(value);
 }
 
 /// The certificate as a JSON value, numbers as strings "p" or "p/q". Post: order_certificate_from_json() gives it back. Exact: yes
 inline nlohmann::json to_json(const Order_certificate& certificate) {
-  using namespace certificate_json;
-  nlohmann::json set_aside = nlohmann::json::array();
-  for (const auto& entry : certificate.set_aside) set_aside.push_back({{"face", entry.face}, {"why", entry.why}});
-  return {{"format", order_format}, {"eye", write(certificate.eye)},     {"fragments", write(certificate.fragments)},
-          {"pieces", write(certificate.pieces)}, {"set_aside", std::move(set_aside)}};
+  nlohmann::json value = certificate_json::write(certificate_json::order_format, certificate);
+  value["eye"] = certificate_json::write(certificate.eye);
+  return value;
+}
+
+/// The same for graph_certificate_from_json().
+inline nlohmann::json to_json(const Graph_certificate& certificate) {
+  nlohmann::json value = certificate_json::write(certificate_json::graph_format, certificate);
+  nlohmann::json arcs = nlohmann::json::array();
+  for (const Graph_certificate::Arc& arc : certificate.arcs) arcs.push_back({arc.from, arc.to, arc.corner_from, arc.corner_to});
+  value["sizes"] = certificate.sizes, value["arcs"] = std::move(arcs);
+  return value;
 }
 
 }  // namespace sightline

@@ -1,0 +1,80 @@
+#pragma once
+// The priority graph with all its arcs written out, as a Boost graph. Quadratic: the oracle of the implicit one, and what DOT is made of.
+
+#include <sightline/algorithms/priority/components.h>
+#include <sightline/algorithms/priority/relation.h>
+
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/graph/strong_components.hpp>
+
+#include <algorithm>
+#include <functional>
+#include <utility>
+
+namespace sightline {
+
+/// A Boost graph: vertex i is face i.
+using Arc_graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property, boost::no_property, std::uint32_t, std::uint64_t>;
+
+/// The components of any graph of arcs in an order of priority. Cost: linear. Exact: yes.
+inline Priority_components components(const Arc_graph& graph) {
+  const std::size_t n = boost::num_vertices(graph);
+  std::vector<std::uint32_t> component(n);
+  if (n == 0) return {};
+  const auto index = boost::get(boost::vertex_index, graph);
+  const std::uint32_t count = boost::strong_components(graph, boost::make_iterator_property_map(component.begin(), index), boost::vertex_index_map(index));
+  for (std::uint32_t& c : component) c = count - 1 - c;  // Boost numbers a component after those that it leads to
+  return {std::move(component), count};
+}
+
+/// The arcs between components: G' of the paper, acyclic. Vertex c is component c; an arc a -> b has a < b, once. Cost: O(arcs log arcs).
+inline Arc_graph condensation(const Arc_graph& graph, const Priority_components& components) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
+  for (const auto& arc : boost::make_iterator_range(boost::edges(graph))) {
+    const std::uint32_t a = components.h(boost::source(arc, graph)), b = components.h(boost::target(arc, graph));
+    if (a != b) arcs.emplace_back(a, b);
+  }
+  std::sort(arcs.begin(), arcs.end());
+  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
+  return Arc_graph(boost::edges_are_sorted, arcs.begin(), arcs.end(), static_cast<std::uint32_t>(components.size()));
+}
+
+/// The graph of a relation, explicit. `Relation` has size() and arcs(i, j, counters).
+class Explicit_priority_graph {
+ public:
+  /// Cost: O(n^2) pairs, and memory for the arcs (4 bytes each). Exact: as the relation is.
+  template <class Relation>
+  explicit Explicit_priority_graph(const Relation& relation, const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
+    const std::uint32_t n = relation.size();
+    for (std::uint32_t i = 0; i < n; ++i) {
+      if (progress) progress(i, n);
+      for (std::uint32_t j = i + 1; j < n; ++j) {
+        const Arcs both = relation.arcs(i, j, counters_);
+        if (both.forth) arcs.emplace_back(i, j);
+        if (both.back) arcs.emplace_back(j, i);
+      }
+    }
+    std::sort(arcs.begin(), arcs.end());
+    graph_ = Arc_graph(boost::edges_are_sorted, arcs.begin(), arcs.end(), n);
+  }
+
+  std::size_t size() const { return boost::num_vertices(graph_); }
+  std::size_t arc_count() const { return boost::num_edges(graph_); }
+  bool has_arc(std::uint32_t i, std::uint32_t j) const {
+    const auto [begin, end] = boost::adjacent_vertices(i, graph_);
+    return std::binary_search(begin, end, j);
+  }
+  const Arc_graph& boost_graph() const { return graph_; }
+  const Relation_counters& counters() const { return counters_; }
+
+  friend Priority_components components(const Explicit_priority_graph& g) { return components(g.graph_); }
+
+ private:
+  Arc_graph graph_;
+  Relation_counters counters_;
+};
+
+static_assert(Priority_graph<Explicit_priority_graph>);
+
+}  // namespace sightline

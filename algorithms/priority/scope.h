@@ -1,0 +1,227 @@
+#pragma once
+// The priority relation within a scope: viewpoints in a convex region, one viewpoint, one ray. Laws, tested: a region's relation is part of the whole
+// one and of that of each larger region; an eye's is part of each region's that holds it; a ray's of its eye's.
+
+#include <sightline/algorithms/priority/relation.h>
+#include <sightline/kernel/coordinates.h>
+
+#include <CGAL/Gmpz.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+
+namespace sightline {
+
+/// The convex hull of some points, of any dimension: a polyhedron of viewpoints; one point is one viewpoint, no point no viewpoint.
+struct View_region {
+  std::vector<Exact_point> points;
+
+  static View_region eye(const Exact_point& p) { return {{p}}; }
+  /// All points between two corners. Degenerate: empty where `low` is above `high` on some axis; a rectangle, segment or point where they agree.
+  static View_region box(const Exact_point& low, const Exact_point& high) {
+    View_region region;
+    for (std::size_t k = 0; k < 3; ++k)
+      if (high[k] < low[k]) return region;
+    for (unsigned corner = 0; corner < 8; ++corner) region.points.push_back({(corner & 1 ? high : low)[0], (corner & 2 ? high : low)[1], (corner & 4 ? high : low)[2]});
+    std::sort(region.points.begin(), region.points.end());
+    region.points.erase(std::unique(region.points.begin(), region.points.end()), region.points.end());
+    return region;
+  }
+};
+
+namespace priority_detail {
+
+using Grid_point = std::array<Integer, 3>;
+
+inline Grid_point difference(const Grid_point& a, const Grid_point& b) { return {Integer(a[0] - b[0]), Integer(a[1] - b[1]), Integer(a[2] - b[2])}; }
+inline Integer dot(const Grid_point& a, const Grid_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Grid_point cross(const Grid_point& a, const Grid_point& b) {
+  return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]), Integer(a[0] * b[1] - a[1] * b[0])};
+}
+
+/// A face in integers.
+struct Grid_face {
+  std::vector<Grid_point> corners;
+  Grid_point normal;
+  Integer height(const Grid_point& p) const { return dot(normal, difference(p, corners[0])); }
+};
+
+/// Faces and further points, times one integer that makes them all integers.
+struct Grid_scene {
+  std::vector<Grid_face> faces;
+  std::vector<Grid_point> points;
+  Integer scale = 1;
+
+  template <class Traits>
+  Grid_scene(const Priority_relation<Traits>& relation, const std::vector<Exact_point>& further) : faces(relation.size()) {
+    std::vector<std::vector<Exact_point>> corners(relation.size());
+    const auto see = [&](const Exact_point& p) {
+      for (const Rational& x : p) scale = lcm(scale, x.get_den());
+    };
+    for (std::uint32_t i = 0; i < relation.size(); ++i)
+      for (const Corner<Traits>& corner : relation[i]) corners[i].push_back(relation.traits().position(*corner.vertex)), see(corners[i].back());
+    std::for_each(further.begin(), further.end(), see);
+    const auto scaled = [&](const Exact_point& p) {
+      Grid_point q;
+      for (std::size_t k = 0; k < 3; ++k) q[k] = p[k].get_num() * (scale / p[k].get_den());
+      return q;
+    };
+    for (const Exact_point& p : further) points.push_back(scaled(p));
+    for (std::uint32_t i = 0; i < relation.size(); ++i) {
+      Grid_face& face = faces[i];
+      for (const Exact_point& p : corners[i]) face.corners.push_back(scaled(p));
+      for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {  // the sum over a fan, as corners may be straight
+        const Grid_point part = cross(difference(face.corners[k], face.corners[0]), difference(face.corners[k + 1], face.corners[0]));
+        for (std::size_t axis = 0; axis < 3; ++axis) face.normal[axis] += part[axis];
+      }
+    }
+  }
+};
+
+}  // namespace priority_detail
+
+/// r1 < r2 from a region: some eye of the (closed) region, strictly in front of both planes, sends a ray through the inside of r1 and then the inside of r2.
+/// With A the part of r1 in front of r2's plane and B the part of r2 behind r1's, such eyes are the inside of conv A + cone {a - b}: a linear program, solved
+/// exactly, where the whole relation has the arc and the region a point in front of both planes. Pre: exact traits.
+template <class Model>
+class Region_relation {
+ public:
+  using Traits = Model;
+
+  /// Pre: `faces` outlives it. Cost: a side for each face and point of the region.
+  Region_relation(const Priority_relation<Traits>& faces, const View_region& region) : faces_(&faces), grid_(faces, region.points), seen_(faces.size()) {
+    for (std::uint32_t i = 0; i < faces.size(); ++i)
+      seen_[i] = std::any_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& p) { return sgn(grid_.faces[i].height(p)) > 0; });
+  }
+
+  std::uint32_t size() const { return faces_->size(); }
+  const Priority_relation<Traits>& faces() const { return *faces_; }
+  /// Whether the face is on-view from some point of the region.
+  bool on_view(std::uint32_t i) const { return seen_[i]; }
+
+  /// Whether i < j from the region. Degenerate: an empty region, or one that no arc's eyes reach but with their boundary, has no arc; an eye in a face's plane
+  /// does not see it; a region that faces cut is all its points, inside solids too. Exact: yes. Cost: a linear program of 6 rows, where no corner of the region
+  /// and no edge of the faces tells. Proof: P-33
+  bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const { return arcs(i, j, counters).forth; }
+  Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
+    if (!seen_[i] || !seen_[j]) return {};
+    const Arcs whole = faces_->arcs(i, j, counters);
+    if (!whole.forth && !whole.back) return {};
+    const Grid_face &a = grid_.faces[i], &b = grid_.faces[j];
+    // Where one corner of the region sees the one face before the other, or one edge keeps them apart for all corners, that is the answer.
+    if (apart_for_all(a, b) || apart_for_all(b, a)) return {};
+    if ((!whole.forth || !whole.back) && overlap_from_some(a, b)) return whole;
+    return {whole.forth && meets(a, b), whole.back && meets(b, a)};
+  }
+
+ private:
+  using Grid_face = priority_detail::Grid_face;
+  using Grid_point = priority_detail::Grid_point;
+
+  /// Whether the plane through an eye and edge k of a has b on its outer side. Pre: the eye is in front of a.
+  static bool apart(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b) {
+    using namespace priority_detail;
+    const Grid_point edge = cross(difference(a.corners[k], eye), difference(a.corners[(k + 1) % a.corners.size()], eye));  // a is where it is negative
+    return std::all_of(b.corners.begin(), b.corners.end(), [&](const Grid_point& p) { return sgn(dot(edge, difference(p, eye))) >= 0; });
+  }
+  /// Whether one edge of a does so for all points of the region: then for all eyes in it, as the sign is that of a linear form in the eye.
+  bool apart_for_all(const Grid_face& a, const Grid_face& b) const {
+    for (std::size_t k = 0; k < a.corners.size(); ++k)
+      if (std::all_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& eye) { return apart(eye, a, k, b); })) return true;
+    return false;
+  }
+  /// Whether from some point of the region, in front of both, the cones of the insides meet.
+  bool overlap_from_some(const Grid_face& a, const Grid_face& b) const {
+    return std::any_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& eye) { return sgn(a.height(eye)) > 0 && sgn(b.height(eye)) > 0 && !separable(eye, a, b); });
+  }
+  /// Whether a plane through the eye has a on one side and b on the other. If there is one, there is one through two corners: of one edge, or of a and of b.
+  static bool separable(const Grid_point& eye, const Grid_face& a, const Grid_face& b) {
+    using namespace priority_detail;
+    for (std::size_t k = 0; k < a.corners.size(); ++k)
+      if (apart(eye, a, k, b)) return true;
+    for (std::size_t k = 0; k < b.corners.size(); ++k)
+      if (apart(eye, b, k, a)) return true;
+    const auto on_side = [&](const Grid_face& face, const Grid_point& normal, int side) {
+      return std::all_of(face.corners.begin(), face.corners.end(), [&](const Grid_point& p) { return side * sgn(dot(normal, difference(p, eye))) >= 0; });
+    };
+    for (const Grid_point& p : a.corners)
+      for (const Grid_point& q : b.corners) {
+        const Grid_point normal = cross(difference(p, eye), difference(q, eye));
+        if (sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0) continue;
+        for (const int side : {-1, 1})
+          if (on_side(a, normal, side) && on_side(b, normal, -side)) return true;
+      }
+    return false;
+  }
+
+  /// Whether the region holds an eye from which the inside of a may obscure that of b: are there alpha, beta >= 1 and gamma >= 0 with
+  ///   sum alpha (a_k, 1) - sum beta (b_l, 1) = sum gamma (p_m, 1),  sum alpha height_b(a_k) >= 1,  sum beta height_a(b_l) <= -1?
+  bool meets(const Grid_face& a, const Grid_face& b) const {
+    using Number = CGAL::Gmpz;
+    const auto number = [](const Integer& x) { return Number(x.get_mpz_t()); };
+    CGAL::Quadratic_program<Number> program(CGAL::EQUAL, true, Number(1), false, Number(0));
+    int column = 0;
+    const Grid_point& origin = a.corners[0];
+    const auto add = [&](const Grid_point& p, int sign) {
+      const Grid_point from = priority_detail::difference(p, origin);
+      for (int k = 0; k < 3; ++k) program.set_a(column, k, number(Integer(sign * from[static_cast<std::size_t>(k)])));
+      program.set_a(column, 3, Number(sign));
+    };
+    for (const Grid_point& p : a.corners) add(p, 1), program.set_a(column++, 4, number(b.height(p)));
+    for (const Grid_point& p : b.corners) add(p, -1), program.set_a(column++, 5, number(a.height(p)));
+    for (const Grid_point& p : grid_.points) add(p, -1), program.set_l(column++, true, Number(0));
+    for (int k = 0; k < 4; ++k) program.set_b(k, Number(0));
+    program.set_b(4, Number(1)), program.set_r(4, CGAL::LARGER);
+    program.set_b(5, Number(-1)), program.set_r(5, CGAL::SMALLER);
+    return !CGAL::solve_linear_program(program, Number()).is_infeasible();
+  }
+
+  const Priority_relation<Traits>* faces_;
+  priority_detail::Grid_scene grid_;
+  std::vector<char> seen_;
+};
+
+/// r1 < r2 along one ray from one eye: both are on-view, and the ray goes through the inside of r1 and then through the inside of r2.
+/// Degenerate: a ray through an edge or a corner goes through no inside. Pre: exact traits; direction != 0. Exact: yes.
+template <class Model>
+class Ray_relation {
+ public:
+  using Traits = Model;
+
+  /// Pre: `faces` outlives it. Errors: std::domain_error for a zero direction. Cost: linear in the corners.
+  Ray_relation(const Priority_relation<Traits>& faces, const Exact_point& eye, const Exact_point& direction) : faces_(&faces), pierced_(faces.size()) {
+    if (sgn(direction[0]) == 0 && sgn(direction[1]) == 0 && sgn(direction[2]) == 0) throw std::domain_error("a ray needs a direction");
+    const priority_detail::Grid_scene grid(faces, {eye, direction});
+    for (std::uint32_t i = 0; i < faces.size(); ++i) pierced_[i] = pierced(grid.faces[i], grid.points[0], grid.points[1]);
+  }
+
+  std::uint32_t size() const { return faces_->size(); }
+  const Priority_relation<Traits>& faces() const { return *faces_; }
+  /// Where the ray goes through the face's inside, if it does and the eye is in front: eye + t direction.
+  const std::optional<Rational>& parameter(std::uint32_t i) const { return pierced_[i]; }
+
+  bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters&) const { return pierced_[i] && pierced_[j] && *pierced_[i] < *pierced_[j]; }
+  Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const { return {may_obscure(i, j, counters), may_obscure(j, i, counters)}; }
+
+ private:
+  static std::optional<Rational> pierced(const priority_detail::Grid_face& face, const priority_detail::Grid_point& eye, const priority_detail::Grid_point& direction) {
+    using namespace priority_detail;
+    const Integer height = face.height(eye), slope = dot(face.normal, direction);
+    if (sgn(height) <= 0 || sgn(slope) >= 0) return std::nullopt;  // off-view, or never there
+    for (std::size_t k = 0; k < face.corners.size(); ++k) {
+      const Grid_point from = difference(face.corners[k], eye), to = difference(face.corners[(k + 1) % face.corners.size()], eye);
+      if (sgn(dot(cross(from, to), direction)) >= 0) return std::nullopt;  // seen from the front the corners run counterclockwise
+    }
+    Rational t(height, -slope);
+    t.canonicalize();
+    return t;
+  }
+
+  const Priority_relation<Traits>* faces_;
+  std::vector<std::optional<Rational>> pierced_;
+};
+
+}  // namespace sightline

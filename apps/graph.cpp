@@ -1,0 +1,212 @@
+// sightline graph: the priority graph of a scene, its strongly connected components, and their order.
+
+#include "common.h"
+
+#include <sightline/algorithms/priority/explicit_graph.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/priority/scope.h>
+#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/kernel/exact_traits.h>
+
+#include <iostream>
+#include <map>
+#include <sstream>
+
+namespace sightline::app {
+
+namespace {
+
+struct Graph_arguments {
+  Common common;
+  std::string method = "implicit", eye, direction, dot, certificate;
+  std::vector<std::string> box, region;
+  bool arcs = false;
+};
+
+using Faces = Priority_relation<Exact_traits>;
+
+/// What a run found.
+struct Found {
+  Priority_components components;
+  std::optional<Explicit_priority_graph> arcs;  // where they were asked for
+  Component_trees trees;                        // implicit only
+  Json counters;
+  double component_seconds = 0, arc_seconds = 0;
+};
+
+/// Components and arcs of a relation of whatever scope.
+template <class Relation>
+Found find(const Relation& relation, const Graph_arguments& arguments) {
+  // Arcs are counted where that takes no longer than a moment.
+  constexpr std::uint32_t few = 2000;
+  Found found;
+  const bool is_explicit = arguments.method == "explicit";
+  const Stopwatch watch;
+  if (!is_explicit) {
+    Implicit_priority_graph<Relation> graph(relation);
+    Progress progress("searching");
+    found.components = graph.find_components(&found.trees, arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
+    found.component_seconds = watch.seconds();
+    const Index_counters& c = graph.counters();
+    found.counters = {{"index_nodes", c.nodes}, {"hits", c.hits}, {"misses", c.misses}, {"pairs", c.relation.pairs}, {"predicates", predicates_json(c.relation.predicates)}};
+  }
+  if (is_explicit || arguments.arcs || !arguments.dot.empty() || relation.size() <= few) {
+    Progress progress("comparing");
+    found.arcs.emplace(relation, arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
+    const Relation_counters& c = found.arcs->counters();
+    if (is_explicit) {
+      found.components = components(*found.arcs);
+      found.component_seconds = watch.seconds();
+      found.counters = {{"pairs", c.pairs}, {"predicates", predicates_json(c.predicates)}};
+    }
+    found.arc_seconds = watch.seconds() - found.component_seconds;
+  }
+  return found;
+}
+
+Json name_json(const Scene& scene, std::uint32_t piece) { return {scene.pieces()[piece].face, scene.pieces()[piece].number}; }
+std::string name(const Scene& scene, std::uint32_t piece) {
+  const Piece& p = scene.pieces()[piece];
+  return p.number == 0 ? std::to_string(p.face) : fmt::format("{}.{}", p.face, p.number);
+}
+
+/// One point an entry, or Usage_error.
+std::vector<Exact_point> parse_points(const std::vector<std::string>& texts, const std::string& option) {
+  std::vector<Exact_point> points;
+  for (const std::string& text : texts) {
+    std::istringstream words(text);
+    for (std::string word; words >> word;) points.push_back(parse_point(word, option));
+  }
+  return points;
+}
+
+/// What `verify` needs: the pieces in order of priority, and arcs that hold each component together.
+Graph_certificate certificate_of(const Faces& faces, const Scene& scene, const Found& found) {
+  Graph_certificate certificate;
+  std::vector<std::size_t> place(faces.size());
+  for (std::size_t c = 0; c < found.components.size(); ++c) {
+    certificate.sizes.push_back(found.components[c].size());
+    for (const std::uint32_t i : found.components[c]) {
+      place[i] = certificate.fragments.size();
+      Order_fragment& fragment = certificate.fragments.emplace_back();
+      fragment.face = scene.pieces()[i].face, fragment.piece = scene.pieces()[i].number;
+      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) fragment.vertices.push_back(scene.position(corner.point));
+    }
+  }
+  Predicate_counts counts;
+  const auto add = [&](std::uint32_t from, std::uint32_t to) {
+    if (from != to) certificate.arcs.push_back({place[from], place[to], faces.find_corner(from, CGAL::POSITIVE, to, counts), faces.find_corner(to, CGAL::NEGATIVE, from, counts)});
+  };
+  for (std::uint32_t i = 0; i < faces.size(); ++i) add(found.trees.from[i], i), add(i, found.trees.to[i]);
+  add_pieces(certificate, scene);
+  return certificate;
+}
+
+/// The graph for Graphviz: components of more than one face are boxes, each face is named, arcs within a component are red.
+std::string dot_of(const Scene& scene, const Found& found) {
+  std::string text = "digraph priority {\n  node [shape=ellipse, fontsize=11];\n";
+  for (std::size_t c = 0; c < found.components.size(); ++c) {
+    const bool cyclic = found.components[c].size() > 1;
+    if (cyclic) text += fmt::format("  subgraph cluster_{} {{\n    label=\"component {}\"; color=red;\n", c, c);
+    for (const std::uint32_t i : found.components[c]) text += fmt::format("  {}n{} [label=\"{}\"];\n", cyclic ? "  " : "", i, name(scene, i));
+    if (cyclic) text += "  }\n";
+  }
+  const Arc_graph& graph = found.arcs->boost_graph();
+  for (const auto& arc : boost::make_iterator_range(boost::edges(graph))) {
+    const auto from = boost::source(arc, graph), to = boost::target(arc, graph);
+    text += fmt::format("  n{} -> n{}{};\n", from, to, found.components.h(from) == found.components.h(to) ? " [color=red]" : "");
+  }
+  return text + "}\n";
+}
+
+void print(const Scene& scene, const Found& found, const std::string& scope, const Graph_arguments& arguments) {
+  const Priority_components& all = found.components;
+  scene_rows(scene);
+  row("scope", scope);
+  if (found.arcs) row("arcs", fmt::format("{}", found.arcs->arc_count()));
+  else row("arcs", "not written out; --arcs does");
+  row("components", fmt::format("{}: {} of one face, {} cyclic, the largest of {} faces", all.size(), all.size() - all.cyclic(), all.cyclic(), all.largest()));
+  row("seconds", fmt::format("{:.3f} for components ({}){}", found.component_seconds, arguments.method, found.arcs && arguments.method != "explicit" ? fmt::format(", {:.3f} for arcs", found.arc_seconds) : ""));
+  constexpr std::size_t shown = 20, members = 12;
+  for (std::size_t c = 0; c < std::min(shown, all.size()); ++c) {
+    std::string line;
+    for (std::size_t k = 0; k < std::min(members, all[c].size()); ++k) line += (k == 0 ? "" : ", ") + name(scene, all[c][k]);
+    if (all[c].size() > members) line += fmt::format(", ... {} more", all[c].size() - members);
+    std::cout << fmt::format("{:>6}. {}{}\n", c + 1, all[c].size() > 1 ? "cyclic: " : "face ", line);
+  }
+  if (all.size() > shown) std::cout << fmt::format("   ... {} more: --json - prints them all\n", all.size() - shown);
+}
+
+Exit run(const Graph_arguments& arguments) {
+  const Common& common = arguments.common;
+  // Usage errors come before a long read.
+  const std::vector<Exact_point> box = parse_points(arguments.box, "--box"), region = parse_points(arguments.region, "--region");
+  if (!arguments.box.empty() && box.size() != 2) throw Usage_error("--box wants two corners X,Y,Z X,Y,Z");
+  const Exact_point origin;
+  const Exact_point eye = arguments.eye.empty() ? origin : parse_point(arguments.eye, "--eye");
+  const Exact_point direction = arguments.direction.empty() ? origin : parse_point(arguments.direction, "--ray");
+  if (!arguments.direction.empty() && direction == origin) throw Usage_error("--ray wants a direction that is not 0,0,0");
+  const bool whole = box.empty() && region.empty() && arguments.eye.empty();
+  if (!arguments.certificate.empty() && !(whole && arguments.method == "implicit"))
+    throw Usage_error("--certificate is for --method implicit over all viewpoints: leave out --box, --region and --eye");
+
+  const Scene scene(common.read());
+  const Exact_traits traits(scene);
+  const Faces faces(traits);
+  std::string scope = "all viewpoints";
+  const Found found = [&] {
+    if (!arguments.direction.empty()) return scope = "one ray", find(Ray_relation<Exact_traits>(faces, eye, direction), arguments);
+    if (!arguments.eye.empty()) return scope = "one viewpoint", find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments);
+    if (!whole) {
+      const View_region viewpoints = box.empty() ? View_region{region} : View_region::box(box[0], box[1]);
+      scope = viewpoints.points.empty() ? "no viewpoint: the box is empty" : fmt::format("viewpoints in the hull of {} points", viewpoints.points.size());
+      return find(Region_relation<Exact_traits>(faces, viewpoints), arguments);
+    }
+    return find(faces, arguments);
+  }();
+
+  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(faces, scene, found)).dump() + "\n");
+  if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
+  Json result{{"scope", scope}, {"arcs", found.arcs ? Json(found.arcs->arc_count()) : Json()}};
+  if (!common.json.empty()) {
+    Json components = Json::array();
+    for (std::size_t c = 0; c < found.components.size(); ++c) {
+      Json& members = components.emplace_back(Json::array());
+      for (const std::uint32_t i : found.components[c]) members.push_back(name_json(scene, i));
+    }
+    result["components"] = std::move(components);
+    if (arguments.arcs) {
+      Json& list = result["arc_list"] = Json::array();
+      const Arc_graph& graph = found.arcs->boost_graph();
+      for (const auto& arc : boost::make_iterator_range(boost::edges(graph)))
+        list.push_back({name_json(scene, static_cast<std::uint32_t>(boost::source(arc, graph))), name_json(scene, static_cast<std::uint32_t>(boost::target(arc, graph)))});
+    }
+  }
+  if (write_json(common, "graph", scene, std::move(result), found.counters, {{"components", found.component_seconds}, {"arcs", found.arc_seconds}})) return Exit::done;
+  print(scene, found, scope, arguments);
+  return Exit::done;
+}
+
+}  // namespace
+
+}  // namespace sightline::app
+
+void add_graph(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("graph", "Which face may obscure which: the priority graph, its strongly connected components and their order");
+  auto a = std::make_shared<sightline::app::Graph_arguments>();
+  a->common.add_to(*command);
+  command->add_option("--method", a->method, "implicit: no arc is written out; explicit: all are")->check(CLI::IsMember({"implicit", "explicit"}))->capture_default_str();
+  auto* box = command->add_option("--box", a->box, "viewpoints in a box only: two corners X,Y,Z X,Y,Z")->check(sightline::app::not_empty)->expected(1, 2);
+  auto* region = command->add_option("--region", a->region, "viewpoints in the convex hull of these points only: X,Y,Z X,Y,Z ...")->check(sightline::app::not_empty)->expected(1, 1 << 20);
+  auto* eye = command->add_option("--eye", a->eye, "one viewpoint only")->check(sightline::app::not_empty);
+  auto* ray = command->add_option("--ray", a->direction, "one ray only, from the eye in direction X,Y,Z")->check(sightline::app::not_empty)->needs(eye);
+  box->excludes(region)->excludes(eye), region->excludes(eye);
+  static_cast<void>(ray);
+  command->add_flag("--arcs", a->arcs, "write all arcs out, however many, and list them in the JSON");
+  command->add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");
+  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  command->footer("Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed highest priority first:\n"
+                  "no face of a later one obscures a face of an earlier one, whatever the viewpoint. Options that take several points end at the next option.\n"
+                  "Example: sightline graph object.off --dot object.dot --certificate object.json");
+  set_action(*command, [a] { return sightline::app::run(*a); });
+}
