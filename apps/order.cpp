@@ -2,7 +2,9 @@
 
 #include "picture.h"
 
+#include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/kernel/exact_traits.h>
 
 #include <iostream>
 
@@ -10,7 +12,7 @@ namespace sightline::app {
 
 struct Order_arguments {
   Common common;
-  std::string eye, kernel = "exact", certificate, svg, look, up;
+  std::string eye, kernel = "exact", method = "bsp", certificate, svg, look, up;
   double field = 60;
 };
 
@@ -31,9 +33,42 @@ static std::array<double, 3> parse_direction(const std::string& text, const std:
   return direction;
 }
 
+/// The order by the priority graph: whole faces but where they overlap in a cycle. In front of the near plane only, where there is one.
+static Outcome run_graph(Scene& scene, const Task& task, Eye_order_counters& counters) {
+  std::optional<Plane> near;
+  if (task.near) near = scene.add_plane(*task.near);
+  const Exact_traits traits(scene);
+  Outcome outcome;
+  const Stopwatch watch;
+  const Eye_order<Exact_traits> order = order_by_graph(traits, *task.eye, task.bsp);
+  outcome.order_seconds = watch.seconds();
+  counters = order.counters;
+  outcome.tree = counters.cuts, outcome.tree.fragments = counters.fragments;
+  std::vector<std::uint32_t> seen(scene.counters().faces_read);
+  Polygon_store<Exact_traits> store;
+  Split_scratch<Exact_traits> scratch;
+  for (Convex_polygon<Exact_traits> polygon : order.polygons) {
+    const Piece& piece = scene.pieces()[polygon.piece];
+    const std::uint32_t number = seen[piece.face]++;
+    if (near) {
+      const Prepared_plane cutter = traits.prepare(*near);
+      const Position at = classify(traits, polygon, cutter, scratch, outcome.walk.predicates);
+      if (at == Position::on || at == Position::behind) continue;
+      if (at == Position::across) polygon = split(traits, polygon, cutter, scratch, store)[1];
+    }
+    Drawn& drawn = outcome.drawn.emplace_back();
+    drawn.fragment.face = piece.face, drawn.fragment.piece = piece.number, drawn.number = number;
+    drawn.side = traits.side(traits.eye(*task.eye), piece.support, outcome.walk.predicates);
+    for (const Corner<Exact_traits>& corner : polygon) drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
+  }
+  return outcome;
+}
+
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
+  const bool by_graph = arguments.method == "graph";
+  if (by_graph && arguments.kernel != "exact") throw Usage_error("--method graph is exact: leave out --kernel");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   Progress progress("building");
@@ -41,7 +76,9 @@ static Exit run(const Order_arguments& arguments) {
   task.eye = eye;
   task.bsp.seed = common.seed, task.bsp.threads = common.threads;
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const Outcome outcome = run_method(arguments.kernel, scene, task);
+  Eye_order_counters graph;
+  const auto run_task = [&] { return by_graph ? run_graph(scene, task, graph) : run_method(arguments.kernel, scene, task); };
+  const Outcome outcome = run_task();
 
   if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, outcome.drawn)).dump() + "\n");
   if (!arguments.svg.empty()) {
@@ -50,7 +87,7 @@ static Exit run(const Order_arguments& arguments) {
     if (!arguments.up.empty()) view.up = parse_direction(arguments.up, "--up");
     view.field = arguments.field;
     if (scene.counters().faces > 0) view = aimed(view, scene), task.near = near_plane(view, scene);
-    write_file(arguments.svg, painted(view, task.near ? run_method(arguments.kernel, scene, task).drawn : outcome.drawn));
+    write_file(arguments.svg, painted(view, task.near ? run_task().drawn : outcome.drawn));
   }
 
   Json fragments = Json::array();
@@ -62,14 +99,18 @@ static Exit run(const Order_arguments& arguments) {
     }
   const Bsp_counters& c = outcome.tree;
   Json result{{"eye", point_json(eye)}, {"fragments", std::move(fragments)}};
-  const Json counters{{"kernel", arguments.kernel}, {"nodes", c.nodes}, {"depth", c.depth}, {"splits", c.splits}, {"fragments", c.fragments}, {"free_planes", c.free_planes},
+  Json counters{{"kernel", arguments.kernel}, {"nodes", c.nodes}, {"depth", c.depth}, {"splits", c.splits}, {"fragments", c.fragments}, {"free_planes", c.free_planes},
                       {"eye_on_planes", outcome.walk.on_planes}, {"not_finite", outcome.not_finite}, {"degenerate", c.degenerate},
                       {"predicates", predicates_json(c.predicates)}, {"eye_predicates", predicates_json(outcome.walk.predicates)}};
+  if (by_graph)
+    counters["graph"] = {{"cycles", graph.cycles}, {"in_cycles", graph.in_cycles}, {"edge_on", graph.edge_on}, {"index_nodes", graph.search.nodes},
+                         {"pairs", graph.search.relation.pairs}, {"predicates", predicates_json(graph.search.relation.predicates)}};
   if (write_json(common, "order", scene, std::move(result), counters, {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}})) return Exit::done;
 
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
-  row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(), outcome.walk.on_planes));
+  if (by_graph) row("order", fmt::format("{} polygons, back to front; {} cyclic overlaps of {} faces took {} cuts", outcome.drawn.size(), graph.cycles, graph.in_cycles, c.splits));
+  else row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(), outcome.walk.on_planes));
   if (outcome.not_finite + c.degenerate > 0) row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
   row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds, arguments.kernel));
   if (arguments.certificate.empty() && arguments.svg.empty()) {
@@ -90,6 +131,9 @@ void add_order(CLI::App& app) {
   a->common.add_to(*command);
   command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")->check(sightline::app::not_empty);
   command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember(sightline::app::kernel_names))->capture_default_str();
+  command->add_option("--method", a->method, "bsp: a tree for all eyes, which cuts faces; graph: for this eye, whole faces but where they overlap in a cycle")
+      ->check(CLI::IsMember({"bsp", "graph"}))
+      ->capture_default_str();
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->add_option("--svg", a->svg, "draw the order as a painter would");
   command->add_option("--look", a->look, "direction X,Y,Z of the picture; by default to the centre of the scene");

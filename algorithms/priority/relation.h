@@ -36,6 +36,10 @@ class Priority_relation {
     polygons_.reserve(traits.piece_count()), cutters_.reserve(traits.piece_count());
     for (std::uint32_t i = 0; i < traits.piece_count(); ++i) add(store_.piece(traits, i));
   }
+  /// Of these polygons only. Pre: their corners live as long as the relation.
+  Priority_relation(const Traits& traits, std::span<const Polygon> polygons) : traits_(&traits) {
+    for (const Polygon& polygon : polygons) add(polygon);
+  }
   Priority_relation(Priority_relation&&) = default;
 
   /// Pre: the polygon's corners live as long as the relation.

@@ -3,13 +3,14 @@
 // one and of that of each larger region; an eye's is part of each region's that holds it; a ray's of its eye's.
 
 #include <sightline/algorithms/priority/relation.h>
-#include <sightline/kernel/coordinates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
 #include <CGAL/Gmpz.h>
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
@@ -95,6 +96,8 @@ class Region_relation {
   Region_relation(const Priority_relation<Traits>& faces, const View_region& region) : faces_(&faces), grid_(faces, region.points), seen_(faces.size()) {
     for (std::uint32_t i = 0; i < faces.size(); ++i)
       seen_[i] = std::any_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& p) { return sgn(grid_.faces[i].height(p)) > 0; });
+    if (grid_.points.size() == 1)
+      for (std::uint32_t i = 0; i < faces.size(); ++i) cones_.push_back(cone_of(grid_.faces[i]));
   }
 
   std::uint32_t size() const { return faces_->size(); }
@@ -107,7 +110,7 @@ class Region_relation {
   /// and no edge of the faces tells. Proof: P-33
   bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const { return arcs(i, j, counters).forth; }
   Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
-    if (!seen_[i] || !seen_[j]) return {};
+    if (!seen_[i] || !seen_[j] || (!cones_.empty() && cones_[i].apart_from(cones_[j]))) return {};
     const Arcs whole = faces_->arcs(i, j, counters);
     if (!whole.forth && !whole.back) return {};
     const Grid_face &a = grid_.faces[i], &b = grid_.faces[j];
@@ -120,6 +123,37 @@ class Region_relation {
  private:
   using Grid_face = priority_detail::Grid_face;
   using Grid_point = priority_detail::Grid_point;
+
+  /// A round cone, narrower than a half-space, of all directions from the one eye to a face, in doubles; or, with a cosine of 0, nothing known.
+  struct Round_cone {
+    std::array<double, 3> axis{};
+    double cosine = 0, sine = 1;
+    /// Whether the cones share no direction, rounding included: each of the three terms is within 2^-48.
+    bool apart_from(const Round_cone& other) const {
+      const double between = axis[0] * other.axis[0] + axis[1] * other.axis[1] + axis[2] * other.axis[2];
+      return cosine > 0 && other.cosine > 0 && between < cosine * other.cosine - sine * other.sine - 0x1p-44;
+    }
+  };
+  Round_cone cone_of(const Grid_face& face) const {
+    std::vector<std::array<double, 3>> directions;
+    Round_cone cone;
+    const auto normalize = [](std::array<double, 3>& d) {
+      const double length = std::hypot(d[0], d[1], d[2]);
+      for (double& x : d) x /= length;
+    };
+    for (const Grid_point& p : face.corners) {
+      const Grid_point arm = priority_detail::difference(p, grid_.points[0]);
+      directions.push_back({arm[0].get_d(), arm[1].get_d(), arm[2].get_d()});
+      normalize(directions.back());
+      for (std::size_t k = 0; k < 3; ++k) cone.axis[k] += directions.back()[k];
+    }
+    normalize(cone.axis);
+    double least = 1;
+    for (const auto& d : directions) least = std::min(least, cone.axis[0] * d[0] + cone.axis[1] * d[1] + cone.axis[2] * d[2]);
+    if (!(least > 0x1p-20)) return {};  // also where a number is beyond doubles
+    cone.cosine = least - 0x1p-48, cone.sine = std::sqrt(1 - cone.cosine * cone.cosine);
+    return cone;
+  }
 
   /// Whether the plane through an eye and edge k of a has b on its outer side. Pre: the eye is in front of a.
   static bool apart(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b) {
@@ -182,6 +216,7 @@ class Region_relation {
   const Priority_relation<Traits>* faces_;
   priority_detail::Grid_scene grid_;
   std::vector<char> seen_;
+  std::vector<Round_cone> cones_;  // of one viewpoint
 };
 
 /// r1 < r2 along one ray from one eye: both are on-view, and the ray goes through the inside of r1 and then through the inside of r2.

@@ -141,4 +141,22 @@ TEST_F(Graph, of_nothing_is_nothing) {
   EXPECT_EQ(d["result"]["components"].size(), 0u);
 }
 
+TEST_F(Graph, orders_whole_faces_that_verify_accepts) {
+  const std::string scene = made("city", "40"), to = path("order.json").string(), svg = path("order.svg").string();
+  const Outcome r = run({"order", scene, "--method", "graph", "--eye", "20.3,-7.1,4", "--certificate", to, "--svg", svg, "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json d = r.json();
+  EXPECT_EQ(d["result"]["fragments"].size(), 201u);
+  EXPECT_EQ(d["counters"]["graph"]["cycles"], 0);
+  EXPECT_EQ(run({"verify", scene, to}).code, done);
+  EXPECT_NE(read_file(svg).find("<polygon"), std::string::npos);
+  // From inside the town the picture is of what is in front of the near plane only.
+  const Outcome inside = run({"order", scene, "--method", "graph", "--eye", "3.3,3.1,1/3", "--certificate", to, "--svg", svg});
+  ASSERT_EQ(inside.code, done) << inside;
+  EXPECT_EQ(run({"verify", scene, to}).code, done);
+  EXPECT_EQ(run({"order", scene, "--method", "graph", "--kernel", "double"}).code, usage);
+  EXPECT_EQ(run({"order", bars, "--method", "graph", "--eye", "0,0,50", "--certificate", to}).code, done);
+  EXPECT_EQ(run({"verify", bars, to}).code, done);
+}
+
 }  // namespace program

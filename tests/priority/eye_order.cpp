@@ -1,0 +1,123 @@
+// Orders by the priority graph: accepted by the checker, whole where they can be, for eyes in general places and in bad ones.
+
+#include "support.h"
+
+#include <sightline/algorithms/generate/scenes.h>
+#include <sightline/algorithms/generate/transform.h>
+#include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/verify/order.h>
+
+using namespace priority_test;
+
+namespace {
+
+Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye, const Eye_order<Exact_traits>& order) {
+  Order_certificate certificate;
+  certificate.eye = eye;
+  std::set<Face_id> cut(scene.non_planar().begin(), scene.non_planar().end());
+  for (const Piece& piece : scene.pieces())
+    if (piece.number > 0) cut.insert(piece.face);
+  for (const auto& polygon : order.polygons) {
+    const Piece& piece = scene.pieces()[polygon.piece];
+    Order_fragment& fragment = certificate.fragments.emplace_back();
+    fragment.face = piece.face, fragment.piece = piece.number;
+    for (const auto& corner : polygon) fragment.vertices.push_back(traits.position(*corner.vertex));
+  }
+  for (const Piece& piece : scene.pieces())
+    if (cut.count(piece.face)) {
+      Covering::Piece& part = certificate.pieces.emplace_back();
+      part.face = piece.face, part.piece = piece.number;
+      for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
+    }
+  for (const Set_aside& entry : scene.set_aside()) certificate.set_aside.push_back({entry.face, entry.why});
+  return certificate;
+}
+
+struct Ordered {
+  Polygon_soup soup;
+  Scene scene;
+  Exact_traits traits;
+
+  explicit Ordered(Polygon_soup given) : soup(std::move(given)), scene(soup), traits(scene) {}
+
+  /// The counters of an order that the checker must accept.
+  Eye_order_counters check(const Exact_point& eye) const {
+    const Eye_order<Exact_traits> order = order_by_graph(traits, eye);
+    const Verdict verdict = verify_order(soup, certificate_of(scene, traits, eye, order));
+    EXPECT_TRUE(verdict.accepted) << verdict.why;
+    const Eye_order_counters& c = order.counters;
+    EXPECT_EQ(c.fragments, order.polygons.size());
+    EXPECT_EQ(c.fragments, c.pieces + c.cuts.splits);
+    EXPECT_EQ(c.pieces, traits.piece_count());
+    EXPECT_TRUE(c.cycles > 0 || c.cuts.splits == 0);
+    return c;
+  }
+};
+
+TEST(Eye_order, of_disjoint_bodies_draws_every_face_whole) {
+  for (const char* kind : {"city", "city_rotated", "convex_sphere", "stacked"}) {
+    const Ordered given(generate::make(kind, 60, 1));
+    const auto box = given.scene.box();
+    for (long k = 0; k < 6; ++k) {
+      Exact_point eye;
+      for (std::size_t a = 0; a < 3; ++a) eye[a] = box[0][a] + (box[1][a] - box[0][a]) * ratio(3 * k + 7 * static_cast<long>(a) - 8, 7) + ratio(1, 1009);
+      const Eye_order_counters c = given.check(eye);
+      EXPECT_EQ(c.fragments, c.pieces) << kind << ' ' << k;
+    }
+  }
+}
+
+TEST(Eye_order, of_bars_in_a_cycle_cuts_them_and_nothing_else) {
+  // A ring of three as seen from above, and a square far below that is drawn whole.
+  Polygon_soup soup = soup_of({{at(0, 0, 0), at(6, 0, 2), at(6, 1, 2), at(0, 1, 0)}, {at(5, 0, 0), at(6, 0, 0), at(3, 6, 2), at(2, 6, 2)}, {at(4, 6, 0), at(3, 6, 0), at(0, 0, 2), at(1, 0, 2)}, rectangle(-9, 9, -9, 9, -5)});
+  const Ordered given(std::move(soup));
+  const Eye_order_counters above = given.check(at(ratio(5, 2), 2, 30));
+  EXPECT_EQ(above.cycles, 1u);
+  EXPECT_EQ(above.in_cycles, 3u);
+  EXPECT_GE(above.fragments, 5u);
+  EXPECT_EQ(given.check(at(-40, 2, ratio(1, 3))).cycles, 0u);
+}
+
+TEST(Eye_order, of_faces_that_cross_cuts_them) {
+  const Ordered given(soup_of({rectangle(-1, 1, -1, 1, 0), {at(0, -1, -1), at(0, 1, -1), at(0, 1, 1), at(0, -1, 1)}}));
+  const Eye_order_counters c = given.check(at(3, ratio(1, 5), 2));
+  EXPECT_EQ(c.cycles, 1u);
+  EXPECT_EQ(c.fragments, 3u);
+  EXPECT_EQ(given.check(at(0, 0, 5)).cycles, 0u) << "one is edge-on";
+}
+
+TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
+  std::size_t cycles = 0, edge_on = 0, cut = 0, whole = 0;
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    const Ordered given(degenerate_soup(k));
+    if (given.scene.pieces().empty()) continue;
+    // In a face's plane, at a corner, in general place.
+    const Piece& piece = given.scene.pieces()[k % given.scene.pieces().size()];
+    const Exact_point a = given.scene.position(given.scene.corners(piece)[0].point), b = given.scene.position(given.scene.corners(piece)[1].point);
+    Exact_point in_plane, outside;
+    for (std::size_t i = 0; i < 3; ++i) in_plane[i] = 3 * b[i] - 2 * a[i], outside[i] = a[i] + (b[i] - a[(i + 1) % 3]) * ratio(7, 3) + ratio(static_cast<long>(k % 5), 11);
+    for (const Exact_point& eye : {a, in_plane, outside}) {
+      const Eye_order_counters c = given.check(eye);
+      cycles += c.cycles, edge_on += c.edge_on, cut += c.cuts.splits, whole += c.fragments == c.pieces;
+    }
+  }
+  EXPECT_GT(cycles, 50u);
+  EXPECT_GT(edge_on, 500u);
+  EXPECT_GT(cut, 50u);
+  EXPECT_GT(whole, 300u);
+}
+
+TEST(Eye_order, of_generated_scenes_never_cuts_more_than_a_tree_does) {
+  for (const auto& [kind, size] : {std::pair{"soup", 120}, {"rooms", 1}, {"lattice", 3}, {"menger_sponge_merged", 1}, {"terrain", 100}, {"crossing", 8}}) {
+    const Ordered given(generate::make(kind, static_cast<std::size_t>(size), 3));
+    const auto box = given.scene.box();
+    const Exact_point eye{box[1][0] + ratio(1, 3), box[0][1] - ratio(1, 7), box[1][2] + ratio(5, 9)};
+    const Eye_order_counters c = given.check(eye);
+    const auto tree = build_bsp(given.traits);
+    EXPECT_LE(c.fragments, tree.counters.fragments) << kind;
+  }
+}
+
+TEST(Eye_order, of_nothing_is_nothing) { EXPECT_EQ(Ordered(Polygon_soup()).check(at(0, 0, 0)).fragments, 0u); }
+
+}  // namespace
