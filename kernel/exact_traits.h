@@ -63,6 +63,15 @@ class Exact_traits {
     return {h.a, h.b, h.c, h.d, h.exact};
   }
 
+  /// Whether edge k of a polygon, from its corner k on, gains height over a plane. The edge runs along bound x support, as its inside is in front of its bound.
+  Sign slope(const Convex_polygon<Exact_traits>& polygon, std::uint32_t k, const Cutter& cutter, Predicate_counts& counts) const {
+    return predicates_.orientation(cutter.plane, polygon.corners[k].edge.bound, polygon.support, counts);
+  }
+  /// The turn from edge k to edge l, counterclockwise seen from the front.
+  Sign turn(const Convex_polygon<Exact_traits>& polygon, std::uint32_t k, std::uint32_t l, Predicate_counts& counts) const {
+    return predicates_.orientation(polygon.support, polygon.corners[k].edge.bound, polygon.corners[l].edge.bound, counts);
+  }
+
   Exact_point position(const Vertex& v) const { return scene_->position(predicates_.homogeneous(v)); }
 
  private:

@@ -215,6 +215,29 @@ class Predicates {
     return h;
   }
 
+  /// The sign of the determinant of three oriented planes' normals. Laws: exchanging two, or turning one round, negates it; equal planes give ZERO.
+  /// Exact: filtered, then GMP. Proof: P-04
+  Sign orientation(Plane p, Plane q, Plane r, Predicate_counts& counts) const {
+    const bool flipped = (p.flipped() != q.flipped()) != r.flipped();
+    if (p.id() == q.id() || q.id() == r.id() || r.id() == p.id()) {
+      ++counts.combinatorial;
+      return CGAL::ZERO;
+    }
+    const Approximate_plane f = approximate(p.id()), g = approximate(q.id()), h = approximate(r.id());
+    const double w = f.a * (g.b * h.c - g.c * h.b) + f.b * (g.c * h.a - g.a * h.c) + f.c * (g.a * h.b - g.b * h.a);
+    const double size = 6 * largest(f) * largest(g) * largest(h);
+    const bool integers = f.exact && g.exact && h.exact && size < 0x1p53;
+    int sign;
+    if (integers || std::fabs(w) > 0x1p-48 * size) {  // as in meet()
+      ++counts.filtered;
+      sign = w > 0 ? 1 : w < 0 ? -1 : 0;
+    } else {
+      ++counts.gmp;
+      sign = orientation_exact(p.id(), q.id(), r.id());
+    }
+    return static_cast<Sign>(flipped ? -sign : sign);
+  }
+
   /// The sign of the determinant of three planes' canonical normals. Exact: yes, in GMP.
   int orientation_exact(std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
     const Row<Integer> f = row<Integer>(p), g = row<Integer>(q), h = row<Integer>(r);

@@ -50,7 +50,8 @@ Eye_order<Traits> order_by_graph(const Traits& traits, const Exact_point& eye, B
     }
     pieces.push_back(polygon);
     if (side == CGAL::NEGATIVE) {
-      corners.assign(std::make_reverse_iterator(polygon.end()), std::make_reverse_iterator(polygon.begin()));  // their edges are not used
+      corners.clear();
+      for (std::uint32_t k = polygon.size; k-- > 0;) corners.push_back({polygon.corners[k].vertex, polygon.corners[k == 0 ? polygon.size - 1 : k - 1].edge});
       turned.push_back(store.keep(corners, i, polygon.support.opposite()));
     } else {
       turned.push_back(polygon);

@@ -4,7 +4,7 @@
 //   r1 < r2  iff  some corner of r1 is strictly in front of r2's plane and some corner of r2 strictly behind r1's (P-30);
 //   never r < r; with both faces turned round, r1 < r2 becomes r2 < r1; coplanar faces, and faces back to back or face to face, have no arc.
 
-#include <sightline/kernel/partition_traits.h>
+#include <sightline/algorithms/priority/bimodal.h>
 
 namespace sightline {
 
@@ -56,7 +56,7 @@ class Priority_relation {
   const typename Traits::Cutter& cutter(std::uint32_t i) const { return cutters_[i]; }
 
   /// Whether i < j. Degenerate: a corner in the other's plane is neither in front nor behind; faces that touch or cross are judged the same way,
-  /// and faces that cross obscure each other. Cost: O(corners), ends at the first corner that decides. Exact: as the traits are.
+  /// and faces that cross obscure each other. Cost: O(corners), ends at the first corner that decides; O(log corners) where there are many. Exact: as the traits are.
   /// Source: Fuchs, Kedem, Naylor 1979, Theorem. Proof: P-30
   bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
     ++counters.pairs;
@@ -67,6 +67,7 @@ class Priority_relation {
   Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
     ++counters.pairs;
     if (known_coplanar(i, j)) return {};
+    if (has_many_corners(i) || has_many_corners(j)) return {may_obscure(i, j, counters), may_obscure(j, i, counters)};
     const unsigned at = static_cast<unsigned>(position(*traits_, polygons_[i], cutters_[j], counters.predicates));
     if (at == static_cast<unsigned>(Position::on)) return {};
     const unsigned to = static_cast<unsigned>(position(*traits_, polygons_[j], cutters_[i], counters.predicates));
@@ -74,8 +75,15 @@ class Priority_relation {
   }
 
   /// Some corner of polygon i strictly on the given side of polygon j's plane: the witness of half an arc. Returns its place, or i's size.
+  /// Pre: side != ZERO.
   std::uint32_t find_corner(std::uint32_t i, Sign side, std::uint32_t j, Predicate_counts& counts) const {
     const Polygon& polygon = polygons_[i];
+    if constexpr (Slope_traits<Traits>)
+      if (has_many_corners(i)) {
+        const typename Traits::Cutter cutter = side == CGAL::POSITIVE ? cutters_[j] : traits_->prepare(plane(j).opposite());
+        const std::uint32_t highest = highest_corner(*traits_, polygon, cutter, counts);
+        return traits_->side(*polygon.corners[highest].vertex, cutter, counts) == CGAL::POSITIVE ? highest : polygon.size;
+      }
     for (std::uint32_t k = 0; k < polygon.size; ++k)
       if (traits_->side(*polygon.corners[k].vertex, cutters_[j], counts) == side) return k;
     return polygon.size;
@@ -84,6 +92,8 @@ class Priority_relation {
  private:
   static constexpr unsigned in_front = static_cast<unsigned>(Position::in_front), behind = static_cast<unsigned>(Position::behind);
 
+  static constexpr std::uint32_t many_corners = 160;  // from here on bisection was faster than looking at all (measured: 128 corners 272 ns against 308, 512 corners 940 against 371)
+  bool has_many_corners(std::uint32_t i) const { return Slope_traits<Traits> && polygons_[i].size > many_corners; }
   bool known_coplanar(std::uint32_t i, std::uint32_t j) const { return traits_->same_plane(plane(i), plane(j)); }
   bool has_corner(std::uint32_t i, Sign side, std::uint32_t j, Relation_counters& counters) const {
     return find_corner(i, side, j, counters.predicates) < polygons_[i].size;

@@ -118,6 +118,26 @@ TEST(Eye_order, of_generated_scenes_never_cuts_more_than_a_tree_does) {
   }
 }
 
+TEST(Eye_order, of_faces_of_many_corners_is_accepted_from_both_sides) {
+  // Corners on a parabola, 201 of each, in tilted planes; turned round they keep their edges.
+  std::size_t whole = 0;
+  for (long trial = 0; trial < 3; ++trial) {
+    std::vector<Points> faces;
+    for (long f = 0; f < 4; ++f) {
+      const long tilt_x = (trial * 3 + f * 5) % 7 - 3, tilt_y = (trial + f * 2) % 5 - 2, shift = (trial * f * 11) % 40 - 20;
+      Points corners;
+      for (long k = -100; k <= 100; ++k) corners.push_back(at(k + shift, ratio(k * k, 50) - 100, f * 300 + ratio((k + shift) * tilt_x, 9) + ratio(k * k * tilt_y, 450)));
+      faces.push_back(f % 2 ? reversed(corners) : corners);
+    }
+    const Ordered given(soup_of(faces));
+    for (const Exact_point& eye : {at(10, 3, 9000), at(-40, 7, -7000), at(300, 20, 460)}) {
+      const Eye_order_counters c = given.check(eye);
+      whole += c.cycles == 0;
+    }
+  }
+  EXPECT_GT(whole, 0u);
+}
+
 TEST(Eye_order, of_nothing_is_nothing) { EXPECT_EQ(Ordered(Polygon_soup()).check(at(0, 0, 0)).fragments, 0u); }
 
 }  // namespace
