@@ -6,6 +6,7 @@
 #include <sightline/algorithms/generate/transform.h>
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/verify/order.h>
+#include <sightline/io/read.h>
 
 using namespace priority_test;
 
@@ -136,6 +137,18 @@ TEST(Eye_order, of_faces_of_many_corners_is_accepted_from_both_sides) {
     }
   }
   EXPECT_GT(whole, 0u);
+}
+
+TEST(Eye_order, of_real_scenes_is_accepted_and_has_fewer_parts_than_a_tree) {
+  const std::filesystem::path folder = SIGHTLINE_SCENES_DIR;
+  if (folder.empty()) GTEST_SKIP() << "the collection of real scenes is not here";
+  for (const char* file : {"a_interior/cornell_box.obj", "a_interior/lq_start.world.qoff", "b_classic/cg_joint.off", "c_convex/cg_P.off"}) {
+    const Ordered given(read_scene(folder / file));
+    const auto box = given.scene.box();
+    Exact_point eye;
+    for (std::size_t a = 0; a < 3; ++a) eye[a] = box[0][a] + (box[1][a] - box[0][a]) * ratio(4 + 3 * static_cast<long>(a), 7);
+    EXPECT_LE(given.check(eye).fragments, build_bsp(given.traits).counters.fragments) << file;
+  }
 }
 
 TEST(Eye_order, of_nothing_is_nothing) { EXPECT_EQ(Ordered(Polygon_soup()).check(at(0, 0, 0)).fragments, 0u); }
