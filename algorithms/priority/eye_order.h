@@ -25,6 +25,14 @@ struct Eye_order {
   std::vector<Polygon_store<Traits>> memory;  ///< what the polygons point into
 };
 
+/// The same polygon seen from behind: corners in the opposite order, each with the edge that now follows it, and the opposite plane.
+template <class Traits>
+Convex_polygon<Traits> turned_round(const Convex_polygon<Traits>& polygon, Polygon_store<Traits>& store) {
+  std::vector<Corner<Traits>> corners;
+  for (std::uint32_t k = polygon.size; k-- > 0;) corners.push_back({polygon.corners[k].vertex, polygon.corners[k == 0 ? polygon.size - 1 : k - 1].edge});
+  return store.keep(corners, polygon.piece, polygon.support.opposite());
+}
+
 /// Each piece of the scene, from both sides, so that none obscures one drawn after it. Faces are turned to the eye; arcs are those of this eye; a component of the graph
 /// that is one face is drawn whole, any other is cut by a BSP tree of its own faces. Degenerate: pieces seen edge-on have no arcs, and come first.
 /// Cost: a search of the graph, n^2 pairs of round cones at worst, exact only where they overlap. Exact: yes. Pre: exact traits; `options.pieces` and `first` unset.
@@ -38,7 +46,6 @@ Eye_order<Traits> order_by_graph(const Traits& traits, const Exact_point& eye, B
   // 1. Turn all faces to the eye.
   Polygon_store<Traits> store;
   std::vector<Convex_polygon<Traits>> pieces, turned;
-  std::vector<Corner<Traits>> corners;
   for (std::uint32_t i = 0; i < traits.piece_count(); ++i) {
     const Convex_polygon<Traits> polygon = store.piece(traits, i);
     const Sign side = traits.side(viewpoint, polygon.support, counters.cuts.predicates);
@@ -50,9 +57,7 @@ Eye_order<Traits> order_by_graph(const Traits& traits, const Exact_point& eye, B
     }
     pieces.push_back(polygon);
     if (side == CGAL::NEGATIVE) {
-      corners.clear();
-      for (std::uint32_t k = polygon.size; k-- > 0;) corners.push_back({polygon.corners[k].vertex, polygon.corners[k == 0 ? polygon.size - 1 : k - 1].edge});
-      turned.push_back(store.keep(corners, i, polygon.support.opposite()));
+      turned.push_back(turned_round(polygon, store));
     } else {
       turned.push_back(polygon);
     }

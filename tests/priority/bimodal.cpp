@@ -65,6 +65,9 @@ TEST(Bimodal, finds_the_highest_corner_of_any_polygon_over_any_plane) {
         }
         const Rational most = *std::max_element(heights.begin(), heights.end());
         ASSERT_EQ(heights[found], most) << "trial " << trial << ", plane " << j << ", " << polygon.size << " corners";
+        Polygon_store<Exact_traits> store;
+        const std::uint32_t from_behind = highest_corner(scene.traits, turned_round(polygon, store), scene.traits.prepare(plane), counts);
+        ASSERT_EQ(heights[polygon.size - 1 - from_behind], most) << "turned round, trial " << trial << ", plane " << j;
         const auto highest = std::count(heights.begin(), heights.end(), most);
         ++compared, level += highest > 1, parallel += highest == static_cast<long>(polygon.size);
       }
