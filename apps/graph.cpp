@@ -1,9 +1,8 @@
 // sightline graph: the priority graph of a scene, its strongly connected components, and their order.
 
-#include "common.h"
+#include "pixels.h"
 
-#include <sightline/algorithms/priority/explicit_graph.h>
-#include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/kernel/exact_traits.h>
@@ -20,10 +19,15 @@ struct Graph_arguments {
   Common common;
   std::string method = "implicit", eye, direction, dot, certificate;
   std::vector<std::string> box, region;
-  bool arcs = false;
+  bool arcs = false, tree = false, split = false, codes = false, two_sided = false;
+  Pixel_arguments pixels;
+  bool wants_tree() const { return tree || split || codes || two_sided; }
 };
 
 using Faces = Priority_relation<Exact_traits>;
+
+const std::map<Precedence, std::string> precedence_names{
+    {Precedence::never, "never"}, {Precedence::first, "first"}, {Precedence::second, "second"}, {Precedence::by_plane, "plane"}, {Precedence::crossing, "crossing"}};
 
 /// What a run found.
 struct Found {
@@ -119,6 +123,100 @@ std::string dot_of(const Scene& scene, const Found& found) {
   return text + "}\n";
 }
 
+/// The tree of clusters, the codes of the cycles that it leaves, and how many parts a BSP tree would have made.
+struct Clusters {
+  Priority_tree<Exact_traits> tree;
+  double seconds = 0;
+  std::uint64_t bsp_fragments = 0;
+  std::map<Precedence, std::uint64_t> pairs;
+  Json codes = Json::array();  // of the pairs that some ray pierces
+};
+
+Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph_arguments& arguments) {
+  Clusters found;
+  Stopwatch watch;
+  Progress progress("separating");
+  const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  found.tree = build_priority_tree(traits, {arguments.two_sided, arguments.split, report});
+  found.seconds = watch.seconds();
+  if (arguments.split) {
+    Bsp_options options;
+    options.seed = arguments.common.seed, options.threads = arguments.common.threads;
+    found.bsp_fragments = build_bsp(traits, options).counters.fragments;
+  }
+  if (!arguments.codes) return found;
+
+  const Priority_relation<Exact_traits> faces(traits, found.tree.polygons);
+  Relation_counters counters;
+  const auto name_of = [&](std::uint32_t i) -> Json {
+    const Piece& piece = scene.pieces()[found.tree.polygons[i].piece];
+    if (arguments.two_sided) return {piece.face, piece.number, found.tree.turned[i] ? "back" : "front"};
+    return {piece.face, piece.number};
+  };
+  for (const auto& node : found.tree.nodes) {
+    if (node.kind != Priority_tree<Exact_traits>::Kind::cycle) continue;
+    const auto members = found.tree.slots_of(node);
+    for (std::size_t a = 0; a < members.size(); ++a) {
+      if (report) report(a, members.size());
+      for (std::size_t b = a + 1; b < members.size(); ++b) {
+        const std::uint32_t i = static_cast<std::uint32_t>(members[a]), j = static_cast<std::uint32_t>(members[b]);
+        const Pair_code code = pair_code(faces, i, j, counters);
+        ++found.pairs[code.precedence];
+        if (arguments.common.json.empty() || code.precedence == Precedence::never) continue;
+        Json entry{name_of(i), name_of(j), precedence_names.at(code.precedence)};
+        if (code.plane) entry.push_back({{"normal", point_json(code.plane->normal)}, {"point", point_json(code.plane->point)}});
+        found.codes.push_back(std::move(entry));
+      }
+    }
+  }
+  return found;
+}
+
+std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& traits, const Faces& faces, const Priority_components& components, const std::vector<View>& views, const Graph_arguments& arguments) {
+  std::vector<Pixel_image> images;
+  Progress progress("looking");
+  const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  std::vector<std::uint32_t> h(faces.size());
+  for (std::uint32_t i = 0; i < faces.size(); ++i) h[i] = components.h(i);
+  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {false, false, report});  // cuts nothing, so its polygons are the faces
+  for (const View& unaimed : views) {
+    const View view = scene.counters().faces > 0 ? aimed(unaimed, scene) : unaimed;
+    if (report) report(images.size(), views.size());
+    const Pixel_sets sets = pixel_sets(faces, pixel_view(view));
+    Pixel_image image{view, pixel_statistics(sets, h), pixel_statistics(sets, priorities(traits, tree, view.eye)), {}};
+    if (!images.empty()) {
+      const std::vector<std::uint32_t>&before = images.back().by_number.image, &now = image.by_number.image;
+      std::size_t changed = 0;
+      for (std::size_t k = 0; k < now.size(); ++k) changed += before[k] != now[k];
+      image.changed = static_cast<double>(changed) / static_cast<double>(now.size());
+    }
+    if (!arguments.pixels.pictures.empty()) write_file(fmt::format("{}/image_{:04}.svg", arguments.pixels.pictures, images.size() + 1), painted(image));
+    images.push_back(std::move(image));
+  }
+  return images;
+}
+
+void print(const Clusters& clusters, const Graph_arguments& arguments) {
+  const Priority_tree_counters& c = clusters.tree.counters;
+  row("tree", fmt::format("{} planes that cut nothing{} ({} of no face), {} lists of fixed order, depth {}; {:.3f} s", c.planes - c.cutting_planes, c.cutting_planes > 0 ? fmt::format(" and {} that cut", c.cutting_planes) : "",
+                          c.free_planes, c.sequences, c.depth, clusters.seconds));
+  row("settled", fmt::format("of {} {}: {} by priority, {} on planes, {} left in {} cycles", c.polygons, arguments.two_sided ? "sides of faces" : "faces", c.by_number, c.by_plane, c.left, c.cycles));
+  if (arguments.split)
+    row("pieces", fmt::format("{} after {} cuts; a BSP tree has {} fragments: {:.2f} of them", c.polygons, c.splits, clusters.bsp_fragments,
+                              static_cast<double>(c.polygons) / (arguments.two_sided ? 2 : 1) / static_cast<double>(std::max<std::uint64_t>(1, clusters.bsp_fragments))));
+  if (arguments.codes) {
+    const auto count = [&](Precedence p) { return clusters.pairs.contains(p) ? clusters.pairs.at(p) : 0; };
+    row("codes", fmt::format("of the pairs in cycles {} are never seen along one ray, {} in one order, {} by the eye's side of a plane, {} cross", count(Precedence::never),
+                             count(Precedence::first) + count(Precedence::second), count(Precedence::by_plane), count(Precedence::crossing)));
+  }
+}
+
+Json to_json(const Clusters& clusters) {
+  const Priority_tree_counters& c = clusters.tree.counters;
+  return {{"polygons", c.polygons}, {"by_number", c.by_number}, {"by_plane", c.by_plane}, {"left", c.left}, {"planes", c.planes}, {"cutting_planes", c.cutting_planes}, {"free_planes", c.free_planes},
+          {"sequences", c.sequences}, {"cycles", c.cycles}, {"depth", c.depth}, {"graphs", c.graphs}};
+}
+
 void print(const Scene& scene, const Found& found, const std::string& scope, const Graph_arguments& arguments) {
   const Priority_components& all = found.components;
   scene_rows(scene);
@@ -149,6 +247,10 @@ Exit run(const Graph_arguments& arguments) {
   const bool whole = box.empty() && region.empty() && arguments.eye.empty();
   if (!arguments.certificate.empty() && !(whole && arguments.method == "implicit"))
     throw Usage_error("--certificate is for --method implicit over all viewpoints: leave out --box, --region and --eye");
+  if (!whole && (arguments.wants_tree() || !arguments.pixels.size.empty()))
+    throw Usage_error("--tree, --codes, --split, --two-sided and --pixels are over all viewpoints: leave out --box, --region and --eye");
+
+  const std::vector<View> views = arguments.pixels.size.empty() ? std::vector<View>{} : read_views(arguments.pixels);
 
   const Scene scene(common.read());
   const Exact_traits traits(scene);
@@ -167,6 +269,10 @@ Exit run(const Graph_arguments& arguments) {
 
   if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(faces, scene, found)).dump() + "\n");
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
+  std::optional<Clusters> clusters;
+  if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments);
+  std::vector<Pixel_image> images;
+  if (!arguments.pixels.size.empty()) images = images_of(scene, traits, faces, found.components, views, arguments);
   Json result{{"scope", scope}, {"arcs", found.arcs ? Json(found.arcs->arc_count()) : Json()}};
   if (!common.json.empty()) {
     Json components = Json::array();
@@ -182,8 +288,17 @@ Exit run(const Graph_arguments& arguments) {
         list.push_back({name_json(scene, static_cast<std::uint32_t>(boost::source(arc, graph))), name_json(scene, static_cast<std::uint32_t>(boost::target(arc, graph)))});
     }
   }
-  if (write_json(common, "graph", scene, std::move(result), found.counters, {{"components", found.component_seconds}, {"arcs", found.arc_seconds}})) return Exit::done;
+  Json counters = found.counters, seconds{{"components", found.component_seconds}, {"arcs", found.arc_seconds}};
+  if (clusters) {
+    result["tree"] = to_json(*clusters), seconds["tree"] = clusters->seconds;
+    if (arguments.codes) result["codes"] = std::move(clusters->codes);
+    if (arguments.split) result["splits"] = clusters->tree.counters.splits, result["pieces"] = clusters->tree.counters.polygons, counters["bsp_fragments"] = clusters->bsp_fragments;
+  }
+  if (!images.empty()) result["images"] = app::to_json(images);
+  if (write_json(common, "graph", scene, std::move(result), counters, seconds)) return Exit::done;
   print(scene, found, scope, arguments);
+  if (clusters) print(*clusters, arguments);
+  if (!images.empty()) print(images);
   return Exit::done;
 }
 
@@ -203,6 +318,14 @@ void add_graph(CLI::App& app) {
   box->excludes(region)->excludes(eye), region->excludes(eye);
   static_cast<void>(ray);
   command->add_flag("--arcs", a->arcs, "write all arcs out, however many, and list them in the JSON");
+  command->add_flag("--tree", a->tree, "separate the faces by planes that cut none, and order what is left by the graph: how many faces each settles");
+  command->add_flag("--codes", a->codes, "codes for the pairs in the cycles that the tree leaves: which face is nearer along any ray; listed in the JSON");
+  command->add_flag("--split", a->split, "cut faces until no cycle is left, and compare with a BSP tree");
+  command->add_flag("--two-sided", a->two_sided, "a tree of both sides of each face");
+  auto* pixels = command->add_option("--pixels", a->pixels.size, "WIDTHxHEIGHT: how many faces the priorities leave to choose from at each pixel of images")->check(sightline::app::not_empty);
+  auto* eyes = command->add_option("--eyes", a->pixels.eyes, "the images' eyes: a file with X,Y,Z a line, and after a blank, if wanted, the direction of view DX,DY,DZ")->check(sightline::app::not_empty);
+  auto* pictures = command->add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")->check(CLI::ExistingDirectory);
+  pixels->needs(eyes), eyes->needs(pixels), pictures->needs(pixels);
   command->add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->footer("Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed highest priority first:\n"

@@ -14,12 +14,14 @@ struct Order_arguments {
   Common common;
   std::string eye, kernel = "exact", method = "bsp", certificate, svg, look, up;
   double field = 60;
+  bool two_sided = false;
+  bool by_graph() const { return method == "graph"; }
 };
 
 /// What `verify` reads.
-static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn) {
+static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn, bool on_view) {
   Order_certificate certificate;
-  certificate.eye = eye;
+  certificate.eye = eye, certificate.on_view = on_view;
   for (const Drawn& item : drawn) certificate.fragments.push_back(item.fragment);
   add_pieces(certificate, scene);
   return certificate;
@@ -33,61 +35,83 @@ static std::array<double, 3> parse_direction(const std::string& text, const std:
   return direction;
 }
 
-/// The order by the priority graph: whole faces but where they overlap in a cycle. In front of the near plane only, where there is one.
-static Outcome run_graph(Scene& scene, const Task& task, Eye_order_counters& counters) {
+/// What the order by the priority graph took, and its picture's polygons.
+struct Graph_order {
+  Priority_tree_counters tree;
+  Eye_order_counters eye;
+  std::vector<Drawn> in_view;  // in front of the near plane, where there is one
+};
+
+/// The order by the priority graph: whole faces but where they overlap in a cycle.
+static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_order& graph) {
   std::optional<Plane> near;
   if (task.near) near = scene.add_plane(*task.near);
   const Exact_traits traits(scene);
   Outcome outcome;
-  const Stopwatch watch;
-  const Eye_order<Exact_traits> order = order_by_graph(traits, *task.eye, task.bsp);
+  Stopwatch watch;
+  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {two_sided, false, task.bsp.progress});
+  outcome.build_seconds = watch.seconds(), watch = {};
+  const Eye_order<Exact_traits> order = back_to_front(traits, tree, *task.eye);
   outcome.order_seconds = watch.seconds();
-  counters = order.counters;
-  outcome.tree = counters.cuts, outcome.tree.fragments = counters.fragments;
+  graph.tree = tree.counters, graph.eye = order.counters;
+  outcome.tree.fragments = order.counters.fragments, outcome.tree.splits = order.counters.splits;
+  outcome.tree.predicates = tree.counters.predicates, outcome.walk.predicates = order.counters.predicates;
+
   std::vector<std::uint32_t> seen(scene.counters().faces_read);
   Polygon_store<Exact_traits> store;
   Split_scratch<Exact_traits> scratch;
-  for (Convex_polygon<Exact_traits> polygon : order.polygons) {
+  for (const Convex_polygon<Exact_traits>& polygon : order.polygons) {
     const Piece& piece = scene.pieces()[polygon.piece];
-    const std::uint32_t number = seen[piece.face]++;
-    if (near) {
-      const Prepared_plane cutter = traits.prepare(*near);
-      const Position at = classify(traits, polygon, cutter, scratch, outcome.walk.predicates);
-      if (at == Position::on || at == Position::behind) continue;
-      if (at == Position::across) polygon = split(traits, polygon, cutter, scratch, store)[1];
-    }
-    Drawn& drawn = outcome.drawn.emplace_back();
-    drawn.fragment.face = piece.face, drawn.fragment.piece = piece.number, drawn.number = number;
+    Drawn drawn;
+    drawn.fragment.face = piece.face, drawn.fragment.piece = piece.number, drawn.number = seen[piece.face]++;
     drawn.side = traits.side(traits.eye(*task.eye), piece.support, outcome.walk.predicates);
-    for (const Corner<Exact_traits>& corner : polygon) drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
+    const auto with_corners = [&](const Convex_polygon<Exact_traits>& part) {
+      Drawn whole = drawn;
+      for (const Corner<Exact_traits>& corner : part) whole.fragment.vertices.push_back(traits.position(*corner.vertex));
+      return whole;
+    };
+    outcome.drawn.push_back(with_corners(polygon));
+    if (!near) continue;
+    const Prepared_plane cutter = traits.prepare(*near);
+    const Position at = classify(traits, polygon, cutter, scratch, outcome.walk.predicates);
+    if (at == Position::in_front) graph.in_view.push_back(outcome.drawn.back());
+    if (at == Position::across) graph.in_view.push_back(with_corners(split(traits, polygon, cutter, scratch, store)[1]));
   }
   return outcome;
+}
+
+/// The picture's view: aimed where nothing else was said.
+static View view_of(const Order_arguments& arguments, const Exact_point& eye, const Scene& scene) {
+  View view{eye};
+  if (!arguments.look.empty()) view.look = parse_direction(arguments.look, "--look");
+  if (!arguments.up.empty()) view.up = parse_direction(arguments.up, "--up");
+  view.field = arguments.field;
+  return scene.counters().faces > 0 ? aimed(view, scene) : view;
 }
 
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
-  const bool by_graph = arguments.method == "graph";
+  const bool by_graph = arguments.by_graph();
   if (by_graph && arguments.kernel != "exact") throw Usage_error("--method graph is exact: leave out --kernel");
+  if (!by_graph && arguments.two_sided) throw Usage_error("--two-sided is for --method graph: a tree draws both sides anyway");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
+  const View view = view_of(arguments, eye, scene);
+  const std::optional<std::array<Integer, 4>> near = arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
   Progress progress("building");
   Task task;
   task.eye = eye;
   task.bsp.seed = common.seed, task.bsp.threads = common.threads;
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  Eye_order_counters graph;
-  const auto run_task = [&] { return by_graph ? run_graph(scene, task, graph) : run_method(arguments.kernel, scene, task); };
-  const Outcome outcome = run_task();
+  Graph_order graph;
+  if (by_graph) task.near = near;
+  const Outcome outcome = by_graph ? run_graph(scene, task, arguments.two_sided, graph) : run_method(arguments.kernel, scene, task);
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, outcome.drawn)).dump() + "\n");
+  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided)).dump() + "\n");
   if (!arguments.svg.empty()) {
-    View view{eye};
-    if (!arguments.look.empty()) view.look = parse_direction(arguments.look, "--look");
-    if (!arguments.up.empty()) view.up = parse_direction(arguments.up, "--up");
-    view.field = arguments.field;
-    if (scene.counters().faces > 0) view = aimed(view, scene), task.near = near_plane(view, scene);
-    write_file(arguments.svg, painted(view, task.near ? run_task().drawn : outcome.drawn));
+    if (near && !by_graph) task.near = near, graph.in_view = run_method(arguments.kernel, scene, task).drawn;
+    write_file(arguments.svg, painted(view, near ? graph.in_view : outcome.drawn));
   }
 
   Json fragments = Json::array();
@@ -102,14 +126,18 @@ static Exit run(const Order_arguments& arguments) {
   Json counters{{"kernel", arguments.kernel}, {"nodes", c.nodes}, {"depth", c.depth}, {"splits", c.splits}, {"fragments", c.fragments}, {"free_planes", c.free_planes},
                       {"eye_on_planes", outcome.walk.on_planes}, {"not_finite", outcome.not_finite}, {"degenerate", c.degenerate},
                       {"predicates", predicates_json(c.predicates)}, {"eye_predicates", predicates_json(outcome.walk.predicates)}};
-  if (by_graph)
-    counters["graph"] = {{"cycles", graph.cycles}, {"in_cycles", graph.in_cycles}, {"edge_on", graph.edge_on}, {"index_nodes", graph.search.nodes},
-                         {"pairs", graph.search.relation.pairs}, {"predicates", predicates_json(graph.search.relation.predicates)}};
+  if (by_graph) {
+    const Priority_tree_counters& t = graph.tree;
+    const Eye_order_counters& e = graph.eye;
+    counters["graph"] = {{"by_number", t.by_number}, {"by_plane", t.by_plane}, {"left", t.left}, {"planes", t.planes}, {"sequences", t.sequences}, {"cycles", t.cycles},
+                         {"off_view", e.off_view}, {"edge_on", e.edge_on}, {"searched", e.searched}, {"eye_cycles", e.cycles}, {"in_eye_cycles", e.in_cycles},
+                         {"pairs", t.search.relation.pairs + e.search.relation.pairs}};
+  }
   if (write_json(common, "order", scene, std::move(result), counters, {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}})) return Exit::done;
 
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
-  if (by_graph) row("order", fmt::format("{} polygons, back to front; {} cyclic overlaps of {} faces took {} cuts", outcome.drawn.size(), graph.cycles, graph.in_cycles, c.splits));
+  if (by_graph) row("order", fmt::format("{} polygons, back to front; {} off-view, {} searched for this eye, {} cyclic overlaps of {} faces took {} cuts", outcome.drawn.size(), graph.eye.off_view, graph.eye.searched, graph.eye.cycles, graph.eye.in_cycles, c.splits));
   else row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(), outcome.walk.on_planes));
   if (outcome.not_finite + c.degenerate > 0) row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
   row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds, arguments.kernel));
@@ -131,9 +159,10 @@ void add_order(CLI::App& app) {
   a->common.add_to(*command);
   command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")->check(sightline::app::not_empty);
   command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember(sightline::app::kernel_names))->capture_default_str();
-  command->add_option("--method", a->method, "bsp: a tree for all eyes, which cuts faces; graph: for this eye, whole faces but where they overlap in a cycle")
+  command->add_option("--method", a->method, "bsp: a tree that cuts faces, both sides of each drawn; graph: the on-view faces, whole but where they overlap in a cycle")
       ->check(CLI::IsMember({"bsp", "graph"}))
       ->capture_default_str();
+  command->add_flag("--two-sided", a->two_sided, "with --method graph: faces seen from behind too");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->add_option("--svg", a->svg, "draw the order as a painter would");
   command->add_option("--look", a->look, "direction X,Y,Z of the picture; by default to the centre of the scene");

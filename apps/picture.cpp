@@ -48,8 +48,14 @@ std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& 
   return std::nullopt;
 }
 
+Axes axes_of(const View& view) {
+  const Direction3 right = unit(cross(view.look, unit(view.up)));
+  return {right, cross(right, view.look)};
+}
+
 std::string painted(const View& view, const std::vector<Drawn>& drawn) {
-  const Direction3 right = unit(cross(view.look, unit(view.up))), up = cross(right, view.look), light = unit({0.3, -0.5, 0.8});
+  const Direction3 light = unit({0.3, -0.5, 0.8});
+  const auto [right, up] = axes_of(view);
   const double scale = view.width / 2.0 / std::tan(view.field * 3.14159265358979 / 360);
   Svg svg(view.width, view.height, "#f4f3ef");
   for (const Drawn& item : drawn) {

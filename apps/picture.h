@@ -14,6 +14,12 @@ struct View {
   int width = 960, height = 720;
 };
 
+/// Unit vectors to the right and upwards in the picture.
+struct Axes {
+  std::array<double, 3> right, up;
+};
+/// Pre: the view is aimed.
+Axes axes_of(const View& view);
 /// Fills in the direction where it is zero.
 View aimed(View view, const Scene& scene);
 /// The near plane of a view in grid coordinates: across the direction, a thousandth of the scene's size in front of the eye. Nothing where all of

@@ -32,6 +32,16 @@ class Svg {
     body_ += " fill=\"" + std::string(fill) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" + number(stroke_width) + "\"/>\n";
   }
 
+  /// A filled rectangle without an outline, its edges sharp. Pre: finite numbers.
+  void rectangle(double x, double y, double width, double height, std::string_view fill) {
+    body_ += "<rect x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"" + number(width) + "\" height=\"" + number(height) + "\" fill=\"" + std::string(fill) +
+             "\" shape-rendering=\"crispEdges\"/>\n";
+  }
+  /// A line of text that begins at a place. Pre: no character that XML reserves.
+  void label(double x, double y, double size, std::string_view words) {
+    body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-family=\"sans-serif\" font-size=\"" + number(size) + "\">" + std::string(words) + "</text>\n";
+  }
+
   std::string text() const {
     const std::string w = std::to_string(width_), h = std::to_string(height_);
     return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + ' ' + h + "\" stroke-linejoin=\"round\">\n" + body_ +

@@ -16,6 +16,10 @@ struct Index_counters {
   std::uint64_t nodes = 0;  ///< nodes of the index visited
   std::uint64_t hits = 0, misses = 0;
   Relation_counters relation;
+  Index_counters& operator+=(const Index_counters& other) {
+    nodes += other.nodes, hits += other.hits, misses += other.misses, relation += other.relation;
+    return *this;
+  }
 };
 
 /// Which arcs of a face to follow.

@@ -114,7 +114,7 @@ inline nlohmann::json write(const char* format, const Covering& covering) {
 
 }  // namespace certificate_json
 
-/// The certificate that a JSON value holds. "pieces" and "set_aside" may be left out where there are none; further keys are
+/// The certificate that a JSON value holds. "on_view" (false), "pieces" and "set_aside" may be left out where there are none; further keys are
 /// passed over. Throws std::invalid_argument, one line that says where, if the value does not have the format; whether the
 /// certificate is right is for verify_order() to say. Exact: yes
 inline Order_certificate order_certificate_from_json(const nlohmann::json& value) {
@@ -122,6 +122,10 @@ inline Order_certificate order_certificate_from_json(const nlohmann::json& value
   if (!has_format(value, order_format)) fail("format", std::string("expected \"") + order_format + '"');
   Order_certificate certificate;
   certificate.eye = point(member(value, "eye", "top level"), "eye");
+  if (value.contains("on_view")) {
+    if (!value["on_view"].is_boolean()) fail("on_view", "expected true or false");
+    certificate.on_view = value["on_view"].get<bool>();
+  }
   read_covering(value, certificate);
   return certificate;
 }
@@ -158,6 +162,7 @@ inline std::variant<Order_certificate, Graph_certificate> read_certificate(std::
 inline nlohmann::json to_json(const Order_certificate& certificate) {
   nlohmann::json value = certificate_json::write(certificate_json::order_format, certificate);
   value["eye"] = certificate_json::write(certificate.eye);
+  if (certificate.on_view) value["on_view"] = true;
   return value;
 }
 

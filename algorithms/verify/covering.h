@@ -423,8 +423,10 @@ inline void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside&
   }
 }
 
-/// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set aside rightly. Proof: P-21, P-22
-inline void check_covering(const Polygon_soup& soup, const Covering& covering) {
+/// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set aside rightly. With an eye, polygons that it
+/// is not strictly in front of may be left out, whole. Proof: P-21, P-22
+inline void check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye = nullptr) {
+  const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) { return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0; };
   // 1. Everything refers to something, once, and is a number.
   const auto in_scene = [&](const std::string& what, Face_id face) {
     if (face >= soup.face_count()) reject(what + " names face " + std::to_string(face) + ", which the scene does not have");
@@ -470,7 +472,7 @@ inline void check_covering(const Polygon_soup& soup, const Covering& covering) {
       Boundary_chain contour;
       contour.add(face, 1);
       const bool winds_once = face.loops.size() == 1 && not_convex(face.loops[0], face.plane).empty();
-      check_tiling(what, contour, face.plane, winds_once, tiles[f][0]);
+      if (!left_out(face.plane, tiles[f][0])) check_tiling(what, contour, face.plane, winds_once, tiles[f][0]);
       continue;
     }
     if (face.planar && !face.has_front) reject(what + " has no front and is not set aside");
@@ -480,7 +482,8 @@ inline void check_covering(const Polygon_soup& soup, const Covering& covering) {
     for (const auto& [number, polygon] : pieces[f]) {
       Boundary_chain contour;
       contour.add(*polygon, 1);
-      check_tiling(what + ", " + name("piece", number), contour, {newell_normal(*polygon), polygon->front()}, true, tiles[f][number]);
+      const Plane plane{newell_normal(*polygon), polygon->front()};
+      if (!left_out(plane, tiles[f][number])) check_tiling(what + ", " + name("piece", number), contour, plane, true, tiles[f][number]);
     }
   }
 }

@@ -10,6 +10,7 @@ namespace sightline {
 /// Fragments are farthest first.
 struct Order_certificate : Covering {
   Exact_point eye;
+  bool on_view = false;  ///< of the on-view pieces only: the others, which the eye is not strictly in front of, may be left out
 };
 
 namespace order_check {
@@ -103,7 +104,7 @@ inline std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const
 inline void check(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options) {
   // 1. The eye is a point, and the fragments are the scene.
   if (!canonical(certificate.eye)) reject("the eye is not a point in canonical numbers");
-  check_covering(soup, certificate);
+  check_covering(soup, certificate, certificate.on_view ? &certificate.eye : nullptr);
 
   // 2. No fragment is nearer than one that is drawn after it.
   std::vector<Cone> cones;
@@ -121,7 +122,7 @@ inline void check(const Polygon_soup& soup, const Order_certificate& certificate
 
 /// Whether the certificate proves a back-to-front order of the scene: (1) for each two fragments whose cones from the eye
 /// overlap in an open set, the earlier one is nowhere nearer than the later one; (2) the fragments of each face that is drawn
-/// tile it (its pieces, where it has such; a non-planar face must); (3) each face is drawn, or set aside for a true reason.
+/// tile it (its pieces, where it has such; a non-planar face must), but, if it says `on_view`, those that the eye is not in front of may be left out; (3) each face is drawn, or set aside for a true reason.
 /// Degenerate: fragments seen edge-on (the eye in their plane) may stand anywhere; contact in an edge or a point is no overlap;
 /// equal distance is in order both ways. A face whose edges cross although it winds nowhere but 0 or 1 times may be tiled or
 /// set aside. Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line.
@@ -133,7 +134,7 @@ inline Verdict verify_order(const Polygon_soup& soup, const Order_certificate& c
   } catch (const order_check::Rejection& rejection) {
     return rejection.verdict;
   }
-  return {true, std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every face drawn once or set aside for a true reason", {}};
+  return {true, std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every " + (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason", {}};
 }
 
 }  // namespace sightline

@@ -110,7 +110,8 @@ TEST(Bimodal, decides_the_relation_of_polygons_of_many_corners) {
     }
   EXPECT_GT(arcs, 200u);
   // From behind they are turned round, edges and all.
-  const Eye_order<Exact_traits> order = order_by_graph(scene.traits, at(100, 50, -2000000));
+  const Priority_tree<Exact_traits> tree = build_priority_tree(scene.traits, {true, false, {}});
+  const Eye_order<Exact_traits> order = back_to_front(scene.traits, tree, at(100, 50, -2000000));
   EXPECT_GE(order.polygons.size(), scene.relation.size());
   Relation_counters few;
   scene.relation.may_obscure(0, 3, few);

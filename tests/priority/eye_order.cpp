@@ -12,9 +12,9 @@ using namespace priority_test;
 
 namespace {
 
-Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye, const Eye_order<Exact_traits>& order) {
+Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye, const Eye_order<Exact_traits>& order, bool on_view) {
   Order_certificate certificate;
-  certificate.eye = eye;
+  certificate.eye = eye, certificate.on_view = on_view;
   std::set<Face_id> cut(scene.non_planar().begin(), scene.non_planar().end());
   for (const Piece& piece : scene.pieces())
     if (piece.number > 0) cut.insert(piece.face);
@@ -41,18 +41,32 @@ struct Ordered {
 
   explicit Ordered(Polygon_soup given) : soup(std::move(given)), scene(soup), traits(scene) {}
 
-  /// The counters of an order that the checker must accept.
+  /// The counters of an order of both sides that the checker must accept, as it must those of on-view faces, and of trees that were cut.
   Eye_order_counters check(const Exact_point& eye) const {
-    const Eye_order<Exact_traits> order = order_by_graph(traits, eye);
-    const Verdict verdict = verify_order(soup, certificate_of(scene, traits, eye, order));
-    EXPECT_TRUE(verdict.accepted) << verdict.why;
-    const Eye_order_counters& c = order.counters;
-    EXPECT_EQ(c.fragments, order.polygons.size());
-    EXPECT_EQ(c.fragments, c.pieces + c.cuts.splits);
-    EXPECT_EQ(c.pieces, traits.piece_count());
-    EXPECT_TRUE(c.cycles > 0 || c.cuts.splits == 0);
-    return c;
+    const auto order = [&](bool two_sided, bool split) {
+      const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {two_sided, split, {}});
+      const Eye_order<Exact_traits> found = back_to_front(traits, tree, eye);
+      const Verdict verdict = verify_order(soup, certificate_of(scene, traits, eye, found, !two_sided));
+      EXPECT_TRUE(verdict.accepted) << verdict.why << (two_sided ? ", both sides" : ", on-view") << (split ? ", cut" : "");
+      const Eye_order_counters& c = found.counters;
+      EXPECT_EQ(c.fragments, found.polygons.size());
+      if (!split) {
+        EXPECT_EQ(c.off_view + c.edge_on + c.fragments - c.splits - (two_sided ? c.edge_on / 2 : 0), tree.counters.polygons);
+      }
+      EXPECT_TRUE(c.cycles > 0 || c.splits == 0);
+      EXPECT_TRUE(!split || c.searched == 0);
+      if (two_sided && !split) {
+        EXPECT_EQ(c.fragments, traits.piece_count() + c.splits);
+      }
+      return c;
+    };
+    order(false, true), order(true, true);
+    const Eye_order_counters on_view = order(false, false), all = order(true, false);
+    EXPECT_EQ(2 * on_view.edge_on, all.edge_on);
+    EXPECT_GE(all.in_cycles, on_view.in_cycles);
+    return all;
   }
+  bool whole(const Eye_order_counters& c) const { return c.fragments == traits.piece_count(); }
 };
 
 TEST(Eye_order, of_disjoint_bodies_draws_every_face_whole) {
@@ -63,7 +77,7 @@ TEST(Eye_order, of_disjoint_bodies_draws_every_face_whole) {
       Exact_point eye;
       for (std::size_t a = 0; a < 3; ++a) eye[a] = box[0][a] + (box[1][a] - box[0][a]) * ratio(3 * k + 7 * static_cast<long>(a) - 8, 7) + ratio(1, 1009);
       const Eye_order_counters c = given.check(eye);
-      EXPECT_EQ(c.fragments, c.pieces) << kind << ' ' << k;
+      EXPECT_TRUE(given.whole(c)) << kind << ' ' << k;
     }
   }
 }
@@ -99,7 +113,7 @@ TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
     for (std::size_t i = 0; i < 3; ++i) in_plane[i] = 3 * b[i] - 2 * a[i], outside[i] = a[i] + (b[i] - a[(i + 1) % 3]) * ratio(7, 3) + ratio(static_cast<long>(k % 5), 11);
     for (const Exact_point& eye : {a, in_plane, outside}) {
       const Eye_order_counters c = given.check(eye);
-      cycles += c.cycles, edge_on += c.edge_on, cut += c.cuts.splits, whole += c.fragments == c.pieces;
+      cycles += c.cycles, edge_on += c.edge_on, cut += c.splits, whole += given.whole(c);
     }
   }
   EXPECT_GT(cycles, 50u);
@@ -108,7 +122,7 @@ TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
   EXPECT_GT(whole, 300u);
 }
 
-TEST(Eye_order, of_generated_scenes_never_cuts_more_than_a_tree_does) {
+TEST(Eye_order, of_generated_scenes_never_cuts_more_than_a_bsp_tree_does) {
   for (const auto& [kind, size] : {std::pair{"soup", 120}, {"rooms", 1}, {"lattice", 3}, {"menger_sponge_merged", 1}, {"terrain", 100}, {"crossing", 8}}) {
     const Ordered given(generate::make(kind, static_cast<std::size_t>(size), 3));
     const auto box = given.scene.box();
@@ -139,16 +153,67 @@ TEST(Eye_order, of_faces_of_many_corners_is_accepted_from_both_sides) {
   EXPECT_GT(whole, 0u);
 }
 
-TEST(Eye_order, of_real_scenes_is_accepted_and_has_fewer_parts_than_a_tree) {
+/// Eyes in and around the scene: in general place, in the plane of a face, at a corner, in turn.
+Exact_point random_eye(const Scene& scene, Random& random, std::uint64_t k) {
+  const auto box = scene.box();
+  const Piece& piece = scene.pieces()[random.below(scene.pieces().size())];
+  const Exact_point a = scene.position(scene.corners(piece)[0].point), b = scene.position(scene.corners(piece)[1].point);
+  if (k % 5 == 1) return along(a, 2, minus(b, a));
+  if (k % 5 == 2) return a;
+  Exact_point eye;
+  for (std::size_t axis = 0; axis < 3; ++axis) eye[axis] = box[0][axis] + (box[1][axis] - box[0][axis]) * ratio(static_cast<long>(random.between(-1000, 3000)), 2003);
+  return eye;
+}
+
+/// Orders of the on-view faces from many eyes by one tree: all accepted. Returns how many there were.
+std::size_t accepted_from_random_eyes(const Ordered& given, std::uint64_t count, std::uint64_t seed) {
+  const Priority_tree<Exact_traits> tree = build_priority_tree(given.traits);
+  Random random(seed);
+  std::size_t accepted = 0;
+  for (std::uint64_t k = 0; k < count; ++k) {
+    const Exact_point eye = random_eye(given.scene, random, k);
+    const Verdict verdict = verify_order(given.soup, certificate_of(given.scene, given.traits, eye, back_to_front(given.traits, tree, eye), true));
+    EXPECT_TRUE(verdict.accepted) << "eye " << k << ": " << verdict.why;
+    accepted += verdict.accepted;
+  }
+  return accepted;
+}
+
+TEST(Eye_order, from_a_hundred_random_eyes_is_accepted) {
+  for (const auto& [kind, size] : {std::pair{"city", 20}, {"city_rotated", 20}, {"soup", 60}, {"lattice", 3}, {"menger_sponge_merged", 1}, {"terrain", 72}, {"crossing", 8}, {"bars", 7}, {"convex_sphere", 60}, {"stacked", 20}}) {
+    SCOPED_TRACE(kind);
+    EXPECT_EQ(accepted_from_random_eyes(Ordered(generate::make(kind, static_cast<std::size_t>(size), 3)), 100, 1), 100u);
+  }
+}
+
+TEST(Eye_order, of_real_scenes_is_accepted_and_cutting_for_all_eyes_makes_fewer_parts_than_a_bsp_tree) {
   const std::filesystem::path folder = SIGHTLINE_SCENES_DIR;
   if (folder.empty()) GTEST_SKIP() << "the collection of real scenes is not here";
   for (const char* file : {"a_interior/cornell_box.obj", "a_interior/lq_start.world.qoff", "b_classic/cg_joint.off", "c_convex/cg_P.off"}) {
+    SCOPED_TRACE(file);
     const Ordered given(read_scene(folder / file));
-    const auto box = given.scene.box();
-    Exact_point eye;
-    for (std::size_t a = 0; a < 3; ++a) eye[a] = box[0][a] + (box[1][a] - box[0][a]) * ratio(4 + 3 * static_cast<long>(a), 7);
-    EXPECT_LE(given.check(eye).fragments, build_bsp(given.traits).counters.fragments) << file;
+    EXPECT_EQ(accepted_from_random_eyes(given, 10, 7), 10u);
+    EXPECT_LE(build_priority_tree(given.traits, {false, true, {}}).counters.polygons, build_bsp(given.traits).counters.fragments);
   }
+}
+
+TEST(Eye_order, of_every_real_scene_from_a_hundred_random_eyes_is_accepted) {
+  const std::filesystem::path folder = SIGHTLINE_SCENES_DIR;
+  if (folder.empty()) GTEST_SKIP() << "the collection of real scenes is not here";
+  if (std::getenv("SIGHTLINE_LONG") == nullptr) GTEST_SKIP() << "takes hours: set SIGHTLINE_LONG to a part of a file's name, or to nothing for all";
+  std::size_t scenes = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string file = entry.path().string();
+    if (!entry.is_regular_file() || file.find(std::getenv("SIGHTLINE_LONG")) == std::string::npos) continue;
+    const std::set<std::string> known{".obj", ".off", ".ply", ".stl", ".qoff"};
+    if (!known.contains(entry.path().extension().string())) continue;
+    const Ordered given(read_scene(file));
+    if (given.scene.pieces().empty() || given.scene.pieces().size() > 6000) continue;
+    SCOPED_TRACE(file);
+    EXPECT_EQ(accepted_from_random_eyes(given, 100, 11), 100u);
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 0u);
 }
 
 TEST(Eye_order, of_nothing_is_nothing) { EXPECT_EQ(Ordered(Polygon_soup()).check(at(0, 0, 0)).fragments, 0u); }

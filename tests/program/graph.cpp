@@ -143,12 +143,26 @@ TEST_F(Graph, of_nothing_is_nothing) {
 
 TEST_F(Graph, orders_whole_faces_that_verify_accepts) {
   const std::string scene = made("city", "40"), to = path("order.json").string(), svg = path("order.svg").string();
-  const Outcome r = run({"order", scene, "--method", "graph", "--eye", "20.3,-7.1,4", "--certificate", to, "--svg", svg, "--json", "-"});
+  const std::vector<std::string> order{"order", scene, "--method", "graph", "--eye", "20.3,-7.1,4", "--certificate", to, "--svg", svg, "--json", "-"};
+  std::vector<std::string> both = order;
+  both.push_back("--two-sided");
+  const Outcome r = run(both);
   ASSERT_EQ(r.code, done) << r;
   const Json d = r.json();
   EXPECT_EQ(d["result"]["fragments"].size(), 201u);
-  EXPECT_EQ(d["counters"]["graph"]["cycles"], 0);
+  EXPECT_EQ(d["counters"]["graph"]["left"], 0);
   EXPECT_EQ(run({"verify", scene, to}).code, done);
+  // The on-view faces only: the certificate says so, or it would be rejected.
+  const Json on_view = run(order).json();
+  const std::size_t off_view = on_view["counters"]["graph"]["off_view"];
+  EXPECT_GT(off_view, 50u);
+  EXPECT_EQ(on_view["result"]["fragments"].size() + off_view, 201u);
+  EXPECT_EQ(run({"verify", scene, to}).code, done);
+  Json certificate = Json::parse(read_file(to));
+  EXPECT_EQ(certificate["on_view"], true);
+  certificate.erase("on_view");
+  EXPECT_EQ(run({"verify", scene, file("all.json", certificate.dump())}).code, disagreement);
+  EXPECT_EQ(run({"order", scene, "--two-sided"}).code, usage);
   EXPECT_NE(read_file(svg).find("<polygon"), std::string::npos);
   // From inside the town the picture is of what is in front of the near plane only.
   const Outcome inside = run({"order", scene, "--method", "graph", "--eye", "3.3,3.1,1/3", "--certificate", to, "--svg", svg});
@@ -157,6 +171,75 @@ TEST_F(Graph, orders_whole_faces_that_verify_accepts) {
   EXPECT_EQ(run({"order", scene, "--method", "graph", "--kernel", "double"}).code, usage);
   EXPECT_EQ(run({"order", bars, "--method", "graph", "--eye", "0,0,50", "--certificate", to}).code, done);
   EXPECT_EQ(run({"verify", bars, to}).code, done);
+}
+
+TEST_F(Graph, tree_settles_a_city_without_a_cut_and_tells_what_settles_each_face) {
+  const Json d = graph({made("city", "40"), "--tree", "--split"});
+  const Json& tree = d["result"]["tree"];
+  EXPECT_EQ(tree["polygons"], 201);
+  EXPECT_EQ(tree["by_number"].get<int>() + tree["by_plane"].get<int>(), 201);
+  EXPECT_EQ(tree["left"], 0);
+  EXPECT_EQ(d["result"]["splits"], 0);
+  EXPECT_EQ(d["result"]["pieces"], 201);
+  EXPECT_GT(d["counters"]["bsp_fragments"].get<int>(), 201);
+  const Json both = graph({made("city", "40"), "--two-sided"});
+  EXPECT_EQ(both["result"]["tree"]["polygons"], 402);
+}
+
+TEST_F(Graph, codes_of_three_bars_decide_each_pair_and_splitting_cuts_them) {
+  const Json d = graph({bars, "--codes"});
+  EXPECT_EQ(d["result"]["tree"]["left"], 3);
+  ASSERT_EQ(d["result"]["codes"].size(), 3u) << d["result"];
+  for (const Json& code : d["result"]["codes"]) EXPECT_TRUE(code[2] == "plane" ? code.size() == 4 : code[2] == "first" || code[2] == "second") << code;
+  const Json split = graph({bars, "--split"});
+  EXPECT_EQ(split["result"]["tree"]["left"], 0);
+  EXPECT_GT(split["result"]["splits"].get<int>(), 0);
+  EXPECT_EQ(split["result"]["pieces"].get<int>(), 3 + split["result"]["splits"].get<int>());
+}
+
+TEST_F(Graph, pixels_count_the_faces_left_to_choose_from) {
+  // Two squares that face up, one above a half of the other, seen from above.
+  const std::string scene = file("two.off", "OFF\n8 2 0\n-4 -4 0\n4 -4 0\n4 4 0\n-4 4 0\n-4 -4 1\n0 -4 1\n0 4 1\n-4 4 1\n4 0 1 2 3\n4 4 5 6 7\n");
+  const std::string eyes = file("eyes.txt", "# two eyes\n0.01,0,5 0,0,-1\n\n0,0,-5 0,0,1  # below: nothing is on-view\n");
+  const std::string folder = path("").string();
+  const Json d = graph({scene, "--pixels", "16x12", "--eyes", eyes, "--pictures", folder});
+  const Json& images = d["result"]["images"];
+  ASSERT_EQ(images.size(), 2u);
+  EXPECT_EQ(images[0]["covered"], 16 * 12);
+  EXPECT_EQ(images[0]["several"], 8 * 12);
+  EXPECT_EQ(images[0]["faces"], 24 * 12);
+  EXPECT_EQ(images[0]["by_h"]["single"], 16 * 12);
+  EXPECT_EQ(images[0]["by_h"]["by_size"], Json::parse("[[1,1,96],[2,1,96]]"));
+  EXPECT_EQ(images[0]["by_tree"], images[0]["by_h"]);
+  EXPECT_TRUE(images[0]["changed"].is_null());
+  EXPECT_EQ(images[1]["covered"], 0);
+  EXPECT_EQ(images[1]["changed"], 1.0);
+  const std::string picture = read_file(path("image_0001.svg").string());
+  EXPECT_NE(picture.find("one face left at 100.0%"), std::string::npos) << picture.substr(0, 500);
+  // In a ring h leaves all that a ray pierces.
+  const Json ring = graph({bars, "--pixels", "40x30", "--eyes", file("above.txt", "0,0,50 0,0,-1\n")});
+  const Json& image = ring["result"]["images"][0];
+  EXPECT_GT(image["several"].get<int>(), 0);
+  EXPECT_EQ(image["by_h"]["left"], image["faces"]);
+}
+
+TEST_F(Graph, wrong_eyes_and_sizes_are_named_with_their_place) {
+  const auto fails = [&](const std::string& size, const std::string& eyes, int code, const std::string& why) {
+    const Outcome r = run({"graph", bars, "--pixels", size, "--eyes", eyes});
+    EXPECT_EQ(r.code, code) << r;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r;
+  };
+  const std::string good = file("good.txt", "0,0,9\n");
+  for (const char* size : {"0x4", "4", "x", "4x", "4x-4", "5000x2", "4x4x4", "99999999999x2"}) fails(size, good, usage, "--pixels wants WIDTHxHEIGHT");
+  fails("4x4", path("none.txt").string(), bad_input, "cannot be opened");
+  fails("4x4", file("empty.txt", "# nothing\n"), bad_input, "has no eye");
+  fails("4x4", file("wrong.txt", "0,0,9\n0,0\n"), bad_input, "wrong.txt:2:1: ");
+  fails("4x4", file("much.txt", "0,0,9 0,0,1 7\n"), bad_input, "much.txt:1:13: ");
+  fails("4x4", file("zero.txt", "0,0,9  0,0,0\n"), bad_input, "zero.txt:1:8: ");
+  EXPECT_EQ(run({"graph", bars, "--pixels", "4x4"}).code, usage);
+  EXPECT_EQ(run({"graph", bars, "--tree", "--eye", "1,2,3"}).code, usage);
+  EXPECT_EQ(run({"graph", bars, "--pixels", "4x4", "--eyes", good, "--box", "0,0,0", "1,1,1"}).code, usage);
 }
 
 }  // namespace program

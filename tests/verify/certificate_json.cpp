@@ -52,6 +52,10 @@ TEST(Certificate_json, what_is_written_is_read_back) {
   EXPECT_EQ(again.set_aside[0].why, "zero area");
   EXPECT_TRUE(verify_order(scene.soup, again).accepted);
   EXPECT_EQ(to_json(again), to_json(scene.certificate));
+  EXPECT_FALSE(again.on_view);
+  Order_certificate on_view = scene.certificate;
+  on_view.on_view = true;
+  EXPECT_TRUE(read(to_json(on_view).dump()).on_view);
 }
 
 TEST(Certificate_json, has_the_documented_keys) {
@@ -86,6 +90,7 @@ TEST(Certificate_json, faults_are_named_with_their_place) {
       {R"({"format":"sightline order 1","eye":["0","0","0.5"],"fragments":[]})", "eye: not a number"},
       {R"({"format":"sightline order 1","eye":["0","0",""],"fragments":[]})", "eye: not a number"},
       {head + R"("pieces":[]})", "no \"fragments\""},
+      {head + R"("on_view":1,"fragments":[]})", "on_view: expected true or false"},
       {head + R"("fragments":{}})", "fragments: expected an array"},
       {head + R"("fragments":[7]})", "fragments[0]: expected an object"},
       {head + R"("fragments":[{"piece":0,"vertices":[]}]})", "fragments[0]: no \"face\""},

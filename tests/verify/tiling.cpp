@@ -44,6 +44,41 @@ TEST(Tiling, missing_doubled_and_foreign_fragments_are_found) {
   expect_rejected(one_face_drawn(square, {rectangle(5, 9, 0, 4, 0)}), "face 0 is not tiled");
 }
 
+TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in_front_of) {
+  const auto seen = [](const Points& face, const Exact_point& eye, const std::vector<Points>& parts, bool on_view = true) {
+    Scene scene;
+    scene.seen_from(eye).face(face);
+    for (const Points& part : parts) scene.draw(0, part);
+    scene.certificate.on_view = on_view;
+    return scene;
+  };
+  const Exact_point below = at(1, 2, -10), in_plane = at(9, 9, 0);
+  for (const Exact_point& eye : {below, in_plane}) {
+    expect_accepted(seen(square, eye, {}));
+    EXPECT_EQ(seen(square, eye, {}).verdict().why, "0 fragments in back-to-front order, every on-view face drawn once or set aside for a true reason");
+    expect_accepted(seen(square, eye, {square}));
+    expect_rejected(seen(square, eye, {}, false), "face 0 has no fragment");
+    expect_rejected(seen(square, eye, {rectangle(0, 1, 0, 4, 0)}), "face 0 is not tiled");
+  }
+  expect_rejected(seen(square, above, {}), "face 0 has no fragment");
+  expect_rejected(seen(square, at(9, 9, tiny(500)), {}), "face 0 has no fragment");
+  expect_accepted(seen(reversed(square), above, {}));
+  // A bent face: one of its pieces is on-view, the other is not.
+  const Points bent = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)}, low = {at(0, 0, 0), at(4, 0, 0), at(0, 4, 0)}, high = {at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)};
+  const auto pieces = [&](const Exact_point& eye, bool draw_low, bool draw_high) {
+    Scene scene = seen(bent, eye, {});
+    scene.cut(0, 0, low).cut(0, 1, high);
+    if (draw_low) scene.draw(0, low, 0);
+    if (draw_high) scene.draw(0, high, 1);
+    return scene;
+  };
+  const Exact_point between = at(9, 9, 1);  // above the plane of the low piece, below that of the high one
+  expect_accepted(pieces(between, true, false));
+  expect_accepted(pieces(between, true, true));
+  expect_rejected(pieces(between, false, true), "face 0, piece 0 has no fragment");
+  expect_rejected(pieces(at(9, 9, 100), true, false), "face 0, piece 1 has no fragment");
+}
+
 TEST(Tiling, is_exact_to_any_bit) {
   for (const unsigned bits : {1u, 60u, 500u}) {
     const Rational e = tiny(bits);

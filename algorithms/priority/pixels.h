@@ -1,0 +1,172 @@
+#pragma once
+// The statistics that the authors wanted: at each pixel of an image, how many faces a ray pierces from the front (S), and how many of them the priorities leave to choose
+// from (S^ of the paper: those of highest priority).
+
+#include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/priority/rational_geometry.h>
+
+#include <array>
+#include <cmath>
+
+namespace sightline {
+
+/// A pinhole image. The ray of pixel (x, y), 0-based from the top left, goes in the direction look + (2 (x + 1/2) / width - 1) right + (1 - 2 (y + 1/2) / height) up, as
+/// rounded to doubles and then taken exactly.
+struct Pixel_view {
+  Exact_point eye;
+  std::array<double, 3> look{}, right{}, up{};
+  std::uint32_t width = 0, height = 0;
+
+  std::array<double, 3> ray(std::uint32_t x, std::uint32_t y) const {
+    const double across = 2 * (x + 0.5) / width - 1, upwards = 1 - 2 * (y + 0.5) / height;
+    std::array<double, 3> d{};
+    for (std::size_t k = 0; k < 3; ++k) d[k] = look[k] + across * right[k] + upwards * up[k];
+    return d;
+  }
+};
+
+/// For each pixel the polygons that its ray pierces from the front, by their numbers in the relation, ascending.
+struct Pixel_sets {
+  std::vector<std::uint32_t> begin{0}, members;
+  std::uint64_t rays = 0, exact = 0;  ///< rays against polygons; signs that doubles did not decide
+
+  std::size_t size() const { return begin.size() - 1; }
+  std::span<const std::uint32_t> operator[](std::size_t pixel) const { return std::span(members).subspan(begin[pixel], begin[pixel + 1] - begin[pixel]); }
+};
+
+namespace priority_detail {
+
+/// The cone of a polygon from an eye in front of it: normals of the planes through the eye and its edges, inwards.
+struct Pixel_cone {
+  struct Side {
+    std::array<double, 3> normal, size;  // off by 4 units of 2^-53 of the size
+    std::size_t edge;
+  };
+  std::vector<Side> sides;
+  std::vector<Exact_point> arms;  // from the eye to the corners
+
+  Pixel_cone(const std::vector<Exact_point>& corners, const Exact_point& eye) {
+    for (const Exact_point& p : corners) arms.push_back(minus(p, eye));
+    std::vector<std::array<double, 3>> rounded;
+    for (const Exact_point& a : arms) rounded.push_back({nearest_double(a[0]), nearest_double(a[1]), nearest_double(a[2])});
+    for (std::size_t k = 0; k < arms.size(); ++k) {
+      const auto &a = rounded[k], &b = rounded[k + 1 == arms.size() ? 0 : k + 1];
+      Side side{{}, {}, k};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
+        side.normal[axis] = b[p] * a[q] - b[q] * a[p], side.size[axis] = std::fabs(b[p] * a[q]) + std::fabs(b[q] * a[p]);
+      }
+      sides.push_back(side);
+    }
+  }
+
+  /// Whether the direction is strictly inside. Each product of two arms is off by 3 x 2^-53 of itself, their difference by 4 of the size, a product with the direction by 5, the sum
+  /// of three by 7: 2^-49 covers it; the last term is for underflow. Proof: P-40
+  bool holds(const std::array<double, 3>& d, Pixel_sets& counts) const {
+    for (const Side& side : sides) {
+      double value = 0, size = 0;
+      for (std::size_t k = 0; k < 3; ++k) value += side.normal[k] * d[k], size += side.size[k] * std::fabs(d[k]);
+      const double bound = 0x1p-49 * size + 0x1p-900;
+      if (value > bound) continue;
+      if (value < -bound) return false;
+      ++counts.exact;
+      const Exact_point normal = cross(arms[side.edge + 1 == arms.size() ? 0 : side.edge + 1], arms[side.edge]);
+      if (sgn(dot(normal, {exact(d[0]), exact(d[1]), exact(d[2])})) <= 0) return false;
+    }
+    return true;
+  }
+};
+
+}  // namespace priority_detail
+
+/// The sets S of an image. Degenerate: a ray through an edge or a corner pierces no inside; faces that are edge-on or off-view are never pierced. Cost: for each on-view
+/// polygon the pixels of its bounding rectangle, or all of them where it reaches behind the eye. Exact: yes. Pre: finite directions. Proof: P-40
+template <class Traits>
+Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& view) {
+  const Traits& traits = faces.traits();
+  const typename Traits::Eye viewpoint = traits.eye(view.eye);
+  Predicate_counts counts;
+  Pixel_sets sets;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // pixel, polygon
+  const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  const double depth = dot(view.look, view.look), half_width = dot(view.right, view.right), half_height = dot(view.up, view.up);
+  for (std::uint32_t i = 0; i < faces.size(); ++i) {
+    if (traits.side(viewpoint, faces.plane(i), counts) != CGAL::POSITIVE) continue;
+    const priority_detail::Pixel_cone cone(priority_detail::positions(traits, faces[i]), view.eye);
+
+    // 1. The pixels that it may cover, and one more on each side.
+    std::array<double, 4> box{1, -1, 1, -1};  // x from, to; y from, to, in the plane of the image
+    bool in_front = true;
+    for (const Exact_point& arm : cone.arms) {
+      const std::array<double, 3> a{nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])};
+      const double z = dot(a, view.look) / depth, x = dot(a, view.right) / half_width / z, y = dot(a, view.up) / half_height / z;
+      const double length = std::sqrt(dot(a, a) / depth);
+      in_front = in_front && z > 1e-6 * length && std::isfinite(x + y);
+      box = {std::min(box[0], x), std::max(box[1], x), std::min(box[2], y), std::max(box[3], y)};
+    }
+    if (!in_front) box = {-1, 1, -1, 1};
+    const auto pixel = [](double place, std::uint32_t count) { return static_cast<std::int64_t>(std::floor(std::clamp((place + 1) / 2 * count, -2.0, count + 2.0))); };
+    const std::int64_t left = std::max<std::int64_t>(0, pixel(box[0], view.width) - 1), right = std::min<std::int64_t>(view.width - std::int64_t{1}, pixel(box[1], view.width) + 1);
+    const std::int64_t top = std::max<std::int64_t>(0, pixel(-box[3], view.height) - 1), bottom = std::min<std::int64_t>(view.height - std::int64_t{1}, pixel(-box[2], view.height) + 1);
+
+    // 2. Their rays.
+    for (std::int64_t y = top; y <= bottom; ++y)
+      for (std::int64_t x = left; x <= right; ++x) {
+        ++sets.rays;
+        if (cone.holds(view.ray(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sets)) found.emplace_back(static_cast<std::uint32_t>(y * view.width + x), i);
+      }
+  }
+
+  std::sort(found.begin(), found.end());
+  sets.begin.assign(std::size_t{view.width} * view.height + 1, 0);
+  for (const auto& [pixel, i] : found) ++sets.begin[pixel + std::size_t{1}], sets.members.push_back(i);
+  for (std::size_t p = 1; p < sets.begin.size(); ++p) sets.begin[p] += sets.begin[p - 1];
+  return sets;
+}
+
+/// Numbers for a tree's polygons as seen from an eye, the nearest lowest; those of one cycle share theirs. What h is for all viewpoints, the tree is for this one.
+/// Cost: linear. Exact: yes. Proof: P-37
+template <class Traits>
+std::vector<std::uint32_t> priorities(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye) {
+  using Slot = typename Priority_tree<Traits>::Slot;
+  std::vector<std::uint32_t> number(tree.polygons.size(), 0);
+  std::uint32_t next = static_cast<std::uint32_t>(tree.polygons.size());
+  Predicate_counts counts;
+  walk_back_to_front(
+      traits, tree, eye, counts, [&](std::uint32_t i) { number[i] = --next; },
+      [&](std::span<const Slot> cycle) {
+        --next;
+        for (const Slot slot : cycle) number[static_cast<std::size_t>(slot)] = next;
+      });
+  return number;
+}
+
+/// What the priorities leave at the pixels of an image.
+struct Pixel_statistics {
+  std::uint64_t covered = 0;   ///< pixels whose ray pierces a face: |S| >= 1
+  std::uint64_t several = 0;   ///< |S| >= 2
+  std::uint64_t single = 0;    ///< |S^| = 1
+  std::uint64_t faces = 0, left = 0;  ///< sums of |S| and |S^|
+  std::vector<std::vector<std::uint64_t>> by_size;  ///< by_size[s][l]: pixels with |S| = s and |S^| = l
+  std::vector<std::uint32_t> image;                 ///< |S^| by pixel, row by row
+};
+
+/// Cost: linear in the sets. Pre: a number for each polygon of the sets.
+inline Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority) {
+  Pixel_statistics found;
+  for (std::size_t pixel = 0; pixel < sets.size(); ++pixel) {
+    const std::span<const std::uint32_t> all = sets[pixel];
+    std::uint32_t best = std::numeric_limits<std::uint32_t>::max();
+    for (const std::uint32_t i : all) best = std::min(best, priority[i]);
+    const std::size_t left = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](std::uint32_t i) { return priority[i] == best; }));
+    found.image.push_back(static_cast<std::uint32_t>(left));
+    if (all.empty()) continue;
+    ++found.covered, found.several += all.size() > 1, found.single += left == 1, found.faces += all.size(), found.left += left;
+    if (found.by_size.size() <= all.size()) found.by_size.resize(all.size() + 1);
+    if (found.by_size[all.size()].size() <= left) found.by_size[all.size()].resize(left + 1);
+    ++found.by_size[all.size()][left];
+  }
+  return found;
+}
+
+}  // namespace sightline
