@@ -107,9 +107,8 @@ class Tree_builder {
     Members members{};
     std::size_t slot = 0;
     std::uint64_t depth = 1;
-    std::size_t searched = 0;   // how many there were when components were last found
-    bool strong = false;        // they are one strongly connected component
-    };
+    bool strong = false;  // they are one strongly connected component
+  };
 
   /// One polygon, or none, needs no node.
   void push(Job job) {
@@ -134,10 +133,10 @@ class Tree_builder {
     return tree_.nodes.back();
   }
 
-  /// Planes that cut nothing first, as they are cheap and halve the work; then h; then planes again, however they divide; then cuts.
+  /// Planes that cut nothing and divide well first, as they are cheaper to find than the graph's components; then these; then planes again, however they divide; then cuts.
   void settle(Job job) {
     const std::size_t n = job.members.size();
-    if (!job.strong && n > few && 4 * n > job.searched && job.searched > 0)
+    if (!job.strong && n > many)
       if (auto found = finder_.find(job.members, n / 8, some_directions, tree_.counters.predicates)) return divide(job, std::move(*found));
     if (!job.strong && !enumerate(job)) return;
     if (auto found = finder_.find(job.members, 1, std::max<std::size_t>(some_directions, effort / n), tree_.counters.predicates)) return divide(job, std::move(*found));
@@ -155,20 +154,19 @@ class Tree_builder {
     for (std::size_t k = 0; k < on.size(); ++k) tree_.slots[first + 2 + k] = static_cast<typename Tree::Slot>(on[k]);
     settled(tree_.counters.by_plane, on.size());
     for (std::size_t side = 0; side < 2; ++side)
-      push({std::move(found.sides[1 + side]), first + side, job.depth + 1, std::max(job.searched, job.members.size() * (job.strong ? 1 : 0))});
+      push({std::move(found.sides[1 + side]), first + side, job.depth + 1, false});
   }
 
   /// The node of the components of the graph, highest priority first. Returns whether they are one, in which case there is no node.
   bool enumerate(Job& job) {
     const Priority_components found = components_of(job.members);
-    job.searched = job.members.size();
     if (found.size() == 1) return job.strong = true;
     const std::size_t first = add_node(job, Tree::Kind::sequence, found.size()).first;
     ++tree_.counters.sequences;
     for (std::size_t c = 0; c < found.size(); ++c) {
       Members members;
       for (const std::uint32_t i : found[c]) members.push_back(job.members[i]);
-      push({std::move(members), first + c, job.depth + 1, job.searched, found[c].size() > 1});
+      push({std::move(members), first + c, job.depth + 1, found[c].size() > 1});
     }
     return false;
   }
@@ -242,6 +240,7 @@ class Tree_builder {
   }
 
   static constexpr std::size_t few = 24;              // members; up to here comparing all pairs is faster than an index
+  static constexpr std::size_t many = 128;            // members; above, a plane that divides well is looked for before the graph is searched
   static constexpr std::size_t some_directions = 16;  // to look along for planes that divide well
   static constexpr std::size_t effort = 1 << 20;      // projections or tests for one plane, about, where any will do
   static constexpr std::size_t split_cost = 4;        // a cut costs as much as an imbalance of this many polygons
