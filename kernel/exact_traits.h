@@ -4,6 +4,8 @@
 #include <sightline/kernel/partition_traits.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <bit>
+
 namespace sightline {
 
 /// Vertices are input points or meets of three planes, edges are planes, signs come from the cascade of predicates.h. Exact: yes. Proof: P-05
@@ -51,6 +53,7 @@ class Exact_traits {
   Eye eye(const Exact_point& p) const { return scene_->locate(p); }
   Sign side(const Eye& eye, Plane plane, Predicate_counts& counts) const { return predicates_.side(eye, plane, counts); }
 
+  bool is_input(const Vertex& v) const { return v.is_input(); }
   std::optional<Plane> axis_plane(int axis, const Vertex& v) const {
     if (!v.is_input()) return std::nullopt;
     const Plane known = scene_->planes().find_axis_plane(axis, scene_->points().coordinate(v.point, axis), scene_->points().limbs());
@@ -80,5 +83,91 @@ class Exact_traits {
 };
 
 static_assert(Partition_traits<Exact_traits>);
+
+/// A few planes, to find where polygons lie to all of them at once: each corner is read once, and its values at two planes are computed in one go.
+template <>
+class Plane_group<Exact_traits> {
+ public:
+  static constexpr std::size_t most = 6;
+  using Positions = std::array<std::uint64_t, most>;
+
+  void prepare(const Exact_traits& traits, std::span<const Plane> planes) {
+    size_ = planes.size();
+    for (std::size_t k = 0; k < size_; ++k) planes_[k] = traits.prepare(planes[k]);
+    for (std::size_t k = 0; k < size_; k += 2) {
+      const Prepared_plane &g = planes_[k], &h = planes_[std::min(k + 1, size_ - 1)];  // the last one twice where their number is odd
+      const auto certain = [](const Prepared_plane& plane) { return plane.exact ? ~std::uint64_t{0} : 0; };
+      Two& two = twos_[k / 2];
+      two.a = Doubles{g.a, h.a}, two.b = Doubles{g.b, h.b}, two.c = Doubles{g.c, h.c}, two.d = Doubles{g.d, h.d}, two.norm = Doubles{g.norm, h.norm};
+      two.id = Ids{g.plane.id(), g.plane.id(), h.plane.id(), h.plane.id()};
+      two.bound[0] = Doubles{g.exact ? 0 : g.bound, h.exact ? 0 : h.bound}, two.certain[0] = Bits{certain(g), certain(h)};
+      two.bound[1] = Doubles{g.bound, h.bound}, two.certain[1] = Bits{};
+    }
+  }
+
+  void find(const Exact_traits& traits, std::span<const Convex_polygon<Exact_traits>> polygons, Positions* positions, Predicate_counts& counts) const {
+    if (size_ <= 2) find_in<1>(traits, polygons, positions, counts);
+    else if (size_ <= 4) find_in<2>(traits, polygons, positions, counts);
+    else find_in<3>(traits, polygons, positions, counts);
+  }
+
+ private:
+  using Doubles [[gnu::vector_size(16)]] = double;
+  using Bits [[gnu::vector_size(16)]] = std::uint64_t;
+  using Ids [[gnu::vector_size(16)]] = std::uint32_t;
+  struct Two {
+    Doubles a, b, c, d, norm;
+    Ids id;                        ///< each twice
+    std::array<Doubles, 2> bound;  ///< at vertices that are exact integers, and at others
+    std::array<Bits, 2> certain;   ///< whether the value is the true one there
+  };
+
+  /// find() for as many pairs of planes; a function of its own, as compilers run out of registers where it is part of a larger one.
+  template <std::size_t Pairs>
+  [[gnu::noinline]] void find_in(const Exact_traits& traits, std::span<const Convex_polygon<Exact_traits>> polygons, Positions* positions, Predicate_counts& counts) const {
+    for (const Convex_polygon<Exact_traits>& polygon : polygons) find_one<Pairs>(traits, polygon, *positions++, counts);
+  }
+  template <std::size_t Pairs>
+  void find_one(const Exact_traits& traits, const Convex_polygon<Exact_traits>& polygon, Positions& positions, Predicate_counts& counts) const {
+    // Predicates::side_filtered() of all corners to all planes: value > bound and value < -bound as the sign bits of bound - value and bound + value.
+    // Those are the signs of the true differences, as doubles underflow gradually, and +0 where the two are equal; neither is NaN, as values are finite.
+    // Where all is in exact integers the bound is 0 and what is neither is zero for certain.
+    std::array<Bits, Pairs> front{}, behind{}, known;
+    known.fill(~Bits{});
+    for (const Corner<Exact_traits>& corner : polygon) {
+      const Vertex& v = *corner.vertex;
+      const std::size_t inexact = std::bit_cast<std::uint64_t>(v.error) != 0;  // errors are not negative
+      for (std::size_t k = 0; k < Pairs; ++k) {
+        const Two& h = twos_[k];
+        const Doubles value = h.a * v.x + h.b * v.y + h.c * v.z + h.d;
+        const Doubles bound = h.bound[inexact] + v.error * h.norm;
+        const Bits positive = std::bit_cast<Bits>(bound - value), negative = std::bit_cast<Bits>(bound + value);
+        front[k] |= positive, behind[k] |= negative, known[k] &= positive | negative | h.certain[inexact];
+      }
+    }
+    Bits all = ~Bits{};
+    for (std::size_t k = 0; k < Pairs; ++k) {
+      const Bits own = std::bit_cast<Bits>(twos_[k].id == polygon.support.id());  // all corners are on the polygon's own plane
+      const Bits found = ((front[k] >> 62 & 2) | behind[k] >> 63) & ~own;
+      positions[2 * k] = found[0], positions[2 * k + 1] = found[1];
+      known[k] |= own;
+      all &= known[k];
+    }
+    counts.filtered += size_ * polygon.size;
+    if ((all[0] & all[1]) >> 63 != 0) return;
+    for (std::size_t k = 0; k < size_; ++k)
+      if (known[k / 2][k % 2] >> 63 == 0) find_alone(traits, polygon, k, positions, counts);
+  }
+
+  /// The position to plane k, where doubles do not tell it.
+  [[gnu::noinline]] void find_alone(const Exact_traits& traits, const Convex_polygon<Exact_traits>& polygon, std::size_t k, Positions& positions, Predicate_counts& counts) const {
+    counts.filtered -= polygon.size;
+    positions[k] = static_cast<std::uint64_t>(position(traits, polygon, planes_[k], counts));
+  }
+
+  std::size_t size_ = 0;
+  std::array<Prepared_plane, most> planes_;
+  std::array<Two, most / 2> twos_;
+};
 
 }  // namespace sightline

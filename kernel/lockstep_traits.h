@@ -79,6 +79,7 @@ class Lockstep_traits {
     Predicate_counts ignored;
     return compare(truth_->side(eye.truth, plane, counts), judged_->side(eye.judged, judged_name(plane), ignored));
   }
+  bool is_input(const Vertex& v) const { return judged_->is_input(v.judged); }
   std::optional<Plane> axis_plane(int axis, const Vertex& v) const { return judged_->axis_plane(axis, v.judged); }  // a name that both know
   double coordinate(const Vertex& v, int axis) const { return truth_->coordinate(v.truth, axis); }
   Exact_point position(const Vertex& v) const { return truth_->position(v.truth); }

@@ -3,11 +3,10 @@
 
 #include <sightline/kernel/predicates.h>
 
+#include <array>
 #include <concepts>
 #include <cstddef>
-#include <deque>
 #include <memory>
-#include <memory_resource>
 #include <span>
 #include <vector>
 
@@ -44,8 +43,9 @@ struct Convex_polygon {
 ///   t.side(v, cutter, counts)    front, on or behind
 ///   t.meet(i, from, to, s, cutter)  where the edge of piece i from corner `from` (side s, not zero) to corner `to` (side -s) meets the plane
 ///   t.bound(cutter, s)     the Edge that keeps side s of the plane
-///   t.same_plane(g, h), t.same_sense(g, h)   known to be one plane (may miss it); whether coplanar planes face alike
+///   t.same_plane(g, h), t.same_sense(g, h)   known to be one plane (may miss it, but not for one id); whether coplanar planes face alike
 ///   t.side(eye, h, counts) the side of a viewpoint
+///   t.is_input(v)          whether a vertex is an input vertex
 ///   t.axis_plane(k, v)     the plane across axis k through an input vertex, if the vertex is one
 ///   t.coordinate(v, k)     roughly, for choosing among planes; never for deciding
 ///
@@ -68,6 +68,7 @@ concept Partition_traits = requires(const T t, typename T::Vertex v, typename T:
   { t.same_plane(h, h) } -> std::same_as<bool>;
   { t.same_sense(h, h) } -> std::same_as<bool>;
   { t.side(eye, h, counts) } -> std::same_as<Sign>;
+  { t.is_input(v) } -> std::same_as<bool>;
   { t.axis_plane(axis, v) } -> std::same_as<std::optional<Plane>>;
   { t.coordinate(v, axis) } -> std::same_as<double>;
 };
@@ -89,6 +90,10 @@ class Polygon_store {
  public:
   using Vertex = typename Traits::Vertex;
 
+  Polygon_store() = default;
+  Polygon_store(Polygon_store&&) = default;
+  Polygon_store& operator=(Polygon_store&&) = default;
+
   const Vertex* add(Vertex vertex) {
     if (used_ == chunk || vertices_.empty()) {
       vertices_.emplace_back().reserve(chunk);
@@ -107,19 +112,46 @@ class Polygon_store {
   template <class T>
   std::span<T> list(std::span<const T> items) {
     static_assert(std::is_trivially_destructible_v<T>);
-    T* const kept = static_cast<T*>(lists_->allocate(items.size() * sizeof(T), alignof(T)));
+    T* const kept = static_cast<T*>(room(items.size_bytes(), alignof(T)));
     std::uninitialized_copy(items.begin(), items.end(), kept);
     return {kept, items.size()};
   }
   Convex_polygon<Traits> keep(std::span<const Corner<Traits>> corners, std::uint32_t piece, Plane support) {
+    if (corners.size() < spare_.size() && !spare_[corners.size()].empty()) {
+      Corner<Traits>* const again = spare_[corners.size()].back();
+      spare_[corners.size()].pop_back();
+      std::copy(corners.begin(), corners.end(), again);
+      return {again, static_cast<std::uint32_t>(corners.size()), piece, support};
+    }
     return {list(corners).data(), static_cast<std::uint32_t>(corners.size()), piece, support};
+  }
+  /// Takes the list of corners of a polygon that nobody needs any more, for another. Pre: a store made it that lives as long as this one.
+  void reuse(const Convex_polygon<Traits>& polygon) {
+    if (polygon.size < spare_.size()) spare_[polygon.size].push_back(const_cast<Corner<Traits>*>(polygon.corners));
   }
 
  private:
+  struct Block {
+    std::unique_ptr<std::byte[]> memory;
+    std::size_t size, used;
+  };
+  void* room(std::size_t bytes, std::size_t alignment) {
+    const auto aligned = [&](std::size_t used) { return (used + alignment - 1) / alignment * alignment; };
+    if (blocks_.empty() || aligned(blocks_.back().used) + bytes > blocks_.back().size) {
+      const std::size_t size = std::max(bytes, blocks_.empty() ? std::size_t{1} << 12 : std::min(2 * blocks_.back().size, std::size_t{1} << 20));
+      blocks_.push_back({std::make_unique_for_overwrite<std::byte[]>(size), size, 0});
+    }
+    Block& block = blocks_.back();
+    void* const start = block.memory.get() + aligned(block.used);
+    block.used = aligned(block.used) + bytes;
+    return start;
+  }
+
   static constexpr std::size_t chunk = 512;
-  std::deque<std::vector<Vertex>> vertices_;
+  std::vector<std::vector<Vertex>> vertices_;
   std::size_t used_ = 0;
-  std::unique_ptr<std::pmr::monotonic_buffer_resource> lists_ = std::make_unique<std::pmr::monotonic_buffer_resource>();
+  std::vector<Block> blocks_;
+  std::array<std::vector<Corner<Traits>*>, 16> spare_;  // lists of corners to use again, by length
   std::vector<Corner<Traits>> scratch_;
 };
 
@@ -130,8 +162,7 @@ enum class Position { on = 0, behind = 1, in_front = 2, across = 3 };
 template <class Traits>
 struct Split_scratch {
   std::vector<Sign> sides;
-  std::vector<Corner<Traits>> corners;
-  std::vector<const typename Traits::Vertex*> crossings;
+  std::array<std::vector<Corner<Traits>>, 2> corners;
 };
 
 /// The position that a front corner and a corner behind make.
@@ -148,7 +179,37 @@ Position position(const Traits& traits, const Convex_polygon<Traits>& polygon, c
   return position_of(front, behind);
 }
 
-/// The same, and the sides of all corners in the scratch, for split().
+/// A few planes, to find where polygons lie to all of them at once. Exact_traits has one of its own.
+template <class Traits>
+class Plane_group {
+ public:
+  static constexpr std::size_t most = 6;  ///< planes
+  using Positions = std::array<std::uint64_t, most>;  ///< of a polygon to each of the planes, as numbers of Position
+
+  /// Pre: 1 to `most` planes.
+  void prepare(const Traits& traits, std::span<const Plane> planes) {
+    planes_.assign(planes.begin(), planes.end());
+    cutters_.clear();
+    for (const Plane plane : planes) cutters_.push_back(traits.prepare(plane));
+  }
+  /// Where each polygon lies to each plane: on those known to be its own, else as position() says.
+  void find(const Traits& traits, std::span<const Convex_polygon<Traits>> polygons, Positions* positions, Predicate_counts& counts) const {
+    for (const Convex_polygon<Traits>& polygon : polygons) {
+      for (std::size_t k = 0; k < planes_.size(); ++k) {
+        const bool own = traits.same_plane(polygon.support, planes_[k]);
+        if (own) ++counts.combinatorial;
+        (*positions)[k] = static_cast<std::uint64_t>(own ? Position::on : position(traits, polygon, cutters_[k], counts));
+      }
+      ++positions;
+    }
+  }
+
+ private:
+  std::vector<Plane> planes_;
+  std::vector<typename Traits::Cutter> cutters_;
+};
+
+/// Where a polygon lies to a plane, as position() says, and the sides of all corners in the scratch, for split().
 template <class Traits>
 Position classify(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter, Split_scratch<Traits>& scratch, Predicate_counts& counts) {
   if (scratch.sides.size() < polygon.size) scratch.sides.resize(polygon.size);
@@ -161,39 +222,35 @@ Position classify(const Traits& traits, const Convex_polygon<Traits>& polygon, c
   return position_of(front, behind);
 }
 
-/// The part of a polygon on side `keep` of a plane, given in the scratch the sides of its corners and a vertex for each edge that crosses.
-/// For an exact model and a polygon across the plane both parts are convex polygons of at least three corners that tile it and hold the very
-/// same crossing vertices. An inexact model may give fewer than three corners.
-template <class Traits>
-Convex_polygon<Traits> part(const Convex_polygon<Traits>& polygon, Sign keep, typename Traits::Edge bound, Split_scratch<Traits>& scratch, Polygon_store<Traits>& store) {
-  scratch.corners.clear();
-  auto crossing = scratch.crossings.begin();
-  for (std::uint32_t i = 0; i < polygon.size; ++i) {
-    const Corner<Traits>& corner = polygon.corners[i];
-    const Sign here = scratch.sides[i], next = scratch.sides[i + 1 == polygon.size ? 0 : i + 1];
-    if (here == keep) {
-      scratch.corners.push_back(corner);
-      if (next == -keep) scratch.corners.push_back({*crossing++, bound});
-    } else if (here == CGAL::ZERO) {
-      scratch.corners.push_back({corner.vertex, next == keep ? corner.edge : bound});
-    } else if (next == keep) {
-      scratch.corners.push_back({*crossing++, corner.edge});
-    }
-  }
-  return store.keep(scratch.corners, polygon.piece, polygon.support);
-}
-
 /// Splits a polygon that is across a plane, as classify() found it with the same scratch. Returns its part behind and its part in front.
+/// For an exact model both are convex polygons of at least three corners that tile it and hold the very same crossing vertices. An inexact model
+/// may give fewer than three corners.
 template <class Traits>
 std::array<Convex_polygon<Traits>, 2> split(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter,
                                             Split_scratch<Traits>& scratch, Polygon_store<Traits>& store) {
-  scratch.crossings.clear();
+  const std::array<typename Traits::Edge, 2> bound{traits.bound(cutter, CGAL::NEGATIVE), traits.bound(cutter, CGAL::POSITIVE)};
+  // Each corner adds at most two to a part.
+  if (scratch.corners[0].size() < 2 * polygon.size) scratch.corners[0].resize(2 * polygon.size), scratch.corners[1].resize(2 * polygon.size);
+  std::array<Corner<Traits>*, 2> end{scratch.corners[0].data(), scratch.corners[1].data()};
   for (std::uint32_t i = 0; i < polygon.size; ++i) {
-    const std::uint32_t next = i + 1 == polygon.size ? 0 : i + 1;
-    if (scratch.sides[i] * scratch.sides[next] < 0)
-      scratch.crossings.push_back(store.add(traits.meet(polygon.piece, polygon.corners[i], polygon.corners[next], scratch.sides[i], cutter)));
+    const std::uint32_t after = i + 1 == polygon.size ? 0 : i + 1;
+    const Corner<Traits>& corner = polygon.corners[i];
+    const Sign here = scratch.sides[i], next = scratch.sides[after];
+    if (here == CGAL::ZERO) {
+      *end[0]++ = {corner.vertex, next == CGAL::NEGATIVE ? corner.edge : bound[0]};
+      *end[1]++ = {corner.vertex, next == CGAL::POSITIVE ? corner.edge : bound[1]};
+      continue;
+    }
+    const std::size_t side = here == CGAL::POSITIVE;
+    *end[side]++ = corner;
+    if (next == -here) {
+      const auto* const crossing = store.add(traits.meet(polygon.piece, corner, polygon.corners[after], here, cutter));
+      *end[side]++ = {crossing, bound[side]};
+      *end[1 - side]++ = {crossing, corner.edge};
+    }
   }
-  return {part(polygon, CGAL::NEGATIVE, traits.bound(cutter, CGAL::NEGATIVE), scratch, store), part(polygon, CGAL::POSITIVE, traits.bound(cutter, CGAL::POSITIVE), scratch, store)};
+  const auto part = [&](std::size_t side) { return store.keep({scratch.corners[side].data(), end[side]}, polygon.piece, polygon.support); };
+  return {part(0), part(1)};
 }
 
 }  // namespace sightline

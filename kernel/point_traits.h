@@ -122,8 +122,9 @@ class Point_traits {
     return prepare(plane).oriented_side(eye);
   }
 
+  bool is_input(const Vertex& v) const { return v.input != sightline::Vertex::no_point; }
   std::optional<Plane> axis_plane(int axis, const Vertex& v) const {
-    if (v.input == sightline::Vertex::no_point) return std::nullopt;
+    if (!is_input(v)) return std::nullopt;
     return Plane::across(axis, v.input);
   }
   double coordinate(const Vertex& v, int axis) const { return CGAL::to_double(v.point[axis]); }

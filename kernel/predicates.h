@@ -102,14 +102,16 @@ class Predicates {
       // |X/W - x/w| <= (error_x + |x/w| error_w) / (|w| - error_w), and the division's own rounding; the factor is for rounding of this line.
       v.error = ((error_x + reach * error_w) / (std::fabs(w) - error_w) + 0x1p-52 * reach) * (1 + 0x1p-20);
     }
-    if (!(reach <= 2 * range_)) v.error = std::numeric_limits<double>::infinity();  // outside what Prepared_plane::bound covers
+    // Outside what Prepared_plane::bound covers, or not a number. Numbers all the same, so that no comparison need mind.
+    if (!(reach <= 2 * range_ && v.error < std::numeric_limits<double>::infinity())) v.x = v.y = v.z = 0, v.error = std::numeric_limits<double>::infinity();
     return v;
   }
 
   /// A plane made ready for side(). Proof of the bound: P-03
   Prepared_plane prepare(Plane plane) const {
     Approximate_plane f = approximate(plane.id());
-    if (plane.flipped()) f = {-f.a, -f.b, -f.c, -f.d, f.exact};
+    const double sense = 1 - 2 * static_cast<int>(plane.flipped());  // without a branch, which no processor can predict
+    f = {sense * f.a, sense * f.b, sense * f.c, sense * f.d, f.exact};
     const double norm = (std::fabs(f.a) + std::fabs(f.b) + std::fabs(f.c)) * (1 + 0x1p-50);
     // The value a x + b y + c z + d: 2^-52 in each coefficient, three products and three sums of 2^-53, at coordinates up to twice the range:
     // below 6 x 2^-53 (norm 2 range + |d|) (1 + 2^-50), so 8 x 2^-53 covers it and the rounding of the bound.
@@ -256,7 +258,9 @@ class Predicates {
 
   Approximate_plane approximate(std::uint32_t id) const {
     const Plane plane(id, false);
-    if (!plane.is_axis_plane()) return planes_->approximate(id);
+    return plane.is_axis_plane() ? approximate_axis(plane) : planes_->approximate(id);
+  }
+  Approximate_plane approximate_axis(Plane plane) const {
     const int axis = plane.axis();
     return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, -points_->approximate(plane.axis_point(), axis),
             points_->is_exact(plane.axis_point(), axis)};

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <functional>
 
 namespace sightline {
@@ -45,65 +46,72 @@ class Builder {
   using Polygon = Convex_polygon<Traits>;
   using Polygons = std::vector<Polygon>;
   using Tree = Bsp_tree<Traits>;
+  using Positions = typename Plane_group<Traits>::Positions;
 
   Builder(const Traits& traits, const Bsp_options& options) : traits_(traits), options_(options) { options_.sample = std::max(1u, options_.sample); }
 
   Tree build() {
-    Tree tree;
-    Branch* root = nullptr;
     std::optional<tbb::global_control> more;  // threads than processors
     if (options_.threads > tbb::info::default_concurrency()) more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
     tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
+    Part root;
     arena.execute([&] {
       tbb::task_group group;
-      Job job{input(), &root, options_.seed, 1};
-      group.run_and_wait([&] { work(std::move(job), group); });
+      group.run_and_wait([&] { settle({input(), options_.seed, 1}, root, group); });
     });
-    flatten(root, tree);
+    Tree tree;
+    join(root, tree);
+    finish(tree);
     return tree;
   }
 
  private:
-  /// A node while the tree grows.
-  struct Branch {
-    Plane plane;
-    Branch* front = nullptr;
-    Branch* behind = nullptr;
-    std::span<Polygon> on;
-  };
-  /// A set of polygons in one cell, and where the node made of them goes.
-  struct Job {
+  /// Polygons in a convex cell of space, to be divided.
+  struct Cell {
     Polygons polygons;
-    Branch** place;
     std::uint64_t seed;
     std::uint64_t depth;
+  };
+  /// A cell whose polygons are the last ones on a stack, from `begin` on; and the side of a node that waits for its number: 2 node + side, or none.
+  struct Waiting {
+    std::size_t begin;
+    std::int64_t place;
+    std::uint64_t seed;
+    std::uint64_t depth;
+  };
+  /// The tree of a cell, in preorder; that of a large cell is its first node and those of its two sides.
+  struct Part {
+    std::vector<typename Tree::Node> nodes;
+    std::vector<Fragment<Traits>> fragments;
+    Part* front = nullptr;
+    Part* behind = nullptr;
+  };
+  /// What a cell draws first: the seeds of its sides, and the random numbers for its own choices.
+  struct Draws {
+    explicit Draws(std::uint64_t seed) : own{seed}, behind(own()), front(own()) {}
+    Random own;
+    std::uint64_t behind, front;
   };
   /// What each thread keeps for itself until the end.
   struct Workspace {
     Polygon_store<Traits> store;
     Split_scratch<Traits> scratch;
-    std::deque<Branch> branches;
     Bsp_counters counters;
-    std::vector<Polygons> spare;  // lists to use again
-    Polygons on;
-
-    Polygons list() {
-      if (spare.empty()) return {};
-      Polygons taken = std::move(spare.back());
-      spare.pop_back();
-      return taken;
-    }
-    void give_back(Polygons&& taken) {
-      taken.clear();
-      if (taken.capacity() <= worth_a_task) spare.push_back(std::move(taken));
-    }
+    std::deque<Part> parts;
+    Polygons front, sample;
+    std::vector<Plane> planes;
+    Plane_group<Traits> group;
+    std::vector<Positions> positions, best_positions;
   };
   struct Score {
-    std::array<std::size_t, 4> at{};  // by Position
-    std::size_t of(Position p) const { return at[static_cast<std::size_t>(p)]; }
-    std::size_t front_most() const { return of(Position::in_front) + of(Position::across); }
-    std::size_t behind_most() const { return of(Position::behind) + of(Position::across); }
-    std::size_t all() const { return at[0] + at[1] + at[2] + at[3]; }
+    std::size_t all, front, behind, across;  // polygons; those with corners in front, behind, both
+    std::size_t only_front() const { return front - across; }
+    std::size_t only_behind() const { return behind - across; }
+  };
+  /// The plane for a cell; and, where all polygons of the cell were scored, the place of their positions to it in best_positions.
+  struct Choice {
+    Plane plane;
+    std::optional<std::size_t> scored = {};
   };
 
   static constexpr std::size_t worth_a_task = 1024;  // polygons; below, starting a task costs more than it gives
@@ -123,142 +131,193 @@ class Builder {
     return polygons;
   }
 
-  /// Settles a job and all that follows from it. Large cells become tasks of their own, the rest an explicit stack.
-  void work(Job first, tbb::task_group& group) {
+  /// Makes the tree of a cell. The sides of a large cell are parts of their own, and tasks of their own where they are large, too.
+  void settle(Cell cell, Part& part, tbb::task_group& group) {
     Workspace& mine = workspaces_.local();
-    std::vector<Job> stack;
-    if (!first.polygons.empty()) stack.push_back(std::move(first));
+    const auto is_large = [&](const Polygons& polygons) { return polygons.size() >= worth_a_task && options_.threads != 1; };
+    if (!is_large(cell.polygons)) return settle_here(std::move(cell), part, mine);
+    Draws draws(cell.seed);
+    const auto middle = cell.polygons.begin() + static_cast<std::ptrdiff_t>(divide(cell.polygons, {0, nowhere, cell.seed, cell.depth}, draws.own, part, mine));
+    Cell front{{middle, cell.polygons.end()}, draws.front, cell.depth + 1};
+    cell.polygons.erase(middle, cell.polygons.end());
+    Cell behind{std::move(cell.polygons), draws.behind, cell.depth + 1};
+    const auto settle_side = [&](Cell side, Part*& place) {
+      if (side.polygons.empty()) return;
+      place = &mine.parts.emplace_back();
+      if (!is_large(side.polygons)) settle_here(std::move(side), *place, mine);
+      else group.run([this, &group, to = place, from = std::make_shared<Cell>(std::move(side))] { settle(std::move(*from), *to, group); });
+    };
+    settle_side(std::move(behind), part.behind), settle_side(std::move(front), part.front);
+  }
+
+  /// Makes the tree of a cell in this thread, with an explicit stack.
+  void settle_here(Cell cell, Part& part, Workspace& mine) {
+    Polygons polygons = std::move(cell.polygons);
+    std::vector<Waiting> stack;
+    if (!polygons.empty()) stack.push_back({0, nowhere, cell.seed, cell.depth});
     while (!stack.empty()) {
-      Job job = std::move(stack.back());
+      const Waiting job = stack.back();
       stack.pop_back();
-      std::array<Job, 2> parts = divide(std::move(job), mine);
-      for (Job& part : parts) {
-        if (part.polygons.empty()) {
-          mine.give_back(std::move(part.polygons));
-          continue;
-        }
-        if (part.polygons.size() < worth_a_task || options_.threads == 1) stack.push_back(std::move(part));
-        else group.run([this, &group, p = std::make_shared<Job>(std::move(part))] { work(std::move(*p), group); });
-      }
+      Draws draws(job.seed);
+      const std::int64_t number = static_cast<std::int64_t>(part.nodes.size());
+      const std::size_t middle = divide(polygons, job, draws.own, part, mine);
+      if (middle > job.begin) stack.push_back({job.begin, 2 * number + 1, draws.behind, job.depth + 1});
+      if (polygons.size() > middle) stack.push_back({middle, 2 * number, draws.front, job.depth + 1});
     }
   }
 
-  /// Makes the node of a job and returns what is behind its plane and what is in front.
-  std::array<Job, 2> divide(Job job, Workspace& mine) {
-    Random random{job.seed};
-    Branch& branch = mine.branches.emplace_back();
-    *job.place = &branch;
+  static constexpr std::int64_t nowhere = -1;
+
+  /// Makes the node of a cell and replaces its polygons by those behind the node's plane and, from the index returned on, those in front.
+  std::size_t divide(Polygons& polygons, const Waiting& job, Random& random, Part& part, Workspace& mine) {
     mine.counters.depth = std::max(mine.counters.depth, job.depth);
-    std::array<Job, 2> parts{Job{mine.list(), &branch.behind, random(), job.depth + 1}, Job{mine.list(), &branch.front, random(), job.depth + 1}};
-    const auto [plane, root] = job.depth <= options_.first.size() ? std::pair(options_.first[job.depth - 1], no_root) : choose(job.polygons, random, mine);
-    branch.plane = plane;
-    if (root == no_root && job.depth > options_.first.size()) ++mine.counters.free_planes;
-    partition(job.polygons, plane, root, branch, parts, mine);
-    settled(branch.on.size());
-    mine.give_back(std::move(job.polygons));
-    return parts;
+    if (job.place != nowhere) child(part.nodes, job.place) = static_cast<std::int32_t>(part.nodes.size());
+    const std::span<const Polygon> cell = std::span<const Polygon>(polygons).subspan(job.begin);
+    const bool is_given = job.depth <= options_.first.size();
+    const Choice choice = is_given ? Choice{options_.first[job.depth - 1]} : choose(cell, random, mine);
+    const std::uint32_t first = static_cast<std::uint32_t>(part.fragments.size());
+    const std::size_t middle = cell.size() == 1 && !is_given ? keep_only(polygons, choice.plane, part) : partition(polygons, job.begin, choice, part, mine);
+    const std::uint32_t count = static_cast<std::uint32_t>(part.fragments.size()) - first;
+    part.nodes.push_back({choice.plane, Tree::leaf, Tree::leaf, first, count});
+    settled(count);
+    return middle;
+  }
+  /// The child that a place names, as in Waiting.
+  static std::int32_t& child(std::vector<typename Tree::Node>& nodes, std::int64_t place) {
+    typename Tree::Node& node = nodes[static_cast<std::size_t>(place / 2)];
+    return place % 2 == 0 ? node.front : node.behind;
   }
 
-  static constexpr std::size_t no_root = ~std::size_t{0};
+  /// The last polygon becomes the fragment of a node on its own plane.
+  std::size_t keep_only(Polygons& polygons, Plane plane, Part& part) {
+    add_fragment(polygons.back(), plane, part);
+    polygons.pop_back();
+    return polygons.size();
+  }
+  void add_fragment(const Polygon& polygon, Plane plane, Part& part) { part.fragments.push_back({polygon, traits_.same_sense(polygon.support, plane), 0}); }
 
-  /// The plane for a cell, and the polygon it is taken from (no_root for a free plane).
-  std::pair<Plane, std::size_t> choose(const Polygons& polygons, Random& random, Workspace& mine) {
+  /// The plane of one of the polygons, which is on it by its id whatever its corners say; or a free plane.
+  Choice choose(std::span<const Polygon> polygons, Random& random, Workspace& mine) {
     const std::size_t n = polygons.size();
-    const auto plane_of = [&](std::size_t i) { return polygons[i].support; };
-    if (n == 1) return {plane_of(0), 0};
+    if (n == 1) return {polygons[0].support};
     const std::size_t tries = std::min<std::size_t>(n, std::max(1u, options_.candidates));
-    std::size_t best = no_root, best_cost = ~std::size_t{0};
+    mine.planes.clear();
+    for (std::size_t t = 0; t < tries; ++t) mine.planes.push_back(polygons[tries == n ? t : random.below(n)].support);
+    const std::span<const Polygon> sample = sample_of(polygons, random, mine);
+    std::size_t best = 0, best_cost = ~std::size_t{0};
     bool balanced = false;
-    for (std::size_t t = 0; t < tries; ++t) {
-      const std::size_t i = tries == n ? t : random.below(n);
-      const Score score = score_of(polygons, plane_of(i), random, mine);
-      balanced |= is_balanced(score);
-      if (const std::size_t c = cost(score); c < best_cost) best = i, best_cost = c;
+    for (std::size_t begin = 0; begin < tries; begin += Plane_group<Traits>::most) {
+      const std::span<const Plane> planes = std::span<const Plane>(mine.planes).subspan(begin, std::min(tries - begin, Plane_group<Traits>::most));
+      const auto scores = scores_of(sample, planes, mine);
+      const std::size_t before = best_cost;
+      for (std::size_t t = 0; t < planes.size(); ++t) {
+        balanced |= is_balanced(scores[t]);
+        if (const std::size_t c = cost(scores[t]); c < best_cost) best = begin + t, best_cost = c;
+      }
+      if (best_cost < before) std::swap(mine.positions, mine.best_positions);
     }
     if (!balanced && n >= worth_balance) {
-      if (const std::optional<Plane> plane = free_plane(polygons, best_cost, random, mine)) return {*plane, no_root};
-    }
-    return {plane_of(best), best};
-  }
-
-  std::size_t cost(const Score& s) const {
-    const std::size_t front = s.of(Position::in_front), behind = s.of(Position::behind);
-    return (front > behind ? front - behind : behind - front) + options_.split_weight * s.of(Position::across);
-  }
-  /// At most eleven twelfths of the polygons strictly on one side.
-  static bool is_balanced(const Score& s) { return 12 * s.of(Position::in_front) <= 11 * s.all() && 12 * s.of(Position::behind) <= 11 * s.all(); }
-
-  Score score_of(const Polygons& polygons, Plane plane, Random& random, Workspace& mine) {
-    const auto cutter = traits_.prepare(plane);
-    Score score;
-    const auto count = [&](const Polygon& polygon) {
-      const bool on = is_on(polygon, plane, mine);
-      ++score.at[static_cast<std::size_t>(on ? Position::on : position(traits_, polygon, cutter, mine.counters.predicates))];
-    };
-    if (polygons.size() <= options_.sample) {
-      for (const Polygon& polygon : polygons) count(polygon);
-    } else {
-      // One from each of `sample` equal stretches.
-      const std::size_t n = polygons.size();
-      for (std::size_t k = 0; k < options_.sample; ++k) {
-        const std::size_t begin = k * n / options_.sample, end = (k + 1) * n / options_.sample;
-        count(polygons[begin + random.below(end - begin)]);
+      if (const std::optional<Plane> plane = free_plane(polygons, sample, best_cost, mine)) {
+        ++mine.counters.free_planes;
+        return {*plane};
       }
     }
-    return score;
+    return {mine.planes[best], sample.size() == n ? std::optional(best % Plane_group<Traits>::most) : std::nullopt};
   }
 
-  /// Whether a polygon is known to lie on the plane without looking at its corners.
-  bool is_on(const Polygon& polygon, Plane plane, Workspace& mine) {
-    ++mine.counters.polygon_tests;
-    if (!traits_.same_plane(polygon.support, plane)) return false;
-    ++mine.counters.predicates.combinatorial;
-    return true;
+  /// All polygons where they are few, else one from each of `sample` equal stretches.
+  std::span<const Polygon> sample_of(std::span<const Polygon> polygons, Random& random, Workspace& mine) {
+    const std::size_t n = polygons.size();
+    if (n <= options_.sample) return polygons;
+    mine.sample.clear();
+    for (std::size_t k = 0; k < options_.sample; ++k) {
+      const std::size_t begin = k * n / options_.sample, end = (k + 1) * n / options_.sample;
+      mine.sample.push_back(polygons[begin + random.below(end - begin)]);
+    }
+    return mine.sample;
+  }
+
+  std::size_t cost(const Score& s) const { return (s.front > s.behind ? s.front - s.behind : s.behind - s.front) + options_.split_weight * s.across; }
+  /// At most eleven twelfths of the polygons strictly on one side.
+  static bool is_balanced(const Score& s) { return 12 * std::max(s.only_front(), s.only_behind()) <= 11 * s.all; }
+
+  /// How many of the polygons lie where to a few planes, and in mine.positions each of them.
+  std::array<Score, Plane_group<Traits>::most> scores_of(std::span<const Polygon> polygons, std::span<const Plane> planes, Workspace& mine) {
+    mine.counters.polygon_tests += polygons.size() * planes.size();
+    if (mine.positions.size() < polygons.size()) mine.positions.resize(polygons.size());
+    mine.group.prepare(traits_, planes);
+    mine.group.find(traits_, polygons, mine.positions.data(), mine.counters.predicates);
+    Positions front{}, behind{}, across{};
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+      for (std::size_t t = 0; t < front.size(); ++t) {
+        const std::uint64_t p = mine.positions[i][t];
+        front[t] += p >> 1, behind[t] += p & 1, across[t] += p >> 1 & p;
+      }
+    }
+    std::array<Score, Plane_group<Traits>::most> scores;
+    for (std::size_t t = 0; t < scores.size(); ++t) scores[t] = {polygons.size(), front[t], behind[t], across[t]};
+    return scores;
   }
 
   /// The best axis plane through a median corner of the sample, if it balances and costs less than the best face plane (convex bodies: n).
-  std::optional<Plane> free_plane(const Polygons& polygons, std::size_t best_cost, Random& random, Workspace& mine) {
-    std::optional<Plane> best;
+  std::optional<Plane> free_plane(std::span<const Polygon> polygons, std::span<const Polygon> sample, std::size_t best_cost, Workspace& mine) {
+    std::vector<Plane> planes;
+    const std::size_t step = std::max<std::size_t>(1, polygons.size() / (4 * options_.sample));
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<std::pair<double, const typename Traits::Vertex*>> corners;
-      const std::size_t step = std::max<std::size_t>(1, polygons.size() / (4 * options_.sample));
       for (std::size_t i = 0; i < polygons.size(); i += step)
         for (const Corner<Traits>& corner : polygons[i])
-          if (traits_.axis_plane(axis, *corner.vertex)) corners.emplace_back(traits_.coordinate(*corner.vertex, axis), corner.vertex);
+          if (traits_.is_input(*corner.vertex)) corners.emplace_back(traits_.coordinate(*corner.vertex, axis), corner.vertex);
       if (corners.empty()) continue;
       const auto middle = corners.begin() + static_cast<std::ptrdiff_t>(corners.size() / 2);
       std::nth_element(corners.begin(), middle, corners.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-      const Plane plane = *traits_.axis_plane(axis, *middle->second);
-      const Score score = score_of(polygons, plane, random, mine);
+      planes.push_back(*traits_.axis_plane(axis, *middle->second));
+    }
+    if (planes.empty()) return std::nullopt;
+    const auto scores = scores_of(sample, planes, mine);
+    std::optional<Plane> best;
+    for (std::size_t t = 0; t < planes.size(); ++t) {
       // Both sides must shrink to three quarters, or cutting would go on without an end.
-      if (4 * score.front_most() > 3 * score.all() || 4 * score.behind_most() > 3 * score.all()) continue;
-      if (const std::size_t c = cost(score); c < best_cost) best = plane, best_cost = c;
+      if (4 * std::max(scores[t].front, scores[t].behind) > 3 * scores[t].all) continue;
+      if (const std::size_t c = cost(scores[t]); c < best_cost) best = planes[t], best_cost = c;
     }
     return best;
   }
 
-  void partition(const Polygons& polygons, Plane plane, std::size_t root, Branch& branch, std::array<Job, 2>& parts, Workspace& mine) {
-    const auto cutter = traits_.prepare(plane);
-    const auto put = [&](Polygons& list, const Polygon& polygon) {
-      if (polygon.size >= 3) list.push_back(polygon);
-      else ++mine.counters.degenerate;
+  /// Replaces the polygons from `begin` on by those behind the plane and, from the index returned on, those in front.
+  std::size_t partition(Polygons& polygons, std::size_t begin, const Choice& choice, Part& part, Workspace& mine) {
+    const auto cutter = traits_.prepare(choice.plane);
+    const auto position_at = [&](std::size_t i) {
+      if (choice.scored) return static_cast<Position>(mine.best_positions[i - begin][*choice.scored]);
+      ++mine.counters.polygon_tests;
+      if (!traits_.same_plane(polygons[i].support, choice.plane)) return classify(traits_, polygons[i], cutter, mine.scratch, mine.counters.predicates);
+      ++mine.counters.predicates.combinatorial;
+      return Position::on;
     };
-    mine.on.clear();
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-      const Polygon& polygon = polygons[i];
-      const bool on = i == root || is_on(polygon, plane, mine);
-      switch (on ? Position::on : classify(traits_, polygon, cutter, mine.scratch, mine.counters.predicates)) {
-        case Position::on: mine.on.push_back(polygon); break;
-        case Position::behind: parts[0].polygons.push_back(polygon); break;
-        case Position::in_front: parts[1].polygons.push_back(polygon); break;
+    std::size_t behind = begin;  // where the next one behind goes: at most one for each polygon read
+    mine.front.clear();
+    const auto is_kept = [&](const Polygon& polygon) {
+      if (polygon.size < 3) ++mine.counters.degenerate;
+      return polygon.size >= 3;
+    };
+    for (std::size_t i = begin; i < polygons.size(); ++i) {
+      switch (position_at(i)) {
+        case Position::on: add_fragment(polygons[i], choice.plane, part); break;
+        case Position::behind: polygons[behind++] = polygons[i]; break;
+        case Position::in_front: mine.front.push_back(polygons[i]); break;
         case Position::across: {
           ++mine.counters.splits;
-          const std::array<Polygon, 2> halves = split(traits_, polygon, cutter, mine.scratch, mine.store);
-          put(parts[0].polygons, halves[0]), put(parts[1].polygons, halves[1]);
+          if (choice.scored) classify(traits_, polygons[i], cutter, mine.scratch, mine.counters.predicates);
+          const std::array<Polygon, 2> halves = split(traits_, polygons[i], cutter, mine.scratch, mine.store);
+          mine.store.reuse(polygons[i]);
+          if (is_kept(halves[0])) polygons[behind++] = halves[0];
+          if (is_kept(halves[1])) mine.front.push_back(halves[1]);
         }
       }
     }
-    branch.on = mine.store.list(std::span<const Polygon>(mine.on));
+    polygons.erase(polygons.begin() + static_cast<std::ptrdiff_t>(behind), polygons.end());
+    polygons.insert(polygons.end(), mine.front.begin(), mine.front.end());
+    return behind;
   }
 
   void settled(std::size_t fragments) {
@@ -266,25 +325,35 @@ class Builder {
     options_.progress(settled_.fetch_add(fragments) + fragments, all_);
   }
 
-  /// Numbers nodes and fragments in preorder and moves all memory to the tree.
-  void flatten(Branch* root, Tree& tree) {
-    std::vector<std::uint32_t> fragments_of;  // by face
-    std::vector<std::pair<const Branch*, std::int32_t>> stack;  // and the place in the tree that waits for its number: 2 node + side
-    if (root != nullptr) stack.emplace_back(root, -1);
+  /// Makes one tree of the parts: the nodes of a part, its front, what is behind.
+  void join(Part& root, Tree& tree) {
+    tree.nodes = std::move(root.nodes), tree.fragments = std::move(root.fragments);
+    std::vector<std::pair<Part*, std::int64_t>> stack{{root.behind, 1}, {root.front, 0}};  // and the side of a node, as in Waiting
     while (!stack.empty()) {
-      const auto [branch, place] = stack.back();
+      const auto [part, place] = stack.back();
       stack.pop_back();
+      if (part == nullptr) continue;
       const std::int32_t number = static_cast<std::int32_t>(tree.nodes.size());
-      if (place >= 0) (place % 2 == 0 ? tree.nodes[static_cast<std::size_t>(place / 2)].front : tree.nodes[static_cast<std::size_t>(place / 2)].behind) = number;
-      tree.nodes.push_back({branch->plane, Tree::leaf, Tree::leaf, static_cast<std::uint32_t>(tree.fragments.size()), static_cast<std::uint32_t>(branch->on.size())});
-      for (const Polygon& polygon : branch->on) {
-        const std::uint32_t face = traits_.face(polygon.piece);
-        if (face >= fragments_of.size()) fragments_of.resize(face + 1);
-        const bool same = traits_.same_sense(polygon.support, branch->plane);
-        tree.fragments.push_back({polygon, same, fragments_of[face]++});
+      const std::uint32_t fragments = static_cast<std::uint32_t>(tree.fragments.size());
+      child(tree.nodes, place) = number;
+      for (typename Tree::Node node : part->nodes) {
+        if (node.front != Tree::leaf) node.front += number;
+        if (node.behind != Tree::leaf) node.behind += number;
+        node.first += fragments;
+        tree.nodes.push_back(node);
       }
-      if (branch->behind != nullptr) stack.emplace_back(branch->behind, 2 * number + 1);
-      if (branch->front != nullptr) stack.emplace_back(branch->front, 2 * number);
+      tree.fragments.insert(tree.fragments.end(), part->fragments.begin(), part->fragments.end());
+      stack.emplace_back(part->behind, 2 * std::int64_t{number} + 1), stack.emplace_back(part->front, 2 * std::int64_t{number});
+    }
+  }
+
+  /// Numbers the fragments of each face and moves all memory to the tree.
+  void finish(Tree& tree) {
+    std::vector<std::uint32_t> fragments_of;  // by face
+    for (Fragment<Traits>& fragment : tree.fragments) {
+      const std::uint32_t face = traits_.face(fragment.polygon.piece);
+      if (face >= fragments_of.size()) fragments_of.resize(face + 1);
+      fragment.number = fragments_of[face]++;
     }
     for (Workspace& workspace : workspaces_) {
       const Bsp_counters& c = workspace.counters;

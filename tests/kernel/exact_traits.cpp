@@ -268,6 +268,75 @@ TEST(Polygon_store, addresses_stay_while_it_grows_and_when_it_is_moved) {
   EXPECT_EQ(positions(traits, first), before);
 }
 
+TEST(Polygon_store, takes_the_lists_that_it_is_given_back_and_no_others) {
+  Polygon_soup soup;
+  add_cube(soup, 0, 0, 0, 4);
+  const Scene scene(soup);
+  const Exact_traits traits(scene);
+  Polygon_store<Exact_traits> store;
+  const auto first = store.piece(traits, 0), second = store.piece(traits, 1);
+  const std::vector<Exact_point> before = positions(traits, second);
+  store.reuse(first);
+  EXPECT_EQ(store.piece(traits, 2).corners, first.corners);
+  EXPECT_NE(store.piece(traits, 3).corners, second.corners);
+  EXPECT_EQ(positions(traits, second), before);
+}
+
+// ---- Planes at once ---------------------------------------------------------------------------------------------------------------------
+
+namespace {
+/// Every part that cutting a scene by some of its planes makes, to groups of one to six of its planes: as position() says, and as many sides by arithmetic.
+void expect_groups_agree(const Scene& scene, Random& random) {
+  const Exact_traits traits(scene);
+  Polygon_store<Exact_traits> store;
+  Split_scratch<Exact_traits> scratch;
+  Predicate_counts ignored;
+  std::vector<Convex_polygon<Exact_traits>> parts;
+  for (std::uint32_t i = 0; i < traits.piece_count(); ++i) parts.push_back(store.piece(traits, i));
+  const auto some_plane = [&] {
+    const Plane plane = traits.supporting_plane(static_cast<std::uint32_t>(random() % traits.piece_count()));
+    return random() % 2 == 0 ? plane : plane.opposite();
+  };
+  for (int round = 0; round < 4 && traits.piece_count() > 0; ++round) {
+    const auto cutter = traits.prepare(some_plane());
+    for (std::size_t i = parts.size(); i-- > 0;) {
+      if (classify(traits, parts[i], cutter, scratch, ignored) != Position::across) continue;
+      const auto halves = split(traits, parts[i], cutter, scratch, store);
+      parts[i] = halves[0], parts.push_back(halves[1]);
+    }
+  }
+  for (std::size_t size = 1; size <= Plane_group<Exact_traits>::most && !parts.empty(); ++size) {
+    std::vector<Plane> planes;
+    for (std::size_t k = 0; k < size; ++k) planes.push_back(some_plane());
+    if (random() % 2 == 0) planes[0] = Plane::across(static_cast<int>(random() % 3), scene.corners(scene.pieces()[0])[0].point);
+    Plane_group<Exact_traits> group;
+    group.prepare(traits, planes);
+    std::vector<Plane_group<Exact_traits>::Positions> found(parts.size());
+    Predicate_counts counts;
+    group.find(traits, parts, found.data(), counts);
+    std::uint64_t sides = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      for (std::size_t k = 0; k < size; ++k) {
+        ASSERT_EQ(static_cast<Position>(found[i][k]), position(traits, parts[i], traits.prepare(planes[k]), ignored)) << "part " << i << ", plane " << k << " of " << size;
+        sides += parts[i].size;
+      }
+    }
+    EXPECT_EQ(counts.total(), sides);
+  }
+}
+}  // namespace
+
+TEST(Plane_group, finds_the_positions_that_corners_have_one_by_one) {
+  Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    const int bits = std::array{2, 3, 20, 40, 52}[static_cast<std::size_t>(i % 5)];  // few bits: most corners are on many planes
+    expect_groups_agree(Scene(random_soup(random, 12, bits, [](long n) { return static_cast<double>(n); })), random);
+    expect_groups_agree(Scene(random_soup(random, 12, bits, [](long n) { Rational r(n, 27); r.canonicalize(); return r; })), random);
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
 // ---- Wrong models -----------------------------------------------------------------------------------------------------------------------
 
 namespace {
@@ -291,6 +360,7 @@ struct Model {
   Sign side(const Eye&, Plane, Predicate_counts&) const requires(Lacks != 10) { return CGAL::ZERO; }
   std::optional<Plane> axis_plane(int, const Vertex&) const requires(Lacks != 11) { return {}; }
   double coordinate(const Vertex&, int) const requires(Lacks != 12) { return 0; }
+  bool is_input(const Vertex&) const requires(Lacks != 13) { return false; }
 };
 struct Integer_sides : Model<5> {  // signs as plain integers
   int side(const Vertex&, const Cutter&, Predicate_counts&) const { return 0; }
@@ -305,6 +375,6 @@ template <int... Lacks>
 constexpr bool none_models(std::integer_sequence<int, Lacks...>) { return (!Partition_traits<Model<Lacks>> && ...); }
 }  // namespace
 static_assert(Partition_traits<Exact_traits> && Partition_traits<Model<-1>>);
-static_assert(none_models(std::make_integer_sequence<int, 13>()));
+static_assert(none_models(std::make_integer_sequence<int, 14>()));
 static_assert(!Partition_traits<Integer_sides> && !Partition_traits<Changing_prepare>);
 static_assert(!Partition_traits<int> && !Partition_traits<Scene> && !Partition_traits<CGAL::Simple_cartesian<double>>);
