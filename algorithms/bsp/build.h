@@ -20,10 +20,9 @@ struct Bsp_options {
   unsigned sample = 48;          ///< polygons that a candidate is scored on, at most
   unsigned split_weight = 3;     ///< a split costs as much as an imbalance of this many polygons
   std::uint64_t seed = 1;        ///< of the random choice of candidates
-  std::optional<std::vector<std::uint32_t>> pieces = {};  ///< build of these pieces only, in this order
   std::vector<Plane> first = {}; ///< planes of the topmost nodes on every way from the root, in this order: a near plane, say
   int threads = 0;               ///< 0: as many as there are processors; the tree is the same for any number
-  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< polygons settled, of the pieces given; called from any thread
+  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< polygons settled, of the pieces; called from any thread
 };
 
 namespace bsp_detail {
@@ -120,12 +119,8 @@ class Builder {
   Polygons input() {
     Polygons polygons;
     Workspace& mine = workspaces_.local();
-    polygons.reserve(options_.pieces ? options_.pieces->size() : traits_.piece_count());
-    if (options_.pieces) {
-      for (const std::uint32_t i : *options_.pieces) polygons.push_back(mine.store.piece(traits_, i));
-    } else {
-      for (std::uint32_t i = 0; i < traits_.piece_count(); ++i) polygons.push_back(mine.store.piece(traits_, i));
-    }
+    polygons.reserve(traits_.piece_count());
+    for (std::uint32_t i = 0; i < traits_.piece_count(); ++i) polygons.push_back(mine.store.piece(traits_, i));
     mine.counters.pieces = polygons.size();
     all_ = polygons.size();
     return polygons;

@@ -197,7 +197,9 @@ class Scene {
     }
     unit_ = integer(common), bits_read_ = static_cast<int>(bit_length(integer(largest)));
     const int bits = static_cast<int>(bit_length(integer(reach)));
-    points_ = Grid_points(bits, bits <= 53 ? Integer(1) : divisor);
+    // Doubles of what is read stay below 2^512, so that no product or sum of theirs overflows: Plane_group has no other guard against what is no number.
+    if (bits <= 53 || bits - static_cast<int>(bit_length(divisor)) >= 512) divisor = 1;
+    points_ = Grid_points(bits, divisor);
     points_.reserve(count / 3);
 
     std::vector<std::uint32_t> merged(count / 3);
