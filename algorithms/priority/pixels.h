@@ -89,19 +89,21 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   Pixel_sets sets;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // pixel, polygon
   const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const double depth = dot(view.look, view.look), half_width = dot(view.right, view.right), half_height = dot(view.up, view.up);
+  const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) { return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; };
+  const std::array<double, 3> forth = cross(view.right, view.up), across = cross(view.up, view.look), upwards = cross(view.look, view.right);
+  const double volume = dot(view.look, forth);
+  const bool skewed = !(volume * volume > 1e-6 * dot(view.look, view.look) * dot(forth, forth)) || !std::isfinite(volume);
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     if (traits.side(viewpoint, faces.plane(i), counts) != CGAL::POSITIVE) continue;
     const priority_detail::Pixel_cone cone(priority_detail::positions(traits, faces[i]), view.eye);
 
     // 1. The pixels that it may cover, and one more on each side.
     std::array<double, 4> box{1, -1, 1, -1};  // x from, to; y from, to, in the plane of the image
-    bool in_front = true;
+    bool in_front = !skewed;
     for (const Exact_point& arm : cone.arms) {
       const std::array<double, 3> a{nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])};
-      const double z = dot(a, view.look) / depth, x = dot(a, view.right) / half_width / z, y = dot(a, view.up) / half_height / z;
-      const double length = std::sqrt(dot(a, a) / depth);
-      in_front = in_front && z > 1e-6 * length && std::isfinite(x + y);
+      const double z = dot(a, forth) / volume, x = dot(a, across) / volume / z, y = dot(a, upwards) / volume / z;  // a = z (look + x right + y up)
+      in_front = in_front && z > 1e-6 * std::sqrt(dot(a, a) / dot(view.look, view.look)) && std::isfinite(x + y);
       box = {std::min(box[0], x), std::max(box[1], x), std::min(box[2], y), std::max(box[3], y)};
     }
     if (!in_front) box = {-1, 1, -1, 1};
