@@ -92,7 +92,7 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) { return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; };
   const std::array<double, 3> forth = cross(view.right, view.up), across = cross(view.up, view.look), upwards = cross(view.look, view.right);
   const double volume = dot(view.look, forth);
-  const bool skewed = !(volume * volume > 1e-6 * dot(view.look, view.look) * dot(forth, forth)) || !std::isfinite(volume);
+  const bool skewed = !(volume * volume > 1e-6 * dot(view.look, view.look) * dot(view.right, view.right) * dot(view.up, view.up)) || !std::isfinite(volume);
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     if (traits.side(viewpoint, faces.plane(i), counts) != CGAL::POSITIVE) continue;
     const priority_detail::Pixel_cone cone(priority_detail::positions(traits, faces[i]), view.eye);
@@ -126,12 +126,12 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   return sets;
 }
 
-/// Numbers for a tree's polygons as seen from an eye, the nearest lowest; those of one cycle share theirs. What h is for all viewpoints, the tree is for this one.
+/// Numbers for a tree's polygons as seen from an eye, the nearest lowest; those of one cycle share theirs, and what was cut has the highest. What h is for all viewpoints, the tree is for this one.
 /// Cost: linear. Exact: yes. Proof: P-37
 template <class Traits>
 std::vector<std::uint32_t> priorities(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye) {
   using Slot = typename Priority_tree<Traits>::Slot;
-  std::vector<std::uint32_t> number(tree.polygons.size(), 0);
+  std::vector<std::uint32_t> number(tree.polygons.size(), std::numeric_limits<std::uint32_t>::max());
   std::uint32_t next = static_cast<std::uint32_t>(tree.polygons.size());
   Predicate_counts counts;
   walk_back_to_front(
@@ -149,7 +149,7 @@ struct Pixel_statistics {
   std::uint64_t several = 0;   ///< |S| >= 2
   std::uint64_t single = 0;    ///< |S^| = 1
   std::uint64_t faces = 0, left = 0;  ///< sums of |S| and |S^|
-  std::vector<std::vector<std::uint64_t>> by_size;  ///< by_size[s][l]: pixels with |S| = s and |S^| = l
+  std::vector<std::vector<std::uint64_t>> by_size;  ///< by_size[s][l]: pixels with |S| = s >= 1 and |S^| = l
   std::vector<std::uint32_t> image;                 ///< |S^| by pixel, row by row
 };
 

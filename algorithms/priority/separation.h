@@ -84,6 +84,7 @@ class Separation_finder {
   struct Extent {
     double low, high;
     std::uint32_t member;
+    double place;  // where it stands in the sweep
   };
 
   std::span<const Triple> corners(std::uint32_t i) const { return std::span(corners_).subspan(begin_[i], begin_[i + std::size_t{1}] - begin_[i]); }
@@ -110,7 +111,7 @@ class Separation_finder {
     const auto key = [](const Triple& d) { return std::array<long, 3>{std::lrint(d[0] * 0x1p24), std::lrint(d[1] * 0x1p24), std::lrint(d[2] * 0x1p24)}; };
     for (const Triple& d : directions_) seen_.insert(key(d));
     // From all over the list, as neighbours in it tend to be alike.
-    const std::size_t n = members.size(), stride = n > 2 * most ? n / most | 1 : 1;
+    const std::size_t n = members.size(), stride = most > 0 && n > 2 * most ? n / most | 1 : 1;
     std::size_t looked = 0;
     for (std::size_t k = 0; looked < n && looked < 4 * most && directions_.size() < most + 3; ++looked, k = (k + stride) % n) {
       const Triple& d = normals_[members[k]];
@@ -123,7 +124,7 @@ class Separation_finder {
   double projection_error() const { return 0x1p-48 * range_ + 0x1p-1000; }
 
   Extent extent(std::uint32_t member, const Triple& direction) const {
-    Extent e{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), member};
+    Extent e{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), member, 0};
     for (const Triple& corner : corners(member)) {
       const double value = dot(direction, corner);
       e.low = std::min(e.low, value), e.high = std::max(e.high, value);
@@ -135,8 +136,11 @@ class Separation_finder {
   void sweep(std::span<const std::uint32_t> members, const Triple& direction, std::size_t least) {
     const double error = projection_error();
     extents_.clear();
-    for (const std::uint32_t member : members) extents_.push_back(extent(member, direction));
-    std::sort(extents_.begin(), extents_.end(), [](const Extent& a, const Extent& b) { return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.member < b.member; });
+    for (const std::uint32_t member : members) {
+      Extent& e = extents_.emplace_back(extent(member, direction));
+      e.place = is_flat(e, direction) ? e.low - 8 * error : e.low;  // before what touches it from the front, however that is rounded
+    }
+    std::sort(extents_.begin(), extents_.end(), [](const Extent& a, const Extent& b) { return a.place != b.place ? a.place < b.place : a.high != b.high ? a.high < b.high : a.member < b.member; });
     const std::size_t n = extents_.size();
     double reached = -std::numeric_limits<double>::infinity(), last_face = reached;
     std::array<std::optional<Candidate>, 2> best;  // gap, face
@@ -147,11 +151,11 @@ class Separation_finder {
     };
     for (std::size_t k = 0; k < n; ++k) {
       const Extent& e = extents_[k];
-      if (k > 0 && e.low - reached > 8 * error) {
+      if (k > 0 && e.low - reached > 32 * error) {
         const double middle = reached + (e.low - reached) / 2;
         offer(k, n - k, {{}, {direction[0], direction[1], direction[2], -middle}});
       }
-      if (reached <= e.low + 4 * error && e.high - e.low <= 4 * error && e.low > last_face + 4 * error && parallel(normals_[e.member], direction)) {
+      if (reached <= e.low + 4 * error && e.low > last_face + 4 * error && is_flat(e, direction)) {
         std::size_t next = k + 1;
         while (next < n && extents_[next].high <= e.high + 4 * error) ++next;
         if (next == n || extents_[next].low >= e.high - 4 * error) offer(k, n - next, {polygons_[e.member].support, {}});
@@ -162,6 +166,8 @@ class Separation_finder {
     for (const auto& candidate : best)
       if (candidate) candidates_.push_back(*candidate);
   }
+  /// Whether a member's plane is across the direction, as far as doubles tell.
+  bool is_flat(const Extent& e, const Triple& direction) const { return e.high - e.low <= 4 * projection_error() && parallel(normals_[e.member], direction); }
   static bool parallel(const Triple& a, const Triple& b) {
     return a != Triple{} && std::fabs(a[0] - b[0]) + std::fabs(a[1] - b[1]) + std::fabs(a[2] - b[2]) < 0x1p-20;
   }

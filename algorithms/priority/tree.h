@@ -50,7 +50,7 @@ struct Priority_tree {
 
   std::vector<Node> nodes;
   std::vector<Slot> slots{nothing};                 ///< slots[0] is the root
-  std::vector<Convex_polygon<Traits>> polygons;     ///< counterclockwise seen from the side that counts
+  std::vector<Convex_polygon<Traits>> polygons;     ///< counterclockwise seen from the side that counts; those that were cut stay, in no slot
   std::vector<char> turned;                         ///< by polygon: whether that is the back of its piece
   bool two_sided = false;                           ///< whether it holds backs
   Priority_tree_counters counters;
@@ -222,8 +222,8 @@ class Tree_builder {
       if (const std::size_t cost = split_cost * at[3] + std::max(at[1], at[2]) - std::min(at[1], at[2]); cost < best_cost) best_cost = cost, best = plane;
     }
 
-    ++tree_.counters.cutting_planes;
     Separation found{{best, {}}, {}};
+    const std::uint64_t before = tree_.counters.splits;
     const auto cutter = traits_.prepare(best);
     for (const std::uint32_t i : members) {
       const Polygon& polygon = tree_.polygons[i];
@@ -236,6 +236,7 @@ class Tree_builder {
       ++tree_.counters.splits;
       found.sides[1].push_back(behind), found.sides[2].push_back(front);
     }
+    tree_.counters.cutting_planes += tree_.counters.splits > before;
     return found;
   }
 
