@@ -2,7 +2,7 @@
 // The priority relation within a scope: viewpoints in a convex region, one viewpoint, one ray. Laws, tested: a region's relation is part of the whole
 // one and of that of each larger region; an eye's is part of each region's that holds it; a ray's of its eye's.
 
-#include <sightline/algorithms/priority/relation.h>
+#include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <CGAL/Gmpz.h>
@@ -97,7 +97,7 @@ class Region_relation {
     for (std::uint32_t i = 0; i < faces.size(); ++i)
       seen_[i] = std::any_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& p) { return sgn(grid_.faces[i].height(p)) > 0; });
     if (grid_.points.size() == 1)
-      for (std::uint32_t i = 0; i < faces.size(); ++i) cones_.push_back(cone_of(grid_.faces[i]));
+      for (const Grid_face& face : grid_.faces) arms_.push_back(arms_of(face)), cones_.push_back(cone_of(arms_.back()));
   }
 
   std::uint32_t size() const { return faces_->size(); }
@@ -107,12 +107,13 @@ class Region_relation {
 
   /// Whether i < j from the region. Degenerate: an empty region, or one that no arc's eyes reach but with their boundary, has no arc; an eye in a face's plane
   /// does not see it; a region that faces cut is all its points, inside solids too. Exact: yes. Cost: a linear program of 6 rows, where no corner of the region
-  /// and no edge of the faces tells. Proof: P-33
+  /// and no edge of the faces tells; from one viewpoint only for faces that cross. Proof: P-33
   bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const { return arcs(i, j, counters).forth; }
   Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
     if (!seen_[i] || !seen_[j] || (!cones_.empty() && cones_[i].apart_from(cones_[j]))) return {};
     const Arcs whole = faces_->arcs(i, j, counters);
     if (!whole.forth && !whole.back) return {};
+    if (!cones_.empty()) return arcs_of_eye(i, j, whole);
     const Grid_face &a = grid_.faces[i], &b = grid_.faces[j];
     // Where one corner of the region sees the one face before the other, or one edge keeps them apart for all corners, that is the answer.
     if (apart_for_all(a, b) || apart_for_all(b, a)) return {};
@@ -124,9 +125,75 @@ class Region_relation {
   using Grid_face = priority_detail::Grid_face;
   using Grid_point = priority_detail::Grid_point;
 
+  // ---- One viewpoint ------------------------------------------------------------------------------------------------------------
+
+  /// Arcs of the one viewpoint, in front of both: if the cones overlap, a plane between the faces says which is nearer; only faces that cross need more.
+  Arcs arcs_of_eye(std::uint32_t i, std::uint32_t j, Arcs whole) const {
+    if (separable(i, j)) return {};
+    if (!whole.forth || !whole.back) return whole;
+    const auto exact_corners = [&](std::uint32_t face) {
+      std::vector<Exact_point> points;
+      for (const Grid_point& p : grid_.faces[face].corners) points.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
+      return points;
+    };
+    const Grid_point& eye = grid_.points[0];
+    if (const auto plane = priority_detail::plane_between(exact_corners(i), exact_corners(j))) {
+      const int side = sgn(priority_detail::dot(plane->normal, priority_detail::minus({Rational(eye[0]), Rational(eye[1]), Rational(eye[2])}, plane->point)));
+      return {side > 0, side < 0};
+    }
+    return {meets(grid_.faces[i], grid_.faces[j]), meets(grid_.faces[j], grid_.faces[i])};
+  }
+
+  using Triple = std::array<double, 3>;
+  /// From the viewpoint to the corners, each entry within a relative 2^-53; infinite where that is beyond doubles.
+  std::vector<Triple> arms_of(const Grid_face& face) const {
+    std::vector<Triple> arms;
+    for (const Grid_point& p : face.corners) {
+      const Grid_point arm = priority_detail::difference(p, grid_.points[0]);
+      arms.push_back({nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])});
+    }
+    return arms;
+  }
+  static constexpr unsigned in_front = 1, behind = 2, unknown = 4;
+  /// On which sides of the plane through the viewpoint and two corners, by their arms, some of the other arms are: bits of the constants above. Left out are the given
+  /// places. Products of two are off by 3 x 2^-53 of their size, differences by 4, products with a third by 6, sums by 8: 2^-49 covers that. Infinite ones decide nothing.
+  static unsigned sides_of(const std::vector<Triple>& arms, const Triple& a, const Triple& b, std::size_t out, std::size_t also_out) {
+    Triple normal, size;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t p = (k + 1) % 3, q = (k + 2) % 3;
+      normal[k] = a[p] * b[q] - a[q] * b[p], size[k] = std::fabs(a[p] * b[q]) + std::fabs(a[q] * b[p]);
+    }
+    unsigned found = 0;
+    for (std::size_t c = 0; c < arms.size(); ++c) {
+      if (c == out || c == also_out) continue;
+      const Triple& arm = arms[c];
+      const double value = normal[0] * arm[0] + normal[1] * arm[1] + normal[2] * arm[2];
+      const double bound = 0x1p-49 * (size[0] * std::fabs(arm[0]) + size[1] * std::fabs(arm[1]) + size[2] * std::fabs(arm[2]));
+      found |= value > bound ? in_front : value < -bound ? behind : unknown;
+    }
+    return found;
+  }
+
+  /// Whether a plane through the one viewpoint has face i on one side and face j on the other: in doubles where these tell, else exactly.
+  bool separable(std::uint32_t i, std::uint32_t j) const {
+    const std::size_t none = ~std::size_t{0};
+    for (const auto& [a, b] : {std::pair(i, j), std::pair(j, i)})
+      for (std::size_t k = 0; k < arms_[a].size(); ++k) {
+        const unsigned sides = sides_of(arms_[b], arms_[a][k], arms_[a][k + 1 == arms_[a].size() ? 0 : k + 1], none, none);
+        if ((sides & behind) == 0 && ((sides & unknown) == 0 || apart(grid_.points[0], grid_.faces[a], k, grid_.faces[b]))) return true;
+      }
+    for (std::size_t k = 0; k < arms_[i].size(); ++k)
+      for (std::size_t l = 0; l < arms_[j].size(); ++l) {
+        const unsigned of_i = sides_of(arms_[i], arms_[i][k], arms_[j][l], k, none), of_j = sides_of(arms_[j], arms_[i][k], arms_[j][l], none, l), both = in_front | behind;
+        if ((of_i & both) == both || (of_j & both) == both || (of_i & of_j & both) != 0) continue;
+        if (((of_i | of_j) & unknown) == 0 || divides(grid_.points[0], grid_.faces[i], k, grid_.faces[j], l)) return true;
+      }
+    return false;
+  }
+
   /// A round cone, narrower than a half-space, of all directions from the one eye to a face, in doubles; or, with a cosine of 0, nothing known.
   struct Round_cone {
-    std::array<double, 3> axis{};
+    Triple axis{};
     double cosine = 0, sine = 1;
     /// Whether the cones share no direction, rounding included: each of the three terms is within 2^-48.
     bool apart_from(const Round_cone& other) const {
@@ -134,18 +201,16 @@ class Region_relation {
       return cosine > 0 && other.cosine > 0 && between < cosine * other.cosine - sine * other.sine - 0x1p-44;
     }
   };
-  Round_cone cone_of(const Grid_face& face) const {
-    std::vector<std::array<double, 3>> directions;
+  static Round_cone cone_of(const std::vector<Triple>& arms) {
+    std::vector<Triple> directions = arms;
     Round_cone cone;
-    const auto normalize = [](std::array<double, 3>& d) {
+    const auto normalize = [](Triple& d) {
       const double length = std::hypot(d[0], d[1], d[2]);
       for (double& x : d) x /= length;
     };
-    for (const Grid_point& p : face.corners) {
-      const Grid_point arm = priority_detail::difference(p, grid_.points[0]);
-      directions.push_back({arm[0].get_d(), arm[1].get_d(), arm[2].get_d()});
-      normalize(directions.back());
-      for (std::size_t k = 0; k < 3; ++k) cone.axis[k] += directions.back()[k];
+    for (Triple& d : directions) {
+      normalize(d);
+      for (std::size_t k = 0; k < 3; ++k) cone.axis[k] += d[k];
     }
     normalize(cone.axis);
     double least = 1;
@@ -154,6 +219,8 @@ class Region_relation {
     cone.cosine = least - 0x1p-48, cone.sine = std::sqrt(1 - cone.cosine * cone.cosine);
     return cone;
   }
+
+  // ---- Any viewpoint --------------------------------------------------------------------------------------------------------------
 
   /// Whether the plane through an eye and edge k of a has b on its outer side. Pre: the eye is in front of a.
   static bool apart(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b) {
@@ -178,17 +245,20 @@ class Region_relation {
       if (apart(eye, a, k, b)) return true;
     for (std::size_t k = 0; k < b.corners.size(); ++k)
       if (apart(eye, b, k, a)) return true;
-    const auto on_side = [&](const Grid_face& face, const Grid_point& normal, int side) {
+    for (std::size_t k = 0; k < a.corners.size(); ++k)
+      for (std::size_t l = 0; l < b.corners.size(); ++l)
+        if (divides(eye, a, k, b, l)) return true;
+    return false;
+  }
+  /// Whether the plane through the eye and a corner of each has a on one side and b on the other.
+  static bool divides(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b, std::size_t l) {
+    using namespace priority_detail;
+    const Grid_point normal = cross(difference(a.corners[k], eye), difference(b.corners[l], eye));
+    if (sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0) return false;
+    const auto on_side = [&](const Grid_face& face, int side) {
       return std::all_of(face.corners.begin(), face.corners.end(), [&](const Grid_point& p) { return side * sgn(dot(normal, difference(p, eye))) >= 0; });
     };
-    for (const Grid_point& p : a.corners)
-      for (const Grid_point& q : b.corners) {
-        const Grid_point normal = cross(difference(p, eye), difference(q, eye));
-        if (sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0) continue;
-        for (const int side : {-1, 1})
-          if (on_side(a, normal, side) && on_side(b, normal, -side)) return true;
-      }
-    return false;
+    return (on_side(a, 1) && on_side(b, -1)) || (on_side(a, -1) && on_side(b, 1));
   }
 
   /// Whether the region holds an eye from which the inside of a may obscure that of b: are there alpha, beta >= 1 and gamma >= 0 with
@@ -217,6 +287,7 @@ class Region_relation {
   priority_detail::Grid_scene grid_;
   std::vector<char> seen_;
   std::vector<Round_cone> cones_;  // of one viewpoint
+  std::vector<std::vector<Triple>> arms_;
 };
 
 /// r1 < r2 along one ray from one eye: both are on-view, and the ray goes through the inside of r1 and then through the inside of r2.
