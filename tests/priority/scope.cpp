@@ -396,6 +396,32 @@ TEST(Scope, of_one_viewpoint_has_the_arc_inside_the_set_of_eyes_and_not_on_its_b
   EXPECT_EQ(eye(million, half, million + hair), upper_first);
 }
 
+TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corner_of_each) {
+  // From the origin both cones are almost half-spaces, one below and one above: often no plane through an edge of either keeps them apart, but one through a corner of each does.
+  Random random(11);
+  std::size_t arcs = 0, whole = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const auto face = [&](const std::array<std::array<long, 2>, 3>& corners, int sign) {
+      Points points;
+      for (const auto& [x, y] : corners) {
+        const long far = static_cast<long>(random.between(5, 200));
+        points.push_back(at(far * x, far * y, sign * static_cast<long>(random.between(-3, 12))));
+      }
+      const Flat flat(points);
+      return sgn(flat.height(at(0, 0, 0))) < 0 ? reversed(points) : points;
+    };
+    const Points below = face({{{4, 0}, {-2, 3}, {-2, -3}}}, -1), above = face({{{2, 3}, {-4, 0}, {2, -3}}}, 1);
+    if (sgn(Flat(below).height(at(0, 0, 0))) == 0 || sgn(Flat(above).height(at(0, 0, 0))) == 0) continue;
+    const Related scene(soup_of({below, above}));
+    if (scene.flats.size() < 2) continue;
+    const Matrix found = from(scene, View_region::eye(at(0, 0, 0)));
+    ASSERT_TRUE(same_arcs(found, arcs_from(scene.flats, {at(0, 0, 0)}))) << trial;
+    arcs += count_arcs(found), whole += count_arcs(arcs_of(scene.flats));
+  }
+  EXPECT_GT(arcs, 100u);
+  EXPECT_GT(whole, arcs + 100);
+}
+
 TEST(Scope, of_a_region_that_touches_the_set_of_eyes_only_in_its_boundary_has_no_arc) {
   const Related scene(two_squares());
   const Rational half = ratio(1, 2), hair = exact(0x1p-60);
