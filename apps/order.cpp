@@ -51,7 +51,7 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
   Stopwatch watch;
   const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {two_sided, false, task.bsp.progress});
   outcome.build_seconds = watch.seconds(), watch = {};
-  const Eye_order<Exact_traits> order = back_to_front(traits, tree, *task.eye);
+  const Eye_order<Exact_traits> order = back_to_front(traits, tree, *task.eye, task.bsp.progress);
   outcome.order_seconds = watch.seconds();
   graph.tree = tree.counters, graph.eye = order.counters;
   outcome.tree.fragments = order.counters.fragments, outcome.tree.splits = order.counters.splits;

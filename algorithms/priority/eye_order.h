@@ -64,7 +64,9 @@ class Eye_walk {
  public:
   using Tree = Priority_tree<Traits>;
 
-  Eye_walk(const Traits& traits, const Exact_point& eye) : traits_(traits), eye_(eye), viewpoint_(traits.eye(eye)) {}
+  using Progress = std::function<void(std::size_t done, std::size_t all)>;
+
+  Eye_walk(const Traits& traits, const Exact_point& eye, const Progress& progress) : traits_(traits), eye_(eye), viewpoint_(traits.eye(eye)), progress_(progress) {}
 
   /// Appends what the tree holds, farthest first.
   void walk(const Tree& tree) {
@@ -98,7 +100,7 @@ class Eye_walk {
     const Priority_relation<Traits> faces(traits_, polygons);
     const Region_relation<Traits> relation(faces, View_region::eye(eye_));
     Implicit_priority_graph<Region_relation<Traits>> graph(relation);
-    const Priority_components found = components(graph);
+    const Priority_components found = graph.find_components(nullptr, progress_);
     order_.counters.search += graph.counters();
     for (std::size_t c = found.size(); c-- > 0;) {
       if (found[c].size() == 1) {
@@ -109,7 +111,7 @@ class Eye_walk {
       std::vector<Convex_polygon<Traits>> cycle;
       std::vector<char> turned;
       for (const std::uint32_t k : found[c]) cycle.push_back(polygons[k]), turned.push_back(tree.turned[members[k]]);
-      Tree cut = build_priority_tree<Traits>(traits_, cycle, turned, {tree.two_sided, true, {}});
+      Tree cut = build_priority_tree<Traits>(traits_, cycle, turned, {tree.two_sided, true, progress_});
       order_.counters.splits += cut.counters.splits;
       walk(cut);
       for (Polygon_store<Traits>& store : cut.memory) order_.memory.push_back(std::move(store));
@@ -119,6 +121,7 @@ class Eye_walk {
   const Traits& traits_;
   const Exact_point& eye_;
   const typename Traits::Eye viewpoint_;
+  const Progress& progress_;
   Polygon_store<Traits> store_;
   Eye_order<Traits> order_;
 };
@@ -127,11 +130,11 @@ class Eye_walk {
 
 /// The on-view polygons of a tree so that none obscures one drawn after it; of a tree of both sides, every piece once. Whole, but where the tree was built to cut, and where
 /// faces of one of its cycles overlap in a cycle from this eye: these are cut. Degenerate: pieces seen edge-on are off-view; they have no place, and stand anywhere in an
-/// order of both sides. Cost: linear in the tree, and a search of each of its cycles. Exact: yes. Pre: exact traits; the tree outlives the order.
+/// order of both sides. `progress` is called while cycles are searched and cut. Cost: linear in the tree, and a search of each of its cycles. Exact: yes. Pre: exact traits; the tree outlives the order.
 /// Source: Fuchs, Kedem, Naylor 1979; Naylor, "Visibility Orderings". Proof: P-35, P-37
 template <Bounded_traits Traits>
-Eye_order<Traits> back_to_front(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye) {
-  priority_detail::Eye_walk<Traits> walk(traits, eye);
+Eye_order<Traits> back_to_front(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye, const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
+  priority_detail::Eye_walk<Traits> walk(traits, eye, progress);
   walk.walk(tree);
   return walk.take();
 }

@@ -17,7 +17,7 @@ struct Priority_tree_options {
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< polygons settled, and of how many so far
 };
 
-/// What a tree is made of. The four ways to settle a polygon add up to its polygons.
+/// What a tree is made of. The three ways to settle a polygon add up to its polygons.
 struct Priority_tree_counters {
   std::uint64_t pieces = 0;     ///< polygons given; with two_sided two a piece
   std::uint64_t polygons = 0;   ///< after cutting
