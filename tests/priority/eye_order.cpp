@@ -200,7 +200,7 @@ TEST(Eye_order, of_real_scenes_is_accepted_and_cutting_for_all_eyes_makes_fewer_
 TEST(Eye_order, of_every_real_scene_from_a_hundred_random_eyes_is_accepted) {
   const std::filesystem::path folder = SIGHTLINE_SCENES_DIR;
   if (folder.empty()) GTEST_SKIP() << "the collection of real scenes is not here";
-  if (std::getenv("SIGHTLINE_LONG") == nullptr) GTEST_SKIP() << "takes hours: set SIGHTLINE_LONG to a part of a file's name, or to nothing for all";
+  if (std::getenv("SIGHTLINE_LONG") == nullptr) GTEST_SKIP() << "takes most of an hour: set SIGHTLINE_LONG to a part of a file's name, or to nothing for all";
   std::size_t scenes = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string file = entry.path().string();
