@@ -149,9 +149,9 @@ Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph
   const Priority_relation<Exact_traits> faces(traits, found.tree.polygons);
   Relation_counters counters;
   const auto name_of = [&](std::uint32_t i) -> Json {
-    const Piece& piece = scene.pieces()[found.tree.polygons[i].piece];
-    if (arguments.two_sided) return {piece.face, piece.number, found.tree.turned[i] ? "back" : "front"};
-    return {piece.face, piece.number};
+    Json label = name_json(scene, found.tree.polygons[i].piece);
+    if (arguments.two_sided) label.push_back(found.tree.turned[i] ? "back" : "front");
+    return label;
   };
   for (const auto& node : found.tree.nodes) {
     if (node.kind != Priority_tree<Exact_traits>::Kind::cycle) continue;

@@ -38,40 +38,27 @@ namespace priority_detail {
 
 /// The cone of a polygon from an eye in front of it: normals of the planes through the eye and its edges, inwards.
 struct Pixel_cone {
-  struct Side {
-    std::array<double, 3> normal, size;  // off by 4 units of 2^-53 of the size
-    std::size_t edge;
-  };
-  std::vector<Side> sides;
-  std::vector<Exact_point> arms;  // from the eye to the corners
+  std::vector<Rounded_plane> sides;  // by edge
+  std::vector<Exact_point> arms;     // from the eye to the corners
 
   Pixel_cone(const std::vector<Exact_point>& corners, const Exact_point& eye) {
-    for (const Exact_point& p : corners) arms.push_back(minus(p, eye));
     std::vector<std::array<double, 3>> rounded;
-    for (const Exact_point& a : arms) rounded.push_back({nearest_double(a[0]), nearest_double(a[1]), nearest_double(a[2])});
-    for (std::size_t k = 0; k < arms.size(); ++k) {
-      const auto &a = rounded[k], &b = rounded[k + 1 == arms.size() ? 0 : k + 1];
-      Side side{{}, {}, k};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::size_t p = (axis + 1) % 3, q = (axis + 2) % 3;
-        side.normal[axis] = b[p] * a[q] - b[q] * a[p], side.size[axis] = std::fabs(b[p] * a[q]) + std::fabs(b[q] * a[p]);
-      }
-      sides.push_back(side);
+    for (const Exact_point& p : corners) {
+      const Exact_point& arm = arms.emplace_back(minus(p, eye));
+      rounded.push_back({nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])});
     }
+    for (std::size_t k = 0; k < arms.size(); ++k) sides.emplace_back(rounded[next(k)], rounded[k]);
   }
+  std::size_t next(std::size_t k) const { return k + 1 == arms.size() ? 0 : k + 1; }
 
-  /// Whether the direction is strictly inside. Each product of two arms is off by 3 x 2^-53 of itself, their difference by 4 of the size, a product with the direction by 5, the sum
-  /// of three by 7: 2^-49 covers it; the last term is for underflow. Proof: P-40
+  /// Whether the direction is strictly inside. Proof: P-40
   bool holds(const std::array<double, 3>& d, Pixel_sets& counts) const {
-    for (const Side& side : sides) {
-      double value = 0, size = 0;
-      for (std::size_t k = 0; k < 3; ++k) value += side.normal[k] * d[k], size += side.size[k] * std::fabs(d[k]);
-      const double bound = 0x1p-49 * size + 0x1p-900;
-      if (value > bound) continue;
-      if (value < -bound) return false;
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      const int side = sides[k].side(d);
+      if (side > 0) continue;
+      if (side < 0) return false;
       ++counts.exact;
-      const Exact_point normal = cross(arms[side.edge + 1 == arms.size() ? 0 : side.edge + 1], arms[side.edge]);
-      if (sgn(dot(normal, {exact(d[0]), exact(d[1]), exact(d[2])})) <= 0) return false;
+      if (sgn(dot(cross(arms[next(k)], arms[k]), {exact(d[0]), exact(d[1]), exact(d[2])})) <= 0) return false;
     }
     return true;
   }

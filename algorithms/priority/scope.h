@@ -138,8 +138,8 @@ class Region_relation {
     };
     const Grid_point& eye = grid_.points[0];
     if (const auto plane = priority_detail::plane_between(exact_corners(i), exact_corners(j))) {
-      const int side = sgn(priority_detail::dot(plane->normal, priority_detail::minus({Rational(eye[0]), Rational(eye[1]), Rational(eye[2])}, plane->point)));
-      return {side > 0, side < 0};
+      const std::optional<bool> first = Pair_code{Precedence::by_plane, plane}.first_is_nearer({Rational(eye[0]), Rational(eye[1]), Rational(eye[2])});
+      return {first == true, first == false};
     }
     return {meets(grid_.faces[i], grid_.faces[j]), meets(grid_.faces[j], grid_.faces[i])};
   }
@@ -155,36 +155,29 @@ class Region_relation {
     return arms;
   }
   static constexpr unsigned in_front = 1, behind = 2, unknown = 4;
-  /// On which sides of the plane through the viewpoint and two corners, by their arms, some of the other arms are: bits of the constants above. Left out are the given
-  /// places. Products of two are off by 3 x 2^-53 of their size, differences by 4, products with a third by 6, sums by 8: 2^-49 covers that. Infinite ones decide nothing.
-  static unsigned sides_of(const std::vector<Triple>& arms, const Triple& a, const Triple& b, std::size_t out, std::size_t also_out) {
-    Triple normal, size;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t p = (k + 1) % 3, q = (k + 2) % 3;
-      normal[k] = a[p] * b[q] - a[q] * b[p], size[k] = std::fabs(a[p] * b[q]) + std::fabs(a[q] * b[p]);
-    }
+  /// On which sides of the plane some of the arms are: bits of the constants above. One place is left out.
+  static unsigned sides_of(const std::vector<Triple>& arms, const priority_detail::Rounded_plane& plane, std::size_t out = ~std::size_t{0}) {
     unsigned found = 0;
     for (std::size_t c = 0; c < arms.size(); ++c) {
-      if (c == out || c == also_out) continue;
-      const Triple& arm = arms[c];
-      const double value = normal[0] * arm[0] + normal[1] * arm[1] + normal[2] * arm[2];
-      const double bound = 0x1p-49 * (size[0] * std::fabs(arm[0]) + size[1] * std::fabs(arm[1]) + size[2] * std::fabs(arm[2]));
-      found |= value > bound ? in_front : value < -bound ? behind : unknown;
+      if (c == out) continue;
+      const int side = plane.side(arms[c]);
+      found |= side > 0 ? in_front : side < 0 ? behind : unknown;
     }
     return found;
   }
 
   /// Whether a plane through the one viewpoint has face i on one side and face j on the other: in doubles where these tell, else exactly.
   bool separable(std::uint32_t i, std::uint32_t j) const {
-    const std::size_t none = ~std::size_t{0};
+    using priority_detail::Rounded_plane;
     for (const auto& [a, b] : {std::pair(i, j), std::pair(j, i)})
       for (std::size_t k = 0; k < arms_[a].size(); ++k) {
-        const unsigned sides = sides_of(arms_[b], arms_[a][k], arms_[a][k + 1 == arms_[a].size() ? 0 : k + 1], none, none);
+        const unsigned sides = sides_of(arms_[b], Rounded_plane(arms_[a][k], arms_[a][k + 1 == arms_[a].size() ? 0 : k + 1]));
         if ((sides & behind) == 0 && ((sides & unknown) == 0 || apart(grid_.points[0], grid_.faces[a], k, grid_.faces[b]))) return true;
       }
     for (std::size_t k = 0; k < arms_[i].size(); ++k)
       for (std::size_t l = 0; l < arms_[j].size(); ++l) {
-        const unsigned of_i = sides_of(arms_[i], arms_[i][k], arms_[j][l], k, none), of_j = sides_of(arms_[j], arms_[i][k], arms_[j][l], none, l), both = in_front | behind;
+        const Rounded_plane plane(arms_[i][k], arms_[j][l]);
+        const unsigned of_i = sides_of(arms_[i], plane, k), of_j = sides_of(arms_[j], plane, l), both = in_front | behind;
         if ((of_i & both) == both || (of_j & both) == both || (of_i & of_j & both) != 0) continue;
         if (((of_i | of_j) & unknown) == 0 || divides(grid_.points[0], grid_.faces[i], k, grid_.faces[j], l)) return true;
       }

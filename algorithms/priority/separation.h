@@ -31,6 +31,12 @@ Sign side_of(const Traits& traits, const Separating_plane& plane, const Exact_po
   return static_cast<Sign>(sgn(value));
 }
 
+/// position(), but a polygon's own plane holds it without a look at its corners.
+template <class Traits>
+Position position_to(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter, Plane plane, Predicate_counts& counts) {
+  return traits.same_plane(polygon.support, plane) ? Position::on : position(traits, polygon, cutter, counts);
+}
+
 /// Some polygons, and where they lie to a plane that cuts none of them.
 struct Separation {
   Separating_plane plane;
@@ -58,6 +64,7 @@ class Separation_finder {
     begin_.push_back(static_cast<std::uint32_t>(corners_.size()));
     normals_.push_back(normal(begin_.size() - 2));
   }
+
   /// A plane that cuts no member and leaves at least `least` of them strictly on each side: the one found that leaves the fewest on its larger side. Across each of
   /// the three axes and of up to `directions` normals of members it looks at all faces' planes and all gaps. Nothing where those have no such plane; others
   /// may. Degenerate: members that touch the plane are on their side of it; members in it are on it. Cost: O(n log n) a direction. Exact: yes.
@@ -189,8 +196,7 @@ class Separation_finder {
     const auto cutter = traits_->prepare(candidate.plane.face);
     Separation found{candidate.plane, {}};
     for (const std::uint32_t member : members) {
-      const Polygon& polygon = polygons_[member];
-      const Position at = traits_->same_plane(polygon.support, candidate.plane.face) ? Position::on : position(*traits_, polygon, cutter, counts);
+      const Position at = position_to(*traits_, polygons_[member], cutter, candidate.plane.face, counts);
       if (at == Position::across) return std::nullopt;
       found.sides[static_cast<std::size_t>(at)].push_back(member);
     }

@@ -216,8 +216,7 @@ class Tree_builder {
       const auto cutter = traits_.prepare(plane);
       std::array<std::size_t, 4> at{};
       for (std::size_t k = 0; k < n && split_cost * at[3] < best_cost; ++k) {
-        const Polygon& polygon = tree_.polygons[members[k]];
-        ++at[static_cast<std::size_t>(traits_.same_plane(polygon.support, plane) ? Position::on : position(traits_, polygon, cutter, tree_.counters.predicates))];
+        ++at[static_cast<std::size_t>(position_to(traits_, tree_.polygons[members[k]], cutter, plane, tree_.counters.predicates))];
       }
       if (const std::size_t cost = split_cost * at[3] + std::max(at[1], at[2]) - std::min(at[1], at[2]); cost < best_cost) best_cost = cost, best = plane;
     }
@@ -226,8 +225,7 @@ class Tree_builder {
     const std::uint64_t before = tree_.counters.splits;
     const auto cutter = traits_.prepare(best);
     for (const std::uint32_t i : members) {
-      const Polygon& polygon = tree_.polygons[i];
-      const Position at = traits_.same_plane(polygon.support, best) ? Position::on : position(traits_, polygon, cutter, tree_.counters.predicates);
+      const Position at = position_to(traits_, tree_.polygons[i], cutter, best, tree_.counters.predicates);
       if (at != Position::across) {
         found.sides[static_cast<std::size_t>(at)].push_back(i);
         continue;
