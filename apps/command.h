@@ -22,6 +22,7 @@ void add_info(CLI::App& app);
 void add_bsp(CLI::App& app);
 void add_order(CLI::App& app);
 void add_graph(CLI::App& app);
+void add_cutset(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_make(CLI::App& app);

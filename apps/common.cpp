@@ -34,27 +34,32 @@ Polygon_soup Common::read() const {
   return read_scene(std::filesystem::path(scene), options);
 }
 
-Exact_point parse_point(const std::string& text, const std::string& option) {
-  Exact_point p;
-  std::size_t begin = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t end = k < 2 ? text.find(',', begin) : text.size();
-    if (end == std::string::npos) throw Usage_error(option + " wants three numbers X,Y,Z, not " + sightline::quoted(text));
+std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted) {
+  std::vector<Rational> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string token = text.substr(begin, end - begin);
     try {
       if (token.find('/') != std::string::npos) {
-        p[k] = rational_from_string(token);
+        numbers.push_back(rational_from_string(token));
       } else {
-        const Input input{option, token};
+        const Input input{wanted, token};
         const Text_reader reader(input, Text_reader::Comments::hash);
-        p[k] = value_of(parse_decimal(reader, input.bytes));
+        numbers.push_back(value_of(parse_decimal(reader, input.bytes)));
       }
     } catch (const std::exception&) {
-      throw Usage_error(option + " wants three numbers X,Y,Z (decimals or p/q); " + sightline::quoted(token) + " is none");
+      throw Usage_error(wanted + " (decimals or p/q); " + sightline::quoted(token) + " is none");
     }
     begin = end + 1;
   }
-  return p;
+  return numbers;
+}
+
+Exact_point parse_point(const std::string& text, const std::string& option) {
+  const std::string wanted = option + " wants three numbers X,Y,Z";
+  const std::vector<Rational> numbers = parse_numbers(text, wanted);
+  if (numbers.size() != 3) throw Usage_error(wanted + ", not " + sightline::quoted(text));
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 Exact_point eye_of(const std::string& text, const Scene& scene) {

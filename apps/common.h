@@ -46,6 +46,8 @@ inline const CLI::Validator whole_number([](std::string& text) { return !text.em
 inline const CLI::Validator finite_number([](std::string& text) { return text.find_first_of("nN") == std::string::npos ? "" : '"' + text + "\" is not a finite number"; }, "");
 inline const CLI::Validator not_empty([](std::string& text) { return text.empty() ? "is empty; leave the option out, or give it a value" : ""; }, "");
 
+/// Numbers with commas between them, exact decimals or p/q. Errors: Usage_error that begins with `wanted`.
+std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted);
 /// "X,Y,Z" with exact decimals or p/q. Errors: Usage_error naming the option.
 Exact_point parse_point(const std::string& text, const std::string& option);
 

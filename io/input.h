@@ -23,7 +23,11 @@ inline std::string printable(std::string_view text, std::size_t limit, bool only
 }
 
 /// A token in quotes, for a message.
-inline std::string quoted(std::string_view token) { return "\"" + printable(token, 40, true) + "\""; }
+inline std::string quoted(std::string_view token) {
+  std::string result = "\"";
+  result += printable(token, 40, true), result += '"';
+  return result;
+}
 
 /// What is wrong with a file, and where. what() is one line: `FILE:LINE:COLUMN: message; what to do` in text,
 /// `FILE: byte OFFSET: message; what to do` in binary data, and `FILE: message; what to do` where no place is to blame.

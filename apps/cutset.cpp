@@ -1,0 +1,190 @@
+// sightline cutset: the on-view faces of a scene along a path of viewpoints, by Tanimoto's cut-set.
+
+#include "paths.h"
+
+#include <sightline/algorithms/cutset/tracker.h>
+#include <sightline/algorithms/cutset/update_1977.h>
+#include <sightline/kernel/exact_traits.h>
+
+#include <iostream>
+
+namespace sightline::app {
+
+namespace {
+
+struct Cutset_arguments {
+  Common common;
+  Path_arguments path;
+  std::string method = "tracker", svg;
+  bool faces = false, check = false;
+};
+
+/// What one viewpoint gave.
+struct Frame {
+  Viewpoint view;
+  Cut_set_counters counters;
+  std::size_t cut_edges;
+  std::vector<Face_id> faces;      // on-view, sorted
+  std::vector<bool> nodes;         // on-view; for a picture
+  std::size_t wrong = 0;           // nodes and edges that brute force contradicts, where that was asked for
+};
+
+/// Faces of which a piece is on-view, sorted. A face that is not planar has pieces in several planes.
+template <class Tracker>
+std::vector<Face_id> faces_on_view(const Face_graph& graph, const Tracker& tracker) {
+  std::vector<Face_id> faces;
+  const std::vector<Piece>& pieces = graph.scene().pieces();
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+    if (tracker.on_view(graph.node(i)) && (faces.empty() || faces.back() != pieces[i].face)) faces.push_back(pieces[i].face);  // pieces are in the order of faces
+  return faces;
+}
+
+/// Nodes and edges of which a tracker says something else than a test of each piece does.
+template <class Tracker>
+std::size_t disagreements(const Exact_traits& traits, const Face_graph& graph, const Tracker& tracker, const Viewpoint& view) {
+  const Scene& scene = graph.scene();
+  std::vector<bool> on(graph.size());
+  Predicate_counts counts;
+  const Located_point eye = traits.eye(view.at);
+  for (std::uint32_t node = 0; node < graph.size(); ++node) {
+    if (!view.at_infinity) {
+      on[node] = traits.side(eye, graph.plane(node), counts) == CGAL::POSITIVE;
+      continue;
+    }
+    const std::array<Rational, 4> h = scene.file_coefficients(graph.plane(node));
+    on[node] = h[0] * view.at[0] + h[1] * view.at[1] + h[2] * view.at[2] > 0;
+  }
+  std::size_t wrong = 0;
+  for (std::uint32_t node = 0; node < graph.size(); ++node) wrong += tracker.on_view(node) != on[node];
+  std::vector<bool> cut(graph.edges().size());
+  for (const std::uint32_t e : tracker.cut_edges()) cut[e] = true;
+  for (std::size_t e = 0; e < cut.size(); ++e) wrong += cut[e] != (on[graph.edges()[e].first] != on[graph.edges()[e].second]);
+  return wrong;
+}
+
+/// All frames of a path, by whatever tracker: move(view) says what it took.
+template <class Tracker, class Move>
+std::vector<Frame> follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph, const std::vector<Viewpoint>& path, const Tracker& tracker, Move move, double& seconds) {
+  Progress progress("moving");
+  const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const std::size_t every = (path.size() + pictures_in_a_strip - 1) / pictures_in_a_strip;
+  std::vector<Frame> frames;
+  for (const Viewpoint& view : path) {
+    report(frames.size(), path.size());
+    const Stopwatch watch;
+    const Cut_set_counters counters = move(view);
+    seconds += watch.seconds();
+    Frame& frame = frames.emplace_back(Frame{view, counters, tracker.cut_edges().size(), faces_on_view(graph, tracker), {}});
+    if (!arguments.svg.empty() && (frames.size() - 1) % every == 0)
+      for (std::uint32_t node = 0; node < graph.size(); ++node) frame.nodes.push_back(tracker.on_view(node));
+    if (arguments.check) frame.wrong = disagreements(traits, graph, tracker, view);
+  }
+  return frames;
+}
+
+Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& arguments) {
+  Json list = Json::array();
+  for (const Frame& frame : frames) {
+    Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)}, {"on_view", frame.faces.size()}, {"cut_edges", frame.cut_edges},
+               {"tests", frame.counters.tests}, {"births", frame.counters.births}, {"changed", frame.counters.changed}};
+    if (arguments.faces) entry["faces"] = frame.faces;
+    if (arguments.check) entry["wrong"] = frame.wrong;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+void print_frames(const std::vector<Frame>& frames, bool check) {
+  constexpr std::size_t shown = 20;
+  std::cout << "frame  on-view  cut edges    tests  births  viewpoint\n";
+  for (std::size_t k = 0; k < std::min(shown, frames.size()); ++k) {
+    const Frame& frame = frames[k];
+    const Exact_point& at = frame.view.at;
+    std::cout << fmt::format("{:>5}  {:>7}  {:>9}  {:>7}  {:>6}  {}({:g}, {:g}, {:g}){}\n", k + 1, frame.faces.size(), frame.cut_edges, frame.counters.tests, frame.counters.births,
+                             frame.view.at_infinity ? "at infinity, " : "", nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2]), check && frame.wrong > 0 ? "  WRONG" : "");
+  }
+  if (frames.size() > shown) std::cout << fmt::format("  ... {} more: --json - prints them all\n", frames.size() - shown);
+}
+
+Exit run(const Cutset_arguments& arguments) {
+  const Common& common = arguments.common;
+  check_usage(arguments.path);
+  const Scene scene(common.read());
+  const std::vector<Viewpoint> path = path_of(arguments.path, scene);
+  const Stopwatch watch;
+  const Face_graph graph(scene);
+  const Exact_traits traits(scene);
+  const double graph_seconds = watch.seconds();
+
+  double seconds = 0;
+  std::vector<Frame> frames;
+  Cut_set_counters total;
+  if (arguments.method == "tracker") {
+    Cut_set_tracker tracker(traits, graph);
+    frames = follow(arguments, traits, graph, path, tracker, [&](const Viewpoint& view) { return tracker.move_to(view); }, seconds);
+    total = tracker.counters();
+  } else {
+    Cut_set_1977<Exact_traits> update(traits, graph, path.front(), arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
+    bool started = false;
+    const auto move = [&](const Viewpoint& view) {
+      Cut_set_counters counters;
+      counters.tests = started ? update.update_1977(view) : graph.size();
+      started = true;
+      return counters;
+    };
+    frames = follow(arguments, traits, graph, path, update, move, seconds);
+    for (const Frame& frame : frames) total += frame.counters;
+  }
+
+  std::size_t convex = 0, wrong = 0, cut_edges = 0;
+  for (const Face_graph::Component& component : graph.components()) convex += component.inside.has_value();
+  for (const Frame& frame : frames) wrong += frame.wrong > 0, cut_edges += frame.cut_edges;
+  if (!arguments.svg.empty()) {
+    std::vector<Outline> outlines;
+    for (const Frame& frame : frames)
+      if (!frame.nodes.empty()) outlines.push_back({frame.view, frame.nodes, fmt::format("{}: {} on-view, {} tests", &frame - frames.data() + 1, frame.faces.size(), frame.counters.tests)});
+    write_file(arguments.svg, painted(graph, outlines));
+  }
+
+  const std::size_t later = frames.size() - 1;
+  const std::uint64_t later_tests = total.tests - frames.front().counters.tests;
+  const auto share = [&](std::uint64_t part) { return later == 0 || graph.size() == 0 ? 0 : static_cast<double>(part) / static_cast<double>(later * graph.size()); };
+  const Json counters{{"nodes", graph.size()}, {"edges", graph.edges().size()}, {"components", graph.components().size()}, {"convex", convex}, {"refused", graph.refused()}, {"tests", total.tests},
+                      {"first_tests", frames.front().counters.tests}, {"exact_tests", total.exact}, {"changed", total.changed}, {"births", total.births}, {"searches", total.searches}, {"compared", total.compared}};
+  Json result{{"frames", frames_json(frames, arguments)}};
+  if (arguments.check) result["wrong_frames"] = wrong;
+  const Exit exit = wrong > 0 ? Exit::disagreement : Exit::done;
+  if (write_json(common, "cutset", scene, std::move(result), counters, {{"graph", graph_seconds}, {"frames", seconds}})) return exit;
+  scene_rows(scene);
+  row("face graph", fmt::format("{} nodes (faces joined across coplanar edges), {} edges, {} components, {} of them convex bodies", graph.size(), graph.edges().size(), graph.components().size(), convex));
+  if (graph.refused() > 0) row("not manifold", fmt::format("{} pieces stand apart in the graph: births, not the cut-set, find their changes", graph.refused()));
+  print_frames(frames, arguments.check);
+  row("tests", fmt::format("{} for the first frame; then {:.4g} a frame: {:.3g}% of testing all faces, {:.3g} for each edge of the cut-set", frames.front().counters.tests,
+                           later == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(later), 100 * share(later_tests),
+                           cut_edges == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(cut_edges)));
+  row("beyond doubles", fmt::format("{} of {} tests", total.exact, total.tests));
+  if (arguments.method == "tracker") row("changes", fmt::format("{} of nodes, {} clusters born away from the cut-set, {} searches of convex bodies that showed no face", total.changed, total.births, total.searches));
+  if (arguments.check) row("check", wrong == 0 ? fmt::format("all {} frames equal brute force", frames.size()) : fmt::format("{} of {} frames are WRONG", wrong, frames.size()));
+  row("seconds", fmt::format("{:.3f} for the graph, {:.4f} for {} frames", graph_seconds, seconds, frames.size()));
+  return exit;
+}
+
+}  // namespace
+
+}  // namespace sightline::app
+
+void add_cutset(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("cutset", "The on-view faces along a path of viewpoints: cut-set, tests, births");
+  auto a = std::make_shared<sightline::app::Cutset_arguments>();
+  a->common.add_to(*command);
+  sightline::app::add_to(*command, a->path);
+  command->add_flag("--faces", a->faces, "list the on-view faces of each frame in the JSON");
+  command->add_flag("--check", a->check, "hold each frame to a test of every face; exit code 1 where one is wrong");
+  command->add_option("--method", a->method, "tracker: right whatever the move; 1977: the published update, which loses faces on some moves; 1977-literal: the same to the letter, which loses edges of the cut-set")
+      ->check(CLI::IsMember({"tracker", "1977", "1977-literal"}))
+      ->capture_default_str();
+  command->add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline");
+  command->footer("Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"
+                  "A face counts as on-view where a piece of it is; a viewpoint in a face's plane is off-view. `tests` are on-view predicates, `births` clusters of changed faces away from the cut-set.");
+  set_action(*command, [a] { return sightline::app::run(*a); });
+}

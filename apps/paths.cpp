@@ -1,0 +1,160 @@
+#include "paths.h"
+
+#include <sightline/algorithms/generate/shapes.h>
+#include <sightline/io/svg.h>
+#include <sightline/io/text.h>
+
+#include <fstream>
+
+namespace sightline::app {
+
+using Direction3 = std::array<double, 3>;
+
+void add_to(CLI::App& command, Path_arguments& arguments) {
+  command.add_option("--path", arguments.path, "viewpoints: a file with X,Y,Z a line; X,Y,Z,0 is the direction of a viewpoint at infinity")->check(not_empty);
+  command.add_option("--orbit", arguments.orbit, "this many viewpoints on a level circle round the scene")->check(whole_number & CLI::Range(1, 100'000'000));
+  command.add_option("--radius", arguments.radius, "of the orbit, in half lengths of the scene's longest side")->check(CLI::Range(0.0, 1e9) & finite_number)->capture_default_str();
+  command.add_option("--height", arguments.height, "of the orbit above the scene's centre, in the same unit")->check(CLI::Range(-1e9, 1e9) & finite_number)->capture_default_str();
+  command.add_option("--motion", arguments.motion, "the object moves instead: a file with W,X,Y,Z,TX,TY,TZ a line, a quaternion of any length and a translation, seen from --eye")->check(not_empty);
+  command.add_option("--eye", arguments.eye, "with --motion: the eye X,Y,Z; by default a place outside the scene")->check(not_empty);
+}
+
+void check_usage(const Path_arguments& arguments) {
+  if ((arguments.path.empty() ? 0 : 1) + (arguments.motion.empty() ? 0 : 1) + (arguments.orbit > 0 ? 1 : 0) != 1) throw Usage_error("cutset wants one of --path FILE, --orbit FRAMES and --motion FILE");
+  if (!arguments.eye.empty()) {
+    if (arguments.motion.empty()) throw Usage_error("--eye goes with --motion; a single viewpoint is a --path of one line");
+    parse_point(arguments.eye, "--eye");
+  }
+}
+
+/// Lines of numbers; a first line that begins with a letter is a header. `wanted` says what a line holds.
+static void read_lines(const std::string& file, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw Input_error::of_file(file, "cannot be opened; check its name");
+  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const Input input{file, bytes};
+  Text_reader reader(input, Text_reader::Comments::hash);
+  bool any = false, first = true;
+  while (reader.next_line()) {
+    const std::string_view begin = reader.next_token();
+    std::string line(begin);
+    for (std::string_view token = reader.next_token(); !token.empty(); token = reader.next_token()) line += token;
+    const bool header = first && std::isalpha(static_cast<unsigned char>(line[0])) != 0;
+    first = false;
+    if (header) continue;
+    try {
+      if (!take(parse_numbers(line, "a line wants " + wanted))) reader.fail(begin, "expected " + wanted + ", found " + sightline::quoted(line));
+    } catch (const Usage_error& error) {
+      reader.fail(begin, error.what());
+    }
+    any = true;
+  }
+  if (!any) throw Input_error::of_file(file, "has no line; write " + wanted + " a line");
+}
+
+static std::vector<Viewpoint> round_scene(const Path_arguments& arguments, const Scene& scene) {
+  Exact_point centre{0, 0, 0};
+  Rational half = 1;
+  if (scene.points().size() > 0) {
+    const auto box = scene.box();
+    half = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      centre[k] = (box[0][k] + box[1][k]) / 2;
+      half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
+    }
+  }
+  constexpr std::int64_t grid = std::int64_t{1} << 30;
+  const Rational radius = half * exact(arguments.radius) / Rational(static_cast<long>(grid)), height = half * exact(arguments.height);
+  std::vector<Viewpoint> path;
+  for (std::size_t k = 0; k < arguments.orbit; ++k) {
+    const auto [x, y] = generate::circle_point(k, arguments.orbit, grid);
+    path.push_back({{Rational(centre[0] + radius * static_cast<long>(x)), Rational(centre[1] + radius * static_cast<long>(y)), Rational(centre[2] + height)}, false});
+  }
+  return path;
+}
+
+std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& scene) {
+  if (arguments.orbit > 0) return round_scene(arguments, scene);
+  std::vector<Viewpoint> path;
+  if (!arguments.path.empty()) {
+    read_lines(arguments.path, "a viewpoint X,Y,Z, or X,Y,Z,0 with a direction that is not zero", [&](const std::vector<Rational>& n) {
+      const bool direction = n.size() == 4 && n[3] == 0 && (n[0] != 0 || n[1] != 0 || n[2] != 0);
+      if (!direction && n.size() != 3) return false;
+      path.push_back({{n[0], n[1], n[2]}, direction});
+      return true;
+    });
+    return path;
+  }
+  const Viewpoint eye{eye_of(arguments.eye, scene), false};
+  read_lines(arguments.motion, "a motion W,X,Y,Z,TX,TY,TZ with a quaternion that is not zero", [&](const std::vector<Rational>& n) {
+    if (n.size() != 7 || (n[0] == 0 && n[1] == 0 && n[2] == 0 && n[3] == 0)) return false;
+    path.push_back(Rigid_motion{{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6]}}.seen_from(eye));
+    return true;
+  });
+  return path;
+}
+
+// ---- Pictures ----------------------------------------------------------------------------------------------------------------
+
+static double dot(const Direction3& a, const Direction3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines) {
+  const Scene& scene = graph.scene();
+  constexpr int wide = 300, high = 240, title = 20;
+  const int columns = static_cast<int>(std::min<std::size_t>(4, std::max<std::size_t>(1, outlines.size()))), rows = (static_cast<int>(outlines.size()) + columns - 1) / columns;
+  Svg svg(columns * wide, std::max(1, rows) * (high + title), "#ffffff");
+  if (scene.counters().faces == 0) return svg.text();
+  const auto box = scene.box();
+  std::vector<Direction3> points(scene.points().size());  // from the centre, the longest side two long
+  Exact_point centre;
+  Rational half = 0;
+  for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2, half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
+  const auto place = [&](const Exact_point& p) { return Direction3{nearest_double((p[0] - centre[0]) / half), nearest_double((p[1] - centre[1]) / half), nearest_double((p[2] - centre[2]) / half)}; };
+  double reach = 1;
+  for (std::uint32_t p = 0; p < points.size(); ++p) points[p] = place(scene.position(p)), reach = std::max(reach, std::sqrt(dot(points[p], points[p])));
+  reach *= 1.06;  // a margin
+
+  for (std::size_t number = 0; number < outlines.size(); ++number) {
+    const Outline& outline = outlines[number];
+    const double left = static_cast<double>(static_cast<int>(number) % columns * wide), top = static_cast<double>(static_cast<int>(number) / columns * (high + title) + title);
+    const Direction3 eye = outline.view.at_infinity ? Direction3{} : place(outline.view.at);
+    View view;
+    view.eye = outline.view.at_infinity ? centre : outline.view.at;
+    if (outline.view.at_infinity)
+      for (std::size_t k = 0; k < 3; ++k) view.look[k] = -nearest_double(outline.view.at[k]);
+    view = aimed(view, scene);
+    const Axes axes = axes_of(view);
+    // The scene's ball fills the picture where the eye is outside it.
+    const double away = std::sqrt(dot(eye, eye)), half_angle = away > 1.02 * reach ? std::asin(reach / away) : 1.0;
+    const double scale = outline.view.at_infinity ? high / 2.0 / reach : high / 2.0 / std::tan(half_angle);
+    std::vector<Flat_point> flat(points.size());
+    std::vector<double> depth(points.size(), 1);
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const Direction3 v{points[p][0] - eye[0], points[p][1] - eye[1], points[p][2] - eye[2]};
+      depth[p] = outline.view.at_infinity ? dot(v, view.look) + 10 : dot(v, view.look);
+      const double over = outline.view.at_infinity ? 1 : depth[p];
+      flat[p] = {left + wide / 2.0 + scale * dot(v, axes.right) / over, top + high / 2.0 - scale * dot(v, axes.up) / over};
+    }
+    const auto shown = [&](std::uint32_t p) { return depth[p] > 1e-3 && flat[p][0] >= left && flat[p][0] <= left + wide && flat[p][1] >= top && flat[p][1] <= top + high; };
+    std::vector<std::pair<double, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+      const auto corners = scene.corners(scene.pieces()[i]);
+      if (!outline.on_view[graph.node(i)] || !std::all_of(corners.begin(), corners.end(), [&](const Piece_corner& c) { return shown(c.point); })) continue;
+      double sum = 0;
+      for (const Piece_corner& corner : corners) sum += depth[corner.point];
+      order.emplace_back(-sum / static_cast<double>(corners.size()), i);
+    }
+    std::sort(order.begin(), order.end());
+    for (const auto& [far, i] : order) {
+      std::vector<Flat_point> polygon;
+      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) polygon.push_back(flat[corner.point]);
+      svg.polygon(std::move(polygon), "#e3e8ee", "#9aa7b5", scene.pieces().size() > 3000 ? 0.15 : 0.4);
+    }
+    for (const Face_graph::Edge& edge : graph.edges())
+      if (outline.on_view[edge.first] != outline.on_view[edge.second] && shown(edge.from) && shown(edge.to)) svg.line(flat[edge.from], flat[edge.to], "#c0392b", 1.2);
+    svg.label(left + 6, top - 6, 12, outline.title);
+  }
+  return svg.text();
+}
+
+}  // namespace sightline::app

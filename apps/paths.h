@@ -1,0 +1,33 @@
+#pragma once
+// Paths of viewpoints, from files and round a scene, and pictures of what is on-view along them.
+
+#include "picture.h"
+
+#include <sightline/algorithms/cutset/motion.h>
+
+namespace sightline::app {
+
+/// Where viewpoints come from: one of a file of viewpoints, a file of motions of the object seen from --eye, and a circle round the scene.
+struct Path_arguments {
+  std::string path, motion, eye;
+  std::size_t orbit = 0;
+  double radius = 3, height = 1;
+};
+
+void add_to(CLI::App& command, Path_arguments& arguments);
+/// Errors: Usage_error where there is no path, or more than one.
+void check_usage(const Path_arguments& arguments);
+/// At least one viewpoint. Errors: Input_error with line and column.
+std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& scene);
+
+/// A frame's picture: the on-view nodes from a viewpoint.
+struct Outline {
+  Viewpoint view;
+  std::vector<bool> on_view;
+  std::string title;
+};
+inline constexpr std::size_t pictures_in_a_strip = 12;
+/// The frames beside each other: on-view faces, the far ones first by the distance of their middle (a sketch: `order` is exact), and the edges of the cut-set.
+std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines);
+
+}  // namespace sightline::app
