@@ -1,5 +1,6 @@
 // sightline cutset: the on-view faces of a scene along a path of viewpoints, by Tanimoto's cut-set.
 
+#include "decisions.h"
 #include "paths.h"
 
 #include <sightline/algorithms/cutset/tracker.h>
@@ -15,6 +16,7 @@ namespace {
 struct Cutset_arguments {
   Common common;
   Path_arguments path;
+  Decision_arguments decisions;
   std::string method = "tracker", svg;
   bool faces = false, check = false;
 };
@@ -85,9 +87,8 @@ std::vector<Frame> follow(const Cutset_arguments& arguments, const Exact_traits&
 Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& arguments) {
   Json list = Json::array();
   for (const Frame& frame : frames) {
-    Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)}, {"on_view", frame.faces.size()}, {"cut_edges", frame.cut_edges},
+    Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)}, {"on_view", arguments.faces ? Json(frame.faces) : Json(frame.faces.size())}, {"cut_edges", frame.cut_edges},
                {"tests", frame.counters.tests}, {"births", frame.counters.births}, {"changed", frame.counters.changed}};
-    if (arguments.faces) entry["faces"] = frame.faces;
     if (arguments.check) entry["wrong"] = frame.wrong;
     list.push_back(std::move(entry));
   }
@@ -106,9 +107,24 @@ void print_frames(const std::vector<Frame>& frames, bool check) {
   if (frames.size() > shown) std::cout << fmt::format("  ... {} more: --json - prints them all\n", frames.size() - shown);
 }
 
+Exit run_decisions(const Cutset_arguments& arguments) {
+  const Scene scene(arguments.common.read());
+  const Stopwatch watch;
+  const Decisions decisions = decide(arguments.decisions, Face_graph(scene));
+  const double seconds = watch.seconds();
+  if (write_json(arguments.common, "cutset", scene, {{"decision_tree", to_json(decisions)}}, {{"states", decisions.tree.states}}, {{"search", seconds}})) return Exit::done;
+  scene_rows(scene);
+  print(decisions);
+  row("seconds", fmt::format("{:.3f}", seconds));
+  return Exit::done;
+}
+
 Exit run(const Cutset_arguments& arguments) {
   const Common& common = arguments.common;
   check_usage(arguments.path);
+  if (arguments.path.given() == arguments.decisions.wanted) throw Usage_error("cutset wants a path (--path FILE, --orbit FRAMES or --motion FILE) or --decision-tree");
+  if (!arguments.decisions.wanted && (arguments.decisions.inside || !arguments.decisions.likelihood.empty())) throw Usage_error("--inside and --likelihood go with --decision-tree");
+  if (arguments.decisions.wanted) return run_decisions(arguments);
   const Scene scene(common.read());
   const std::vector<Viewpoint> path = path_of(arguments.path, scene);
   const Stopwatch watch;
@@ -178,13 +194,15 @@ void add_cutset(CLI::App& app) {
   auto a = std::make_shared<sightline::app::Cutset_arguments>();
   a->common.add_to(*command);
   sightline::app::add_to(*command, a->path);
-  command->add_flag("--faces", a->faces, "list the on-view faces of each frame in the JSON");
+  sightline::app::add_to(*command, a->decisions);
+  command->add_flag("--faces", a->faces, "in the JSON, `on_view` is the list of on-view faces, not their number");
   command->add_flag("--check", a->check, "hold each frame to a test of every face; exit code 1 where one is wrong");
   command->add_option("--method", a->method, "tracker: right whatever the move; 1977: the published update, which loses faces on some moves; 1977-literal: the same to the letter, which loses edges of the cut-set")
       ->check(CLI::IsMember({"tracker", "1977", "1977-literal"}))
       ->capture_default_str();
   command->add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline");
   command->footer("Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"
+                  "         sightline cutset box.off --decision-tree\n"
                   "A face counts as on-view where a piece of it is; a viewpoint in a face's plane is off-view. `tests` are on-view predicates, `births` clusters of changed faces away from the cut-set.");
   set_action(*command, [a] { return sightline::app::run(*a); });
 }

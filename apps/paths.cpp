@@ -20,15 +20,14 @@ void add_to(CLI::App& command, Path_arguments& arguments) {
 }
 
 void check_usage(const Path_arguments& arguments) {
-  if ((arguments.path.empty() ? 0 : 1) + (arguments.motion.empty() ? 0 : 1) + (arguments.orbit > 0 ? 1 : 0) != 1) throw Usage_error("cutset wants one of --path FILE, --orbit FRAMES and --motion FILE");
+  if ((arguments.path.empty() ? 0 : 1) + (arguments.motion.empty() ? 0 : 1) + (arguments.orbit > 0 ? 1 : 0) > 1) throw Usage_error("give one of --path FILE, --orbit FRAMES and --motion FILE");
   if (!arguments.eye.empty()) {
     if (arguments.motion.empty()) throw Usage_error("--eye goes with --motion; a single viewpoint is a --path of one line");
     parse_point(arguments.eye, "--eye");
   }
 }
 
-/// Lines of numbers; a first line that begins with a letter is a header. `wanted` says what a line holds.
-static void read_lines(const std::string& file, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take) {
+void read_lines(const std::string& file, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Input_error::of_file(file, "cannot be opened; check its name");
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
@@ -98,6 +97,41 @@ std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& sce
 
 static double dot(const Direction3& a, const Direction3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/// Points on a picture of a size, and how deep they are.
+struct Projection {
+  std::vector<Flat_point> flat;
+  std::vector<double> depth;
+};
+
+/// The points as seen from a viewpoint; all of them fill the picture where all are in front of it. `points` and `eye` are from the scene's centre, its longest side two long.
+static Projection projected(const std::vector<Direction3>& points, const Viewpoint& viewpoint, const Direction3& eye, const Scene& scene, double wide, double high) {
+  const bool parallel = viewpoint.at_infinity;
+  View view;
+  view.eye = viewpoint.at;
+  if (parallel)
+    for (std::size_t k = 0; k < 3; ++k) view.look[k] = -nearest_double(viewpoint.at[k]);
+  view = aimed(view, scene);
+  const Axes axes = axes_of(view);
+  Projection to;
+  double reach = 1;
+  for (const Direction3& p : points) {
+    const Direction3 v{p[0] - eye[0], p[1] - eye[1], p[2] - eye[2]};
+    to.depth.push_back(parallel ? dot(v, view.look) + 10 : dot(v, view.look));
+    const double over = parallel ? 1 : to.depth.back();
+    to.flat.push_back({dot(v, axes.right) / over, -dot(v, axes.up) / over});
+    reach = std::max(reach, std::sqrt(dot(p, p)));
+  }
+  std::array<double, 2> least{-1, -1}, most{1, 1};
+  if (parallel || std::sqrt(dot(eye, eye)) > 1.01 * reach) {
+    least = {1e300, 1e300}, most = {-1e300, -1e300};
+    for (const Flat_point& p : to.flat)
+      for (std::size_t k = 0; k < 2; ++k) least[k] = std::min(least[k], p[k]), most[k] = std::max(most[k], p[k]);
+  }
+  const double scale = 0.94 * std::min(wide / std::max(1e-9, most[0] - least[0]), high / std::max(1e-9, most[1] - least[1]));
+  for (Flat_point& p : to.flat) p = {wide / 2 + scale * (p[0] - (least[0] + most[0]) / 2), high / 2 + scale * (p[1] - (least[1] + most[1]) / 2)};
+  return to;
+}
+
 std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines) {
   const Scene& scene = graph.scene();
   constexpr int wide = 300, high = 240, title = 20;
@@ -105,53 +139,36 @@ std::string painted(const Face_graph& graph, const std::vector<Outline>& outline
   Svg svg(columns * wide, std::max(1, rows) * (high + title), "#ffffff");
   if (scene.counters().faces == 0) return svg.text();
   const auto box = scene.box();
-  std::vector<Direction3> points(scene.points().size());  // from the centre, the longest side two long
   Exact_point centre;
   Rational half = 0;
   for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2, half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
   const auto place = [&](const Exact_point& p) { return Direction3{nearest_double((p[0] - centre[0]) / half), nearest_double((p[1] - centre[1]) / half), nearest_double((p[2] - centre[2]) / half)}; };
-  double reach = 1;
-  for (std::uint32_t p = 0; p < points.size(); ++p) points[p] = place(scene.position(p)), reach = std::max(reach, std::sqrt(dot(points[p], points[p])));
-  reach *= 1.06;  // a margin
+  std::vector<Direction3> points;
+  for (std::uint32_t p = 0; p < scene.points().size(); ++p) points.push_back(place(scene.position(p)));
 
   for (std::size_t number = 0; number < outlines.size(); ++number) {
     const Outline& outline = outlines[number];
+    const Projection to = projected(points, outline.view, outline.view.at_infinity ? Direction3{} : place(outline.view.at), scene, wide, high);
     const double left = static_cast<double>(static_cast<int>(number) % columns * wide), top = static_cast<double>(static_cast<int>(number) / columns * (high + title) + title);
-    const Direction3 eye = outline.view.at_infinity ? Direction3{} : place(outline.view.at);
-    View view;
-    view.eye = outline.view.at_infinity ? centre : outline.view.at;
-    if (outline.view.at_infinity)
-      for (std::size_t k = 0; k < 3; ++k) view.look[k] = -nearest_double(outline.view.at[k]);
-    view = aimed(view, scene);
-    const Axes axes = axes_of(view);
-    // The scene's ball fills the picture where the eye is outside it.
-    const double away = std::sqrt(dot(eye, eye)), half_angle = away > 1.02 * reach ? std::asin(reach / away) : 1.0;
-    const double scale = outline.view.at_infinity ? high / 2.0 / reach : high / 2.0 / std::tan(half_angle);
-    std::vector<Flat_point> flat(points.size());
-    std::vector<double> depth(points.size(), 1);
-    for (std::size_t p = 0; p < points.size(); ++p) {
-      const Direction3 v{points[p][0] - eye[0], points[p][1] - eye[1], points[p][2] - eye[2]};
-      depth[p] = outline.view.at_infinity ? dot(v, view.look) + 10 : dot(v, view.look);
-      const double over = outline.view.at_infinity ? 1 : depth[p];
-      flat[p] = {left + wide / 2.0 + scale * dot(v, axes.right) / over, top + high / 2.0 - scale * dot(v, axes.up) / over};
-    }
-    const auto shown = [&](std::uint32_t p) { return depth[p] > 1e-3 && flat[p][0] >= left && flat[p][0] <= left + wide && flat[p][1] >= top && flat[p][1] <= top + high; };
+    const auto at = [&](std::uint32_t p) { return Flat_point{left + to.flat[p][0], top + to.flat[p][1]}; };
+    const auto shown = [&](std::uint32_t p) { return to.depth[p] > 1e-3 && to.flat[p][0] >= 0 && to.flat[p][0] <= wide && to.flat[p][1] >= 0 && to.flat[p][1] <= high; };
+    // On-view faces, the far ones first; then the cut-set.
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
       const auto corners = scene.corners(scene.pieces()[i]);
       if (!outline.on_view[graph.node(i)] || !std::all_of(corners.begin(), corners.end(), [&](const Piece_corner& c) { return shown(c.point); })) continue;
       double sum = 0;
-      for (const Piece_corner& corner : corners) sum += depth[corner.point];
+      for (const Piece_corner& corner : corners) sum += to.depth[corner.point];
       order.emplace_back(-sum / static_cast<double>(corners.size()), i);
     }
     std::sort(order.begin(), order.end());
     for (const auto& [far, i] : order) {
       std::vector<Flat_point> polygon;
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) polygon.push_back(flat[corner.point]);
+      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) polygon.push_back(at(corner.point));
       svg.polygon(std::move(polygon), "#e3e8ee", "#9aa7b5", scene.pieces().size() > 3000 ? 0.15 : 0.4);
     }
     for (const Face_graph::Edge& edge : graph.edges())
-      if (outline.on_view[edge.first] != outline.on_view[edge.second] && shown(edge.from) && shown(edge.to)) svg.line(flat[edge.from], flat[edge.to], "#c0392b", 1.2);
+      if (outline.on_view[edge.first] != outline.on_view[edge.second] && shown(edge.from) && shown(edge.to)) svg.line(at(edge.from), at(edge.to), "#c0392b", 1.2);
     svg.label(left + 6, top - 6, 12, outline.title);
   }
   return svg.text();

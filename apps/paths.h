@@ -12,11 +12,15 @@ struct Path_arguments {
   std::string path, motion, eye;
   std::size_t orbit = 0;
   double radius = 3, height = 1;
+  bool given() const { return !path.empty() || !motion.empty() || orbit > 0; }
 };
 
 void add_to(CLI::App& command, Path_arguments& arguments);
-/// Errors: Usage_error where there is no path, or more than one.
+/// Errors: Usage_error where there is more than one path.
 void check_usage(const Path_arguments& arguments);
+/// Calls `take` with the numbers of each line; '#' begins a comment, a first line that begins with a letter is a header. Errors: Input_error with line and column, saying what is `wanted`, for what is
+/// no number, where `take` says no, and for a file without a line.
+void read_lines(const std::string& file, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take);
 /// At least one viewpoint. Errors: Input_error with line and column.
 std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& scene);
 

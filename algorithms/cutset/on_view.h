@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
+#include <optional>
 
 namespace sightline {
 
@@ -26,12 +26,16 @@ template <Partition_traits Traits>
   requires(Traits::is_exact)
 class On_view {
  public:
-  /// A viewpoint made ready: doubles in the grid's approximate coordinates, each off by at most `error`; a value is off by at most `bound`.
+  /// A viewpoint made ready: doubles in the grid's approximate coordinates, each off by at most `error`; a height is off by at most `bound`.
   struct Eye {
     Viewpoint view;
-    typename Traits::Eye exact;
     double x, y, z, w;  ///< w: 1 for a point, 0 for a direction
     double error, bound;
+    mutable std::optional<typename Traits::Eye> exact;  ///< of a point, where it was needed
+  };
+  /// A node's plane as a unit normal and an offset, each within a relative 2^-49.
+  struct Row {
+    double a, b, c, d;
   };
   struct Answer {
     bool on;
@@ -39,26 +43,21 @@ class On_view {
   };
 
   /// Pre: graph and traits are of one scene and outlive this.
-  On_view(const Traits& traits, const Face_graph& graph) : traits_(&traits), graph_(&graph) {
-    const Predicates predicates = graph.scene().predicates();
-    rows_.reserve(graph.size());
-    for (std::uint32_t node = 0; node < graph.size(); ++node) {
-      const Prepared_plane h = predicates.prepare(graph.plane(node));
-      // The largest entry first, so that no square overflows or is lost.
-      const double largest = std::max({std::fabs(h.a), std::fabs(h.b), std::fabs(h.c)});
-      const double a = h.a / largest, b = h.b / largest, c = h.c / largest, length = std::sqrt(a * a + b * b + c * c);
-      rows_.push_back({a / length, b / length, c / length, h.d / largest / length});
-      const Row& row = rows_.back();
-      const bool finite = std::isfinite(row.a) && std::isfinite(row.b) && std::isfinite(row.c) && std::isfinite(row.d);
-      reach_ = finite ? std::max(reach_, std::fabs(row.d)) : std::numeric_limits<double>::infinity();
-    }
+  On_view(const Traits& traits, const Face_graph& graph) : traits_(&traits), graph_(&graph), predicates_(graph.scene().predicates()), reach_(2 * graph.scene().points().range()) {}
+
+  Row row(std::uint32_t node) const {
+    const Prepared_plane h = predicates_.prepare(graph_->plane(node));
+    // Over the largest entry first, so that no square overflows or is lost.
+    const double largest = std::max({std::fabs(h.a), std::fabs(h.b), std::fabs(h.c)});
+    const double a = h.a / largest, b = h.b / largest, c = h.c / largest, length = std::sqrt(a * a + b * b + c * c);
+    return {a / length, b / length, c / length, h.d / largest / length};
   }
 
   /// Errors: std::invalid_argument for a direction of length zero.
   Eye locate(const Viewpoint& view) const {
     if (!view.at_infinity) {
       const Located_point p = graph_->scene().locate(view.at);
-      return {view, traits_->eye(view.at), p.ax, p.ay, p.az, 1, p.error, bound(p.ax, p.ay, p.az, p.error, reach_)};
+      return {view, p.ax, p.ay, p.az, 1, p.error, bound(p.ax, p.ay, p.az, p.error, reach_), std::nullopt};
     }
     Rational largest = 0;
     for (const Rational& x : view.at) largest = std::max(largest, Rational(abs(x)));
@@ -66,16 +65,14 @@ class On_view {
     std::array<double, 3> d;
     for (std::size_t k = 0; k < 3; ++k) d[k] = nearest_double(view.at[k] / largest);
     constexpr double error = 0x1p-53;
-    return {view, {}, d[0], d[1], d[2], 0, error, bound(d[0], d[1], d[2], error, 0)};
+    return {view, d[0], d[1], d[2], 0, error, bound(d[0], d[1], d[2], error, 0), std::nullopt};
   }
 
   /// The distance from the plane, positive in front, in doubles: off by at most eye.bound.
-  double height(std::uint32_t node, const Eye& eye) const {
-    const Row& row = rows_[node];
-    return row.a * eye.x + row.b * eye.y + row.c * eye.z + row.d * eye.w;
-  }
-  Answer test(std::uint32_t node, const Eye& eye, Predicate_counts& counts) const {
-    const double value = height(node, eye);
+  static double height(const Row& row, const Eye& eye) { return row.a * eye.x + row.b * eye.y + row.c * eye.z + row.d * eye.w; }
+  /// Pre: the row is the node's.
+  Answer test(std::uint32_t node, const Row& row, const Eye& eye, Predicate_counts& counts) const {
+    const double value = height(row, eye);
     if (const double clear = std::fabs(value) - eye.bound; clear > 0) [[likely]] {
       ++counts.filtered;
       return {value > 0, clear};
@@ -93,7 +90,8 @@ class On_view {
 
   /// Whether the plane's height over the first eye, as a multiple of its depth below the second, is greater for node j than for node i. Pre: the second is behind both planes. Exact: yes
   bool is_higher(std::uint32_t j, std::uint32_t i, const Eye& over, const Eye& below) const {
-    const double hi = height(i, over), hj = height(j, over), di = -height(i, below), dj = -height(j, below);
+    const Row of_i = row(i), of_j = row(j);
+    const double hi = height(of_i, over), hj = height(of_j, over), di = -height(of_i, below), dj = -height(of_j, below);
     const double left = hj * di, right = hi * dj;
     const double bound = over.bound * (std::fabs(di) + std::fabs(dj)) + below.bound * (std::fabs(hi) + std::fabs(hj)) + 4 * over.bound * below.bound + 0x1p-50 * (std::fabs(left) + std::fabs(right)) + 0x1p-1000;
     if (left - right > bound) return true;
@@ -102,16 +100,13 @@ class On_view {
   }
 
  private:
-  struct Row {
-    double a, b, c, d;  ///< of unit length, each within a relative 2^-49
-  };
-
   /// Four terms, each off by a relative 2^-49, three sums of 2^-53, and the viewpoint's own error along a unit normal: 2^-47 and twice the error cover that. P-51
   static double bound(double x, double y, double z, double error, double reach) {
     return 0x1p-47 * (std::fabs(x) + std::fabs(y) + std::fabs(z) + reach) + 2 * error + 0x1p-900 * (1 + std::fabs(x) + std::fabs(y) + std::fabs(z));
   }
   [[gnu::noinline]] bool test_exactly(std::uint32_t node, const Eye& eye, Predicate_counts& counts) const {
-    if (!eye.view.at_infinity) return traits_->side(eye.exact, traits_->supporting_plane(graph_->piece(node)), counts) == CGAL::POSITIVE;
+    if (!eye.view.at_infinity && !eye.exact) eye.exact = traits_->eye(eye.view.at);
+    if (eye.exact) return traits_->side(*eye.exact, traits_->supporting_plane(graph_->piece(node)), counts) == CGAL::POSITIVE;
     ++counts.gmp;
     return exact_height(node, eye.view) > 0;
   }
@@ -122,8 +117,8 @@ class On_view {
 
   const Traits* traits_;
   const Face_graph* graph_;
-  std::vector<Row> rows_;
-  double reach_ = 0;  // |d| of every row
+  Predicates predicates_;
+  double reach_;  // every |d|: a plane passes through points of the scene, which are within the range in each coordinate
 };
 
 }  // namespace sightline

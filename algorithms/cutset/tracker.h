@@ -4,6 +4,8 @@
 #include <sightline/algorithms/cutset/expiry_queue.h>
 #include <sightline/algorithms/cutset/on_view.h>
 
+#include <vector>
+
 namespace sightline {
 
 /// What a move took.
@@ -30,18 +32,21 @@ template <Partition_traits Traits>
 class Cut_set_tracker {
  public:
   /// Before the first move nothing is on-view. Pre: traits and graph are of one scene and outlive the tracker.
-  Cut_set_tracker(const Traits& traits, const Face_graph& graph) : graph_(&graph), tester_(traits, graph), nodes_(graph.size()), place_(graph.edges().size(), nowhere), edges_at_(graph.components().size()), walk_from_(graph.components().size()) {
+  Cut_set_tracker(const Traits& traits, const Face_graph& graph) : graph_(&graph), tester_(traits, graph), nodes_(graph.size()), place_(graph.edges().size(), nowhere), bodies_(graph.components().size()) {
+    links_.reserve(2 * graph.edges().size());
     for (std::uint32_t i = 0; i < graph.size(); ++i) {
-      nodes_[i].everywhere = !graph.is_convex(i);
-      if (nodes_[i].everywhere) start_.push_back(i);
+      Node& node = nodes_[i];
+      node.row = tester_.row(i), node.component = graph.component(i), node.everywhere = !graph.is_convex(i);
+      node.first_link = static_cast<std::uint32_t>(links_.size());
+      for (const std::uint32_t e : graph.edges_of(i)) links_.push_back({graph.across(e, i), e});
+      node.links = static_cast<std::uint32_t>(links_.size()) - node.first_link;
+      if (node.everywhere) start_.push_back(i);
     }
-    inside_.resize(graph.components().size()), in_dark_.resize(graph.components().size());
-    for (std::uint32_t c = 0; c < graph.components().size(); ++c) {
+    for (std::uint32_t c = 0; c < bodies_.size(); ++c) {
       const Face_graph::Component& component = graph.components()[c];
-      walk_from_[c] = component.node;
       if (!component.inside) continue;
-      inside_[c] = tester_.locate({*component.inside});
-      dark_.push_back(c), in_dark_[c] = true;
+      bodies_[c].inside = tester_.locate({*component.inside}), bodies_[c].walk_from = component.node;
+      bodies_[c].dark = true, dark_.push_back(c);
     }
   }
 
@@ -57,9 +62,12 @@ class Cut_set_tracker {
     expired_.clear();
     if (const double path = std::nextafter(path_ + distance, std::numeric_limits<double>::infinity()); path < far) path_ = path, queue_.advance(path, expired_);
     else forget_all();
-    for (const std::uint32_t i : expired_) nodes_[i].queued = false;
-    for (const std::uint32_t i : expired_)
-      if (is_watched(i)) look_at(i);
+    for (std::size_t k = 0; k < expired_.size(); ++k) {
+      if (k + ahead < expired_.size()) fetch(&nodes_[expired_[k + ahead]]);
+      Node& node = nodes_[expired_[k]];
+      node.queued = false;
+      if (is_watched(node)) look_at(expired_[k]);
+    }
     spread();
     settle(0);
 
@@ -68,12 +76,12 @@ class Cut_set_tracker {
     for (std::size_t k = 0; k < dark_.size(); ++k) {
       const std::uint32_t c = dark_[k];
       const std::size_t before = changed_.size();
-      if (edges_at_[c] == 0 && walk(c)) {
+      if (bodies_[c].cut_edges == 0 && walk(bodies_[c])) {
         spread();
         settle(before);
       }
-      if (edges_at_[c] == 0) dark_[kept++] = c;
-      else in_dark_[c] = false;
+      if (bodies_[c].cut_edges == 0) dark_[kept++] = c;
+      else bodies_[c].dark = false;
     }
     dark_.resize(kept);
 
@@ -94,29 +102,46 @@ class Cut_set_tracker {
   const Predicate_counts& predicates() const { return predicates_; }
 
  private:
-  struct Node {
-    double until = -1;                  // its status holds while the path is no longer than this
-    std::uint32_t cut_edges = 0;        // at it
-    std::uint32_t met = 0;              // frame in which it changed
+  struct alignas(64) Node {  // one line of the cache
+    typename On_view<Traits>::Row row;
+    double until = -1;                     // its status holds while the path is no longer than this
+    std::uint32_t first_link = 0, links = 0, component = 0;
+    std::uint32_t cut_edges = 0;           // at it
+    std::uint32_t met = 0;                 // the frame in which it changed, until its cluster is found
     bool on = false, queued = false, everywhere = false;  // everywhere: watched wherever the cut-set is
+  };
+  /// A neighbour and the edge to it.
+  struct Link {
+    std::uint32_t node, edge;
+  };
+  /// A component: what is kept of convex bodies.
+  struct Body {
+    std::optional<typename On_view<Traits>::Eye> inside;
+    std::uint32_t cut_edges = 0, walk_from = 0;
+    bool dark = false;                     // it is in the list of bodies that may show no face
   };
   static constexpr std::uint32_t nowhere = ~std::uint32_t{0};
   static constexpr double far = 0x1p1000;
+  static constexpr std::size_t ahead = 16;
 
-  bool is_watched(std::uint32_t i) const { return nodes_[i].everywhere || nodes_[i].cut_edges > 0; }
+  // On large bodies most of the time of a move is waiting for memory: what is read soon is asked for before.
+  static void fetch(const void* place) { __builtin_prefetch(place); }
+  std::span<const Link> links(const Node& node) const { return {links_.data() + node.first_link, node.links}; }
+  static bool is_watched(const Node& node) { return node.everywhere || node.cut_edges > 0; }
 
   /// Makes the status of a node known; one that changed is spread later.
   void look_at(std::uint32_t i) {
     Node& node = nodes_[i];
     if (node.until >= path_) return;
-    const auto answer = tester_.test(i, *eye_, predicates_);
+    const auto answer = tester_.test(i, node.row, *eye_, predicates_);
     ++last_.tests, last_.exact += answer.clear == 0;
-    node.until = std::max(path_, std::min(std::nextafter(path_ + answer.clear, 0.0), far));  // rounded down
-    if (is_watched(i)) watch(i);
+    node.until = std::max(path_, std::min((path_ + answer.clear) * (1 - 0x1p-52), far));  // rounded down
+    if (is_watched(node)) watch(i);
     if (answer.on == node.on) return;
     node.on = answer.on, node.met = frame_;
     answer.on ? ++on_view_ : --on_view_;
     changed_.push_back(i), stack_.push_back(i);
+    fetch(&links_[node.first_link]);
   }
   void watch(std::uint32_t i) {
     if (nodes_[i].queued) return;
@@ -126,9 +151,12 @@ class Cut_set_tracker {
   /// Looks at the neighbours of what changed, and at theirs.
   void spread() {
     while (!stack_.empty()) {
-      const std::uint32_t i = stack_.back();
-      stack_.pop_back();
-      for (const std::uint32_t e : graph_->edges_of(i)) look_at(graph_->across(e, i));
+      wave_.swap(stack_);
+      for (const std::uint32_t i : wave_)
+        for (const Link& link : links(nodes_[i])) fetch(&nodes_[link.node]), fetch(&place_[link.edge]);
+      for (const std::uint32_t i : wave_)
+        for (const Link& link : links(nodes_[i])) look_at(link.node);
+      wave_.clear();
     }
   }
 
@@ -146,51 +174,51 @@ class Cut_set_tracker {
       while (!stack_.empty()) {
         const std::uint32_t i = stack_.back();
         stack_.pop_back();
-        for (const std::uint32_t e : graph_->edges_of(i))
-          if (const std::uint32_t j = graph_->across(e, i); nodes_[j].met == frame_) take(j);
+        for (const Link& link : links(nodes_[i]))
+          if (nodes_[link.node].met == frame_) take(link.node);
       }
       last_.births += !at_cut;
     }
     // An edge between two nodes that changed is turned over twice.
     for (std::size_t k = begin; k < changed_.size(); ++k)
-      for (const std::uint32_t e : graph_->edges_of(changed_[k])) turn_over(e);
-    for (std::size_t k = begin; k < changed_.size(); ++k)
-      for (const std::uint32_t e : graph_->edges_of(changed_[k])) {
-        const Face_graph::Edge& edge = graph_->edges()[e];
-        if (place_[e] != nowhere) watch(edge.first), watch(edge.second);
-      }
+      for (const Link& link : links(nodes_[changed_[k]])) turn_over(changed_[k], link);
+    for (std::size_t k = begin; k < changed_.size(); ++k) {
+      watch_if_at_cut(changed_[k]);
+      for (const Link& link : links(nodes_[changed_[k]])) watch_if_at_cut(link.node);
+    }
   }
-  void turn_over(std::uint32_t e) {
-    const Face_graph::Edge& edge = graph_->edges()[e];
-    const std::uint32_t c = graph_->component(edge.first);
-    if (place_[e] == nowhere) {
-      place_[e] = static_cast<std::uint32_t>(cut_.size());
-      cut_.push_back(e);
-      ++nodes_[edge.first].cut_edges, ++nodes_[edge.second].cut_edges, ++edges_at_[c];
+  void watch_if_at_cut(std::uint32_t i) {
+    if (nodes_[i].cut_edges > 0) watch(i);
+  }
+  void turn_over(std::uint32_t i, const Link& link) {
+    Body& body = bodies_[nodes_[i].component];
+    std::uint32_t& place = place_[link.edge];
+    if (place == nowhere) {
+      place = static_cast<std::uint32_t>(cut_.size());
+      cut_.push_back(link.edge);
+      ++nodes_[i].cut_edges, ++nodes_[link.node].cut_edges, ++body.cut_edges;
       return;
     }
-    place_[cut_.back()] = place_[e];
-    cut_[place_[e]] = cut_.back();
+    place_[cut_.back()] = place, cut_[place] = cut_.back();
     cut_.pop_back();
-    place_[e] = nowhere;
-    --nodes_[edge.first].cut_edges, --nodes_[edge.second].cut_edges;
-    if (--edges_at_[c] == 0 && inside_[c] && !in_dark_[c]) in_dark_[c] = true, dark_.push_back(c);
+    place = nowhere;
+    --nodes_[i].cut_edges, --nodes_[link.node].cut_edges;
+    if (--body.cut_edges == 0 && body.inside && !body.dark) body.dark = true, dark_.push_back(nodes_[i].component);
   }
 
   /// Walks over a convex body, all of whose nodes are held off-view, to an on-view node. False: there is none, the viewpoint is inside or on the body. Each step goes to a node with a higher
   /// ratio of its height below the viewpoint to its depth above the point inside; one that has no higher neighbour is the highest of all. Proof: P-50
-  bool walk(std::uint32_t c) {
+  bool walk(Body& body) {
     ++last_.searches;
-    std::uint32_t& at = walk_from_[c];
+    std::uint32_t& at = body.walk_from;
     look_at(at);
     while (stack_.empty()) {
       std::uint32_t best = at;
-      for (const std::uint32_t e : graph_->edges_of(at)) {
-        const std::uint32_t j = graph_->across(e, at);
-        look_at(j);
+      for (const Link& link : links(nodes_[at])) {
+        look_at(link.node);
         if (!stack_.empty()) break;
         ++last_.compared;
-        if (tester_.is_higher(j, best, *eye_, *inside_[c])) best = j;
+        if (tester_.is_higher(link.node, best, *eye_, *body.inside)) best = link.node;
       }
       if (best == at) break;
       at = best;
@@ -211,14 +239,15 @@ class Cut_set_tracker {
   const Face_graph* graph_;
   On_view<Traits> tester_;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> start_;                                     // nodes that are watched everywhere
-  std::vector<std::optional<typename On_view<Traits>::Eye>> inside_;    // of convex components
-  std::vector<std::uint32_t> cut_, place_, edges_at_, dark_, walk_from_;  // cut-set; place of an edge in it; its edges by component; convex components that may have none; where their walks begin
-  std::vector<bool> in_dark_;
+  std::vector<Link> links_;                        // of all nodes, one after the other
+  std::vector<std::uint32_t> start_;              // nodes that are watched everywhere
+  std::vector<std::uint32_t> cut_, place_;        // the cut-set; the place of each edge in it
+  std::vector<Body> bodies_;                      // by component
+  std::vector<std::uint32_t> dark_;               // convex bodies that may show no face
   std::optional<typename On_view<Traits>::Eye> eye_;
   double path_ = 0;  // at least the way since the start
-  Expiry_queue queue_;
-  std::vector<std::uint32_t> expired_, stack_, changed_;
+  Expiry_queue queue_;  // of the watched nodes, and of some that no longer are
+  std::vector<std::uint32_t> expired_, stack_, wave_, changed_;
   std::size_t on_view_ = 0;
   std::uint32_t frame_ = 0;
   Cut_set_counters last_, counters_;

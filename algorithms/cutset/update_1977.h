@@ -3,6 +3,8 @@
 
 #include <sightline/algorithms/cutset/on_view.h>
 
+#include <vector>
+
 namespace sightline {
 
 /// How the paper is read.
@@ -22,7 +24,7 @@ class Cut_set_1977 {
   /// Tests every node. Pre: traits and graph are of one scene and outlive this.
   Cut_set_1977(const Traits& traits, const Face_graph& graph, const Viewpoint& start, Reading_1977 reading) : graph_(&graph), tester_(traits, graph), reading_(reading), on_(graph.size()), checked_(graph.size(), 0) {
     const auto eye = tester_.locate(start);
-    for (std::uint32_t i = 0; i < graph.size(); ++i) on_[i] = tester_.test(i, eye, predicates_).on;
+    for (std::uint32_t i = 0; i < graph.size(); ++i) rows_.push_back(tester_.row(i)), on_[i] = tester_.test(i, rows_[i], eye, predicates_).on;
     for (std::uint32_t e = 0; e < graph.edges().size(); ++e)
       if (is_cut(e)) cut_.push_back(e);
   }
@@ -36,7 +38,7 @@ class Cut_set_1977 {
     const auto check = [&](std::uint32_t i) {
       if (checked_[i] == frame_) return;
       checked_[i] = frame_, ++tests;
-      if (const bool on = tester_.test(i, eye, predicates_).on; on != on_[i]) on_[i] = on, changed.push_back(i), stack.push_back(i);
+      if (const bool on = tester_.test(i, rows_[i], eye, predicates_).on; on != on_[i]) on_[i] = on, changed.push_back(i), stack.push_back(i);
     };
     for (const std::uint32_t e : cut_) check(graph_->edges()[e].first), check(graph_->edges()[e].second);
     std::vector<bool> is_changed(graph_->size());
@@ -71,6 +73,7 @@ class Cut_set_1977 {
   const Face_graph* graph_;
   On_view<Traits> tester_;
   Reading_1977 reading_;
+  std::vector<typename On_view<Traits>::Row> rows_;
   std::vector<bool> on_;
   std::vector<std::uint64_t> checked_;  // the update in which a node was tested last
   std::vector<std::uint32_t> cut_;

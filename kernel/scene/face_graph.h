@@ -134,6 +134,24 @@ class Face_graph {
       if (scene_->pieces()[i].support == scene_->pieces()[j].support) sets.join(i, j);
     });
     node_ = sets.numbers(piece_);
+    // Renumbered along a curve through space, so that what is near is near in memory.
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
+    for (std::uint32_t i = 0; i < size(); ++i) order.emplace_back(place_on_curve(scene_->corners(scene_->pieces()[piece_[i]]).front().point), piece_[i]);
+    std::sort(order.begin(), order.end());
+    std::vector<std::uint32_t> number(size());
+    for (std::uint32_t i = 0; i < size(); ++i) number[node_[order[i].second]] = i, piece_[i] = order[i].second;
+    for (std::uint32_t& node : node_) node = number[node];
+  }
+
+  /// A point's place on the Z-order curve of the scene's cube: 21 bits of each coordinate in turn.
+  std::uint64_t place_on_curve(std::uint32_t point) const {
+    std::uint64_t place = 0;
+    const double range = scene_->points().range();
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto bits = static_cast<std::uint64_t>((scene_->points().approximate(point, axis) / range + 1) * 0x1p20);
+      for (int k = 0; k < 21; ++k) place |= (bits >> k & 1) << (3 * k + axis);
+    }
+    return place;
   }
 
   void find_edges() {
@@ -143,6 +161,8 @@ class Face_graph {
       edges_.push_back({node_[i], node_[j], point(mesh_.from_vertex_handle(half)), point(mesh_.to_vertex_handle(half))});
       ++begin_[node_[i] + 1], ++begin_[node_[j] + 1];
     });
+    const auto ends = [](const Edge& edge) { return std::minmax(edge.first, edge.second); };
+    std::stable_sort(edges_.begin(), edges_.end(), [&](const Edge& e, const Edge& f) { return ends(e) < ends(f); });
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
     incident_.resize(2 * edges_.size());

@@ -89,19 +89,19 @@ struct Lattice_eye {
   }
 };
 
-/// Whether each face is on-view, by definition.
-inline std::vector<bool> on_view(const Body& body, const Lattice_eye& eye) {
+/// Whether each node is on-view, by definition. Pre: the graph is of the body's soup.
+inline std::vector<bool> on_view(const Face_graph& graph, const Body& body, const Lattice_eye& eye) {
   std::vector<bool> on(body.faces.size());
-  for (std::size_t f = 0; f < on.size(); ++f) {
+  for (std::uint32_t f = 0; f < on.size(); ++f) {
     const Whole n = body.normal(f), p = body.points[body.faces[f][0]];
     Wide height = 0;
     for (std::size_t k = 0; k < 3; ++k) height += Wide{n[k]} * (Wide{eye.at[k]} - Wide{eye.w} * p[k]);
-    on[f] = height > 0;
+    on[graph.node(f)] = height > 0;
   }
   return on;
 }
 
-/// The same for the nodes of any graph, in rationals and from corners only.
+/// The same for any graph, in rationals and from corners only.
 inline std::vector<bool> on_view(const Face_graph& graph, const Viewpoint& view) {
   std::vector<bool> on(graph.size());
   for (std::uint32_t i = 0; i < graph.size(); ++i) {

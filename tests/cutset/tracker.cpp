@@ -128,7 +128,7 @@ TEST(Tracker, agrees_with_testing_every_face_of_random_hulls) {
     std::vector<bool> before(body.faces.size());
     for (const Lattice_eye& eye : path_round(body, random, frames_wanted())) {
       tracker.move_to(eye.view());
-      const std::vector<bool> on = on_view(body, eye);
+      const std::vector<bool> on = on_view(stage.graph, body, eye);
       ASSERT_TRUE(agrees(tracker, stage.graph, on)) << "trial " << trial << ", frame " << frames << ": " << eye.at[0] << ' ' << eye.at[1] << ' ' << eye.at[2] << " / " << eye.w;
       ASSERT_EQ(tracker.on_view_count(), static_cast<std::size_t>(std::count(on.begin(), on.end(), true)));
       ASSERT_EQ(tracker.last().births, births(stage.graph, before, on)) << "trial " << trial << ", frame " << frames;
@@ -186,14 +186,14 @@ TEST(Tracker, finds_the_far_side_of_a_cube_where_the_plain_update_ends_with_an_e
   EXPECT_EQ(plain.cut_edges().size(), 4u);
   plain.update_1977(sees_left.view());
   EXPECT_TRUE(plain.cut_edges().empty());
-  EXPECT_FALSE(agrees(plain, stage.graph, on_view(body, sees_left)));
+  EXPECT_FALSE(agrees(plain, stage.graph, on_view(stage.graph, body, sees_left)));
   plain.update_1977(sees_right.view());  // and it never comes back
   EXPECT_TRUE(plain.cut_edges().empty());
 
   Cut_set_tracker tracker(stage.traits, stage.graph);
   tracker.move_to(sees_right.view());
   const Cut_set_counters counters = tracker.move_to(sees_left.view());
-  EXPECT_TRUE(agrees(tracker, stage.graph, on_view(body, sees_left)));
+  EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, body, sees_left)));
   EXPECT_EQ(counters.searches, 1u);
   EXPECT_EQ(counters.births, 1u);
   EXPECT_EQ(counters.changed, 2u);
@@ -204,11 +204,11 @@ TEST(Tracker, sees_again_what_a_viewpoint_inside_did_not_see) {
   const Stage stage(body.soup());
   Cut_set_1977 plain(stage.traits, stage.graph, sees_nothing.view(), Reading_1977::mended);
   EXPECT_EQ(plain.update_1977(sees_right.view()), 0u);
-  EXPECT_FALSE(agrees(plain, stage.graph, on_view(body, sees_right)));
+  EXPECT_FALSE(agrees(plain, stage.graph, on_view(stage.graph, body, sees_right)));
   Cut_set_tracker tracker(stage.traits, stage.graph);
   for (const Lattice_eye& eye : {sees_nothing, sees_right, sees_nothing, sees_corner, sees_nothing, Lattice_eye{{1, 0, 0}, 1}, Lattice_eye{{1, 1, 1}, 1}, sees_left}) {
     tracker.move_to(eye.view());
-    EXPECT_TRUE(agrees(tracker, stage.graph, on_view(body, eye)));
+    EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, body, eye)));
   }
 }
 
@@ -218,12 +218,12 @@ TEST(Tracker, keeps_edges_to_faces_that_were_checked_already_where_the_paper_to_
   const Lattice_eye next{{9, 2, 0}, 1};  // +y joins +x
   Cut_set_1977 literal(stage.traits, stage.graph, sees_right.view(), Reading_1977::literal), mended(stage.traits, stage.graph, sees_right.view(), Reading_1977::mended);
   literal.update_1977(next.view()), mended.update_1977(next.view());
-  EXPECT_FALSE(agrees(literal, stage.graph, on_view(body, next)));
+  EXPECT_FALSE(agrees(literal, stage.graph, on_view(stage.graph, body, next)));
   EXPECT_EQ(literal.cut_edges().size(), 4u);  // of six: those from +y to the faces of +-z are missing
-  EXPECT_TRUE(agrees(mended, stage.graph, on_view(body, next)));
+  EXPECT_TRUE(agrees(mended, stage.graph, on_view(stage.graph, body, next)));
   Cut_set_tracker tracker(stage.traits, stage.graph);
   tracker.move_to(sees_right.view()), tracker.move_to(next.view());
-  EXPECT_TRUE(agrees(tracker, stage.graph, on_view(body, next)));
+  EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, body, next)));
 }
 
 TEST(Tracker, turns_an_edge_round_where_both_its_ends_change) {
@@ -232,10 +232,10 @@ TEST(Tracker, turns_an_edge_round_where_both_its_ends_change) {
   const Lattice_eye next{{0, 9, 0}, 1};
   Cut_set_1977 literal(stage.traits, stage.graph, sees_right.view(), Reading_1977::literal);
   literal.update_1977(next.view());
-  EXPECT_FALSE(agrees(literal, stage.graph, on_view(body, next)));
+  EXPECT_FALSE(agrees(literal, stage.graph, on_view(stage.graph, body, next)));
   Cut_set_tracker tracker(stage.traits, stage.graph);
   tracker.move_to(sees_right.view()), tracker.move_to(next.view());
-  EXPECT_TRUE(agrees(tracker, stage.graph, on_view(body, next)));
+  EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, body, next)));
   EXPECT_EQ(tracker.last().searches, 0u);
 }
 
@@ -254,8 +254,8 @@ TEST(Tracker, plain_update_loses_a_dent_that_comes_into_view_and_the_tracker_doe
   for (const Lattice_eye& eye : {Lattice_eye{{0, 0, -90}, 1}, low, high, Lattice_eye{{-30, 1, 30}, 1}, Lattice_eye{{0, 0, 90}, 1}}) {
     tracker.move_to(eye.view());
     plain.update_1977(eye.view());
-    EXPECT_TRUE(agrees(tracker, stage.graph, on_view(body, eye)));
-    lost |= !agrees(plain, stage.graph, on_view(body, eye));
+    EXPECT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, body, eye)));
+    lost |= !agrees(plain, stage.graph, on_view(stage.graph, body, eye));
   }
   EXPECT_TRUE(lost);
   EXPECT_GT(tracker.counters().births, 1u);
@@ -271,7 +271,7 @@ TEST(Tracker, plain_update_is_right_where_the_proof_says_so) {
     for (int jump = 0; jump < 20; ++jump) {
       const auto eye = [&] { return Lattice_eye{{between(random, -30, 30), between(random, -30, 30), between(random, -30, 30)}, 1}; };
       const Lattice_eye from = eye(), to = eye();
-      const std::vector<bool> before = on_view(body, from), after = on_view(body, to);
+      const std::vector<bool> before = on_view(stage.graph, body, from), after = on_view(stage.graph, body, to);
       const bool sees = std::count(after.begin(), after.end(), true) > 0;
       bool touches = false, stays = false;
       for (std::size_t i = 0; i < before.size(); ++i) stays = stays || (before[i] && after[i]);
@@ -434,7 +434,10 @@ TEST(Rigid_motion, moves_the_viewpoint_the_other_way) {
     const Viewpoint view{{number(), 2 * number(), number()}, k % 5 == 0 && k > 0};
     if (view.at_infinity && view.at[0] == 0 && view.at[1] == 0 && view.at[2] == 0) continue;
     tracker.move_to(motion.seen_from(view));
-    EXPECT_TRUE(agrees(tracker, still.graph, on_view(stage.graph, view))) << "motion " << k;
+    const std::vector<bool> moved_on = on_view(stage.graph, view);
+    std::vector<bool> on(moved_on.size());
+    for (std::uint32_t f = 0; f < on.size(); ++f) on[still.graph.node(f)] = moved_on[stage.graph.node(f)];  // nodes are numbered by place
+    EXPECT_TRUE(agrees(tracker, still.graph, on)) << "motion " << k;
   }
   const Rigid_motion none{{0, 0, 0, 0}, {0, 0, 0}};
   EXPECT_THROW(none.seen_from(sees_left.view()), std::invalid_argument);

@@ -31,6 +31,8 @@ static const std::map<std::string, std::vector<std::string>> commands{
     {"info", {"SCENE"}},
     {"bsp", {"SCENE", "--kernel", "--candidates"}},
     {"order", {"SCENE", "--eye", "--kernel", "--certificate", "--svg", "--look", "--up", "--field"}},
+    {"graph", {"SCENE", "--method", "--tree", "--codes", "--split", "--pixels"}},
+    {"cutset", {"SCENE", "--path", "--orbit", "--motion", "--decision-tree", "--check", "--svg"}},
     {"verify", {"SCENE", "CERTIFICATE"}},
     {"compare", {"SCENE", "--eye", "--kernels", "--max-fragments"}},
     {"make", {"KIND", "--size", "--seed", "--out"}},
