@@ -88,7 +88,7 @@ Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& argum
   Json list = Json::array();
   for (const Frame& frame : frames) {
     Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)}, {"on_view", arguments.faces ? Json(frame.faces) : Json(frame.faces.size())}, {"cut_edges", frame.cut_edges},
-               {"tests", frame.counters.tests}, {"births", frame.counters.births}, {"changed", frame.counters.changed}};
+               {"tests", frame.counters.tests}, {"tests_away", frame.counters.away}, {"births", frame.counters.births}, {"changed", frame.counters.changed}};
     if (arguments.check) entry["wrong"] = frame.wrong;
     list.push_back(std::move(entry));
   }
@@ -166,7 +166,7 @@ Exit run(const Cutset_arguments& arguments) {
   const std::uint64_t later_tests = total.tests - frames.front().counters.tests;
   const auto share = [&](std::uint64_t part) { return later == 0 || graph.size() == 0 ? 0 : static_cast<double>(part) / static_cast<double>(later * graph.size()); };
   const Json counters{{"nodes", graph.size()}, {"edges", graph.edges().size()}, {"components", graph.components().size()}, {"convex", convex}, {"refused", graph.refused()}, {"tests", total.tests},
-                      {"first_tests", frames.front().counters.tests}, {"exact_tests", total.exact}, {"changed", total.changed}, {"births", total.births}, {"searches", total.searches}, {"compared", total.compared}};
+                      {"tests_away", total.away}, {"first_tests", frames.front().counters.tests}, {"exact_tests", total.exact}, {"changed", total.changed}, {"births", total.births}, {"searches", total.searches}, {"compared", total.compared}};
   Json result{{"frames", frames_json(frames, arguments)}};
   if (arguments.check) result["wrong_frames"] = wrong;
   const Exit exit = wrong > 0 ? Exit::disagreement : Exit::done;
@@ -178,6 +178,8 @@ Exit run(const Cutset_arguments& arguments) {
   row("tests", fmt::format("{} for the first frame; then {:.4g} a frame: {:.3g}% of testing all faces, {:.3g} for each edge of the cut-set", frames.front().counters.tests,
                            later == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(later), 100 * share(later_tests),
                            cut_edges == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(cut_edges)));
+  if (arguments.method == "tracker" && later > 0)
+    row("tests split", fmt::format("{:.4g} a frame at the cut-set, {:.4g} away from it, where births are looked for", static_cast<double>(later_tests - (total.away - frames.front().counters.away)) / static_cast<double>(later), static_cast<double>(total.away - frames.front().counters.away) / static_cast<double>(later)));
   row("beyond doubles", fmt::format("{} of {} tests", total.exact, total.tests));
   if (arguments.method == "tracker") row("changes", fmt::format("{} of nodes, {} clusters born away from the cut-set, {} searches of convex bodies that showed no face", total.changed, total.births, total.searches));
   if (arguments.check) row("check", wrong == 0 ? fmt::format("all {} frames equal brute force", frames.size()) : fmt::format("{} of {} frames are WRONG", wrong, frames.size()));

@@ -66,7 +66,8 @@ std::vector<Viewpoint> orbit(const Scene& scene, std::size_t frames, std::uint64
 Run run(const Polygon_soup& soup, std::uint64_t circle) {
   const Scene scene(soup);
   const Exact_traits traits(scene);
-  const std::vector<Viewpoint> path = orbit(scene, 361, circle);
+  constexpr std::size_t thirds = 3, third = 360;  // the fastest third counts: others may have been interrupted
+  const std::vector<Viewpoint> path = orbit(scene, 1 + thirds * third, circle);
   Run r{};
   const std::uint64_t before = bench::process_memory("VmRSS");
   const double start = bench::now();
@@ -77,25 +78,29 @@ Run run(const Polygon_soup& soup, std::uint64_t circle) {
   r.first_tests = tracker.last().tests;
   std::vector<std::size_t> counts{tracker.on_view_count()};
   const double frames = static_cast<double>(path.size() - 1);
-  double begin = bench::now();
-  for (std::size_t k = 1; k < path.size(); ++k) tracker.move_to(path[k]), r.cut += static_cast<double>(tracker.cut_edges().size()) / frames, counts.push_back(tracker.on_view_count());
-  r.tracker = (bench::now() - begin) / frames;
+  const auto a_frame = [&](auto move) {
+    double best = 1e300;
+    for (std::size_t part = 0; part < thirds; ++part) {
+      const double begin = bench::now();
+      for (std::size_t k = 1 + part * third; k <= (part + 1) * third; ++k) move(path[k]);
+      best = std::min(best, (bench::now() - begin) / third);
+    }
+    return best;
+  };
+  r.tracker = a_frame([&](const Viewpoint& view) { tracker.move_to(view), r.cut += static_cast<double>(tracker.cut_edges().size()) / frames, counts.push_back(tracker.on_view_count()); });
   r.tests = static_cast<double>(tracker.counters().tests - r.first_tests) / frames, r.births = static_cast<double>(tracker.counters().births) / frames;
   if (graph.is_convex(0)) {
     Cut_set_1977 plain(traits, graph, path[0], Reading_1977::mended);
     std::uint64_t tests = 0;
-    begin = bench::now();
-    for (std::size_t k = 1; k < path.size(); ++k) tests += plain.update_1977(path[k]);
-    r.plain = (bench::now() - begin) / frames, r.plain_tests = static_cast<double>(tests) / frames;
+    r.plain = a_frame([&](const Viewpoint& view) { tests += plain.update_1977(view); });
+    r.plain_tests = static_cast<double>(tests) / frames;
   }
   All_planes all(graph);
   Predicate_counts predicates;
-  begin = bench::now();
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const Located_point eye = scene.locate(path[k].at);
+  r.all = a_frame([&](const Viewpoint& view) {
+    const Located_point eye = scene.locate(view.at);
     all.test(eye.ax, eye.ay, eye.az);
-  }
-  r.all = (bench::now() - begin) / frames;
+  });
   for (std::size_t k = 0; k < path.size(); k += 40) {
     const Located_point eye = scene.locate(path[k].at);
     std::size_t on = 0;
@@ -165,11 +170,11 @@ int main(int argc, char** argv) {
     if (r.plain > 0) std::cerr << fmt::format("; 1977: {:.2f} a cut edge, {:.1f}% saved, {:.1f} us", r.plain_tests / r.cut, 100 - 100 * r.plain_tests / nodes, 1e6 * r.plain);
     std::cerr << '\n';
     plot.add(fmt::format("{}, {:.2g} degrees: cut-set", name, degrees), nodes, r.tracker);
-    if (circle == 3600) plot.add(name + ": all faces", nodes, r.all);
+    plot.add("all faces in doubles", nodes, r.all);
     return r;
   };
 
-  for (const std::uint64_t circle : {360, 3600}) {
+  for (const std::uint64_t circle : {360, 3600, 36000}) {
     double first_nodes = 0, first_seconds = 0;
     for (const double n : {1e3, 1e4, 1e5, 1e6}) {
       if (n > max_faces * 1.01) continue;

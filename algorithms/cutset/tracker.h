@@ -11,13 +11,14 @@ namespace sightline {
 /// What a move took.
 struct Cut_set_counters {
   std::uint64_t tests = 0;     ///< on-view predicates
-  std::uint64_t exact = 0;     ///< of these, what doubles could not decide
+  std::uint64_t away = 0;      ///< of these, of nodes that were not at the cut-set: what finding births takes, and neighbours of what changed
+  std::uint64_t exact = 0;     ///< of the tests, what doubles could not decide
   std::uint64_t changed = 0;   ///< nodes that changed
   std::uint64_t births = 0;    ///< clusters of these of which none was at the cut-set
   std::uint64_t searches = 0;  ///< convex bodies that showed no face, searched for one
   std::uint64_t compared = 0;  ///< pairs of faces compared in these searches
   Cut_set_counters& operator+=(const Cut_set_counters& other) {
-    tests += other.tests, exact += other.exact, changed += other.changed, births += other.births, searches += other.searches, compared += other.compared;
+    tests += other.tests, away += other.away, exact += other.exact, changed += other.changed, births += other.births, searches += other.searches, compared += other.compared;
     return *this;
   }
 };
@@ -134,7 +135,7 @@ class Cut_set_tracker {
     Node& node = nodes_[i];
     if (node.until >= path_) return;
     const auto answer = tester_.test(i, node.row, *eye_, predicates_);
-    ++last_.tests, last_.exact += answer.clear == 0;
+    ++last_.tests, last_.away += node.cut_edges == 0, last_.exact += answer.clear == 0;
     node.until = std::max(path_, std::min((path_ + answer.clear) * (1 - 0x1p-52), far));  // rounded down
     if (is_watched(node)) watch(i);
     if (answer.on == node.on) return;

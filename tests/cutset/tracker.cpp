@@ -197,6 +197,8 @@ TEST(Tracker, finds_the_far_side_of_a_cube_where_the_plain_update_ends_with_an_e
   EXPECT_EQ(counters.searches, 1u);
   EXPECT_EQ(counters.births, 1u);
   EXPECT_EQ(counters.changed, 2u);
+  EXPECT_EQ(counters.tests, 6u);
+  EXPECT_EQ(counters.away, 1u) << "all others were at the cut-set";
 }
 
 TEST(Tracker, sees_again_what_a_viewpoint_inside_did_not_see) {
