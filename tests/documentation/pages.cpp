@@ -1,0 +1,70 @@
+// Every capability has a page, every page an example, and every example is compiled: its text is that of a test.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = SIGHTLINE_SOURCE_DIR;
+
+std::string read(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// The C++ blocks of a page, without their includes.
+std::vector<std::string> examples_of(const std::string& page) {
+  std::vector<std::string> found;
+  const std::string begin = "```cpp\n", end = "\n```\n";
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at + 1)) {
+    std::string block = page.substr(at + begin.size(), page.find(end, at) - at - begin.size());
+    while (block.starts_with("#include") || block.starts_with("\n")) block.erase(0, block.find('\n') + 1);
+    found.push_back(std::move(block));
+  }
+  return found;
+}
+
+std::vector<fs::path> pages() {
+  std::vector<fs::path> found{root / "kernel" / "README.md", root / "io" / "README.md"};
+  for (const auto& entry : fs::directory_iterator(root / "algorithms")) found.push_back(entry.path() / "README.md");
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(Pages, have_examples_that_are_compiled_and_run_by_tests) {
+  std::string tests;
+  for (const auto& entry : fs::recursive_directory_iterator(root / "tests"))
+    if (entry.path().extension() == ".cpp") tests += read(entry.path());
+  for (const fs::path& page : pages()) {
+    const std::vector<std::string> examples = examples_of(read(page));
+    EXPECT_FALSE(examples.empty()) << page << " has no example";
+    for (const std::string& example : examples) EXPECT_NE(tests.find(example), std::string::npos) << page << ": no test holds this example:\n" << example;
+  }
+}
+
+TEST(Pages, name_headers_and_pictures_that_are_there) {
+  for (const fs::path& page : pages()) {
+    const std::string text = read(page);
+    for (std::size_t at = text.find("]("); at != std::string::npos; at = text.find("](", at + 1)) {
+      const std::string link = text.substr(at + 2, text.find(')', at) - at - 2);
+      if (link.find(' ') == std::string::npos) {  // else it is a lambda expression
+        EXPECT_TRUE(fs::exists(page.parent_path() / link)) << page << " links to " << link;
+      }
+    }
+    for (std::size_t at = text.find("#include <sightline/"); at != std::string::npos; at = text.find("#include <sightline/", at + 1)) {
+      const std::string header = text.substr(at + 20, text.find('>', at) - at - 20);
+      EXPECT_TRUE(fs::is_regular_file(root / header)) << page << " includes " << header;
+    }
+  }
+}
+
+}  // namespace
