@@ -142,7 +142,7 @@ class Cut_set_tracker {
     node.on = answer.on, node.met = frame_;
     answer.on ? ++on_view_ : --on_view_;
     changed_.push_back(i), stack_.push_back(i);
-    fetch(&links_[node.first_link]);
+    fetch(links_.data() + node.first_link);
   }
   void watch(std::uint32_t i) {
     if (nodes_[i].queued) return;

@@ -178,4 +178,28 @@ TEST(Pair_check, separation_in_a_plane_agrees_with_clipping) {
   EXPECT_GT(overlapping, 1000u);
 }
 
+TEST(Side_table, tells_apart_only_cones_without_a_common_open_set_and_most_of_those) {
+  Dice dice(8);
+  std::vector<Points> polygons;
+  std::vector<order_check::Cone> cones;
+  for (int i = 0; i < 120; ++i) {
+    Points p = random_polygon(dice, 1 + i % 2, false);
+    const Rational far = i % 3;  // some far away, so that their cones are thin
+    for (Exact_point& q : p) q[0] += 20 * far, q[1] += 7 * far;
+    const order_check::Cone cone(p, at(0, 0, 0));
+    if (cone.edge_on) continue;
+    polygons.push_back(p), cones.push_back(cone);
+  }
+  const order_check::Side_table sides(cones);
+  std::size_t apart = 0, told = 0;
+  for (std::size_t i = 0; i < cones.size(); ++i)
+    for (std::size_t j = 0; j < cones.size(); ++j) {
+      const bool overlap = has_area(clipped(polygons[i], polygons[j]));
+      ASSERT_FALSE(overlap && sides.apart(i, j)) << i << ' ' << j;
+      apart += !overlap, told += sides.apart(i, j);
+    }
+  EXPECT_GT(apart, 5000u);
+  EXPECT_GT(told, apart / 2);
+}
+
 }  // namespace
