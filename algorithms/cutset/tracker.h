@@ -54,14 +54,15 @@ class Cut_set_tracker {
   /// Moves the viewpoint. Errors: std::invalid_argument for a direction of length zero; the tracker then is where it was.
   const Cut_set_counters& move_to(const Viewpoint& view) {
     typename On_view<Traits>::Eye next = tester_.locate(view);
-    last_ = {}, changed_.clear(), ++frame_;
+    last_ = {}, changed_.clear();
     const double distance = eye_ ? On_view<Traits>::distance(*eye_, next) : std::numeric_limits<double>::infinity();
     if (distance == 0) return last_;
     eye_ = std::move(next);
 
     // What ran out on the way: tested, and from what changed on to its neighbours.
     expired_.clear();
-    if (const double path = std::nextafter(path_ + distance, std::numeric_limits<double>::infinity()); path < far) path_ = path, queue_.advance(path, expired_);
+    // A way so long that its last bits are no small steps any more begins anew: 2^77 bounds are 2^30 times the size of scene and viewpoint.
+    if (const double path = std::nextafter(path_ + distance, std::numeric_limits<double>::infinity()); path < far && path < 0x1p77 * eye_->bound) path_ = path, queue_.advance(path, expired_);
     else forget_all();
     for (std::size_t k = 0; k < expired_.size(); ++k) {
       if (k + ahead < expired_.size()) fetch(&nodes_[expired_[k + ahead]]);
@@ -108,8 +109,9 @@ class Cut_set_tracker {
     double until = -1;                     // its status holds while the path is no longer than this
     std::uint32_t first_link = 0, links = 0, component = 0;
     std::uint32_t cut_edges = 0;           // at it
-    std::uint32_t met = 0;                 // the frame in which it changed, until its cluster is found
-    bool on = false, queued = false, everywhere = false;  // everywhere: watched wherever the cut-set is
+    bool on = false, queued = false;
+    bool everywhere = false;               // watched wherever the cut-set is
+    bool met = false;                      // it changed, and its cluster is not yet found
   };
   /// A neighbour and the edge to it.
   struct Link {
@@ -139,7 +141,7 @@ class Cut_set_tracker {
     node.until = std::max(path_, std::min((path_ + answer.clear) * (1 - 0x1p-52), far));  // rounded down
     if (is_watched(node)) watch(i);
     if (answer.on == node.on) return;
-    node.on = answer.on, node.met = frame_;
+    node.on = answer.on, node.met = true;
     answer.on ? ++on_view_ : --on_view_;
     changed_.push_back(i), stack_.push_back(i);
     fetch(links_.data() + node.first_link);
@@ -163,12 +165,12 @@ class Cut_set_tracker {
 
   /// Brings the cut-set up to the changes from number `begin` on, and counts births.
   void settle(std::size_t begin) {
-    // Clusters: their members' frames become 0 as they are found.
+    // Clusters.
     for (std::size_t k = begin; k < changed_.size(); ++k) {
-      if (nodes_[changed_[k]].met != frame_) continue;
+      if (!nodes_[changed_[k]].met) continue;
       bool at_cut = false;
       const auto take = [&](std::uint32_t i) {
-        nodes_[i].met = 0, at_cut |= nodes_[i].cut_edges > 0;
+        nodes_[i].met = false, at_cut |= nodes_[i].cut_edges > 0;
         stack_.push_back(i);
       };
       take(changed_[k]);
@@ -176,7 +178,7 @@ class Cut_set_tracker {
         const std::uint32_t i = stack_.back();
         stack_.pop_back();
         for (const Link& link : links(nodes_[i]))
-          if (nodes_[link.node].met == frame_) take(link.node);
+          if (nodes_[link.node].met) take(link.node);
       }
       last_.births += !at_cut;
     }
@@ -234,7 +236,7 @@ class Cut_set_tracker {
     expired_ = start_;
     for (const std::uint32_t e : cut_)
       for (const std::uint32_t i : {graph_->edges()[e].first, graph_->edges()[e].second})
-        if (!nodes_[i].everywhere) expired_.push_back(i);
+        if (!nodes_[i].everywhere && !nodes_[i].queued) nodes_[i].queued = true, expired_.push_back(i);  // once
   }
 
   const Face_graph* graph_;
@@ -250,7 +252,6 @@ class Cut_set_tracker {
   Expiry_queue queue_;  // of the watched nodes, and of some that no longer are
   std::vector<std::uint32_t> expired_, stack_, wave_, changed_;
   std::size_t on_view_ = 0;
-  std::uint32_t frame_ = 0;
   Cut_set_counters last_, counters_;
   Predicate_counts predicates_;
 };

@@ -17,7 +17,7 @@ namespace sightline {
 
 /// A node is a face of a polyhedron: pieces in one oriented plane that hang together by edges. An edge joins two nodes that share one, walked in opposite directions.
 /// Degenerate: what is no manifold (an edge of three pieces, two pieces that run along an edge in one direction, a vertex where two fans meet) has no edge there: OpenMesh refuses the
-/// piece that comes last, which is then a node with vertices of its own; refused() counts these. T-junctions join nothing. Cost: O(corners). Exact: yes. Proof: P-50
+/// piece that comes last, which is then a node with vertices of its own; refused() counts these. T-junctions join nothing, and corners on a straight side are no corners of a piece (see Scene), so a neighbour that has them as ends meets a T-junction. Cost: O(corners). Exact: yes. Proof: P-50
 class Face_graph {
  public:
   struct Mesh_traits : OpenMesh::DefaultTraits {
@@ -213,6 +213,12 @@ class Face_graph {
         const double height = below.a * v.x + below.b * v.y + below.c * v.z + below.d;
         if (far == Vertex::no_point || height < depth) far = corner.point, depth = height;
       }
+    // Where doubles do not tell, any corner that is behind it.
+    const auto is_behind = [&](std::uint32_t p) { return predicates.side(predicates.input_vertex(p, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), below, counts) == CGAL::NEGATIVE; };
+    if (!is_behind(far))
+      for (const std::uint32_t i : pieces)
+        for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i]))
+          if (is_behind(corner.point)) far = corner.point;
     Exact_point inside = scene_->position(far), middle{};  // middle: of three corners of the base, inside it
     for (std::size_t k = 0; k < 3; ++k) {
       const Exact_point corner = scene_->position(scene_->corners(base)[k].point);

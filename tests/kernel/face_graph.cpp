@@ -35,6 +35,15 @@ void expect_convex(const Scene& scene, const Face_graph& graph, std::uint32_t co
   }
 }
 
+/// A bipyramid over a pentagram whose first face has the ray from inside run through an edge of the other winding.
+Polygon_soup pentagram(const Rational& scale, const Exact_point& offset) {
+  Polygon_soup soup;
+  for (const auto& p : std::vector<std::array<long, 3>>{{1, -4, 0}, {1, 4, 0}, {-3, -2, 0}, {4, 0, 0}, {-3, 2, 0}, {0, 0, 3}, {0, 0, -30}})
+    soup.add_point(Rational(scale * p[0] + offset[0]), Rational(scale * p[1] + offset[1]), Rational(scale * p[2] + offset[2]));
+  for (Point_id k = 0; k < 5; ++k) soup.add_face(std::vector<Point_id>{k, (k + 1) % 5, 5}), soup.add_face(std::vector<Point_id>{(k + 1) % 5, k, 6});
+  return soup;
+}
+
 }  // namespace
 
 TEST(Face_graph, a_cube_has_six_nodes_and_twelve_edges) {
@@ -193,5 +202,41 @@ TEST(Face_graph, the_boxes_of_a_city_are_convex_and_its_ground_is_not) {
     std::size_t closed = 0;
     for (const auto& component : graph.components()) closed += component.closed;
     EXPECT_EQ(convex, closed) << kind;
+  }
+}
+
+TEST(Face_graph, a_ray_through_an_edge_meets_the_pieces_there) {
+  for (const Rational& scale : {Rational(1), Rational(1, 3), Rational(7, 1'000'003)}) {
+    const Scene scene(pentagram(scale, {0, 0, 0}));
+    const Face_graph graph(scene);
+    ASSERT_EQ(graph.components().size(), 1u);
+    EXPECT_TRUE(graph.components()[0].closed);
+    EXPECT_FALSE(graph.is_convex(0));
+  }
+}
+
+TEST(Face_graph, tells_small_bodies_in_large_scenes) {
+  for (const int exponent : {-3, -6, -9, -10, -11, -12, -15}) {
+    const Rational scale = exact_decimal(1, exponent) / 3;
+    for (int k = 1; k < 20; ++k) {
+      const Exact_point offset{Rational(k) / 7, Rational(-2 * k) / 3, Rational(3 * k) / 11};
+      for (const bool wound_twice : {false, true}) {
+        const Polygon_soup sphere = generate::convex_sphere(48);
+        Polygon_soup soup = wound_twice ? pentagram(scale, offset) : Polygon_soup();
+        if (!wound_twice) {
+          for (Point_id p = 0; p < sphere.point_count(); ++p) {
+            const Exact_point at = sphere.point(p);
+            soup.add_point(Rational(at[0] * scale + offset[0]), Rational(at[1] * scale + offset[1]), Rational(at[2] * scale + offset[2]));
+          }
+          for (Face_id f = 0; f < sphere.face_count(); ++f) soup.add_face(sphere.loop(f));
+        }
+        const Point_id first = soup.point_count();
+        soup.add_point(Rational(1'000'000), Rational(0), Rational(0)), soup.add_point(Rational(0), Rational(1'000'000), Rational(0)), soup.add_point(Rational(0), Rational(0), Rational(-1'000'000));
+        soup.add_face(std::vector<Point_id>{first, first + 1, first + 2});
+        const Scene scene(soup);
+        const Face_graph graph(scene);
+        EXPECT_EQ(graph.is_convex(graph.node(0)), !wound_twice) << exponent;
+      }
+    }
   }
 }
