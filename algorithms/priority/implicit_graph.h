@@ -4,6 +4,7 @@
 #include <sightline/algorithms/priority/components.h>
 #include <sightline/algorithms/priority/index.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace sightline {
@@ -29,8 +30,8 @@ class Implicit_priority_graph {
   const Index_counters& counters() const { return counters_; }
 
   /// The components by two depth-first searches (Kosaraju, Sharir): along the arcs for the order in which faces are finished, then against them
-  /// from the last finished one on. Each search asks the index for a live face only, and removes what it visits.
-  /// Cost: 2n hits, 2n misses, each a descent of the index where its boxes rule out well; O(n) memory, no recursion. Exact: as the relation is. Proof: P-32
+  /// from the last finished one on. Each search asks the index for a live face only, and removes what it visits. A face that is a tree of its own in the first search is a component.
+  /// Cost: up to 2n hits and 2n misses, each a descent of the index where its boxes rule out well; O(n) memory, no recursion. Exact: as the relation is. Proof: P-32
   Priority_components find_components(Component_trees* trees = nullptr, const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
     const std::uint32_t n = static_cast<std::uint32_t>(size());
     std::vector<std::uint32_t> finished;
@@ -40,22 +41,34 @@ class Implicit_priority_graph {
 
     // 1. Along the arcs.
     index_.revive();
-    for (std::uint32_t root = 0; root < n; ++root)
+    std::vector<char> alone(n);  // trees of one face
+    for (std::uint32_t root = 0; root < n; ++root) {
+      const std::size_t before = finished.size();
       search(root, Follow::obscured, trees == nullptr ? nullptr : &trees->from, [&](std::uint32_t) {}, [&](std::uint32_t face) {
         finished.push_back(face);
         if (progress && finished.size() % 64 == 0) progress(finished.size(), 2 * std::size_t{n});
       });
+      alone[root] = finished.size() == before + 1;
+    }
 
     // 2. Against them, last finished first: each search is a component.
-    index_.revive();
+    if (std::find(alone.begin(), alone.end(), 0) != alone.end()) index_.revive(alone);
     std::uint32_t count = 0;
     std::size_t done = n;
     const auto enter = [&](std::uint32_t face) {
       h[face] = count;
       if (progress && ++done % 64 == 0) progress(done, 2 * std::size_t{n});
     };
-    for (std::uint32_t k = n; k-- > 0;)
-      if (search(finished[k], Follow::obscuring, trees == nullptr ? nullptr : &trees->to, enter, [](std::uint32_t) {})) ++count;
+    for (std::uint32_t k = n; k-- > 0;) {
+      const std::uint32_t face = finished[k];
+      if (alone[face]) {
+        enter(face);
+        if (trees != nullptr) trees->to[face] = face;
+        ++count;
+      } else if (search(face, Follow::obscuring, trees == nullptr ? nullptr : &trees->to, enter, [](std::uint32_t) {})) {
+        ++count;
+      }
+    }
     if (trees != nullptr) keep_within(h, *trees);
     return {std::move(h), count};
   }

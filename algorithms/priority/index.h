@@ -43,10 +43,16 @@ class Priority_index {
     revive();
   }
 
-  /// Makes all faces live again.
-  void revive() {
+  /// Makes all faces live again, but for those that are marked, where there are marks.
+  void revive(const std::vector<char>& except = {}) {
     dead_.assign(order_.size(), 0);
-    for (std::size_t k = nodes_.size(); k-- > 0;) nodes_[k].live = nodes_[k].end - nodes_[k].begin, tighten(nodes_[k]);
+    for (std::uint32_t p = 0; p < except.size(); ++p) dead_[p] = except[order_[p]];
+    for (std::size_t k = nodes_.size(); k-- > 0;) {
+      Node& node = nodes_[k];
+      if (node.right == none) node.live = static_cast<std::uint32_t>(std::count(dead_.begin() + node.begin, dead_.begin() + node.end, 0));
+      else node.live = nodes_[k + 1].live + nodes_[node.right].live;
+      tighten(node);
+    }
   }
   bool is_live(std::uint32_t face) const { return dead_[place_[face]] == 0; }
   /// Pre: the face is live. Cost: O(log n).
