@@ -25,8 +25,8 @@ struct Cutset_arguments {
 struct Frame {
   Viewpoint view;
   Cut_set_counters counters;
-  std::size_t cut_edges;
-  std::vector<Face_id> faces;      // on-view, sorted
+  std::size_t cut_edges, on_view;  // on_view: faces
+  std::vector<Face_id> faces;      // these, sorted, where they were asked for: frames times faces may be much
   std::vector<bool> nodes;         // on-view; for a picture
   std::size_t wrong = 0;           // nodes and edges that brute force contradicts, where that was asked for
 };
@@ -76,7 +76,9 @@ std::vector<Frame> follow(const Cutset_arguments& arguments, const Exact_traits&
     const Stopwatch watch;
     const Cut_set_counters counters = move(view);
     seconds += watch.seconds();
-    Frame& frame = frames.emplace_back(Frame{view, counters, tracker.cut_edges().size(), faces_on_view(graph, tracker), {}});
+    std::vector<Face_id> faces = faces_on_view(graph, tracker);
+    Frame& frame = frames.emplace_back(Frame{view, counters, tracker.cut_edges().size(), faces.size(), {}, {}});
+    if (arguments.faces) frame.faces = std::move(faces);
     if (!arguments.svg.empty() && (frames.size() - 1) % every == 0)
       for (std::uint32_t node = 0; node < graph.size(); ++node) frame.nodes.push_back(tracker.on_view(node));
     if (arguments.check) frame.wrong = disagreements(traits, graph, tracker, view);
@@ -87,7 +89,7 @@ std::vector<Frame> follow(const Cutset_arguments& arguments, const Exact_traits&
 Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& arguments) {
   Json list = Json::array();
   for (const Frame& frame : frames) {
-    Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)}, {"on_view", arguments.faces ? Json(frame.faces) : Json(frame.faces.size())}, {"cut_edges", frame.cut_edges},
+    Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)}, {"on_view", arguments.faces ? Json(frame.faces) : Json(frame.on_view)}, {"cut_edges", frame.cut_edges},
                {"tests", frame.counters.tests}, {"tests_away", frame.counters.away}, {"births", frame.counters.births}, {"changed", frame.counters.changed}};
     if (arguments.check) entry["wrong"] = frame.wrong;
     list.push_back(std::move(entry));
@@ -101,7 +103,7 @@ void print_frames(const std::vector<Frame>& frames, bool check) {
   for (std::size_t k = 0; k < std::min(shown, frames.size()); ++k) {
     const Frame& frame = frames[k];
     const Exact_point& at = frame.view.at;
-    std::cout << fmt::format("{:>5}  {:>7}  {:>9}  {:>7}  {:>6}  {}({:g}, {:g}, {:g}){}\n", k + 1, frame.faces.size(), frame.cut_edges, frame.counters.tests, frame.counters.births,
+    std::cout << fmt::format("{:>5}  {:>7}  {:>9}  {:>7}  {:>6}  {}({:g}, {:g}, {:g}){}\n", k + 1, frame.on_view, frame.cut_edges, frame.counters.tests, frame.counters.births,
                              frame.view.at_infinity ? "at infinity, " : "", nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2]), check && frame.wrong > 0 ? "  WRONG" : "");
   }
   if (frames.size() > shown) std::cout << fmt::format("  ... {} more: --json - prints them all\n", frames.size() - shown);
@@ -158,7 +160,7 @@ Exit run(const Cutset_arguments& arguments) {
   if (!arguments.svg.empty()) {
     std::vector<Outline> outlines;
     for (const Frame& frame : frames)
-      if (!frame.nodes.empty()) outlines.push_back({frame.view, frame.nodes, fmt::format("{}: {} on-view, {} tests", &frame - frames.data() + 1, frame.faces.size(), frame.counters.tests)});
+      if (!frame.nodes.empty()) outlines.push_back({frame.view, frame.nodes, fmt::format("{}: {} on-view, {} tests", &frame - frames.data() + 1, frame.on_view, frame.counters.tests)});
     write_file(arguments.svg, painted(graph, outlines));
   }
 

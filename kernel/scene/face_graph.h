@@ -69,6 +69,8 @@ class Face_graph {
 
  private:
   using Face = Mesh::FaceHandle;
+  /// An input point by itself: the scene's incidences tell which faces' planes it is on.
+  static Vertex vertex(const Predicates& predicates, std::uint32_t point) { return predicates.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane); }
   static std::uint32_t index(const auto& handle) { return static_cast<std::uint32_t>(handle.idx()); }
 
   struct Union_find {
@@ -188,7 +190,7 @@ class Face_graph {
       if (node_[i] == node_[j] || !bent_outwards[component_[node_[i]]]) return;
       const Prepared_plane plane = predicates.prepare(scene_->pieces()[i].support);
       for (const Piece_corner& corner : scene_->corners(scene_->pieces()[j]))
-        if (predicates.side(predicates.input_vertex(corner.point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), plane, counts) == CGAL::POSITIVE)
+        if (predicates.side(vertex(predicates, corner.point), plane, counts) == CGAL::POSITIVE)
           bent_outwards[component_[node_[i]]] = false;
     });
     for (std::size_t c = 0; c < components_.size(); ++c) {
@@ -209,12 +211,12 @@ class Face_graph {
     double depth = 0;
     for (const std::uint32_t i : pieces)
       for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i])) {
-        const Vertex v = predicates.input_vertex(corner.point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane);
+        const Vertex v = vertex(predicates, corner.point);
         const double height = below.a * v.x + below.b * v.y + below.c * v.z + below.d;
         if (far == Vertex::no_point || height < depth) far = corner.point, depth = height;
       }
     // Where doubles do not tell, any corner that is behind it.
-    const auto is_behind = [&](std::uint32_t p) { return predicates.side(predicates.input_vertex(p, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), below, counts) == CGAL::NEGATIVE; };
+    const auto is_behind = [&](std::uint32_t p) { return predicates.side(vertex(predicates, p), below, counts) == CGAL::NEGATIVE; };
     if (!is_behind(far))
       for (const std::uint32_t i : pieces)
         for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i]))
