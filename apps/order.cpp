@@ -12,8 +12,8 @@ namespace sightline::app {
 
 struct Order_arguments {
   Common common;
-  std::string eye, kernel = "exact", method = "bsp", certificate, svg, look, up;
-  double field = 60;
+  View_arguments view;
+  std::string eye, kernel = "exact", method = "bsp", certificate, svg;
   bool two_sided = false;
   bool by_graph() const { return method == "graph"; }
 };
@@ -25,14 +25,6 @@ static Order_certificate certificate_of(const Scene& scene, const Exact_point& e
   for (const Drawn& item : drawn) certificate.fragments.push_back(item.fragment);
   add_pieces(certificate, scene);
   return certificate;
-}
-
-static std::array<double, 3> parse_direction(const std::string& text, const std::string& option) {
-  const Exact_point p = parse_point(text, option);
-  const std::array<double, 3> direction{nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
-  for (const double x : direction)
-    if (!std::isfinite(x)) throw Usage_error(option + " wants a direction in the range of doubles");
-  return direction;
 }
 
 /// What the order by the priority graph took, and its picture's polygons.
@@ -80,15 +72,6 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
   return outcome;
 }
 
-/// The picture's view: aimed where nothing else was said.
-static View view_of(const Order_arguments& arguments, const Exact_point& eye, const Scene& scene) {
-  View view{eye};
-  if (!arguments.look.empty()) view.look = parse_direction(arguments.look, "--look");
-  if (!arguments.up.empty()) view.up = parse_direction(arguments.up, "--up");
-  view.field = arguments.field;
-  return scene.counters().faces > 0 ? aimed(view, scene) : view;
-}
-
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
@@ -97,7 +80,7 @@ static Exit run(const Order_arguments& arguments) {
   if (!by_graph && arguments.two_sided) throw Usage_error("--two-sided is for --method graph: a tree draws both sides anyway");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
-  const View view = view_of(arguments, eye, scene);
+  const View view = arguments.view.view(eye, scene);
   const std::optional<std::array<Integer, 4>> near = arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
   Progress progress("building");
   Task task;
@@ -111,7 +94,9 @@ static Exit run(const Order_arguments& arguments) {
   if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided)).dump() + "\n");
   if (!arguments.svg.empty()) {
     if (near && !by_graph) task.near = near, graph.in_view = run_method(arguments.kernel, scene, task).drawn;
-    write_file(arguments.svg, painted(view, near ? graph.in_view : outcome.drawn));
+    Svg svg = empty_picture(view);
+    paint(svg, view, near ? graph.in_view : outcome.drawn, true);
+    write_file(arguments.svg, svg.text());
   }
 
   Json fragments = Json::array();
@@ -165,9 +150,7 @@ void add_order(CLI::App& app) {
   command->add_flag("--two-sided", a->two_sided, "with --method graph: faces seen from behind too");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->add_option("--svg", a->svg, "draw the order as a painter would");
-  command->add_option("--look", a->look, "direction X,Y,Z of the picture; by default to the centre of the scene");
-  command->add_option("--up", a->up, "up direction X,Y,Z of the picture (0,0,1)");
-  command->add_option("--field", a->field, "width of the picture's view in degrees")->check(CLI::Range(1.0, 170.0) & sightline::app::finite_number)->capture_default_str();
+  a->view.add_to(*command);
   command->footer("Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
                   "A fragment is [face, piece]; the certificate's `piece` is the convex piece of the face that the fragment is a part of.");
   set_action(*command, [a] { return sightline::app::run(*a); });

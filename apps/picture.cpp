@@ -1,7 +1,5 @@
 #include "picture.h"
 
-#include <sightline/io/svg.h>
-
 namespace sightline::app {
 
 using Direction3 = std::array<double, 3>;
@@ -17,6 +15,28 @@ static Direction3 unit(const Direction3& a) {
 }
 static Direction3 difference(const Exact_point& a, const Exact_point& b) {
   return {nearest_double(a[0] - b[0]), nearest_double(a[1] - b[1]), nearest_double(a[2] - b[2])};
+}
+
+static Direction3 parse_direction(const std::string& text, const std::string& option) {
+  const Exact_point p = parse_point(text, option);
+  const Direction3 direction{nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+  for (const double x : direction)
+    if (!std::isfinite(x)) throw Usage_error(option + " wants a direction in the range of doubles");
+  return direction;
+}
+
+void View_arguments::add_to(CLI::App& command) {
+  command.add_option("--look", look, "direction X,Y,Z of the picture; by default to the centre of the scene");
+  command.add_option("--up", up, "up direction X,Y,Z of the picture (0,0,1)");
+  command.add_option("--field", field, "width of the picture's view in degrees")->check(CLI::Range(1.0, 170.0) & finite_number)->capture_default_str();
+}
+
+View View_arguments::view(const Exact_point& eye, const Scene& scene) const {
+  View view{eye};
+  if (!look.empty()) view.look = parse_direction(look, "--look");
+  if (!up.empty()) view.up = parse_direction(up, "--up");
+  view.field = field;
+  return scene.counters().faces > 0 ? aimed(view, scene) : view;
 }
 
 View aimed(View view, const Scene& scene) {
@@ -53,19 +73,36 @@ Axes axes_of(const View& view) {
   return {right, cross(right, view.look)};
 }
 
-std::string painted(const View& view, const std::vector<Drawn>& drawn) {
-  const Direction3 light = unit({0.3, -0.5, 0.8});
+static double scale_of(const View& view) { return view.width / 2.0 / std::tan(view.field * 3.14159265358979 / 360); }
+
+std::vector<Exact_point> corner_rays(const View& view) {
   const auto [right, up] = axes_of(view);
-  const double scale = view.width / 2.0 / std::tan(view.field * 3.14159265358979 / 360);
-  Svg svg(view.width, view.height, "#f4f3ef");
+  const double across = view.width / 2.0 / scale_of(view), upwards = across * view.height / view.width;
+  std::vector<Exact_point> rays;
+  for (const auto& [x, y] : {std::pair(-across, upwards), std::pair(across, upwards), std::pair(across, -upwards), std::pair(-across, -upwards)}) {
+    Exact_point& ray = rays.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) ray[k] = exact(view.look[k] + x * right[k] + y * up[k]);
+  }
+  return rays;
+}
+
+static Flat_point projected(const View& view, const Axes& axes, const Direction3& v) {
+  const double scale = scale_of(view), depth = dot(v, view.look);
+  return {view.width / 2.0 + scale * dot(v, axes.right) / depth, view.height / 2.0 - scale * dot(v, axes.up) / depth};
+}
+Flat_point projected(const View& view, const Exact_point& p) { return projected(view, axes_of(view), difference(p, view.eye)); }
+
+Svg empty_picture(const View& view) { return {view.width, view.height, "#f4f3ef"}; }
+
+void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines) {
+  const Direction3 light = unit({0.3, -0.5, 0.8});
+  const Axes axes = axes_of(view);
   for (const Drawn& item : drawn) {
     std::vector<Flat_point> points;
     std::vector<Direction3> corners;
     for (const Exact_point& p : item.fragment.vertices) {
-      const Direction3 v = difference(p, view.eye);
-      corners.push_back(v);
-      const double depth = dot(v, view.look);
-      points.push_back({view.width / 2.0 + scale * dot(v, right) / depth, view.height / 2.0 - scale * dot(v, up) / depth});
+      corners.push_back(difference(p, view.eye));
+      points.push_back(projected(view, axes, corners.back()));
     }
     // A hue for each face, a shade for the way it faces; back sides are duller.
     Direction3 normal{};
@@ -78,9 +115,8 @@ std::string painted(const View& view, const std::vector<Drawn>& drawn) {
     const double hue = std::fmod(item.fragment.face * 137.50776405, 360.0);
     const bool front = item.side == CGAL::POSITIVE;
     const std::string fill = fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue, front ? 45 : 12, (front ? 62 : 55) + 18 * shade);
-    svg.polygon(std::move(points), fill, "#00000055", 0.5);
+    svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4);
   }
-  return svg.text();
 }
 
 }  // namespace sightline::app

@@ -3,6 +3,8 @@
 
 #include "methods.h"
 
+#include <sightline/io/svg.h>
+
 namespace sightline::app {
 
 /// Where one looks from, and where to.
@@ -12,6 +14,16 @@ struct View {
   std::array<double, 3> up{0, 0, 1};
   double field = 60;              ///< degrees, of the picture's width
   int width = 960, height = 720;
+};
+
+/// The options of a picture's view.
+struct View_arguments {
+  std::string look, up;
+  double field = 60;
+
+  void add_to(CLI::App& command);
+  /// Aimed, unless the scene is empty. Errors: Usage_error.
+  View view(const Exact_point& eye, const Scene& scene) const;
 };
 
 /// Unit vectors to the right and upwards in the picture.
@@ -25,7 +37,12 @@ View aimed(View view, const Scene& scene);
 /// The near plane of a view in grid coordinates: across the direction, a thousandth of the scene's size in front of the eye. Nothing where all of
 /// the scene is in front of it.
 std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& scene);
-/// Pre: nothing drawn is behind the near plane.
-std::string painted(const View& view, const std::vector<Drawn>& drawn);
+/// The view's four corner rays, counterclockwise around its inside in the sense of field_of(). Exactly these doubles.
+std::vector<Exact_point> corner_rays(const View& view);
+/// A point of the scene in the picture. Pre: in front of the eye.
+Flat_point projected(const View& view, const Exact_point& p);
+/// Paints each polygon over those before it, with thin outlines or without. Pre: nothing drawn is behind the near plane.
+void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines);
+Svg empty_picture(const View& view);
 
 }  // namespace sightline::app

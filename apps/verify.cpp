@@ -10,11 +10,15 @@
 
 namespace sightline::app {
 
+static Verdict verdict_on(const Polygon_soup& soup, const Order_certificate& claim, const Verify_options& options) { return verify_order(soup, claim, options); }
+static Verdict verdict_on(const Polygon_soup& soup, const Graph_certificate& claim, const Verify_options& options) { return verify_graph(soup, claim, options); }
+static Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& claim, const Verify_options& options) { return verify_visible(soup, claim, options); }
+
 static Exit run(const Common& common, const std::string& file) {
   const Polygon_soup soup = common.read();
   std::ifstream in(file);
   if (!in) throw Input_error::of_file(file, "cannot be opened; check the path");
-  std::variant<Order_certificate, Graph_certificate> certificate;
+  std::variant<Order_certificate, Graph_certificate, Visible_certificate> certificate;
   try {
     certificate = read_certificate(in);
   } catch (const std::exception& error) {  // not a certificate, or not a file
@@ -24,8 +28,7 @@ static Exit run(const Common& common, const std::string& file) {
   Progress progress("verifying");
   Verify_options options;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const auto* const order = std::get_if<Order_certificate>(&certificate);
-  const Verdict verdict = order != nullptr ? verify_order(soup, *order, options) : verify_graph(soup, std::get<Graph_certificate>(certificate), options);
+  const Verdict verdict = std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
   const double seconds = watch.seconds();
   const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
   Json result{{"accepted", verdict.accepted}, {"why", verdict.why}, {"fragments", verdict.fragments}};

@@ -3,6 +3,7 @@
 
 #include <sightline/algorithms/verify/graph.h>
 #include <sightline/algorithms/verify/order.h>
+#include <sightline/algorithms/verify/visible.h>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@ namespace certificate_json {
 
 inline constexpr const char* order_format = "sightline order 1";
 inline constexpr const char* graph_format = "sightline graph 1";
+inline constexpr const char* see_format = "sightline see 1";
 
 [[noreturn]] inline void fail(const std::string& place, const std::string& what) { throw std::invalid_argument("certificate: " + place + ": " + what); }
 
@@ -95,13 +97,16 @@ inline nlohmann::json parse(std::istream& in) {
 }
 
 inline nlohmann::json write(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }
+inline nlohmann::json write(const std::vector<Exact_point>& all) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const Exact_point& p : all) result.push_back(write(p));
+  return result;
+}
 template <class Part>
 nlohmann::json write(const std::vector<Part>& all) {
   nlohmann::json result = nlohmann::json::array();
   for (const Part& part : all) {
-    nlohmann::json vertices = nlohmann::json::array();
-    for (const Exact_point& p : part.vertices) vertices.push_back(write(p));
-    result.push_back({{"face", part.face}, {"piece", part.piece}, {"vertices", std::move(vertices)}});
+    result.push_back({{"face", part.face}, {"piece", part.piece}, {"vertices", write(part.vertices)}});
   }
   return result;
 }
@@ -148,12 +153,31 @@ inline Graph_certificate graph_certificate_from_json(const nlohmann::json& value
   return certificate;
 }
 
+/// The same for verify_visible(). "field" may be left out too: all directions.
+inline Visible_certificate visible_certificate_from_json(const nlohmann::json& value) {
+  using namespace certificate_json;
+  if (!has_format(value, see_format)) fail("format", std::string("expected \"") + see_format + '"');
+  Visible_certificate certificate;
+  certificate.eye = point(member(value, "eye", "top level"), "eye");
+  if (value.contains("field")) certificate.field = points(value["field"], "field");
+  read_covering(value, certificate);
+  for (const nlohmann::json& entry : array(member(value, "parts", "top level"), "parts")) {
+    const std::string at = "parts[" + std::to_string(certificate.parts.size()) + ']';
+    const std::size_t fragment = place(member(entry, "fragment", at), certificate.fragments.size(), at + ".fragment");
+    certificate.parts.push_back({fragment, points(member(entry, "vertices", at), at + ".vertices"), point(member(entry, "ray", at), at + ".ray")});
+  }
+  for (const nlohmann::json& cone : array(member(value, "empty", "top level"), "empty"))
+    certificate.empty.push_back(points(cone, "empty[" + std::to_string(certificate.empty.size()) + ']'));
+  return certificate;
+}
+
 /// Reads a certificate from JSON text. Throws std::invalid_argument where the text is not JSON or not a certificate of that kind.
 inline Order_certificate read_order_certificate(std::istream& in) { return order_certificate_from_json(certificate_json::parse(in)); }
 
 /// The same for a certificate of whatever kind its "format" says.
-inline std::variant<Order_certificate, Graph_certificate> read_certificate(std::istream& in) {
+inline std::variant<Order_certificate, Graph_certificate, Visible_certificate> read_certificate(std::istream& in) {
   const nlohmann::json value = certificate_json::parse(in);
+  if (certificate_json::has_format(value, certificate_json::see_format)) return visible_certificate_from_json(value);
   if (certificate_json::has_format(value, certificate_json::graph_format)) return graph_certificate_from_json(value);
   return order_certificate_from_json(value);
 }
@@ -172,6 +196,18 @@ inline nlohmann::json to_json(const Graph_certificate& certificate) {
   nlohmann::json arcs = nlohmann::json::array();
   for (const Graph_certificate::Arc& arc : certificate.arcs) arcs.push_back({arc.from, arc.to, arc.corner_from, arc.corner_to});
   value["sizes"] = certificate.sizes, value["arcs"] = std::move(arcs);
+  return value;
+}
+
+/// The same for visible_certificate_from_json().
+inline nlohmann::json to_json(const Visible_certificate& certificate) {
+  using namespace certificate_json;
+  nlohmann::json value = write(see_format, certificate);
+  nlohmann::json parts = nlohmann::json::array(), empty = nlohmann::json::array();
+  for (const Visible_certificate::Part& part : certificate.parts) parts.push_back({{"fragment", part.fragment}, {"vertices", write(part.vertices)}, {"ray", write(part.ray)}});
+  for (const Visible_certificate::Directions& cone : certificate.empty) empty.push_back(write(cone));
+  value["eye"] = write(certificate.eye), value["parts"] = std::move(parts), value["empty"] = std::move(empty);
+  if (!certificate.field.empty()) value["field"] = write(certificate.field);
   return value;
 }
 

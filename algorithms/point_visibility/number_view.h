@@ -1,0 +1,123 @@
+#pragma once
+// Models of View in the plain numbers of a CGAL kernel: what most programs do.
+
+#include <sightline/algorithms/point_visibility/view.h>
+#include <sightline/kernel/point_traits.h>
+
+namespace sightline {
+
+/// All values are computed in FT from the file's coordinates rounded to FT, and signs are believed; a plane is known to hold only the rays that it made.
+/// Exact: for CGAL's Gmpq and Lazy_exact_nt, yes; for float and double, no: the result may have gaps, overlaps and wrong faces, but is always finite.
+template <class FT>
+class Number_view {
+ public:
+  static constexpr bool is_exact = !std::is_floating_point_v<FT>;
+  struct Plane {
+    std::array<FT, 3> n;
+    Eye_plane_name name;
+  };
+  struct Ray {
+    std::array<FT, 3> v;
+    Eye_plane_name p, q;
+  };
+
+  Number_view(const Scene& scene, const Exact_point& eye) : scene_(&scene), eye_point_(eye) {
+    for (std::size_t k = 0; k < 3; ++k) eye_[k] = number::from(eye[k]);
+    directions_.reserve(scene.points().size());
+    for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
+      const Exact_point at = scene.position(p);
+      directions_.push_back({number::from(at[0]) - eye_[0], number::from(at[1]) - eye_[1], number::from(at[2]) - eye_[2]});
+    }
+    for (const Piece& piece : scene.pieces()) {
+      // n . x = c for x relative to the eye, through three corners; the eye is in front where c < 0.
+      const std::span<const Piece_corner> corners = scene.corners(piece);
+      const Vector &a = directions_[corners[0].point], &b = directions_[corners[1].point], &c = directions_[corners[2].point];
+      const Vector normal = cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]});
+      const FT value = dot(normal, a);
+      const Sign side = sign(-value);
+      eye_sides_.push_back(side);
+      forms_.push_back(side == CGAL::ZERO ? Vector{FT(0), FT(0), FT(0)} : Vector{normal[0] / value, normal[1] / value, normal[2] / value});
+    }
+  }
+
+  const Scene& scene() const { return *scene_; }
+  const Exact_point& eye() const { return eye_point_; }
+  Sign eye_side(std::uint32_t piece) const { return eye_sides_[piece]; }
+
+  Plane edge(std::uint32_t p, std::uint32_t q) const { return {cross(directions_[p], directions_[q]), Eye_plane_name::edge(p, q)}; }
+  Plane axis(std::uint32_t k) const { return {unit(k, FT(1)), Eye_plane_name::axis(k)}; }
+  Plane crossing(std::uint32_t f, std::uint32_t g) const {
+    const Vector &m = forms_[f], &n = forms_[g];  // a difference of numbers is the same both ways but for its sign, rounded too
+    return {{m[0] - n[0], m[1] - n[1], m[2] - n[2]}, Eye_plane_name::crossing(f, g)};
+  }
+  Plane opposite(const Plane& w) const { return {{-w.n[0], -w.n[1], -w.n[2]}, w.name}; }
+  Ray axis_ray(std::uint32_t k, bool positive) const { return {unit(k, positive ? FT(1) : FT(-1)), Eye_plane_name::axis((k + 1) % 3), Eye_plane_name::axis((k + 2) % 3)}; }
+  Ray meet(const Plane& p, const Plane& q, Predicate_counts&) const { return {cross(p.n, q.n), p.name, q.name}; }
+
+  Sign side(const Plane& w, const Ray& r, Predicate_counts& counts) const {
+    ++counts.filtered;
+    return w.name == r.p || w.name == r.q ? CGAL::ZERO : sign(dot(w.n, r.v));
+  }
+  Sign side(const Plane& w, std::uint32_t point, Predicate_counts& counts) const {
+    ++counts.filtered;
+    return w.name.has_point(point) ? CGAL::ZERO : sign(dot(w.n, directions_[point]));
+  }
+  Sign nearer(std::uint32_t f, std::uint32_t g, const Ray& r, Predicate_counts& counts) const {
+    return side(crossing(f, g), r, counts);  // as a cut along that plane will find it, so that the cut settles it
+  }
+  Sign beyond(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
+    ++counts.filtered;
+    return sign(dot(forms_[f], directions_[point]) - FT(1));
+  }
+  bool same_plane(std::uint32_t f, std::uint32_t g) const {
+    if constexpr (is_exact) return forms_[f] == forms_[g];
+    else return f == g;
+  }
+
+  Approximate_eye_plane approximate(const Plane& w) const {
+    const Approximate_vector n = approximate(w.n);
+    const double size = std::fabs(n.x) + std::fabs(n.y) + std::fabs(n.z);
+    return {{n.x, n.y, n.z}, size, slack * size};
+  }
+  Approximate_vector approximate(const Ray& r) const { return approximate(r.v); }
+  double nearness(std::uint32_t piece, const Approximate_vector& direction) const {
+    const Approximate_vector m = approximate(forms_[piece]);
+    return m.x * direction.x + m.y * direction.y + m.z * direction.z;
+  }
+  bool hides(std::uint32_t piece, const Piece_boxes::Box& box) const {
+    const sightline::Plane support = scene_->pieces()[piece].support;
+    return Piece_boxes::is_behind(box, scene_->predicates().prepare(eye_sides_[piece] == CGAL::POSITIVE ? support : support.opposite()));
+  }
+  /// Errors: std::domain_error where the numbers overflowed.
+  Exact_point position(std::uint32_t piece, const Ray& r) const {
+    const FT near = dot(forms_[piece], r.v);
+    Exact_point at;
+    if (near == FT(0)) throw std::domain_error("a ray that runs along its plane");
+    for (std::size_t k = 0; k < 3; ++k) at[k] = number::to(eye_[k] + r.v[k] / near);
+    return at;
+  }
+
+ private:
+  using Vector = std::array<FT, 3>;
+  using number = Field_number<FT>;
+  static constexpr double slack = std::is_same_v<FT, float> ? 0x1p-20 : 0x1p-49;
+
+  static Vector cross(const Vector& a, const Vector& b) { return {FT(a[1] * b[2] - a[2] * b[1]), FT(a[2] * b[0] - a[0] * b[2]), FT(a[0] * b[1] - a[1] * b[0])}; }
+  static FT dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  static Sign sign(const FT& value) {
+    if constexpr (std::is_floating_point_v<FT>) return value > 0 ? CGAL::POSITIVE : value < 0 ? CGAL::NEGATIVE : CGAL::ZERO;  // no number is zero
+    else return CGAL::sign(value);
+  }
+  static Vector unit(std::uint32_t k, const FT& length) { return {k == 0 ? length : FT(0), k == 1 ? length : FT(0), k == 2 ? length : FT(0)}; }
+  static Approximate_vector approximate(const Vector& v) { return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), CGAL::to_double(v[2])}; }
+
+  const Scene* scene_;
+  Exact_point eye_point_;
+  Vector eye_;
+  std::vector<Vector> directions_, forms_;
+  std::vector<Sign> eye_sides_;
+};
+
+static_assert(View<Number_view<double>>);
+
+}  // namespace sightline

@@ -1,0 +1,606 @@
+#pragma once
+// The surfaces that are visible from a point, exactly: the sphere of directions is cut by planes through the eye and scene edges until one piece covers each region.
+
+#include <sightline/algorithms/point_visibility/view.h>
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <atomic>
+#include <functional>
+
+namespace sightline {
+
+struct Visible_options {
+  int threads = 0;  ///< 0: as many as there are processors; the result is the same for any number
+  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< directions done, of 2^20; called from any thread
+};
+
+/// What was modelled, and what was not.
+struct Visible_counters {
+  std::uint64_t pieces = 0, edge_on = 0;      ///< of the scene; of them in the eye's plane
+  std::uint64_t opened = 0, looked_at = 0;    ///< boxes opened; pieces that were looked at in a region, each time
+  std::uint64_t hidden = 0, hidden_boxes = 0; ///< pieces and boxes dropped behind what covers a region
+  std::uint64_t regions = 0, splits = 0, crossings = 0, merged = 0;  ///< leaves; cuts, of them along a line where two pieces cross; pairs of leaves put together again
+  std::uint64_t depth = 0;
+  Predicate_counts predicates;
+  Visible_counters& operator+=(const Visible_counters& o) {
+    opened += o.opened, looked_at += o.looked_at, hidden += o.hidden, hidden_boxes += o.hidden_boxes;
+    regions += o.regions, splits += o.splits, crossings += o.crossings, merged += o.merged, depth = std::max(depth, o.depth), predicates += o.predicates;
+    return *this;
+  }
+};
+
+/// A partition of the directions around an eye (of a field of view) into convex cones, in each of which one piece is seen, or none.
+template <View V>
+struct Visible_surface {
+  static constexpr std::uint32_t nothing = ~std::uint32_t{0};
+  struct Part {
+    std::uint32_t piece;  ///< what is seen, from its front or from behind, or `nothing`
+    std::uint32_t size;
+    std::size_t first;    ///< rays [first, first + size): each positive determinant of two consecutive ones and one inside
+  };
+  /// A cut of a cone, as in a BSP tree: a child is a node, or ~part where it is negative, or `no_child` (of inexact kernels only).
+  struct Node {
+    typename V::Plane plane;
+    std::int32_t front, behind;
+  };
+  static constexpr std::int32_t no_child = std::numeric_limits<std::int32_t>::min();
+  /// A visible part of the line along which two pieces cross.
+  struct Crossing {
+    std::uint32_t f, g;
+    typename V::Ray from, to;
+  };
+  std::vector<Part> parts;
+  std::vector<typename V::Ray> rays;
+  std::vector<Node> nodes;
+  /// A convex cone: side k holds rays k and k + 1, the inside in its front.
+  struct Cone {
+    std::vector<typename V::Ray> rays;
+    std::vector<typename V::Plane> sides;
+  };
+  std::vector<Cone> cones;          ///< that one began with
+  std::vector<std::int32_t> roots;  ///< of their trees
+  std::vector<Crossing> crossings;
+  std::vector<Face_id> visible;     ///< sorted: faces of which the eye sees an open part from the front by the law, ties included
+  std::vector<Face_id> from_behind; ///< the same from behind
+  Visible_counters counters;
+
+  std::span<const typename V::Ray> of(const Part& part) const { return {rays.data() + part.first, part.size}; }
+};
+
+namespace visible_detail {
+
+template <View V>
+class Solver {
+ public:
+  using Ray = typename V::Ray;
+  using Plane = typename V::Plane;
+  using Surface = Visible_surface<V>;
+  static constexpr std::uint32_t nothing = Surface::nothing;
+
+  using Region = typename Surface::Cone;
+
+  Solver(const V& view, const Piece_boxes& boxes, const Visible_options& options) : view_(view), boxes_(boxes), options_(options), eye_(view.scene().locate(view.eye())), seen_(view.scene().counters().faces_read) {
+    place_chunks();
+  }
+
+  Surface solve(std::vector<Region> fields) {
+    std::vector<Output> outputs(fields.size());
+    for (std::size_t k = 0; k < fields.size(); ++k) {
+      Task task{fields[k], {}, nothing, {}, 0};
+      if (!boxes_.nodes().empty()) task.items.push_back({box_bit, 0});
+      outputs[k].root = solve_in_parallel(std::move(task), 0x1p0 / static_cast<double>(fields.size()), outputs[k]);
+    }
+    Surface surface = gathered(outputs);
+    surface.cones = std::move(fields);
+    return surface;
+  }
+
+ private:
+  // ---- What a region holds -----------------------------------------------------------------------------------------------------
+
+  /// Up to 32 edges of a piece: all of it, as a rule, else a slice of the fan around its first corner.
+  struct Chunk {
+    std::uint32_t piece, first, size;
+  };
+  /// A chunk that may meet the region, with a bit for each edge plane that has parts of the region on both sides (none: it covers the region); or a box.
+  struct Item {
+    std::uint32_t index, active;
+  };
+  static constexpr std::uint32_t box_bit = 0x80000000u;
+  struct Task {
+    Region region;
+    std::vector<Item> items;
+    std::uint32_t cover;              // the chunk that is nearest of those that cover the region, or nothing
+    std::vector<std::uint32_t> tied;  // chunks in the plane of the cover that come after it
+    std::uint32_t depth;
+  };
+  struct Output {
+    std::vector<typename Surface::Part> parts;
+    std::vector<Ray> rays;
+    std::vector<typename Surface::Node> nodes;
+    std::vector<typename Surface::Crossing> crossings;
+    std::int32_t root = Surface::no_child;
+    Visible_counters counters;
+  };
+
+  void place_chunks() {
+    const Scene& scene = view_.scene();
+    first_chunk_.reserve(scene.pieces().size() + 1);
+    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+      first_chunk_.push_back(static_cast<std::uint32_t>(chunks_.size()));
+      const Sign side = view_.eye_side(i);
+      if (side == CGAL::ZERO) {
+        ++edge_on_;
+        continue;
+      }
+      const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[i]);
+      for (std::size_t from = 1; from + 1 < corners.size();) {
+        const std::size_t to = std::min(corners.size() - 1, from + (corners.size() <= 32 ? corners.size() : 30));
+        const Chunk chunk{i, static_cast<std::uint32_t>(points_.size()), static_cast<std::uint32_t>(to - from + 2)};
+        points_.push_back(corners[0].point);
+        for (std::size_t k = from; k <= to; ++k) points_.push_back(corners[k].point);
+        for (std::uint32_t k = 0; k < chunk.size; ++k) {
+          const std::uint32_t p = points_[chunk.first + k], q = points_[chunk.first + (k + 1 == chunk.size ? 0 : k + 1)];
+          // Counterclockwise as seen from the front is clockwise around the rays from an eye in front.
+          edges_.push_back(side == CGAL::POSITIVE ? view_.edge(q, p) : view_.edge(p, q));
+        }
+        chunks_.push_back(chunk);
+        from = to;
+      }
+    }
+    first_chunk_.push_back(static_cast<std::uint32_t>(chunks_.size()));
+  }
+
+  std::uint32_t piece_of(std::uint32_t chunk) const { return chunks_[chunk].piece; }
+  std::span<const std::uint32_t> points_of(std::uint32_t chunk) const { return {points_.data() + chunks_[chunk].first, chunks_[chunk].size}; }
+
+  /// Whether a comes before b where both are met at once.
+  bool comes_first(std::uint32_t a, std::uint32_t b) const {
+    const Sign side_a = view_.eye_side(a), side_b = view_.eye_side(b);
+    if (side_a != side_b) return side_a == CGAL::POSITIVE;
+    const Piece &p = view_.scene().pieces()[a], &q = view_.scene().pieces()[b];
+    return p.face != q.face ? p.face < q.face : p.number <= q.number;
+  }
+
+  // ---- Tests ---------------------------------------------------------------------------------------------------------------
+
+  /// Updates which edges of a chunk cut the region. Returns whether it may still meet it.
+  bool update(Item& item, const Region& region, Predicate_counts& counts) const {
+    const Chunk& chunk = chunks_[item.index];
+    for (std::uint32_t bits = item.active; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
+      const Plane& edge = edges_[chunk.first + k];
+      bool inside = false, outside = false;
+      for (const Ray& r : region.rays) {
+        const Sign s = view_.side(edge, r, counts);
+        inside = inside || s == CGAL::POSITIVE, outside = outside || s == CGAL::NEGATIVE;
+        if (inside && outside) break;
+      }
+      if (!inside) return false;
+      if (!outside) item.active &= ~(1u << k);
+    }
+    return true;
+  }
+  bool is_behind(std::uint32_t chunk, const Plane& w, Predicate_counts& counts) const {
+    for (const std::uint32_t p : points_of(chunk))
+      if (view_.side(w, p, counts) == CGAL::POSITIVE) return false;
+    return true;
+  }
+  bool is_behind(const Piece_boxes::Node& node, const Plane& w) const {
+    const Approximate_eye_plane a = view_.approximate(w);
+    return Piece_boxes::is_behind(node.box, a.normal, a.size, a.error, eye_);
+  }
+  bool is_outside(std::uint32_t chunk, const Region& region, Predicate_counts& counts) const {
+    return std::any_of(region.sides.begin(), region.sides.end(), [&](const Plane& w) { return is_behind(chunk, w, counts); });
+  }
+  bool is_outside(const Piece_boxes::Node& node, const Region& region) const {
+    return std::any_of(region.sides.begin(), region.sides.end(), [&](const Plane& w) { return is_behind(node, w); });
+  }
+
+  enum class Depth : char { nearer, tied, farther, crossing };
+  /// How chunk f, which covers the region, is to chunk g there. `farther`: g is nearer, or comes first, in all of it.
+  Depth compare(std::uint32_t f, std::uint32_t g, const Region& region, Predicate_counts& counts) const {
+    const std::uint32_t a = piece_of(f), b = piece_of(g);
+    if (view_.same_plane(a, b)) return comes_first(a, b) ? Depth::tied : Depth::farther;
+    bool nearer = false, farther = false;
+    for (const Ray& r : region.rays) {
+      const Sign s = view_.nearer(a, b, r, counts);
+      nearer = nearer || s == CGAL::POSITIVE, farther = farther || s == CGAL::NEGATIVE;
+      if (nearer && farther) return Depth::crossing;
+    }
+    return farther ? Depth::farther : Depth::nearer;
+  }
+  /// Whether chunk g is behind f, which covers the region, although their planes cross there: one is on one side of the other's plane.
+  bool is_beyond(std::uint32_t f, std::uint32_t g, Predicate_counts& counts) const {
+    const std::uint32_t a = piece_of(f), b = piece_of(g);
+    const auto all = [&](std::uint32_t plane, std::uint32_t of, Sign not_this) {
+      const std::span<const std::uint32_t> points = points_of(of);
+      return std::all_of(points.begin(), points.end(), [&](std::uint32_t p) { return view_.beyond(plane, p, counts) != not_this; });
+    };
+    return all(a, g, CGAL::NEGATIVE) || all(b, f, CGAL::POSITIVE);
+  }
+
+  // ---- One region ------------------------------------------------------------------------------------------------------------
+
+  /// Drops what is hidden in the region, opens boxes, and returns the plane to cut it by; none where it is settled.
+  std::optional<Plane> settle(Task& task, Output& out) const {
+    Visible_counters& counters = out.counters;
+    constexpr std::size_t enough = 6;  // pieces to choose a cut from
+    Predicate_counts& counts = counters.predicates;
+    std::vector<Item>& items = task.items;
+    std::size_t checked = 0;  // items before this are compared with the cover
+    std::vector<Item> opened;
+    for (;;) {
+      // What covers the region: the nearest one is kept.
+      for (std::size_t i = checked; i < items.size(); ++i) {
+        const Item item = items[i];
+        if ((item.index & box_bit) != 0 || item.active != 0) continue;
+        const Depth depth = task.cover == nothing ? Depth::farther : compare(task.cover, item.index, task.region, counts);
+        if (depth == Depth::crossing && !has_side(task.region, crossing_of(task.cover, item.index))) continue;
+        if (depth == Depth::tied) task.tied.push_back(item.index);
+        if (depth == Depth::farther) {
+          if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.index))) task.tied.push_back(task.cover);
+          else task.tied.clear();
+          task.cover = item.index;
+          checked = 0;  // all others once more
+        }
+        items[i] = items.back(), items.pop_back();
+        --i;
+        if (depth == Depth::farther) i = static_cast<std::size_t>(-1);
+      }
+      // What it hides.
+      if (task.cover != nothing) {
+        const std::uint32_t cover = piece_of(task.cover);
+        for (std::size_t i = checked; i < items.size();) {
+          const Item item = items[i];
+          bool drop = false;
+          if ((item.index & box_bit) != 0) {
+            drop = view_.hides(cover, boxes_.nodes()[item.index & ~box_bit].box);
+            counters.hidden_boxes += drop;
+          } else {
+            const Depth depth = compare(task.cover, item.index, task.region, counts);
+            drop = depth == Depth::nearer || depth == Depth::tied || (depth == Depth::crossing && item.active != 0 && is_beyond(task.cover, item.index, counts));
+            if (depth == Depth::tied) task.tied.push_back(item.index);
+            counters.hidden += drop;
+          }
+          if (drop) items[i] = items.back(), items.pop_back();
+          else ++i;
+        }
+      }
+      checked = items.size();
+
+      // What is left.
+      std::size_t pieces = 0, nearest_box = items.size();
+      double nearest = std::numeric_limits<double>::infinity();
+      for (std::size_t i = 0; i < items.size(); ++i) {
+        if ((items[i].index & box_bit) == 0) {
+          ++pieces;
+          continue;
+        }
+        const double distance = Piece_boxes::distance(boxes_.nodes()[items[i].index & ~box_bit].box, eye_);
+        if (!(distance >= nearest)) nearest = distance, nearest_box = i;
+      }
+      if (pieces >= enough || nearest_box == items.size()) break;
+      const std::uint32_t box = items[nearest_box].index & ~box_bit;
+      items[nearest_box] = items.back(), items.pop_back();
+      --checked;
+      open(box, task.region, items, counters);
+    }
+    if (items.empty()) return std::nullopt;
+    return choose(task, out);
+  }
+
+  void open(std::uint32_t box, const Region& region, std::vector<Item>& items, Visible_counters& counters) const {
+    const Piece_boxes::Node& node = boxes_.nodes()[box];
+    ++counters.opened;
+    if (node.second != 0) {
+      for (const std::uint32_t child : {box + 1, node.second})
+        if (!is_outside(boxes_.nodes()[child], region)) items.push_back({box_bit | child, 0});
+      return;
+    }
+    for (const std::uint32_t piece : boxes_.pieces(node))
+      for (std::uint32_t chunk = first_chunk_[piece]; chunk < first_chunk_[piece + 1]; ++chunk) {
+        ++counters.looked_at;
+        if (is_outside(chunk, region, counters.predicates)) continue;
+        const std::uint32_t size = chunks_[chunk].size;
+        Item item{chunk, size == 32 ? ~0u : (1u << size) - 1};
+        if (update(item, region, counters.predicates)) items.push_back(item);
+      }
+  }
+
+  Eye_plane_name crossing_of(std::uint32_t f, std::uint32_t g) const { return Eye_plane_name::crossing(piece_of(f), piece_of(g)); }
+  static bool has_side(const Region& region, Eye_plane_name name) {
+    return std::any_of(region.sides.begin(), region.sides.end(), [&](const Plane& w) { return w.name == name; });
+  }
+
+  Approximate_vector middle_of(const Region& region) const {
+    Approximate_vector sum{0, 0, 0};
+    for (const Ray& r : region.rays) {
+      const Approximate_vector v = view_.approximate(r);
+      const double size = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
+      if (size > 0) sum.x += v.x / size, sum.y += v.y / size, sum.z += v.z / size;
+    }
+    return sum;
+  }
+  /// The plane to cut a region by: an edge of the piece that is nearest in the middle of it.
+  Plane choose(const Task& task, Output& out) const {
+    double nearest = -std::numeric_limits<double>::infinity();
+    const Item* best = nullptr;
+    const Approximate_vector middle = middle_of(task.region);
+    for (const Item& item : task.items) {
+      if ((item.index & box_bit) != 0 || item.active == 0) continue;
+      const double near = view_.nearness(piece_of(item.index), middle);
+      if (best == nullptr || near > nearest) nearest = near, best = &item;
+    }
+    if (best == nullptr) {  // only pieces that cross the cover, and cover the region themselves
+      const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);
+      const Plane w = view_.crossing(f, g);
+      ++out.counters.crossings;
+      const Region part = cut(task.region, w, out.counters.predicates)[0];
+      for (std::size_t k = 0; k < part.rays.size(); ++k)
+        if (part.sides[k].name == w.name) out.crossings.push_back({f, g, part.rays[k], part.rays[k + 1 == part.rays.size() ? 0 : k + 1]});
+      return w;
+    }
+    return edges_[chunks_[best->index].first + static_cast<std::uint32_t>(std::countr_zero(best->active))];
+  }
+
+  /// The parts of a region in front of a plane and behind it.
+  std::array<Region, 2> cut(const Region& region, const Plane& w, Predicate_counts& counts) const {
+    const std::size_t n = region.rays.size();
+    std::vector<Sign> sides(n);
+    for (std::size_t k = 0; k < n; ++k) sides[k] = view_.side(w, region.rays[k], counts);
+    std::array<Region, 2> parts;
+    const Plane against = view_.opposite(w);
+    for (std::size_t k = 0; k < n; ++k) {
+      const Sign from = sides[k], to = sides[k + 1 == n ? 0 : k + 1];
+      const auto add = [&](std::size_t part, const Ray& ray, const Plane& side) { parts[part].rays.push_back(ray), parts[part].sides.push_back(side); };
+      if (from != CGAL::NEGATIVE) add(0, region.rays[k], from == CGAL::POSITIVE || to == CGAL::POSITIVE ? region.sides[k] : w);
+      if (from != CGAL::POSITIVE) add(1, region.rays[k], from == CGAL::NEGATIVE || to == CGAL::NEGATIVE ? region.sides[k] : against);
+      if (from * to >= 0) continue;
+      const Ray crossing = from == CGAL::POSITIVE ? view_.meet(region.sides[k], w, counts) : view_.meet(w, region.sides[k], counts);
+      add(0, crossing, from == CGAL::POSITIVE ? w : region.sides[k]);
+      add(1, crossing, from == CGAL::POSITIVE ? region.sides[k] : against);
+    }
+    return parts;
+  }
+
+  /// The tasks of the two parts of a region.
+  std::array<Task, 2> divide(const Task& task, const Plane& w, Visible_counters& counters) const {
+    std::array<Region, 2> regions = cut(task.region, w, counters.predicates);
+    ++counters.splits;
+    std::array<Task, 2> tasks;
+    for (std::size_t part = 0; part < 2; ++part) {
+      Task& to = tasks[part];
+      to.region = std::move(regions[part]), to.cover = task.cover, to.tied = task.tied, to.depth = task.depth + 1;
+      if (to.region.rays.size() < 3) continue;  // inexact signs only
+      const Plane side = part == 0 ? w : view_.opposite(w);
+      for (Item item : task.items) {
+        if ((item.index & box_bit) != 0) {
+          if (!is_behind(boxes_.nodes()[item.index & ~box_bit], side)) to.items.push_back(item);
+        } else if (item.active == 0 || (!is_behind(item.index, side, counters.predicates) && update(item, to.region, counters.predicates))) {
+          to.items.push_back(item);
+        }
+      }
+    }
+    return tasks;
+  }
+
+  // ---- All of them -----------------------------------------------------------------------------------------------------------
+
+  static constexpr std::uint32_t parallel_depth = 10;
+
+  /// Returns the tree of what a region became: a child as nodes have it.
+  std::int32_t solve_in_parallel(Task task, double share, Output& out) {
+    if (task.depth >= parallel_depth || options_.threads == 1) return solve_alone(std::move(task), share, out);
+    if (task.region.rays.size() < 3) return Surface::no_child;
+    const std::optional<Plane> w = settle(task, out);
+    if (!w) return finish(task, share, out);
+    std::array<Task, 2> tasks = divide(task, *w, out.counters);
+    Output second;
+    std::array<std::int32_t, 2> children;
+    oneapi::tbb::parallel_invoke([&] { children[0] = solve_in_parallel(std::move(tasks[0]), share / 2, out); },
+                                 [&] { children[1] = solve_in_parallel(std::move(tasks[1]), share / 2, second); });
+    children[1] = append(second, children[1], out);
+    return merge(*w, children, task.region, out);
+  }
+
+  std::int32_t solve_alone(Task first, double share, Output& out) {
+    struct Step {
+      Task task;
+      std::optional<Plane> cut;  // where both parts are done
+    };
+    const std::uint32_t depth = first.depth;
+    std::vector<Step> steps;
+    std::vector<std::int32_t> done;
+    steps.push_back({std::move(first), std::nullopt});
+    while (!steps.empty()) {
+      Step step = std::move(steps.back());
+      steps.pop_back();
+      if (step.cut) {
+        const std::array<std::int32_t, 2> children{done[done.size() - 2], done.back()};
+        done.resize(done.size() - 2);
+        done.push_back(merge(*step.cut, children, step.task.region, out));
+        continue;
+      }
+      if (step.task.region.rays.size() < 3) {
+        done.push_back(Surface::no_child);
+        continue;
+      }
+      const std::optional<Plane> w = settle(step.task, out);
+      if (!w) {
+        done.push_back(finish(step.task, std::ldexp(share, -static_cast<int>(std::min(step.task.depth - depth, 1000u))), out));
+        continue;
+      }
+      std::array<Task, 2> tasks = divide(step.task, *w, out.counters);
+      step.task.items = {}, step.task.tied = {}, step.cut = w;
+      steps.push_back(std::move(step));
+      steps.push_back({std::move(tasks[1]), std::nullopt});
+      steps.push_back({std::move(tasks[0]), std::nullopt});
+    }
+    return done.back();
+  }
+
+  /// A region in which one piece is seen, or none.
+  std::int32_t finish(const Task& task, double share, Output& out) {
+    const std::uint32_t piece = task.cover == nothing ? nothing : piece_of(task.cover);
+    ++out.counters.regions;
+    out.counters.depth = std::max<std::uint64_t>(out.counters.depth, task.depth);
+    if (piece != nothing) {
+      note(piece);
+      for (const std::uint32_t chunk : task.tied)
+        if (!is_noted(piece_of(chunk)) && meets(chunk, task.region, out.counters.predicates)) note(piece_of(chunk));
+    }
+    report(share);
+    return add(piece, task.region, out);
+  }
+  static std::int32_t add(std::uint32_t piece, const Region& region, Output& out) {
+    out.parts.push_back({piece, static_cast<std::uint32_t>(region.rays.size()), out.rays.size()});
+    out.rays.insert(out.rays.end(), region.rays.begin(), region.rays.end());
+    return ~static_cast<std::int32_t>(out.parts.size() - 1);
+  }
+  /// Whether a chunk and a region in front of its plane have an open set in common. Proof: P-62
+  bool meets(std::uint32_t chunk, const Region& region, Predicate_counts& counts) const {
+    const std::uint32_t size = chunks_[chunk].size;
+    Item item{chunk, size == 32 ? ~0u : (1u << size) - 1};
+    return update(item, region, counts) && (item.active == 0 || !is_outside(chunk, region, counts));
+  }
+  /// Two parts of one region that show the same are one. Pre: the children are the latest that were added.
+  std::int32_t merge(const Plane& w, const std::array<std::int32_t, 2>& children, const Region& region, Output& out) {
+    if (children[0] == Surface::no_child) return children[1];
+    if (children[1] == Surface::no_child) return children[0];
+    if (children[0] < 0 && children[1] < 0) {
+      const auto first = out.parts[out.parts.size() - 2], second = out.parts.back();
+      if (first.piece == second.piece) {
+        out.parts.resize(out.parts.size() - 2), out.rays.resize(first.first);
+        ++out.counters.merged;
+        return add(first.piece, region, out);
+      }
+    }
+    out.nodes.push_back({w, children[0], children[1]});
+    return static_cast<std::int32_t>(out.nodes.size() - 1);
+  }
+  /// Puts one output behind another. Returns the child that `child` of the second becomes.
+  template <class To>
+  static std::int32_t append(const Output& from, std::int32_t child, To& to) {
+    const auto parts = static_cast<std::int32_t>(to.parts.size()), nodes = static_cast<std::int32_t>(to.nodes.size());
+    const auto moved = [&](std::int32_t c) { return c == Surface::no_child ? c : c < 0 ? c - parts : c + nodes; };
+    for (typename Surface::Part part : from.parts) part.first += to.rays.size(), to.parts.push_back(part);
+    for (const typename Surface::Node& node : from.nodes) to.nodes.push_back({node.plane, moved(node.front), moved(node.behind)});
+    to.rays.insert(to.rays.end(), from.rays.begin(), from.rays.end());
+    to.crossings.insert(to.crossings.end(), from.crossings.begin(), from.crossings.end());
+    to.counters += from.counters;
+    return moved(child);
+  }
+
+  static constexpr unsigned char from_front = 1, from_behind = 2;
+  unsigned char side_bit(std::uint32_t piece) const { return view_.eye_side(piece) == CGAL::POSITIVE ? from_front : from_behind; }
+  void note(std::uint32_t piece) {
+    if (!is_noted(piece)) seen_[view_.scene().pieces()[piece].face].fetch_or(side_bit(piece), std::memory_order_relaxed);
+  }
+  bool is_noted(std::uint32_t piece) const { return (seen_[view_.scene().pieces()[piece].face].load(std::memory_order_relaxed) & side_bit(piece)) != 0; }
+
+  void report(double share) {
+    if (!options_.progress) return;
+    constexpr double all = 0x1p20;
+    const double done = done_.fetch_add(share * all, std::memory_order_relaxed);
+    if (std::floor(done + share * all) != std::floor(done) || ++silent_ % 1024 == 0) options_.progress(static_cast<std::size_t>(std::min(done, all)), static_cast<std::size_t>(all));
+  }
+
+  Surface gathered(const std::vector<Output>& outputs) const {
+    Surface surface;
+    for (const Output& out : outputs) surface.roots.push_back(append(out, out.root, surface));
+    surface.counters.pieces = view_.scene().pieces().size(), surface.counters.edge_on = edge_on_;
+    for (Face_id f = 0; f < seen_.size(); ++f) {
+      if ((seen_[f] & from_front) != 0) surface.visible.push_back(f);
+      if ((seen_[f] & from_behind) != 0) surface.from_behind.push_back(f);
+    }
+    return surface;
+  }
+
+  const V& view_;
+  const Piece_boxes& boxes_;
+  const Visible_options& options_;
+  Located_point eye_;
+  std::vector<Chunk> chunks_;
+  std::vector<std::uint32_t> first_chunk_, points_;
+  std::vector<Plane> edges_;
+  std::uint64_t edge_on_ = 0;
+  std::vector<std::atomic<unsigned char>> seen_;  // of each face, from_front and from_behind
+  std::atomic<double> done_{0};
+  std::atomic<unsigned> silent_{0};
+};
+
+}  // namespace visible_detail
+
+/// Convex cones of directions, to begin with.
+template <View V>
+using Cones = std::vector<typename Visible_surface<V>::Cone>;
+
+/// The eight octants around the eye.
+template <View V>
+Cones<V> whole_sphere(const V& view) {
+  Cones<V> octants;
+  for (unsigned k = 0; k < 8; ++k) {
+    auto& region = octants.emplace_back();
+    const std::array<bool, 3> positive{(k & 1) == 0, (k & 2) == 0, (k & 4) == 0};
+    // x, y, z run the right way round where all are positive; each negative axis turns that.
+    const bool turned = (positive[0] != positive[1]) == positive[2];
+    const std::array<std::uint32_t, 3> order = turned ? std::array<std::uint32_t, 3>{0, 2, 1} : std::array<std::uint32_t, 3>{0, 1, 2};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t across = order[(i + 2) % 3];
+      region.rays.push_back(view.axis_ray(order[i], positive[order[i]]));
+      region.sides.push_back(positive[across] ? view.axis(across) : view.opposite(view.axis(across)));
+    }
+  }
+  return octants;
+}
+
+/// The field that the view was made with.
+template <View V>
+  requires requires(const V& view) { view.field_sides(); }
+Cones<V> field_of_view(const V& view) {
+  Cones<V> cones(1);
+  Predicate_counts counts;
+  const auto n = static_cast<std::uint32_t>(view.field_sides());
+  for (std::uint32_t k = 0; k < n; ++k) {  // ray k is where the side before it meets side k
+    cones[0].rays.push_back(view.meet(view.field_side((k + n - 1) % n), view.field_side(k), counts));
+    cones[0].sides.push_back(view.field_side(k));
+  }
+  return cones;
+}
+
+/// What an eye sees of a scene: in the given cones, which must have no open set in common.
+/// Pre: view, boxes: of one scene. Post: the parts fill the cones, each ray of them shows what the part says, from the front or from behind; exactly the visible pieces of `proofs/semantics.md`,
+/// where pieces of one plane overlap the one that comes first: seen from the front before from behind, then by face id, then by number. Pieces that the eye is in the plane of (or on) hide nothing
+/// and are not seen. Cuts are planes through the eye and an edge of the scene, or the line along which two pieces cross.
+/// Degenerate: an empty scene is one part for each cone. Cost: follows what is visible; what is behind a piece that covers a region is dropped by boxes. Parallel.
+/// Exact: as the view is. Ref: Weiler and Atherton 1977 (cutting the view by faces), Naylor's 2D trees of the slides. Proof: P-62
+template <View V>
+Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, Cones<V> cones, const Visible_options& options = {}) {
+  std::optional<oneapi::tbb::global_control> more;
+  if (options.threads > oneapi::tbb::info::default_concurrency()) more.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
+  oneapi::tbb::task_arena arena(options.threads > 0 ? options.threads : oneapi::tbb::task_arena::automatic);
+  Visible_surface<V> surface;
+  arena.execute([&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones)); });
+  return surface;
+}
+/// The same over the whole sphere of directions.
+template <View V>
+Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, const Visible_options& options = {}) {
+  return visible_surface(view, boxes, whole_sphere(view), options);
+}
+
+/// The corners of a part in the file's coordinates, counterclockwise as seen from the face's front. Pre: something is seen in it. Exact: as the view is.
+/// Errors: std::domain_error where an inexact view's numbers say nothing.
+template <View V>
+std::vector<Exact_point> vertices(const V& view, const Visible_surface<V>& surface, const typename Visible_surface<V>::Part& part) {
+  std::vector<Exact_point> points;
+  for (const typename V::Ray& r : surface.of(part)) points.push_back(view.position(part.piece, r));
+  if (view.eye_side(part.piece) == CGAL::POSITIVE) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+}  // namespace sightline

@@ -1,0 +1,181 @@
+// sightline see: the exact visible parts of a scene from an eye, their picture and their certificate.
+
+#include "picture.h"
+
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/number_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/verify/certificate_json.h>
+
+#include <iostream>
+
+namespace sightline::app {
+
+namespace {
+
+struct See_arguments {
+  Common common;
+  View_arguments view;
+  std::string eye, kernel = "exact", certificate, svg;
+  bool two_sided = false, frustum = false;
+};
+
+/// What a kernel saw, in exact numbers.
+struct Seen {
+  std::vector<Drawn> parts;                      ///< fragment.piece: the convex piece
+  std::vector<Face_id> visible;
+  std::vector<std::vector<Exact_point>> empty;   ///< directions around where nothing is seen
+  Visible_counters counters;
+  std::size_t not_finite = 0;
+  double seconds = 0;
+};
+
+template <sightline::View V>
+Seen seen_by(const V& view, const Visible_surface<V>& surface, bool two_sided) {
+  Seen seen;
+  seen.visible = surface.visible, seen.counters = surface.counters;
+  if (two_sided) {
+    seen.visible.clear();
+    std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(), surface.from_behind.end(), std::back_inserter(seen.visible));
+  }
+  for (const auto& part : surface.parts) {
+    if (part.piece == surface.nothing) {
+      if constexpr (std::is_same_v<V, Exact_view>) {
+        auto& directions = seen.empty.emplace_back();
+        for (const auto& ray : surface.of(part)) {
+          const std::array<Integer, 3> d = view.direction(ray);
+          directions.push_back({Rational(d[0]), Rational(d[1]), Rational(d[2])});
+        }
+      }
+      continue;
+    }
+    const Piece& piece = view.scene().pieces()[part.piece];
+    try {
+      seen.parts.push_back({{piece.face, piece.number, vertices(view, surface, part)}, piece.number, view.eye_side(part.piece)});
+    } catch (const std::domain_error&) {
+      ++seen.not_finite;
+    }
+  }
+  return seen;
+}
+
+/// The whole sphere, or the given field of view.
+Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, bool two_sided, const Visible_options& options) {
+  const Stopwatch watch;
+  const Piece_boxes boxes(scene);
+  Seen seen;
+  const auto with = [&](const auto& view) {
+    const auto surface = visible_surface(view, boxes, options);
+    const double seconds = watch.seconds();
+    seen = seen_by(view, surface, two_sided);
+    seen.seconds = seconds;
+  };
+  if (kernel == "exact" && !field.empty()) {
+    const Exact_view view(scene, eye, field_of(field));
+    const auto surface = visible_surface(view, boxes, field_of_view(view), options);
+    const double seconds = watch.seconds();
+    seen = seen_by(view, surface, two_sided);
+    seen.seconds = seconds;
+  } else if (kernel == "exact") {
+    with(Exact_view(scene, eye));
+  } else if (kernel == "double") {
+    with(Number_view<double>(scene, eye));
+  } else if (kernel == "float") {
+    with(Number_view<float>(scene, eye));
+  } else if (kernel == "gmpq") {
+    with(Number_view<CGAL::Gmpq>(scene, eye));
+  } else {
+    with(Number_view<CGAL::Exact_predicates_exact_constructions_kernel::FT>(scene, eye));
+  }
+  return seen;
+}
+
+/// What `verify` reads: all pieces, and which parts of them are seen.
+Visible_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Exact_point>& field, Seen& seen) {
+  Visible_certificate certificate;
+  certificate.eye = eye, certificate.field = field, certificate.empty = std::move(seen.empty);
+  std::map<std::pair<Face_id, std::uint32_t>, std::size_t> place;
+  for (const Piece& piece : scene.pieces()) {
+    place[{piece.face, piece.number}] = certificate.fragments.size();
+    Order_fragment& fragment = certificate.fragments.emplace_back();
+    fragment.face = piece.face, fragment.piece = piece.number;
+    for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
+  }
+  add_pieces(certificate, scene);
+  for (const Drawn& drawn : seen.parts) {
+    Exact_point ray{0, 0, 0};  // to the mean of the corners
+    for (const Exact_point& p : drawn.fragment.vertices)
+      for (std::size_t k = 0; k < 3; ++k) ray[k] += (p[k] - eye[k]) / static_cast<long>(drawn.fragment.vertices.size());
+    certificate.parts.push_back({place.at({drawn.fragment.face, drawn.fragment.piece}), drawn.fragment.vertices, ray});
+  }
+  return certificate;
+}
+
+Exit run(const See_arguments& arguments) {
+  const Common& common = arguments.common;
+  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
+  if (arguments.kernel != "exact" && (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum)) throw Usage_error("--certificate, --svg and --frustum are exact: leave out --kernel");
+  const Scene scene(common.read());
+  const Exact_point eye = eye_of(arguments.eye, scene);
+  const View view = arguments.view.view(eye, scene);
+  const bool empty = scene.counters().faces == 0;
+  Progress progress("looking");
+  Visible_options options;
+  options.threads = common.threads;
+  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
+  Seen seen = see(scene, eye, arguments.kernel, field, arguments.two_sided, options);
+
+  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, field, seen)).dump() + "\n");
+  if (!arguments.svg.empty()) {
+    Svg svg = empty_picture(view);
+    if (!empty) paint(svg, view, see(scene, eye, "exact", corner_rays(view), true, options).parts, false);
+    write_file(arguments.svg, svg.text());
+  }
+
+  const auto counted = [&](const Drawn& drawn) { return arguments.two_sided || drawn.side == CGAL::POSITIVE; };
+  std::size_t parts = 0;
+  Json pieces = Json::array();
+  for (const Drawn& drawn : seen.parts) {
+    if (!counted(drawn)) continue;
+    ++parts;
+    if (common.json.empty()) continue;
+    Json corners = Json::array();
+    for (const Exact_point& p : drawn.fragment.vertices) corners.push_back(point_json(p));
+    pieces.push_back({{"face", drawn.fragment.face}, {"piece", drawn.fragment.piece}, {"side", drawn.side == CGAL::POSITIVE ? "front" : "back"}, {"vertices", std::move(corners)}});
+  }
+  const Visible_counters& c = seen.counters;
+  Json counters{{"kernel", arguments.kernel}, {"pieces", c.pieces}, {"edge_on", c.edge_on}, {"boxes_opened", c.opened}, {"looked_at", c.looked_at}, {"hidden", c.hidden}, {"hidden_boxes", c.hidden_boxes},
+                {"regions", c.regions}, {"cuts", c.splits}, {"crossings", c.crossings}, {"merged", c.merged}, {"depth", c.depth}, {"parts", seen.parts.size()}, {"not_finite", seen.not_finite}, {"predicates", predicates_json(c.predicates)}};
+  if (write_json(common, "see", scene, {{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}}, counters, {{"see", seen.seconds}})) return Exit::done;
+
+  scene_rows(scene);
+  row("eye", fmt::format("({}, {}, {}){}", to_string(eye[0]), to_string(eye[1]), to_string(eye[2]), c.edge_on > 0 ? fmt::format(", in the planes of {} pieces, which are edge-on", c.edge_on) : ""));
+  row("visible", fmt::format("{} of {} faces, in {} parts{}", seen.visible.size(), scene.counters().faces, parts, arguments.two_sided ? "" : "; --two-sided counts back sides too"));
+  row("looked at", fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others", c.looked_at, c.opened, c.hidden, c.hidden_boxes));
+  row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again", c.regions, c.splits, c.crossings, c.merged));
+  if (seen.not_finite > 0) row("lost", fmt::format("{} parts are not finite", seen.not_finite));
+  row("predicates", fmt::format("{} by names, {} by doubles, {} by fixed width, {} by GMP", c.predicates.combinatorial, c.predicates.filtered, c.predicates.fixed, c.predicates.gmp));
+  row("seconds", fmt::format("{:.4f} ({})", seen.seconds, arguments.kernel));
+  return Exit::done;
+}
+
+}  // namespace
+
+}  // namespace sightline::app
+
+void add_see(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("see", "The exact visible parts of a scene from an eye, with a picture and a certificate");
+  auto a = std::make_shared<sightline::app::See_arguments>();
+  a->common.add_to(*command);
+  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")->check(sightline::app::not_empty);
+  command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember({"exact", "epeck", "gmpq", "double", "float"}))->capture_default_str();
+  command->add_flag("--two-sided", a->two_sided, "count faces seen from behind too (they hide what is behind them anyway)");
+  command->add_flag("--frustum", a->frustum, "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
+  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  command->add_option("--svg", a->svg, "draw the visible parts");
+  a->view.add_to(*command);
+  command->footer("Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
+                  "Where faces of one plane overlap, one is shown: seen from its front before from behind, then the lower face id; `visible` has them all.");
+  set_action(*command, [a] { return sightline::app::run(*a); });
+}

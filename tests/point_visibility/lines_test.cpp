@@ -1,0 +1,61 @@
+// Hidden lines against brute force, and the classes of edges.
+
+#include "support.h"
+
+#include <sightline/algorithms/point_visibility/hidden_lines.h>
+
+#include <gtest/gtest.h>
+
+namespace sightline::see_test {
+namespace {
+
+class Lines : public testing::TestWithParam<view_scenes::Family> {};
+
+/// What is visible of an edge, neighbouring parts joined.
+std::vector<oracle::Interval> visible(const std::vector<Line_part>& parts) {
+  std::vector<oracle::Interval> found;
+  for (const Line_part& part : parts) {
+    if (part.hidden_by != Line_part::nothing) continue;
+    if (!found.empty() && found.back().to == part.from) found.back().to = part.to;
+    else found.push_back({part.from, part.to});
+  }
+  return found;
+}
+
+TEST_P(Lines, are_hidden_as_brute_force_hides_them) {
+  std::size_t compared = 0, hidden = 0;
+  for (std::uint64_t seed = 1; seed <= 6 && !HasFatalFailure(); ++seed)
+    for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) {
+      SCOPED_TRACE(given.name);
+      const Scene scene(given.soup);
+      const Exact_view view(scene, given.eye);
+      const auto surface = visible_surface(view, Piece_boxes(scene));
+      const oracle::Flats flats = oracle::flats_of(scene);
+      for (const Drawn_edge& drawn : hidden_lines(view, surface)) {
+        const Exact_point a = scene.position(drawn.edge.p), b = scene.position(drawn.edge.q);
+        SCOPED_TRACE("edge of face " + std::to_string(flats[drawn.edge.pieces[0]].face) + ", points " + std::to_string(drawn.edge.p) + " and " + std::to_string(drawn.edge.q));
+        ASSERT_EQ(visible(drawn.parts), oracle::visible_on_edge(flats, given.eye, a, b));
+        ++compared;
+        // One after the other, from end to end; what hides a part meets the sightlines to it.
+        if (drawn.parts.empty()) continue;
+        ASSERT_EQ(drawn.parts.front().from, 0);
+        ASSERT_EQ(drawn.parts.back().to, 1);
+        for (std::size_t k = 0; k < drawn.parts.size(); ++k) {
+          const Line_part& part = drawn.parts[k];
+          ASSERT_LT(part.from, part.to);
+          ASSERT_EQ(part.from, k == 0 ? Rational(0) : drawn.parts[k - 1].to);
+          if (part.hidden_by == Line_part::nothing) continue;
+          ++hidden;
+          for (const Rational& share : {Rational(1, 2), Rational(1, 1000), Rational(999, 1000)})
+            ASSERT_TRUE(oracle::blocks(flats[part.hidden_by], given.eye, oracle::along(a, part.from + share * (part.to - part.from), oracle::minus(b, a))));
+        }
+      }
+    }
+  EXPECT_GT(compared, 50u);
+  EXPECT_GT(hidden, 10u);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Lines, testing::ValuesIn(view_scenes::families), [](const auto& of) { return std::string(view_scenes::name(of.param)); });
+
+}  // namespace
+}  // namespace sightline::see_test

@@ -1,0 +1,107 @@
+// Visible surfaces against brute force: exact areas and points, directions, the law, other kernels, any number of threads.
+
+#include "support.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace sightline::see_test {
+namespace {
+
+/// Scenes of each family; SIGHTLINE_LONG multiplies.
+std::uint64_t seeds() {
+  const char* text = std::getenv("SIGHTLINE_LONG");
+  return text == nullptr ? 12 : std::strtoull(text, nullptr, 10);
+}
+
+void expect_as_brute_force(const view_scenes::Case& given) {
+  SCOPED_TRACE(given.name);
+  const Scene scene(given.soup);
+  const Exact_view view(scene, given.eye);
+  const Piece_boxes boxes(scene);
+  const Visible_surface<Exact_view> surface = visible_surface(view, boxes, Visible_options{.threads = 1});
+
+  // The same points of each piece, with the same area; nothing of it twice.
+  const auto parts = polygons(view, surface);
+  const oracle::Flats flats = oracle::flats_of(scene);
+  std::vector<std::vector<oracle::Points>> expected(flats.size());
+  for (const oracle::Region& region : oracle::visible_parts(flats, given.eye)) expected[region.piece] = region.parts;
+  for (std::size_t i = 0; i < flats.size(); ++i) {
+    const Exact_point& normal = flats[i].plane.normal;
+    for (const auto& part : parts[i])
+      for (std::size_t k = 0; k < part.size(); ++k) {  // in its plane, and counterclockwise as seen from the front
+        ASSERT_EQ(flats[i].height(part[k]), 0);
+        const Exact_point turn = oracle::cross(oracle::minus(part[(k + 1) % part.size()], part[k]), oracle::minus(part[(k + 2) % part.size()], part[(k + 1) % part.size()]));
+        ASSERT_GE(oracle::dot(turn, normal), 0) << "face " << flats[i].face;
+      }
+    ASSERT_EQ(oracle::projected_area(parts[i], normal), oracle::projected_area(expected[i], normal)) << "face " << flats[i].face;
+    ASSERT_TRUE(oracle::same_points(parts[i], expected[i], normal)) << "face " << flats[i].face;
+  }
+
+  // The faces that the law calls visible.
+  const std::set<Face_id> lawful = oracle::visible_faces(flats, given.eye);
+  ASSERT_EQ(std::vector<Face_id>(lawful.begin(), lawful.end()), surface.visible);
+}
+
+class See : public testing::TestWithParam<view_scenes::Family> {};
+
+TEST_P(See, is_seen_as_brute_force_sees_it) {
+  for (std::uint64_t seed = 1; seed <= seeds() && !HasFatalFailure(); ++seed)
+    for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) expect_as_brute_force(given);
+}
+
+TEST_P(See, shows_in_each_direction_what_a_ray_meets_first) {
+  generate::Random random(7);
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed)
+    for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) {
+      SCOPED_TRACE(given.name);
+      const Scene scene(given.soup);
+      const Exact_view view(scene, given.eye);
+      const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene));
+      const oracle::Flats flats = oracle::flats_of(scene);
+      for (int k = 0; k < 100; ++k) {
+        const Exact_point direction = k % 2 == 0 || flats.empty() ? oracle::random_direction(random) : oracle::random_direction_at(flats, given.eye, random);
+        bool generic = true;
+        const std::optional<std::uint32_t> hit = oracle::first_hit(flats, given.eye, direction, &generic);
+        if (!generic) continue;
+        ++compared;
+        for (const std::uint32_t seen : seen_in(view, surface, direction)) ASSERT_EQ(seen, hit.value_or(surface.nothing));
+        ASSERT_FALSE(seen_in(view, surface, direction).empty());
+      }
+    }
+  EXPECT_GT(compared, 100u);
+}
+
+TEST_P(See, is_the_same_in_every_exact_kernel) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed)
+    for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) {
+      SCOPED_TRACE(given.name);
+      const Scene scene(given.soup);
+      const Piece_boxes boxes(scene);
+      const Exact_view view(scene, given.eye);
+      const auto exactly = visible_surface(view, boxes);
+      const Number_view<CGAL::Gmpq> rational(scene, given.eye);
+      const auto rationally = visible_surface(rational, boxes);
+      ASSERT_EQ(exactly.visible, rationally.visible);
+      const auto parts = polygons(view, exactly), others = polygons(rational, rationally);
+      const oracle::Flats flats = oracle::flats_of(scene);
+      for (std::size_t i = 0; i < flats.size(); ++i) ASSERT_TRUE(oracle::same_points(parts[i], others[i], flats[i].plane.normal)) << "face " << flats[i].face;
+    }
+}
+
+TEST_P(See, survives_doubles_and_floats) {
+  for (std::uint64_t seed = 1; seed <= seeds(); ++seed)
+    for (const view_scenes::Case& given : view_scenes::make(GetParam(), seed)) {
+      const Scene scene(given.soup);
+      const Piece_boxes boxes(scene);
+      EXPECT_GE(visible_surface(Number_view<double>(scene, given.eye), boxes).counters.regions, 8u);
+      EXPECT_GE(visible_surface(Number_view<float>(scene, given.eye), boxes).counters.regions, 8u);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, See, testing::ValuesIn(view_scenes::families), [](const auto& of) { return std::string(view_scenes::name(of.param)); });
+
+}  // namespace
+}  // namespace sightline::see_test
