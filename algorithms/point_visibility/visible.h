@@ -325,7 +325,8 @@ class Solver {
     }
     return sum;
   }
-  /// The plane to cut a region by: an edge of the piece that is nearest in the middle of it.
+  /// The plane to cut a region by: of the edges of the piece that is nearest in the middle of it, the one that shares out the rest best; where nothing but pieces that cover
+  /// the region is left, and two of them cross, their line.
   Plane choose(const Task& task, Output& out) const {
     double nearest = -std::numeric_limits<double>::infinity();
     const Item* best = nullptr;
@@ -335,16 +336,47 @@ class Solver {
       const double near = view_.nearness(piece_of(item.index), middle);
       if (best == nullptr || near > nearest) nearest = near, best = &item;
     }
-    if (best == nullptr) {  // only pieces that cross the cover, and cover the region themselves
-      const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);
-      const Plane w = view_.crossing(f, g);
-      ++out.counters.crossings;
-      const Region part = cut(task.region, w, out.counters.predicates)[0];
-      for (std::size_t k = 0; k < part.rays.size(); ++k)
-        if (part.sides[k].name == w.name) out.crossings.push_back({f, g, part.rays[k], part.rays[k + 1 == part.rays.size() ? 0 : k + 1]});
-      return w;
+    if (best == nullptr) return cross_in(task, out);
+    const Plane* cheapest = nullptr;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t bits = best->active; bits != 0; bits &= bits - 1) {
+      const Plane& w = edges_[chunks_[best->index].first + static_cast<std::uint32_t>(std::countr_zero(bits))];
+      const double cost = cost_of(w, task, out.counters.predicates);
+      if (cheapest == nullptr || cost < least) least = cost, cheapest = &w;
     }
-    return edges_[chunks_[best->index].first + static_cast<std::uint32_t>(std::countr_zero(best->active))];
+    return *cheapest;
+  }
+  /// What a cut costs: pieces and boxes that it does not keep on one side, and how unequal the sides become. A box counts as the square root of its pieces: most of them will be hidden.
+  double cost_of(const Plane& w, const Task& task, Predicate_counts& counts) const {
+    constexpr double price = 3;
+    const Plane against = view_.opposite(w);
+    double front = 0, behind = 0, both = 0;
+    for (const Item& item : task.items) {
+      bool in_front = false, at_back = false;
+      double weight = 1;
+      if ((item.index & box_bit) != 0) {
+        const Piece_boxes::Node& node = boxes_.nodes()[item.index & ~box_bit];
+        in_front = !is_behind(node, w), at_back = !is_behind(node, against);
+        weight = std::sqrt(static_cast<double>(node.count));
+      } else {
+        for (const std::uint32_t p : points_of(item.index)) {
+          const Sign s = view_.side(w, p, counts);
+          in_front = in_front || s == CGAL::POSITIVE, at_back = at_back || s == CGAL::NEGATIVE;
+        }
+      }
+      (in_front && at_back ? both : in_front ? front : behind) += weight;
+    }
+    return price * both + std::fabs(front - behind);
+  }
+  /// Cuts where the cover crosses a piece that covers the region too.
+  Plane cross_in(const Task& task, Output& out) const {
+    const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);
+    const Plane w = view_.crossing(f, g);
+    ++out.counters.crossings;
+    const Region part = cut(task.region, w, out.counters.predicates)[0];
+    for (std::size_t k = 0; k < part.rays.size(); ++k)
+      if (part.sides[k].name == w.name) out.crossings.push_back({f, g, part.rays[k], part.rays[k + 1 == part.rays.size() ? 0 : k + 1]});
+    return w;
   }
 
   /// The parts of a region in front of a plane and behind it.

@@ -250,6 +250,30 @@ TEST(Oracle_edges, behind_a_face_that_is_edge_on_is_hidden_where_the_face_holds_
   EXPECT_EQ(visible_on_edge(scene, at(0, ratio(3, 2), 1), at(-1, 3, 1), at(1, 3, 1)), (Intervals{{0, 1}}));
 }
 
+TEST(Oracle_segments, are_open_and_pieces_closed) {
+  const Flats flats = flats_of(scene_of({rectangle(0, 2, 0, 2, 0)}));
+  const auto blocked = [&](const Exact_point& p, const Exact_point& q) {
+    EXPECT_EQ(blocks(flats[0], p, q), blocks(flats[0], q, p));
+    EXPECT_NE(blocks(flats[0], p, q), is_sightline(flats, p, q));
+    return blocks(flats[0], p, q);
+  };
+  EXPECT_TRUE(blocked(at(1, 1, 1), at(1, 1, -1)));
+  EXPECT_TRUE(blocked(at(0, 1, 1), at(0, 1, -1)));   // its edge
+  EXPECT_TRUE(blocked(at(-1, 0, 1), at(1, 0, -1)));  // its corner
+  EXPECT_FALSE(blocked(at(0, Rational(-tiny()), 1), at(0, Rational(-tiny()), -1)));
+  EXPECT_FALSE(blocked(at(1, 1, 1), at(1, 1, 0)));  // it ends there, or before
+  EXPECT_FALSE(blocked(at(1, 1, 2), at(1, 1, 1)));
+  // In its plane: across, along an edge, inside, by a corner only, up to it, past it.
+  EXPECT_TRUE(blocked(at(-1, 1, 0), at(3, 1, 0)));
+  EXPECT_TRUE(blocked(at(-1, 2, 0), at(1, 2, 0)));
+  EXPECT_TRUE(blocked(at(ratio(1, 2), 1, 0), at(1, 1, 0)));
+  EXPECT_TRUE(blocked(at(-1, 1, 0), at(1, -1, 0)));
+  EXPECT_FALSE(blocked(at(-1, 1, 0), at(0, 1, 0)));
+  EXPECT_FALSE(blocked(at(-1, -1, 0), at(0, 0, 0)));
+  EXPECT_FALSE(blocked(at(-1, 3, 0), at(3, 3, 0)));
+  EXPECT_FALSE(blocked(at(3, 1, 0), at(4, 1, 0)));
+}
+
 // ---- At random: every family ---------------------------------------------------------------------------------------------------------------
 
 /// For each family.
