@@ -2,9 +2,8 @@
 
 #include "picture.h"
 
-#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
-#include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 
 #include <iostream>
@@ -17,17 +16,26 @@ struct See_arguments {
   Common common;
   View_arguments view;
   std::string eye, kernel = "exact", certificate, svg;
-  bool two_sided = false, frustum = false;
+  bool two_sided = false, frustum = false, lines = false;
+};
+
+/// A line of the drawing: an edge of the scene, or where two faces cross.
+struct Line {
+  std::array<Exact_point, 2> ends;
+  const char* kind;
+  std::vector<Face_id> faces;
+  std::vector<Line_part> parts;
 };
 
 /// What a kernel saw, in exact numbers.
 struct Seen {
+  std::vector<Line> lines;
   std::vector<Drawn> parts;                      ///< fragment.piece: the convex piece
   std::vector<Face_id> visible;
   std::vector<std::vector<Exact_point>> empty;   ///< directions around where nothing is seen
   Visible_counters counters;
   std::size_t not_finite = 0;
-  double seconds = 0;
+  double seconds = 0, line_seconds = 0;
 };
 
 template <sightline::View V>
@@ -59,8 +67,57 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, bool two_sided) {
   return seen;
 }
 
+/// Edges of the scene that are in the view, and where faces cross in it.
+std::vector<Line> lines_of(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads) {
+  static constexpr const char* names[] = {"boundary", "silhouette", "smooth", "crease"};
+  const Scene& scene = view.scene();
+  std::vector<Line> lines;
+  for (Drawn_edge& drawn : hidden_lines(view, surface, threads)) {
+    if (drawn.parts.empty()) continue;
+    Line& line = lines.emplace_back(Line{{scene.position(drawn.edge.p), scene.position(drawn.edge.q)}, names[static_cast<std::size_t>(drawn.kind)], {}, std::move(drawn.parts)});
+    for (const std::uint32_t piece : drawn.edge.pieces) line.faces.push_back(scene.pieces()[piece].face);
+  }
+  for (const auto& crossing : surface.crossings) {
+    const auto face = [&](std::uint32_t piece) { return scene.pieces()[piece].face; };
+    lines.push_back({{view.position(crossing.f, crossing.from), view.position(crossing.f, crossing.to)}, "intersection", {face(crossing.f), face(crossing.g)}, {{0, 1, Line_part::nothing}}});
+  }
+  return lines;
+}
+Exact_point point_on(const Line& line, const Rational& at) {
+  Exact_point p;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = line.ends[0][k] + at * (line.ends[1][k] - line.ends[0][k]);
+  return p;
+}
+Json lines_json(const Scene& scene, const std::vector<Line>& lines) {
+  Json all = Json::array();
+  for (const Line& line : lines) {
+    Json parts = Json::array();
+    for (const Line_part& part : line.parts) {
+      Json& entry = parts.emplace_back(Json{{"from", to_string(part.from)}, {"to", to_string(part.to)}, {"visible", part.hidden_by == Line_part::nothing}});
+      if (part.hidden_by != Line_part::nothing) entry["hidden_by"] = {scene.pieces()[part.hidden_by].face, scene.pieces()[part.hidden_by].number};
+      entry["vertices"] = {point_json(point_on(line, part.from)), point_json(point_on(line, part.to))};
+    }
+    all.push_back({{"class", line.kind}, {"faces", line.faces}, {"vertices", {point_json(line.ends[0]), point_json(line.ends[1])}}, {"parts", std::move(parts)}});
+  }
+  return all;
+}
+/// Hidden parts dashed, then visible ones: outlines heavier, edges between faces of one plane not at all.
+void draw(Svg& svg, const View& view, const std::vector<Line>& lines) {
+  for (const bool visible : {false, true})
+    for (const Line& line : lines) {
+      const std::string_view kind = line.kind;
+      if (kind == "smooth") continue;
+      for (const Line_part& part : line.parts) {
+        if ((part.hidden_by == Line_part::nothing) != visible) continue;
+        const Flat_point from = projected(view, point_on(line, part.from)), to = projected(view, point_on(line, part.to));
+        if (visible) svg.line(from, to, kind == "intersection" ? "#b0281c" : "#1c1c1c", kind == "boundary" || kind == "silhouette" ? 1.4 : 0.8);
+        else svg.line(from, to, "#00000050", 0.6, true);
+      }
+    }
+}
+
 /// The whole sphere, or the given field of view.
-Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, bool two_sided, const Visible_options& options) {
+Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, bool two_sided, bool lines, const Visible_options& options) {
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
   Seen seen;
@@ -70,14 +127,17 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
     seen = seen_by(view, surface, two_sided);
     seen.seconds = seconds;
   };
-  if (kernel == "exact" && !field.empty()) {
-    const Exact_view view(scene, eye, field_of(field));
-    const auto surface = visible_surface(view, boxes, field_of_view(view), options);
+  if (kernel == "exact") {
+    const Exact_view view(scene, eye, field.empty() ? std::vector<std::array<Integer, 3>>() : field_of(field));
+    const auto surface = visible_surface(view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), options);
     const double seconds = watch.seconds();
     seen = seen_by(view, surface, two_sided);
     seen.seconds = seconds;
-  } else if (kernel == "exact") {
-    with(Exact_view(scene, eye));
+    if (lines) {
+      const Stopwatch more;
+      seen.lines = lines_of(view, surface, options.threads);
+      seen.line_seconds = more.seconds();
+    }
   } else if (kernel == "double") {
     with(Number_view<double>(scene, eye));
   } else if (kernel == "float") {
@@ -114,7 +174,7 @@ Visible_certificate certificate_of(const Scene& scene, const Exact_point& eye, c
 Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
-  if (arguments.kernel != "exact" && (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum)) throw Usage_error("--certificate, --svg and --frustum are exact: leave out --kernel");
+  if (arguments.kernel != "exact" && (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum || arguments.lines)) throw Usage_error("--certificate, --svg, --lines and --frustum are exact: leave out --kernel");
   const Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = arguments.view.view(eye, scene);
@@ -124,12 +184,16 @@ Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  Seen seen = see(scene, eye, arguments.kernel, field, arguments.two_sided, options);
+  Seen seen = see(scene, eye, arguments.kernel, field, arguments.two_sided, arguments.lines, options);
 
   if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, field, seen)).dump() + "\n");
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
-    if (!empty) paint(svg, view, see(scene, eye, "exact", corner_rays(view), true, options).parts, false);
+    if (!empty) {
+      const Seen picture = see(scene, eye, "exact", corner_rays(view), true, arguments.lines, options);
+      paint(svg, view, picture.parts, false);
+      draw(svg, view, picture.lines);
+    }
     write_file(arguments.svg, svg.text());
   }
 
@@ -147,13 +211,29 @@ Exit run(const See_arguments& arguments) {
   const Visible_counters& c = seen.counters;
   Json counters{{"kernel", arguments.kernel}, {"pieces", c.pieces}, {"edge_on", c.edge_on}, {"boxes_opened", c.opened}, {"looked_at", c.looked_at}, {"hidden", c.hidden}, {"hidden_boxes", c.hidden_boxes},
                 {"regions", c.regions}, {"cuts", c.splits}, {"crossings", c.crossings}, {"merged", c.merged}, {"depth", c.depth}, {"parts", seen.parts.size()}, {"not_finite", seen.not_finite}, {"predicates", predicates_json(c.predicates)}};
-  if (write_json(common, "see", scene, {{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}}, counters, {{"see", seen.seconds}})) return Exit::done;
+  Json result{{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}}, seconds{{"see", seen.seconds}};
+  if (arguments.lines) {
+    if (!common.json.empty()) result["lines"] = lines_json(scene, seen.lines);
+    seconds["lines"] = seen.line_seconds;
+  }
+  if (write_json(common, "see", scene, std::move(result), counters, seconds)) return Exit::done;
 
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {}){}", to_string(eye[0]), to_string(eye[1]), to_string(eye[2]), c.edge_on > 0 ? fmt::format(", in the planes of {} pieces, which are edge-on", c.edge_on) : ""));
   row("visible", fmt::format("{} of {} faces, in {} parts{}", seen.visible.size(), scene.counters().faces, parts, arguments.two_sided ? "" : "; --two-sided counts back sides too"));
   row("looked at", fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others", c.looked_at, c.opened, c.hidden, c.hidden_boxes));
   row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again", c.regions, c.splits, c.crossings, c.merged));
+  if (arguments.lines) {
+    std::size_t whole = 0, hidden = 0, crossing = 0;
+    for (const Line& line : seen.lines) {
+      const auto is_hidden = [](const Line_part& part) { return part.hidden_by != Line_part::nothing; };
+      const std::string_view kind = line.kind;
+      crossing += kind == "intersection";
+      whole += kind != "intersection" && std::none_of(line.parts.begin(), line.parts.end(), is_hidden);
+      hidden += std::all_of(line.parts.begin(), line.parts.end(), is_hidden);
+    }
+    row("lines", fmt::format("{} edges: {} visible, {} hidden, {} in part; {} lines where faces cross, {:.3f} seconds", seen.lines.size() - crossing, whole, hidden, seen.lines.size() - crossing - whole - hidden, crossing, seen.line_seconds));
+  }
   if (seen.not_finite > 0) row("lost", fmt::format("{} parts are not finite", seen.not_finite));
   row("predicates", fmt::format("{} by names, {} by doubles, {} by fixed width, {} by GMP", c.predicates.combinatorial, c.predicates.filtered, c.predicates.fixed, c.predicates.gmp));
   row("seconds", fmt::format("{:.4f} ({})", seen.seconds, arguments.kernel));
@@ -172,6 +252,7 @@ void add_see(CLI::App& app) {
   command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember({"exact", "epeck", "gmpq", "double", "float"}))->capture_default_str();
   command->add_flag("--two-sided", a->two_sided, "count faces seen from behind too (they hide what is behind them anyway)");
   command->add_flag("--frustum", a->frustum, "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
+  command->add_flag("--lines", a->lines, "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, in the picture solid and dashed");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->add_option("--svg", a->svg, "draw the visible parts");
   a->view.add_to(*command);

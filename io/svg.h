@@ -37,12 +37,12 @@ class Svg {
     body_ += "<rect x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"" + number(width) + "\" height=\"" + number(height) + "\" fill=\"" + std::string(fill) +
              "\" shape-rendering=\"crispEdges\"/>\n";
   }
-  /// A straight line with round ends. Degenerate: with coordinates that are no numbers, or that an SVG has no room for, it is left out.
-  void line(const Flat_point& from, const Flat_point& to, std::string_view stroke, double stroke_width) {
+  /// A straight line with round ends, dashed or not. Degenerate: with coordinates that are no numbers, or that an SVG has no room for, it is left out.
+  void line(const Flat_point& from, const Flat_point& to, std::string_view stroke, double stroke_width, bool dashed = false) {
     for (const Flat_point& p : {from, to})
       if (!(std::fabs(p[0]) < 1e6 && std::fabs(p[1]) < 1e6)) return;
     body_ += "<line x1=\"" + number(from[0]) + "\" y1=\"" + number(from[1]) + "\" x2=\"" + number(to[0]) + "\" y2=\"" + number(to[1]) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
-             number(stroke_width) + "\" stroke-linecap=\"round\"/>\n";
+             number(stroke_width) + (dashed ? "\" stroke-dasharray=\"3 3" : "") + "\" stroke-linecap=\"round\"/>\n";
   }
   /// A line of text that begins at a place. Pre: no character that XML reserves.
   void label(double x, double y, double size, std::string_view words) {

@@ -308,9 +308,7 @@ class Exact_view {
   [[gnu::noinline]] Sign nearer_unfiltered(std::uint32_t f, std::uint32_t g, const Ray& r, Predicate_counts& counts) const {
     if (same_plane(f, g)) return ++counts.combinatorial, CGAL::ZERO;
     // On the line of both planes where the ray is of a point, or of an edge, that both hold.
-    const auto on_both = [&](std::uint32_t point) {
-      return scene_->incidences().contains(point, scene_->pieces()[f].support.id()) && scene_->incidences().contains(point, scene_->pieces()[g].support.id());
-    };
+    const auto on_both = [&](std::uint32_t point) { return side(f, point, counts) == CGAL::ZERO && side(g, point, counts) == CGAL::ZERO; };
     const auto edge_on_both = [&](Eye_plane_name name) { return name.is_edge() && on_both(name.a) && on_both(name.b); };
     if (r.point != no_point ? on_both(r.point) : edge_on_both(r.p) || edge_on_both(r.q)) return ++counts.combinatorial, CGAL::ZERO;
     const Eye_plane_name name = Eye_plane_name::crossing(f, g);
@@ -319,13 +317,13 @@ class Exact_view {
     return static_cast<Sign>(sgn(dot(crossing_normal(f, g), direction(r))));
   }
   [[gnu::noinline]] Sign beyond_unfiltered(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
-    const sightline::Plane support = scene_->pieces()[f].support;
-    if (scene_->incidences().contains(point, support.id())) return ++counts.combinatorial, CGAL::ZERO;
-    ++counts.gmp;
-    const std::array<Integer, 4> h = predicates().coefficients(support);
-    const Grid_points& points = scene_->points();
-    const Integer value = h[0] * points.integer(point, 0) + h[1] * points.integer(point, 1) + h[2] * points.integer(point, 2) + h[3];
-    return static_cast<Sign>(-sgn(value) * forms_[f].eye_side);
+    return static_cast<Sign>(-side(f, point, counts) * forms_[f].eye_side);
+  }
+  /// Of a point of the scene to a piece's plane.
+  Sign side(std::uint32_t piece, std::uint32_t point, Predicate_counts& counts) const {
+    const Predicates exact = predicates();
+    const sightline::Plane support = scene_->pieces()[piece].support;
+    return exact.side(exact.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), exact.prepare(support), counts);
   }
 
   /// The ray of a point, or the one against it, whichever goes the way of r.
