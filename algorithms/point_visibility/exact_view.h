@@ -6,7 +6,7 @@
 namespace sightline {
 
 /// Directions from the eye are integer vectors of b bits, so planes through it and an edge have normals of 2 b + 1 bits, rays where two of them meet 4 b + 3, and the
-/// side of such a ray 6 b + 6: 128 bits do for b <= 20, 256 for 41, 512 for 84. Nothing is built on anything but input, so nothing grows. Exact: yes. Proof: P-60
+/// side of such a ray 6 b + 7: 128 bits do for b <= 20, 256 for 41, 512 for 84. Nothing is built on anything but input, so nothing grows. Exact: yes. Proof: P-60
 class Exact_view {
  public:
   static constexpr bool is_exact = true;
@@ -77,7 +77,7 @@ class Exact_view {
   Ray meet(const Plane& p, const Plane& q, Predicate_counts& counts) const {
     Ray r{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x, 0, 0, p.name, q.name, no_point, p.flipped != q.flipped};
     r.size = magnitude(r.x, r.y, r.z);
-    // Entries off by p.error and q.error, each product and difference by 2^-53; P-60.
+    // Entries off by p.error and q.error, each product and difference by 2^-53: a quarter of the term in 2^-50 would do. P-60
     r.error = p.size * q.error + q.size * p.error + 4 * p.error * q.error + 0x1p-50 * p.size * q.size + 0x1p-1000;
     if (!p.name.is_edge() || !q.name.is_edge()) return r;
     if (q.name.has_point(p.name.a)) return along(p.name.a, r, counts);
@@ -89,7 +89,7 @@ class Exact_view {
 
   Sign side(const Plane& w, const Ray& r, Predicate_counts& counts) const {
     const double value = w.x * r.x + w.y * r.y + w.z * r.z;
-    const double bound = w.size * r.error + w.error * r.size;  // r.error covers the rounding of this line too: it is at least 2^-50 of r.size
+    const double bound = w.size * r.error + w.error * (r.size + 4 * r.error);  // the rounding of these lines is in r.error. P-60
     if (value > bound) return ++counts.filtered, CGAL::POSITIVE;
     if (value < -bound) return ++counts.filtered, CGAL::NEGATIVE;
     return side_unfiltered(w, r, counts);
@@ -329,7 +329,7 @@ class Exact_view {
   /// The ray of a point, or the one against it, whichever goes the way of r.
   Ray along(std::uint32_t point, const Ray& r, Predicate_counts& counts) const {
     Ray to = ray(point);
-    const double value = to.x * r.x + to.y * r.y + to.z * r.z, bound = to.size * r.error + to.error * r.size;
+    const double value = to.x * r.x + to.y * r.y + to.z * r.z, bound = to.size * r.error + to.error * (r.size + 4 * r.error);
     bool against = value < 0;
     if (std::fabs(value) > bound) {
       ++counts.filtered;

@@ -213,14 +213,10 @@ class Solver {
     }
     return farther ? Depth::farther : Depth::nearer;
   }
-  /// Whether chunk g is behind f, which covers the region, although their planes cross there: one is on one side of the other's plane.
+  /// Whether chunk g is behind f, which covers the region, although their planes cross there: no corner of it is on the eye's side of f's plane.
   bool is_beyond(std::uint32_t f, std::uint32_t g, Predicate_counts& counts) const {
-    const std::uint32_t a = piece_of(f), b = piece_of(g);
-    const auto all = [&](std::uint32_t plane, std::uint32_t of, Sign not_this) {
-      const std::span<const std::uint32_t> points = points_of(of);
-      return std::all_of(points.begin(), points.end(), [&](std::uint32_t p) { return view_.beyond(plane, p, counts) != not_this; });
-    };
-    return all(a, g, CGAL::NEGATIVE) || all(b, f, CGAL::POSITIVE);
+    const std::span<const std::uint32_t> points = points_of(g);
+    return std::all_of(points.begin(), points.end(), [&](std::uint32_t p) { return view_.beyond(piece_of(f), p, counts) != CGAL::NEGATIVE; });
   }
 
   // ---- One region ------------------------------------------------------------------------------------------------------------

@@ -1,0 +1,143 @@
+// sightline see: what it prints, its certificates, its lines, eyes that are nowhere good, wrong arguments.
+
+#include "program.h"
+
+#include <sightline/kernel/number.h>
+
+namespace program {
+
+class See : public Program {
+ protected:
+  const std::string cube = (corpus / "general" / "cube.off").string();  // [0, 1]^3
+  const std::string crossing = (corpus / "general" / "crossing_quads.obj").string();
+
+  Json see(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "see");
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, done) << r;
+    return r.json();
+  }
+  Json certificate(const std::string& scene, std::vector<std::string> arguments) {
+    const std::string to = path("seen.json").string();
+    arguments.insert(arguments.begin(), {"see", scene});
+    arguments.insert(arguments.end(), {"--certificate", to});
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, done) << r;
+    return Json::parse(read_file(to));
+  }
+  void expect(int code, const std::string& scene, const Json& made) {
+    const Outcome r = run({"verify", scene, file("made.json", made.dump()), "--json", "-"});
+    EXPECT_EQ(r.code, code) << r;
+    EXPECT_EQ(r.json()["result"]["accepted"], code == done) << r;
+  }
+};
+
+TEST_F(See, shows_a_cube_from_each_kind_of_eye) {
+  EXPECT_EQ(see({cube, "--eye", "1/2,1/2,5"})["result"]["visible"].size(), 1u);
+  EXPECT_EQ(see({cube, "--eye", "3,0.5,5"})["result"]["visible"].size(), 2u);
+  const Json corner = see({cube, "--eye", "3,-4,5"});
+  EXPECT_EQ(corner["result"]["visible"].size(), 3u);
+  EXPECT_EQ(corner["result"]["eye"], Json({"3", "-4", "5"}));
+  for (const Json& piece : corner["result"]["pieces"]) {
+    EXPECT_EQ(piece["side"], "front");
+    EXPECT_GE(piece["vertices"].size(), 3u);
+  }
+  // Inside all faces are seen from behind.
+  EXPECT_EQ(see({cube, "--eye", "1/3,1/3,1/3"})["result"]["visible"].size(), 0u);
+  const Json inside = see({cube, "--eye", "1/3,1/3,1/3", "--two-sided"});
+  EXPECT_EQ(inside["result"]["visible"].size(), 6u);
+  EXPECT_EQ(inside["result"]["pieces"][0]["side"], "back");
+  // On a face it is edge-on; at a corner three are.
+  EXPECT_EQ(see({cube, "--eye", "1/3,1/3,1", "--two-sided"})["result"]["visible"].size(), 5u);
+  const Json vertex = see({cube, "--eye", "0,0,0", "--two-sided"});
+  EXPECT_EQ(vertex["result"]["visible"].size(), 3u);
+  EXPECT_EQ(vertex["counters"]["edge_on"], 3);
+  // In a face's plane, beside it.
+  EXPECT_EQ(see({cube, "--eye", "5,1/2,1"})["result"]["visible"].size(), 1u);
+  // As far as doubles do not go.
+  EXPECT_EQ(see({cube, "--eye", "1e400,1e400,1e400"})["result"]["visible"].size(), 3u);
+}
+
+TEST_F(See, gives_certificates_that_are_accepted_for_every_scene_and_rejected_once_changed) {
+  for (const char* folder : {"general", "robust"})
+    for (const fs::path& scene : scenes_in(corpus / folder)) {
+      const Json made = certificate(scene.string(), {"--eye", "7/2,-5,3"});
+      expect(done, scene.string(), made);
+      if (made["parts"].empty()) continue;
+      Json changed = made;
+      changed["parts"].erase(changed["parts"].size() / 2);
+      expect(disagreement, scene.string(), changed);
+    }
+  expect(done, crossing, certificate(crossing, {"--frustum", "--look", "1,2,-1", "--field", "100", "--eye", "-3,-4,3"}));
+  expect(done, cube, certificate(cube, {"--eye", "1/3,1/3,1/3"}));
+  expect(done, cube, certificate(cube, {"--eye", "0,0,1/2"}));
+}
+
+TEST_F(See, cuts_edges_into_visible_and_hidden_parts) {
+  const Json d = see({cube, "--eye", "3,-4,5", "--lines"});
+  std::size_t visible = 0, hidden = 0, outline = 0;
+  for (const Json& line : d["result"]["lines"]) {
+    ASSERT_GE(line["parts"].size(), 1u) << line;
+    EXPECT_EQ(line["faces"].size(), 2u);
+    outline += line["class"] == "silhouette";
+    EXPECT_EQ(line["parts"].front()["vertices"][0], line["vertices"][0]);
+    EXPECT_EQ(line["parts"].back()["vertices"][1], line["vertices"][1]);
+    for (const Json& part : line["parts"]) EXPECT_EQ(part.contains("hidden_by"), part["visible"] == false);
+    ++(line["parts"][0]["visible"] == true ? visible : hidden);  // the three at the far corner, each behind one face or two
+  }
+  EXPECT_EQ(visible, 9u);
+  EXPECT_EQ(hidden, 3u);
+  EXPECT_EQ(outline, 6u);
+  std::size_t intersections = 0;
+  const Json crossed = see({crossing, "--eye", "-3,-4,3", "--lines"});
+  for (const Json& line : crossed["result"]["lines"]) intersections += line["class"] == "intersection";
+  EXPECT_GE(intersections, 1u);
+}
+
+TEST_F(See, draws_what_it_sees) {
+  const std::string svg = path("a.svg").string();
+  ASSERT_EQ(run({"see", cube, "--eye", "3,-4,5", "--lines", "--svg", svg}).code, done);
+  const std::string text = read_file(svg);
+  EXPECT_NE(text.find("<polygon"), std::string::npos);
+  EXPECT_NE(text.find("stroke-dasharray"), std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+TEST_F(See, is_the_same_with_any_number_of_threads_and_in_every_exact_kernel) {
+  const std::string city = path("city.qoff").string();
+  ASSERT_EQ(run({"make", "city_rotated", "--size", "40", "--seed", "3", "--out", city}).code, done);
+  const Json one = see({city, "--eye", "0,0,1", "--threads", "1", "--lines"}), many = see({city, "--eye", "0,0,1", "--threads", "5", "--lines"});
+  EXPECT_EQ(one["result"], many["result"]);
+  EXPECT_EQ(one["counters"], many["counters"]);
+  for (const char* kernel : {"epeck", "gmpq"}) EXPECT_EQ(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"], one["result"]["visible"]) << kernel;
+  for (const char* kernel : {"double", "float"}) EXPECT_GT(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"].size(), 0u) << kernel;
+}
+
+TEST_F(See, refuses_what_is_no_eye_and_what_is_not_exact) {
+  for (const char* eye : {"1,2", "1,2,3,4", "a,b,c", "1,,3", "nan,0,0", "1/0,0,0", ""}) {
+    const Outcome r = run({"see", cube, "--eye", eye});
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+  }
+  for (const char* option : {"--lines", "--frustum"}) EXPECT_EQ(run({"see", cube, "--kernel", "double", option}).code, usage) << option;
+  EXPECT_EQ(run({"see", cube, "--kernel", "epick"}).code, usage);
+  EXPECT_EQ(run({"see", path("none.off").string()}).code, bad_input);
+  EXPECT_EQ(run({"see", cube, "--budget", "1e-9"}).code, undecided);
+  const Json empty = see({file("empty.off", "OFF\n0 0 0\n"), "--eye", "0,0,0", "--lines"});
+  EXPECT_EQ(empty["result"]["pieces"].size(), 0u);
+}
+
+TEST_F(See, sees_real_scenes_as_verify_accepts_them) {
+  if (std::string_view(SIGHTLINE_SCENES_DIR).empty()) GTEST_SKIP() << "no folder of real scenes";
+  const fs::path scenes = SIGHTLINE_SCENES_DIR;
+  for (const char* name : {"a_interior/cornell_box.obj", "c_convex/cg_geosphere.off", "d_hard/cg_cross.off", "d_hard/gc_three_cubes.stl", "d_hard/mf_Havocglass8_left.obj"}) {
+    if (!fs::exists(scenes / name)) continue;
+    for (const char* eye : {"", "0,0,0", "1/7,1/9,1/11"}) {
+      const Json made = certificate((scenes / name).string(), *eye == 0 ? std::vector<std::string>{} : std::vector<std::string>{"--eye", eye});
+      expect(done, (scenes / name).string(), made);
+    }
+  }
+}
+
+}  // namespace program
