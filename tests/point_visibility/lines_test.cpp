@@ -55,6 +55,28 @@ TEST_P(Lines, are_hidden_as_brute_force_hides_them) {
   EXPECT_GT(hidden, 10u);
 }
 
+/// The classes of the edges of some faces, by number: boundary, silhouette, smooth, crease.
+std::array<int, 4> classes(const std::vector<view_scenes::Points>& faces, const Exact_point& eye) {
+  const Scene scene(view_scenes::soup_of(faces));
+  const Exact_view view(scene, eye);
+  std::array<int, 4> found{};
+  for (const Scene_edge& edge : scene_edges(scene)) ++found[static_cast<std::size_t>(classify(view, edge))];
+  return found;
+}
+
+TEST(Edges, are_of_one_class_each) {
+  using view_scenes::rectangle;
+  const std::vector<view_scenes::Points> cube = view_scenes::box({0, 0, 0}, {1, 1, 1});
+  EXPECT_EQ(classes(cube, {3, -4, 5}), (std::array{0, 6, 0, 6}));
+  EXPECT_EQ(classes(cube, {view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), 5}), (std::array{0, 4, 0, 8}));
+  EXPECT_EQ(classes(cube, {view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), view_scenes::ratio(1, 2)}), (std::array{0, 0, 0, 12}));
+  EXPECT_EQ(classes({rectangle(0, 1, 0, 1, 0), rectangle(1, 2, 0, 1, 0)}, {0, 0, 5}), (std::array{6, 0, 1, 0}));
+  // An L is two pieces or more, and has six edges.
+  EXPECT_EQ(classes({{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}}, {0, 0, 5}), (std::array{6, 0, 0, 0}));
+  // Folded over: both are seen, from one side each.
+  EXPECT_EQ(classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}}, {0, 5, 5})[1] + classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}, {0, 5, 5})[1], 1);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Lines, testing::ValuesIn(view_scenes::families), [](const auto& of) { return std::string(view_scenes::name(of.param)); });
 
 }  // namespace

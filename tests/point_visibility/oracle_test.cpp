@@ -21,7 +21,7 @@ constexpr std::uint64_t seeds_each = ORACLE_SEEDS;
 #elif defined(__SANITIZE_ADDRESS__)
 constexpr std::uint64_t seeds_each = 2;
 #else
-constexpr std::uint64_t seeds_each = 8;
+constexpr std::uint64_t seeds_each = 3;
 #endif
 
 using Intervals = std::vector<Interval>;

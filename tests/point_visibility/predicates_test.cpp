@@ -76,5 +76,21 @@ TEST(Exact_view, decides_as_rationals_do_whichever_stage_it_is) {
   EXPECT_GT(counts.gmp, 1000u);
 }
 
+TEST(Exact_view, tells_points_off_a_plane_by_less_than_doubles_know) {
+  for (const double off : {0x1p-60, -0x1p-60, 0.0}) {
+    Polygon_soup soup;
+    const Point_id a = soup.add_point(0.0, 0.0, 1.0), b = soup.add_point(3.0, 0.0, 1.0), c = soup.add_point(0.0, 3.0, 1.0), d = soup.add_point(0.0, 0.0, 0.0);
+    Exact_point near{1, 1, 1};
+    near[2] += exact(off);
+    const Point_id e = soup.add_point(near[0], near[1], near[2]);
+    soup.add_face({a, b, c}), soup.add_face({a, b, d}), soup.add_face({e, b, d});
+    const Scene scene(soup);
+    const Exact_view view(scene, {Rational(1, 2), Rational(1, 3), 9});
+    Predicate_counts counts;
+    const std::uint32_t tip = scene.corners(scene.pieces()[2])[0].point;
+    EXPECT_EQ(view.beyond(0, tip, counts), off > 0 ? CGAL::NEGATIVE : off < 0 ? CGAL::POSITIVE : CGAL::ZERO);
+  }
+}
+
 }  // namespace
 }  // namespace sightline::see_test

@@ -12,7 +12,7 @@ namespace {
 /// Scenes of each family; SIGHTLINE_LONG multiplies.
 std::uint64_t seeds() {
   const char* text = std::getenv("SIGHTLINE_LONG");
-  return text == nullptr ? 5 : std::strtoull(text, nullptr, 10);
+  return text == nullptr ? 4 : std::strtoull(text, nullptr, 10);
 }
 
 void expect_as_brute_force(const view_scenes::Case& given) {
