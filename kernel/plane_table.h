@@ -36,7 +36,7 @@ class Grid_points {
         rows_(static_cast<std::size_t>(3 * limbs_per_)) {
     Rational range;
     mpz_setbit(range.get_num().get_mpz_t(), static_cast<mp_bitcnt_t>(bits_ - shift_));
-    range_ = nearest_double(range / divisor_) * (1 + 0x1p-50);
+    range_ = nearest_double(Rational(range / divisor_)) * (1 + 0x1p-50);
   }
 
   int bits() const { return bits_; }

@@ -61,7 +61,7 @@ class Piece_boxes {
     }
     return value < -(reach * (error + 0x1p-49 * size) + 2 * size * eye.error + 0x1p-1000 * (1 + size));
   }
-  /// The distance from the eye, or about that.
+  /// At most the distance from the eye, but for rounding by a relative 2^-50 and errors of the eye.
   static double distance(const Box& box, const Located_point& eye) {
     const std::array<double, 3> e{eye.ax, eye.ay, eye.az};
     double sum = 0;

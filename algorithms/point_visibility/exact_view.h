@@ -145,6 +145,13 @@ class Exact_view {
   // ---- Doubles for culling and for choices ------------------------------------------------------------------------------------
 
   Approximate_eye_plane approximate(const Plane& w) const { return {{w.x, w.y, w.z}, w.size, w.error}; }
+  double farthest(std::uint32_t piece, const Ray& r) const {
+    const Form& m = forms_[piece];
+    const double near = m.x * r.x + m.y * r.y + m.z * r.z - (m.size * (2 * r.error + 0x1p-48 * r.size) + 0x1p-700);
+    const double length = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z) + 2 * r.error;
+    const double far = length / near * box_units_ * (1 + 0x1p-40);
+    return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
+  }
   bool hides(std::uint32_t piece, const Piece_boxes::Box& box) const {
     const sightline::Plane support = scene_->pieces()[piece].support;
     return Piece_boxes::is_behind(box, predicates().prepare(forms_[piece].eye_side > 0 ? support : support.opposite()));
@@ -185,6 +192,10 @@ class Exact_view {
     narrow_ = bits_ <= 62;
     width_ = bits_ <= 20 ? 2 : bits_ <= 41 ? 4 : bits_ <= 84 ? 8 : 0;
     directions_.reserve(points.size());
+    Rational units(1, eye_.w * points.divisor());
+    mpq_div_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(points.shift()));
+    if (!narrow_) mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(bits_));
+    box_units_ = nearest_double(units);
     if (narrow_) {
       const std::int64_t w = eye_.w.get_si(), e[3] = {eye_.x.get_si(), eye_.y.get_si(), eye_.z.get_si()};
       exact_directions_.reserve(points.size());
@@ -346,6 +357,7 @@ class Exact_view {
   std::vector<Vector<Integer>> field_;
   int bits_ = 0, width_ = 0;  // of directions; in limbs, 0: GMP
   bool narrow_ = true;
+  double box_units_ = 1;  // the length of a direction's unit in approximate coordinates
   std::vector<Vector<std::int64_t>> exact_directions_;  // where narrow
   std::vector<Vector<Integer>> wide_directions_;        // where not
   std::vector<Approximate_vector> directions_;

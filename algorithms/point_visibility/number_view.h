@@ -24,6 +24,9 @@ class Number_view {
   Number_view(const Scene& scene, const Exact_point& eye) : scene_(&scene), eye_point_(eye) {
     for (std::size_t k = 0; k < 3; ++k) eye_[k] = number::from(eye[k]);
     directions_.reserve(scene.points().size());
+    Rational units = (scene.position({1, 0, 0, 1})[0] - scene.position({0, 0, 0, 1})[0]) * scene.points().divisor();  // of a grid step
+    mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(scene.points().shift()));
+    box_units_ = nearest_double(1 / units);
     for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
       const Exact_point at = scene.position(p);
       directions_.push_back({number::from(at[0]) - eye_[0], number::from(at[1]) - eye_[1], number::from(at[2]) - eye_[2]});
@@ -84,6 +87,11 @@ class Number_view {
     const Approximate_vector m = approximate(forms_[piece]);
     return m.x * direction.x + m.y * direction.y + m.z * direction.z;
   }
+  double farthest(std::uint32_t piece, const Ray& r) const {
+    const Approximate_vector m = approximate(forms_[piece]), v = approximate(r.v);
+    const double near = m.x * v.x + m.y * v.y + m.z * v.z, far = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z) / near * box_units_ * (1 + 8 * slack);
+    return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
+  }
   bool hides(std::uint32_t piece, const Piece_boxes::Box& box) const {
     const sightline::Plane support = scene_->pieces()[piece].support;
     return Piece_boxes::is_behind(box, scene_->predicates().prepare(eye_sides_[piece] == CGAL::POSITIVE ? support : support.opposite()));
@@ -114,6 +122,7 @@ class Number_view {
   const Scene* scene_;
   Exact_point eye_point_;
   Vector eye_;
+  double box_units_ = 1;  // the length of a unit of the file in approximate coordinates
   std::vector<Vector> directions_, forms_;
   std::vector<Sign> eye_sides_;
 };

@@ -250,11 +250,15 @@ class Solver {
       // What it hides.
       if (task.cover != nothing) {
         const std::uint32_t cover = piece_of(task.cover);
+        double farthest = 0;  // of the cover in this region: a polygon, so at a corner
+        for (const Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
+        farthest = farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900;
         for (std::size_t i = checked; i < items.size();) {
           const Item item = items[i];
           bool drop = false;
           if ((item.index & box_bit) != 0) {
-            drop = view_.hides(cover, boxes_.nodes()[item.index & ~box_bit].box);
+            const Piece_boxes::Box& box = boxes_.nodes()[item.index & ~box_bit].box;
+            drop = Piece_boxes::distance(box, eye_) > farthest || view_.hides(cover, box);
             counters.hidden_boxes += drop;
           } else {
             const Depth depth = compare(task.cover, item.index, task.region, counts);
@@ -273,7 +277,7 @@ class Solver {
       double nearest = std::numeric_limits<double>::infinity();
       for (std::size_t i = 0; i < items.size(); ++i) {
         if ((items[i].index & box_bit) == 0) {
-          ++pieces;
+          pieces += items[i].active != 0;  // one that covers the region offers no edge
           continue;
         }
         const double distance = Piece_boxes::distance(boxes_.nodes()[items[i].index & ~box_bit].box, eye_);

@@ -1,4 +1,4 @@
-// The examples of the documentation pages of kernel, io, generate, compare and verify; those of other pages are beside their tests.
+// The examples of the documentation pages of kernel, io, generate, baseline, compare and verify; those of other pages are beside their tests.
 
 // ---- kernel/README.md
 
@@ -44,6 +44,21 @@ sightline::Polygon_soup town_elsewhere(std::size_t boxes, std::uint64_t seed) {
   return generate::faces_permuted(other, seed);
 }
 
+// ---- algorithms/baseline/README.md
+
+#include <sightline/algorithms/baseline/depth_buffer.h>
+
+#include <iostream>
+
+/// How many pixels of 6 x 512 x 512 each piece of a scene gets, with depths of 24 bits.
+void count_pixels(const sightline::Scene& scene, const sightline::Exact_point& eye, std::ostream& out) {
+  sightline::Depth_buffer_options options;
+  options.size = 512, options.bits = 24;
+  const sightline::Depth_buffer buffer = sightline::depth_buffer(scene, eye, options);
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
+    out << "face " << scene.pieces()[piece].face << ": " << std::count(buffer.pieces.begin(), buffer.pieces.end(), piece) << " pixels\n";
+}
+
 // ---- algorithms/compare/README.md
 
 #include <sightline/algorithms/compare/order_errors.h>
@@ -54,6 +69,20 @@ sightline::Polygon_soup town_elsewhere(std::size_t boxes, std::uint64_t seed) {
 void judge(const sightline::Scene& scene, const sightline::Exact_point& eye, const std::vector<sightline::Order_fragment>& fragments, std::ostream& out) {
   const sightline::Order_errors errors = sightline::order_errors(scene, eye, fragments, /* compare all pairs of at most */ 3000);
   out << errors.wrong_beyond_rounding << " pairs in the wrong order, " << errors.lost << " of the area lost\n";
+}
+
+#include <sightline/algorithms/compare/visible_errors.h>
+
+/// How much of the sphere around an eye a depth buffer of 6 x 256 x 256 pixels gets wrong, and doubles do.
+void judge_views(const sightline::Scene& scene, const sightline::Exact_point& eye, std::ostream& out) {
+  const sightline::Piece_boxes boxes(scene);
+  const sightline::Exact_view view(scene, eye);
+  sightline::Visible_reference exact(view, visible_surface(view, boxes));
+
+  const sightline::Visible_errors pixels = exact.errors(depth_buffer(scene, eye, {256, 24, 0, 0}));
+  const sightline::Number_view<double> doubles(scene, eye);
+  const sightline::Visible_errors parts = exact.errors(doubles, visible_surface(doubles, boxes));
+  out << "pixels: " << pixels.wrong << " wrong, " << pixels.missing << " faces missing; doubles: " << parts.wrong << " wrong\n";
 }
 
 // ---- algorithms/verify/README.md
@@ -142,6 +171,18 @@ TEST(Examples, of_errors_of_orders_and_their_check) {
     EXPECT_EQ(testing::internal::GetCapturedStdout().starts_with(right ? "accepted" : "rejected"), true);
   }
   std::filesystem::remove(file);
+}
+
+TEST(Examples, of_depth_buffers_and_their_errors) {
+  // From above, the second square hides the first.
+  const Scene scene(two_squares());
+  const Exact_point eye{Rational(1, 2), Rational(1, 2), 2};
+  std::ostringstream pixels, errors;
+  count_pixels(scene, eye, pixels), judge_views(scene, eye, errors);
+  // At distance 1, a unit is 256 pixels, and the area of a face, 19/20, is 62259.2.
+  EXPECT_EQ(pixels.str(), "face 0: 0 pixels\nface 1: 62260 pixels\n");
+  EXPECT_TRUE(errors.str().starts_with("pixels: 0.000")) << errors.str();
+  EXPECT_TRUE(errors.str().ends_with("wrong, 0 faces missing; doubles: 0 wrong\n")) << errors.str();
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/generate/soups.h>
+
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -133,6 +135,18 @@ TEST(Ties, tell_which_faces_the_law_calls_visible) {
     }
     expect_as_brute_force({"tiles " + std::to_string(round), view_scenes::soup_of(faces), {number(-1, 1), number(-2, 0), number(1, 3)}});
   }
+}
+
+TEST(Crossings, are_cut_where_many_faces_that_cover_a_region_cross) {
+  for (const std::uint64_t seed : {1, 2, 3, 4})
+    for (const Exact_point& eye : {Exact_point{view_scenes::ratio(1, 3), -2, view_scenes::ratio(1, 10)}, Exact_point{view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), view_scenes::ratio(1, 2)}}) {
+      const Scene scene(generate::soup(40, 0.5, seed));
+      const Exact_view view(scene, eye);
+      const auto surface = visible_surface(view, Piece_boxes(scene));
+      EXPECT_GT(surface.counters.crossings, 20u);
+      const std::set<Face_id> lawful = oracle::visible_faces(scene, eye);
+      EXPECT_EQ(std::vector<Face_id>(lawful.begin(), lawful.end()), surface.visible);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(All, See, testing::ValuesIn(view_scenes::families), [](const auto& of) { return std::string(view_scenes::name(of.param)); });

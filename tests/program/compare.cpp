@@ -1,4 +1,4 @@
-// compare: exact kernels make no errors, and inexact ones do on the scenes that were made for it. And budgets.
+// compare: exact kernels make no errors, and inexact ones do on the scenes that were made for it; pixels make fewer the smaller they are. And budgets.
 
 #include "program.h"
 
@@ -72,6 +72,70 @@ TEST_F(Compare, only_the_kernels_asked_for_are_compared) {
 TEST_F(Compare, too_many_fragments_leave_the_pairs_open) {
   const auto errors = rows((corpus / "general" / "cornell.obj").string(), "5,-20,5", {"--kernels", "exact", "--max-fragments", "3"});
   EXPECT_TRUE(errors.at("exact")["pairs_wrong"].is_null()) << errors.at("exact");
+}
+
+class Compare_visible : public Program {
+ protected:
+  /// Rows by kernel, or by size and bits.
+  std::map<std::string, Json> rows(const std::vector<std::string>& words) {
+    std::vector<std::string> all{"compare"};
+    all.insert(all.end(), words.begin(), words.end());
+    all.insert(all.end(), {"--json", "-"});
+    const Outcome r = run(all);
+    EXPECT_EQ(r.code, done) << r;
+    std::map<std::string, Json> found;
+    const Json d = r.json();
+    EXPECT_EQ(d["result"]["question"], "see");
+    for (const Json& row : d["result"]["rows"]) {
+      EXPECT_EQ(row["status"], "done") << row;
+      EXPECT_TRUE(row["seconds"].is_number() && row["peak_bytes"].is_number()) << row;
+      found[row["method"] == "depth buffer" ? row["size"].dump() + "x" + row["bits"].dump() : row["kernel"].get<std::string>()] = row["errors"];
+    }
+    return found;
+  }
+  static void expect_no_error(const Json& errors) {
+    for (const char* key : {"wrongly_visible", "wrongly_hidden", "missing", "not_finite"}) EXPECT_EQ(errors[key], 0) << key << errors;
+    for (const char* key : {"wrong_area", "largest_missing", "gaps", "overlaps"}) EXPECT_LT(errors[key], 1e-15) << key << errors;
+  }
+};
+
+TEST_F(Compare_visible, exact_kernels_see_the_same_and_more_pixels_are_less_wrong) {
+  const std::string scene = path("town.qoff").string();
+  ASSERT_EQ(run({"make", "city_rotated", "--size", "20", "--seed", "4", "--out", scene}).code, done);
+  const auto errors = rows({scene, "see", "--sizes", "32,256", "--bits", "16,32"});
+  EXPECT_EQ(errors.size(), 9u);
+  for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
+  for (const char* bits : {"x16", "x32"}) {
+    EXPECT_GT(errors.at(std::string("256") + bits)["wrong_area"], 1e-5) << errors.at(std::string("256") + bits);
+    EXPECT_GT(errors.at(std::string("32") + bits)["wrong_area"], 2 * errors.at(std::string("256") + bits)["wrong_area"].get<double>());
+  }
+  EXPECT_LT(errors.at("double")["wrong_area"], 1e-2);
+}
+
+TEST_F(Compare_visible, exact_kernels_are_right_where_coordinates_leave_the_range_of_doubles) {
+  for (const char* name : {"huge.off", "subnormal.off", "thirds.qoff", "non_planar.off"}) {
+    const auto errors = rows({(corpus / "robust" / name).string(), "see", "--eye", "7/3,1,2", "--kernels", "exact,epeck,gmpq", "--sizes", "8", "--bits", "24"});
+    for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
+  }
+}
+
+TEST_F(Compare_visible, near_and_far_planes_are_those_given) {
+  const std::string cube = (corpus / "general" / "cube.off").string();
+  const Outcome r = run({"compare", cube, "see", "--kernels", "exact", "--sizes", "8", "--bits", "24", "--near", "0.5", "--far", "1000", "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json row = r.json()["result"]["rows"][1];
+  EXPECT_EQ(row["near"], 0.5);
+  EXPECT_EQ(row["far"], 1000);
+}
+
+TEST_F(Compare_visible, what_no_method_can_do_is_a_usage_error) {
+  const std::string cube = (corpus / "general" / "cube.off").string();
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--kernels", "epick"}, {"--sizes", "0"}, {"--sizes", "100000"}, {"--bits", "33"}, {"--near", "-1"}}) {
+    std::vector<std::string> words{"compare", cube, "see"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, usage) << r;
+  }
 }
 
 class Budget : public Program {};
