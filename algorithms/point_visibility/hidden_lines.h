@@ -257,12 +257,14 @@ class Hidden_lines {
   std::map<std::uint32_t, std::vector<std::uint32_t>> edge_on_;  // pieces by plane
 };
 
-/// All edges of a scene and their parts. Threads: 0: as many as there are processors; the result is the same for any number.
 struct Drawn_edge {
   Scene_edge edge;
   Edge_class kind;
   std::vector<Line_part> parts;
 };
+
+/// All edges of a scene with their parts within the surface's cones, by their points. Pre: the surface is the view's.
+/// Threads: 0: as many as there are processors; the result is the same for any number. Exact: yes. Proof: P-64
 inline std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads = 0) {
   std::vector<Drawn_edge> drawn;
   for (Scene_edge& edge : scene_edges(view.scene())) {

@@ -26,7 +26,7 @@ class Number_view {
     directions_.reserve(scene.points().size());
     Rational units = (scene.position({1, 0, 0, 1})[0] - scene.position({0, 0, 0, 1})[0]) * scene.points().divisor();  // of a grid step
     mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(scene.points().shift()));
-    box_units_ = nearest_double(1 / units);
+    box_units_ = nearest_double(Rational(1 / units));
     for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
       const Exact_point at = scene.position(p);
       directions_.push_back({number::from(at[0]) - eye_[0], number::from(at[1]) - eye_[1], number::from(at[2]) - eye_[2]});

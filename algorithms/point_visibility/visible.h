@@ -110,6 +110,9 @@ class Solver {
     std::uint32_t index, active;
   };
   static constexpr std::uint32_t box_bit = 0x80000000u;
+  static bool is_box(const Item& item) { return (item.index & box_bit) != 0; }
+  Item with_all_edges(std::uint32_t chunk) const { return {chunk, chunks_[chunk].size == 32 ? ~0u : (1u << chunks_[chunk].size) - 1}; }
+  static void remove(std::vector<Item>& items, std::size_t i) { items[i] = items.back(), items.pop_back(); }
   struct Task {
     Region region;
     std::vector<Item> items;
@@ -223,74 +226,80 @@ class Solver {
 
   /// Drops what is hidden in the region, opens boxes, and returns the plane to cut it by; none where it is settled.
   std::optional<Plane> settle(Task& task, Output& out) const {
-    Visible_counters& counters = out.counters;
-    constexpr std::size_t enough = 6;  // pieces to choose a cut from
-    Predicate_counts& counts = counters.predicates;
-    std::vector<Item>& items = task.items;
-    std::size_t checked = 0;  // items before this are compared with the cover
-    std::vector<Item> opened;
+    std::size_t checked = 0;  // items before this have been compared with the cover
     for (;;) {
-      // What covers the region: the nearest one is kept.
-      for (std::size_t i = checked; i < items.size(); ++i) {
-        const Item item = items[i];
-        if ((item.index & box_bit) != 0 || item.active != 0) continue;
-        const Depth depth = task.cover == nothing ? Depth::farther : compare(task.cover, item.index, task.region, counts);
-        if (depth == Depth::crossing && !has_side(task.region, crossing_of(task.cover, item.index))) continue;
-        if (depth == Depth::tied) task.tied.push_back(item.index);
-        if (depth == Depth::farther) {
-          if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.index))) task.tied.push_back(task.cover);
-          else task.tied.clear();
-          task.cover = item.index;
-          checked = 0;  // all others once more
-        }
-        items[i] = items.back(), items.pop_back();
-        --i;
-        if (depth == Depth::farther) i = static_cast<std::size_t>(-1);
-      }
-      // What it hides.
-      if (task.cover != nothing) {
-        const std::uint32_t cover = piece_of(task.cover);
-        double farthest = 0;  // of the cover in this region: a polygon, so at a corner
-        for (const Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
-        farthest = farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900;
-        for (std::size_t i = checked; i < items.size();) {
-          const Item item = items[i];
-          bool drop = false;
-          if ((item.index & box_bit) != 0) {
-            const Piece_boxes::Box& box = boxes_.nodes()[item.index & ~box_bit].box;
-            drop = Piece_boxes::distance(box, eye_) > farthest || view_.hides(cover, box);
-            counters.hidden_boxes += drop;
-          } else {
-            const Depth depth = compare(task.cover, item.index, task.region, counts);
-            drop = depth == Depth::nearer || depth == Depth::tied || (depth == Depth::crossing && item.active != 0 && is_beyond(task.cover, item.index, counts));
-            if (depth == Depth::tied) task.tied.push_back(item.index);
-            counters.hidden += drop;
-          }
-          if (drop) items[i] = items.back(), items.pop_back();
-          else ++i;
-        }
-      }
-      checked = items.size();
-
-      // What is left.
-      std::size_t pieces = 0, nearest_box = items.size();
-      double nearest = std::numeric_limits<double>::infinity();
-      for (std::size_t i = 0; i < items.size(); ++i) {
-        if ((items[i].index & box_bit) == 0) {
-          pieces += items[i].active != 0;  // one that covers the region offers no edge
-          continue;
-        }
-        const double distance = Piece_boxes::distance(boxes_.nodes()[items[i].index & ~box_bit].box, eye_);
-        if (!(distance >= nearest)) nearest = distance, nearest_box = i;
-      }
-      if (pieces >= enough || nearest_box == items.size()) break;
-      const std::uint32_t box = items[nearest_box].index & ~box_bit;
-      items[nearest_box] = items.back(), items.pop_back();
+      find_cover(task, checked, out.counters);
+      drop_hidden(task, checked, out.counters);
+      checked = task.items.size();
+      const std::size_t place = box_to_open(task);
+      if (place == checked) break;
+      const std::uint32_t box = task.items[place].index & ~box_bit;
+      remove(task.items, place);
       --checked;
-      open(box, task.region, items, counters);
+      open(box, task.region, task.items, out.counters);
     }
-    if (items.empty()) return std::nullopt;
+    if (task.items.empty()) return std::nullopt;
     return choose(task, out);
+  }
+  /// Keeps the nearest of what covers the region, apart from the items. Others stay there only where they cross it.
+  void find_cover(Task& task, std::size_t& checked, Visible_counters& counters) const {
+    for (std::size_t i = checked; i < task.items.size();) {
+      const Item item = task.items[i];
+      if (is_box(item) || item.active != 0) {
+        ++i;
+        continue;
+      }
+      const Depth depth = task.cover == nothing ? Depth::farther : compare(task.cover, item.index, task.region, counters.predicates);
+      if (depth == Depth::crossing && !has_side(task.region, crossing_of(task.cover, item.index))) {
+        ++i;
+        continue;
+      }
+      remove(task.items, i);
+      if (depth == Depth::tied) task.tied.push_back(item.index);
+      if (depth != Depth::farther) continue;
+      if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.index))) task.tied.push_back(task.cover);
+      else task.tied.clear();
+      task.cover = item.index, checked = i = 0;  // all others once more
+    }
+  }
+  /// Drops what is behind the cover.
+  void drop_hidden(Task& task, std::size_t checked, Visible_counters& counters) const {
+    if (task.cover == nothing) return;
+    const std::uint32_t cover = piece_of(task.cover);
+    double farthest = 0;  // of the cover in this region: a polygon, so at a corner
+    for (const Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
+    farthest = farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900;
+    for (std::size_t i = checked; i < task.items.size();) {
+      const Item item = task.items[i];
+      bool drop = false;
+      if (is_box(item)) {
+        const Piece_boxes::Box& box = boxes_.nodes()[item.index & ~box_bit].box;
+        drop = Piece_boxes::distance(box, eye_) > farthest || view_.hides(cover, box);
+        counters.hidden_boxes += drop;
+      } else {
+        const Depth depth = compare(task.cover, item.index, task.region, counters.predicates);
+        drop = depth == Depth::nearer || depth == Depth::tied || (depth == Depth::crossing && item.active != 0 && is_beyond(task.cover, item.index, counters.predicates));
+        if (depth == Depth::tied) task.tied.push_back(item.index);
+        counters.hidden += drop;
+      }
+      if (drop) remove(task.items, i);
+      else ++i;
+    }
+  }
+  /// The place of the nearest box, or the end where there is none, or pieces enough to choose a cut from.
+  std::size_t box_to_open(const Task& task) const {
+    constexpr std::size_t enough = 6;
+    std::size_t pieces = 0, place = task.items.size();
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < task.items.size(); ++i) {
+      if (!is_box(task.items[i])) {
+        pieces += task.items[i].active != 0;  // one that covers the region offers no edge
+        continue;
+      }
+      const double distance = Piece_boxes::distance(boxes_.nodes()[task.items[i].index & ~box_bit].box, eye_);
+      if (!(distance >= nearest)) nearest = distance, place = i;
+    }
+    return pieces >= enough ? task.items.size() : place;
   }
 
   void open(std::uint32_t box, const Region& region, std::vector<Item>& items, Visible_counters& counters) const {
@@ -305,8 +314,7 @@ class Solver {
       for (std::uint32_t chunk = first_chunk_[piece]; chunk < first_chunk_[piece + 1]; ++chunk) {
         ++counters.looked_at;
         if (is_outside(chunk, region, counters.predicates)) continue;
-        const std::uint32_t size = chunks_[chunk].size;
-        Item item{chunk, size == 32 ? ~0u : (1u << size) - 1};
+        Item item = with_all_edges(chunk);
         if (update(item, region, counters.predicates)) items.push_back(item);
       }
   }
@@ -332,7 +340,7 @@ class Solver {
     const Item* best = nullptr;
     const Approximate_vector middle = middle_of(task.region);
     for (const Item& item : task.items) {
-      if ((item.index & box_bit) != 0 || item.active == 0) continue;
+      if (is_box(item) || item.active == 0) continue;
       const double near = view_.nearness(piece_of(item.index), middle);
       if (best == nullptr || near > nearest) nearest = near, best = &item;
     }
@@ -354,7 +362,7 @@ class Solver {
     for (const Item& item : task.items) {
       bool in_front = false, at_back = false;
       double weight = 1;
-      if ((item.index & box_bit) != 0) {
+      if (is_box(item)) {
         const Piece_boxes::Node& node = boxes_.nodes()[item.index & ~box_bit];
         in_front = !is_behind(node, w), at_back = !is_behind(node, against);
         weight = std::sqrt(static_cast<double>(node.count));
@@ -370,7 +378,7 @@ class Solver {
   }
   /// Cuts where the cover crosses a piece that covers the region too.
   Plane cross_in(const Task& task, Output& out) const {
-    const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);
+    const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);  // no boxes are left
     const Plane w = view_.crossing(f, g);
     ++out.counters.crossings;
     const Region part = cut(task.region, w, out.counters.predicates)[0];
@@ -410,7 +418,7 @@ class Solver {
       if (to.region.rays.size() < 3) continue;  // inexact signs only
       const Plane side = part == 0 ? w : view_.opposite(w);
       for (Item item : task.items) {
-        if ((item.index & box_bit) != 0) {
+        if (is_box(item)) {
           if (!is_behind(boxes_.nodes()[item.index & ~box_bit], side)) to.items.push_back(item);
         } else if (item.active == 0 || (!is_behind(item.index, side, counters.predicates) && update(item, to.region, counters.predicates))) {
           to.items.push_back(item);
@@ -495,8 +503,7 @@ class Solver {
   }
   /// Whether a chunk and a region in front of its plane have an open set in common. Proof: P-62
   bool meets(std::uint32_t chunk, const Region& region, Predicate_counts& counts) const {
-    const std::uint32_t size = chunks_[chunk].size;
-    Item item{chunk, size == 32 ? ~0u : (1u << size) - 1};
+    Item item = with_all_edges(chunk);
     return update(item, region, counts) && (item.active == 0 || !is_outside(chunk, region, counts));
   }
   /// Two parts of one region that show the same are one. Pre: the children are the latest that were added.
