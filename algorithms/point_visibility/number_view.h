@@ -7,7 +7,7 @@
 namespace sightline {
 
 /// All values are computed in FT from the file's coordinates rounded to FT, and signs are believed; a plane is known to hold only the rays that it made.
-/// Exact: for CGAL's Gmpq and Lazy_exact_nt, yes; for float and double, no: the result may have gaps, overlaps and wrong faces, but is always finite.
+/// Exact: for CGAL's Gmpq and Lazy_exact_nt, yes; for float and double, no: the result may have gaps, overlaps and wrong faces, and corners that are no numbers (position() throws).
 template <class FT>
 class Number_view {
  public:
