@@ -2,10 +2,9 @@
 // Building a BSP tree of a scene.
 
 #include <sightline/algorithms/bsp/tree.h>
+#include <sightline/kernel/threads.h>
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
 #include <algorithm>
@@ -50,11 +49,8 @@ class Builder {
   Builder(const Traits& traits, const Bsp_options& options) : traits_(traits), options_(options) { options_.sample = std::max(1u, options_.sample); }
 
   Tree build() {
-    std::optional<tbb::global_control> more;  // threads than processors
-    if (options_.threads > tbb::info::default_concurrency()) more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
-    tbb::task_arena arena(options_.threads > 0 ? options_.threads : tbb::task_arena::automatic);
     Part root;
-    arena.execute([&] {
+    run_with_threads(options_.threads, [&] {
       tbb::task_group group;
       group.run_and_wait([&] { settle({input(), options_.seed, 1}, root, group); });
     });

@@ -123,6 +123,13 @@ class Exact_view {
   }
   bool same_plane(std::uint32_t f, std::uint32_t g) const { return scene_->pieces()[f].support.id() == scene_->pieces()[g].support.id(); }
 
+  /// The side of a point of the scene to a piece's plane.
+  Sign side(std::uint32_t piece, std::uint32_t point, Predicate_counts& counts) const {
+    const Predicates exact = predicates();
+    const sightline::Plane support = scene_->pieces()[piece].support;
+    return exact.side(exact.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), exact.prepare(support), counts);
+  }
+
   // ---- Exact values ---------------------------------------------------------------------------------------------------------
 
   /// An integer vector along a ray.
@@ -151,10 +158,6 @@ class Exact_view {
     const double length = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z) + 2 * r.error;
     const double far = length / near * box_units_ * (1 + 0x1p-40);
     return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
-  }
-  bool hides(std::uint32_t piece, const Piece_boxes::Box& box) const {
-    const sightline::Plane support = scene_->pieces()[piece].support;
-    return Piece_boxes::is_behind(box, predicates().prepare(forms_[piece].eye_side > 0 ? support : support.opposite()));
   }
   Approximate_vector approximate(const Ray& r) const { return {r.x, r.y, r.z}; }
   double nearness(std::uint32_t piece, const Approximate_vector& direction) const {
@@ -330,13 +333,6 @@ class Exact_view {
   [[gnu::noinline]] Sign beyond_unfiltered(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
     return static_cast<Sign>(-side(f, point, counts) * forms_[f].eye_side);
   }
-  /// Of a point of the scene to a piece's plane.
-  Sign side(std::uint32_t piece, std::uint32_t point, Predicate_counts& counts) const {
-    const Predicates exact = predicates();
-    const sightline::Plane support = scene_->pieces()[piece].support;
-    return exact.side(exact.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), exact.prepare(support), counts);
-  }
-
   /// The ray of a point, or the one against it, whichever goes the way of r.
   Ray along(std::uint32_t point, const Ray& r, Predicate_counts& counts) const {
     Ray to = ray(point);

@@ -76,7 +76,7 @@ class Hidden_lines {
   std::vector<Line_part> parts(std::uint32_t p, std::uint32_t q) const {
     const Exact_view::Plane along = view_.edge(p, q);
     if (along.size == 0) return {};
-    Walk walk{p, q, along, {}, {}, {}};
+    Walk walk{p, q, along, view_.direction(view_.ray(p)), view_.direction(view_.ray(q)), {}, {}, {}};
     for (std::size_t k = 0; k < surface_.cones.size(); ++k) clip(walk, k);
     hide_behind_edge_on(walk);
     return in_order(walk);
@@ -93,6 +93,7 @@ class Hidden_lines {
   struct Walk {
     std::uint32_t p, q;
     Exact_view::Plane plane;
+    std::array<Integer, 3> to_p, to_q;      // from the eye
     std::vector<Line_part> within, hidden;  // in the cones; behind pieces
     Predicate_counts counts;
   };
@@ -158,7 +159,8 @@ class Hidden_lines {
   Rational parameter(const Walk& walk, const Ray& r) const {
     if (r.point == walk.p) return 0;
     if (r.point == walk.q) return 1;
-    const std::array<Integer, 3> d = view_.direction(r), p = view_.direction(view_.ray(walk.p)), q = view_.direction(view_.ray(walk.q));
+    const std::array<Integer, 3> d = view_.direction(r);
+    const std::array<Integer, 3>&p = walk.to_p, &q = walk.to_q;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
       const Integer at_p = p[i] * d[j] - p[j] * d[i], at_q = q[i] * d[j] - q[j] * d[i];
@@ -175,14 +177,14 @@ class Hidden_lines {
   /// They hide nothing but edges in their own plane.
   void hide_behind_edge_on(Walk& walk) const {
     for (const auto& [plane, pieces] : edge_on_) {
-      if (height(pieces[0], walk.p) != 0 || height(pieces[0], walk.q) != 0) continue;
+      if (view_.side(pieces[0], walk.p, walk.counts) != CGAL::ZERO || view_.side(pieces[0], walk.q, walk.counts) != CGAL::ZERO) continue;
       for (const std::uint32_t piece : pieces) hide_behind_edge_on(walk, piece);
     }
   }
   /// In the plane of the eye and the edge a point is eye + x (p - eye) + y (q - eye); it is in front of the edge iff x, y >= 0 and 0 < x + y < 1, at s = y / (x + y).
   void hide_behind_edge_on(Walk& walk, std::uint32_t piece) const {
     using Flat = std::array<Rational, 2>;
-    const std::array<Integer, 3> p = view_.direction(view_.ray(walk.p)), q = view_.direction(view_.ray(walk.q));
+    const std::array<Integer, 3>&p = walk.to_p, &q = walk.to_q;
     std::size_t k = 0;  // an axis along which the plane does not vanish
     while (p[(k + 1) % 3] * q[(k + 2) % 3] == p[(k + 2) % 3] * q[(k + 1) % 3]) ++k;
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
@@ -272,8 +274,7 @@ inline std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visibl
     drawn.push_back({std::move(edge), kind, {}});
   }
   const Hidden_lines lines(view, surface);
-  oneapi::tbb::task_arena arena(threads > 0 ? threads : oneapi::tbb::task_arena::automatic);
-  arena.execute([&] { oneapi::tbb::parallel_for(std::size_t{0}, drawn.size(), [&](std::size_t i) { drawn[i].parts = lines.parts(drawn[i].edge.p, drawn[i].edge.q); }); });
+  run_with_threads(threads, [&] { oneapi::tbb::parallel_for(std::size_t{0}, drawn.size(), [&](std::size_t i) { drawn[i].parts = lines.parts(drawn[i].edge.p, drawn[i].edge.q); }); });
   return drawn;
 }
 

@@ -92,10 +92,6 @@ class Number_view {
     const double near = m.x * v.x + m.y * v.y + m.z * v.z, far = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z) / near * box_units_ * (1 + 8 * slack);
     return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
   }
-  bool hides(std::uint32_t piece, const Piece_boxes::Box& box) const {
-    const sightline::Plane support = scene_->pieces()[piece].support;
-    return Piece_boxes::is_behind(box, scene_->predicates().prepare(eye_sides_[piece] == CGAL::POSITIVE ? support : support.opposite()));
-  }
   /// Errors: std::domain_error where the numbers overflowed.
   Exact_point position(std::uint32_t piece, const Ray& r) const {
     const FT near = dot(forms_[piece], r.v);

@@ -57,7 +57,6 @@ concept View = requires(const V& view, const typename V::Plane& w, const typenam
   { view.approximate(w) } -> std::same_as<Approximate_eye_plane>;
   { view.approximate(r) } -> std::same_as<Approximate_vector>;    ///< of any length
   { view.nearness(i, Approximate_vector()) } -> std::same_as<double>;  ///< about 1/t
-  { view.hides(i, Piece_boxes::Box()) } -> std::same_as<bool>;    ///< whether all of a box is strictly beyond piece f's plane, for certain
   { view.farthest(i, r) } -> std::same_as<double>;                ///< at least the distance along r to piece f's plane, as Piece_boxes measures it; infinite where unknown
   { view.position(i, r) } -> std::same_as<Exact_point>;           ///< where ray r meets piece i's plane, in the file's coordinates
 };

@@ -2,10 +2,9 @@
 // The surfaces that are visible from a point, exactly: the sphere of directions is cut by planes through the eye and scene edges until one piece covers each region.
 
 #include <sightline/algorithms/point_visibility/view.h>
+#include <sightline/kernel/threads.h>
 
-#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_invoke.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
 #include <functional>
@@ -82,7 +81,7 @@ class Solver {
 
   using Region = typename Surface::Cone;
 
-  Solver(const V& view, const Piece_boxes& boxes, const Visible_options& options) : view_(view), boxes_(boxes), options_(options), eye_(view.scene().locate(view.eye())), seen_(view.scene().counters().faces_read) {
+  Solver(const V& view, const Piece_boxes& boxes, const Visible_options& options) : view_(view), boxes_(boxes), options_(options), predicates_(view.scene().predicates()), eye_(view.scene().locate(view.eye())), seen_(view.scene().counters().faces_read) {
     place_chunks();
   }
 
@@ -269,12 +268,14 @@ class Solver {
     double farthest = 0;  // of the cover in this region: a polygon, so at a corner
     for (const Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
     farthest = farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900;
+    const sightline::Plane support = view_.scene().pieces()[cover].support;
+    const Prepared_plane plane = predicates_.prepare(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite());
     for (std::size_t i = checked; i < task.items.size();) {
       const Item item = task.items[i];
       bool drop = false;
       if (is_box(item)) {
         const Piece_boxes::Box& box = boxes_.nodes()[item.index & ~box_bit].box;
-        drop = Piece_boxes::distance(box, eye_) > farthest || view_.hides(cover, box);
+        drop = Piece_boxes::distance(box, eye_) > farthest || Piece_boxes::is_behind(box, plane);
         counters.hidden_boxes += drop;
       } else {
         const Depth depth = compare(task.cover, item.index, task.region, counters.predicates);
@@ -344,7 +345,10 @@ class Solver {
       const double near = view_.nearness(piece_of(item.index), middle);
       if (best == nullptr || near > nearest) nearest = near, best = &item;
     }
-    if (best == nullptr) return cross_in(task, out);
+    if (best == nullptr) {
+      ++out.counters.crossings;
+      return view_.crossing(piece_of(task.cover), piece_of(task.items.front().index));  // no boxes are left
+    }
     const Plane* cheapest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t bits = best->active; bits != 0; bits &= bits - 1) {
@@ -376,17 +380,6 @@ class Solver {
     }
     return price * both + std::fabs(front - behind);
   }
-  /// Cuts where the cover crosses a piece that covers the region too.
-  Plane cross_in(const Task& task, Output& out) const {
-    const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);  // no boxes are left
-    const Plane w = view_.crossing(f, g);
-    ++out.counters.crossings;
-    const Region part = cut(task.region, w, out.counters.predicates)[0];
-    for (std::size_t k = 0; k < part.rays.size(); ++k)
-      if (part.sides[k].name == w.name) out.crossings.push_back({f, g, part.rays[k], part.rays[k + 1 == part.rays.size() ? 0 : k + 1]});
-    return w;
-  }
-
   /// The parts of a region in front of a plane and behind it.
   std::array<Region, 2> cut(const Region& region, const Plane& w, Predicate_counts& counts) const {
     const std::size_t n = region.rays.size();
@@ -408,9 +401,16 @@ class Solver {
   }
 
   /// The tasks of the two parts of a region.
-  std::array<Task, 2> divide(const Task& task, const Plane& w, Visible_counters& counters) const {
+  std::array<Task, 2> divide(const Task& task, const Plane& w, Output& out) const {
+    Visible_counters& counters = out.counters;
     std::array<Region, 2> regions = cut(task.region, w, counters.predicates);
     ++counters.splits;
+    if (w.name.kind() == Eye_plane_name::crossing_kind) {
+      const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);
+      const Region& near = regions[0];
+      for (std::size_t k = 0; k < near.rays.size(); ++k)
+        if (near.sides[k].name == w.name) out.crossings.push_back({f, g, near.rays[k], near.rays[k + 1 == near.rays.size() ? 0 : k + 1]});
+    }
     std::array<Task, 2> tasks;
     for (std::size_t part = 0; part < 2; ++part) {
       Task& to = tasks[part];
@@ -438,7 +438,7 @@ class Solver {
     if (task.region.rays.size() < 3) return Surface::no_child;
     const std::optional<Plane> w = settle(task, out);
     if (!w) return finish(task, share, out);
-    std::array<Task, 2> tasks = divide(task, *w, out.counters);
+    std::array<Task, 2> tasks = divide(task, *w, out);
     Output second;
     std::array<std::int32_t, 2> children;
     oneapi::tbb::parallel_invoke([&] { children[0] = solve_in_parallel(std::move(tasks[0]), share / 2, out); },
@@ -474,7 +474,7 @@ class Solver {
         done.push_back(finish(step.task, std::ldexp(share, -static_cast<int>(std::min(step.task.depth - depth, 1000u))), out));
         continue;
       }
-      std::array<Task, 2> tasks = divide(step.task, *w, out.counters);
+      std::array<Task, 2> tasks = divide(step.task, *w, out);
       step.task.items = {}, step.task.tied = {}, step.cut = w;
       steps.push_back(std::move(step));
       steps.push_back({std::move(tasks[1]), std::nullopt});
@@ -562,6 +562,7 @@ class Solver {
   const V& view_;
   const Piece_boxes& boxes_;
   const Visible_options& options_;
+  Predicates predicates_;
   Located_point eye_;
   std::vector<Chunk> chunks_;
   std::vector<std::uint32_t> first_chunk_, points_;
@@ -619,11 +620,8 @@ Cones<V> field_of_view(const V& view) {
 /// Exact: as the view is. Ref: Weiler and Atherton 1977 (cutting the view by faces), Naylor's 2D trees of the slides. Proof: P-62
 template <View V>
 Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, Cones<V> cones, const Visible_options& options = {}) {
-  std::optional<oneapi::tbb::global_control> more;
-  if (options.threads > oneapi::tbb::info::default_concurrency()) more.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options.threads));
-  oneapi::tbb::task_arena arena(options.threads > 0 ? options.threads : oneapi::tbb::task_arena::automatic);
   Visible_surface<V> surface;
-  arena.execute([&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones)); });
+  run_with_threads(options.threads, [&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones)); });
   return surface;
 }
 /// The same over the whole sphere of directions.

@@ -1,5 +1,7 @@
 // The plain depth buffer: which pixels a face gets, by hand; and what it is known to get wrong.
 
+#include "../soup.h"
+
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/baseline/depth_buffer.h>
@@ -14,15 +16,7 @@ using Points = std::vector<Exact_point>;
 Exact_point at(double x, double y, double z) { return {exact(x), exact(y), exact(z)}; }
 const Exact_point origin{0, 0, 0};
 
-Scene scene_of(const std::vector<Points>& faces) {
-  Polygon_soup soup;
-  for (const Points& face : faces) {
-    std::vector<Point_id> ids;
-    for (const Exact_point& p : face) ids.push_back(soup.add_point(p[0], p[1], p[2]));
-    soup.add_face(ids);
-  }
-  return Scene(soup);
-}
+Scene scene_of(const std::vector<Points>& faces) { return Scene(test_scenes::soup_of(faces)); }
 /// A rectangle in an image at a distance: u to the right, v up.
 Points rectangle(std::size_t side, double u0, double u1, double v0, double v1, double distance = 1) {
   Points points;

@@ -1,5 +1,7 @@
 // How wrong an order is: zero for exact ones, and exact values for errors made on purpose.
 
+#include "../soup.h"
+
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/bsp/build.h>
@@ -24,15 +26,7 @@ Exact_point at(const Rational& x, const Rational& y, const Rational& z) { return
 std::vector<Exact_point> square(const Rational& x, const Rational& y, const Rational& z, const Rational& side = 1) {
   return {at(x, y, z), at(x + side, y, z), at(x + side, y + side, z), at(x, y + side, z)};
 }
-Polygon_soup soup_of(const std::vector<std::vector<Exact_point>>& faces) {
-  Polygon_soup soup;
-  for (const auto& face : faces) {
-    std::vector<Point_id> ids;
-    for (const Exact_point& p : face) ids.push_back(soup.add_point(p[0], p[1], p[2]));
-    soup.add_face(ids);
-  }
-  return soup;
-}
+using test_scenes::soup_of;
 Order exact_order(const Scene& scene, const Exact_point& eye) {
   const Exact_traits traits(scene);
   Bsp_options options;

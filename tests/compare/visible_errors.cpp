@@ -1,5 +1,7 @@
 // How wrong a visible surface is: zero for exact ones, areas by hand for errors made on purpose, and laws of pixels.
 
+#include "../soup.h"
+
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/compare/visible_errors.h>
@@ -32,15 +34,7 @@ Points reversed(Points points) {
   std::reverse(points.begin(), points.end());
   return points;
 }
-Scene scene_of(const std::vector<Points>& faces) {
-  Polygon_soup soup;
-  for (const Points& face : faces) {
-    std::vector<Point_id> ids;
-    for (const Exact_point& p : face) ids.push_back(soup.add_point(p[0], p[1], p[2]));
-    soup.add_face(ids);
-  }
-  return Scene(soup);
-}
+Scene scene_of(const std::vector<Points>& faces) { return Scene(test_scenes::soup_of(faces)); }
 /// The share of the sphere that a rectangle of the image covers, from the integral of the solid angle of [0, x] x [0, y].
 double share(double x0, double x1, double y0, double y1) {
   const auto corner = [](double x, double y) { return std::atan2(x * y, std::sqrt(1 + x * x + y * y)); };

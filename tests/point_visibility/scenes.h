@@ -1,6 +1,8 @@
 #pragma once
 // Small scenes from a seed, with an eye, where what is seen is decided by ties, touches and alignments.
 
+#include "../soup.h"
+
 #include "oracle.h"
 
 #include <sightline/algorithms/generate/random.h>
@@ -83,15 +85,7 @@ inline std::vector<Points> box(const Exact_point& low, const Exact_point& high) 
   for (const auto& face : faces) result.push_back({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])});
   return result;
 }
-inline Polygon_soup soup_of(const std::vector<Points>& faces) {
-  Polygon_soup soup;
-  for (const Points& face : faces) {
-    std::vector<Point_id> ids;
-    for (const Exact_point& p : face) ids.push_back(soup.add_point(p[0], p[1], p[2]));
-    soup.add_face(ids);
-  }
-  return soup;
-}
+using test_scenes::soup_of;
 
 // ---- Pieces of scenes --------------------------------------------------------------------------------------------------------------------
 
