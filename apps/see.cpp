@@ -30,17 +30,18 @@ struct Line {
 /// What a kernel saw, in exact numbers.
 struct Seen {
   std::vector<Line> lines;
-  std::vector<Drawn> parts;                      ///< fragment.piece: the convex piece
+  std::vector<Drawn> parts;                      ///< fragment.piece: the convex piece; no vertices where nobody asks for them
   std::vector<Face_id> visible;
   std::vector<std::vector<Exact_point>> empty;   ///< directions around where nothing is seen
   Visible_counters counters;
-  std::size_t not_finite = 0;
+  std::size_t edge_on = 0, not_finite = 0;       ///< pieces in the eye's plane; parts of an inexact kernel that are no numbers
   double seconds = 0, line_seconds = 0;
 };
 
 template <sightline::View V>
-Seen seen_by(const V& view, const Visible_surface<V>& surface, bool two_sided) {
+Seen seen_by(const V& view, const Visible_surface<V>& surface, bool two_sided, bool corners) {
   Seen seen;
+  for (std::uint32_t i = 0; i < view.scene().pieces().size(); ++i) seen.edge_on += view.eye_side(i) == CGAL::ZERO;
   seen.visible = surface.visible, seen.counters = surface.counters;
   if (two_sided) {
     seen.visible.clear();
@@ -49,6 +50,7 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, bool two_sided) {
   for (const auto& part : surface.parts) {
     if (part.piece == surface.nothing) {
       if constexpr (std::is_same_v<V, Exact_view>) {
+        if (!corners) continue;
         auto& directions = seen.empty.emplace_back();
         for (const auto& ray : surface.of(part)) {
           const std::array<Integer, 3> d = view.direction(ray);
@@ -59,7 +61,9 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, bool two_sided) {
     }
     const Piece& piece = view.scene().pieces()[part.piece];
     try {
-      seen.parts.push_back({{piece.face, piece.number, vertices(view, surface, part)}, piece.number, view.eye_side(part.piece)});
+      std::vector<Exact_point> at;
+      if (corners || !V::is_exact) at = vertices(view, surface, part);
+      seen.parts.push_back({{piece.face, piece.number, std::move(at)}, piece.number, view.eye_side(part.piece)});
     } catch (const std::domain_error&) {
       ++seen.not_finite;
     }
@@ -117,21 +121,21 @@ void draw(Svg& svg, const View& view, const std::vector<Line>& lines) {
 }
 
 /// The whole sphere, or the given field of view.
-Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, bool two_sided, bool lines, const Visible_options& options) {
+Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, bool two_sided, bool corners, bool lines, const Visible_options& options) {
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
   Seen seen;
   const auto with = [&](const auto& view) {
     const auto surface = visible_surface(view, boxes, options);
     const double seconds = watch.seconds();
-    seen = seen_by(view, surface, two_sided);
+    seen = seen_by(view, surface, two_sided, corners);
     seen.seconds = seconds;
   };
   if (kernel == "exact") {
     const Exact_view view(scene, eye, field.empty() ? std::vector<std::array<Integer, 3>>() : field_of(field));
     const auto surface = visible_surface(view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), options);
     const double seconds = watch.seconds();
-    seen = seen_by(view, surface, two_sided);
+    seen = seen_by(view, surface, two_sided, corners);
     seen.seconds = seconds;
     if (lines) {
       const Stopwatch more;
@@ -184,13 +188,13 @@ Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  Seen seen = see(scene, eye, arguments.kernel, field, arguments.two_sided, arguments.lines, options);
+  Seen seen = see(scene, eye, arguments.kernel, field, arguments.two_sided, !common.json.empty() || !arguments.certificate.empty(), arguments.lines, options);
 
   if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, field, seen)).dump() + "\n");
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
     if (!empty) {
-      const Seen picture = see(scene, eye, "exact", corner_rays(view), true, arguments.lines, options);
+      const Seen picture = see(scene, eye, "exact", corner_rays(view), true, true, arguments.lines, options);
       paint(svg, view, picture.parts, false);
       draw(svg, view, picture.lines);
     }
@@ -209,7 +213,7 @@ Exit run(const See_arguments& arguments) {
     pieces.push_back({{"face", drawn.fragment.face}, {"piece", drawn.fragment.piece}, {"side", drawn.side == CGAL::POSITIVE ? "front" : "back"}, {"vertices", std::move(corners)}});
   }
   const Visible_counters& c = seen.counters;
-  Json counters{{"kernel", arguments.kernel}, {"pieces", c.pieces}, {"edge_on", c.edge_on}, {"boxes_opened", c.opened}, {"looked_at", c.looked_at}, {"hidden", c.hidden}, {"hidden_boxes", c.hidden_boxes},
+  Json counters{{"kernel", arguments.kernel}, {"pieces", c.pieces}, {"edge_on", seen.edge_on}, {"boxes_opened", c.opened}, {"looked_at", c.looked_at}, {"hidden", c.hidden}, {"hidden_boxes", c.hidden_boxes},
                 {"regions", c.regions}, {"cuts", c.splits}, {"crossings", c.crossings}, {"merged", c.merged}, {"depth", c.depth}, {"parts", seen.parts.size()}, {"not_finite", seen.not_finite}, {"predicates", predicates_json(c.predicates)}};
   Json result{{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}}, seconds{{"see", seen.seconds}};
   if (arguments.lines) {
@@ -219,7 +223,7 @@ Exit run(const See_arguments& arguments) {
   if (write_json(common, "see", scene, std::move(result), counters, seconds)) return Exit::done;
 
   scene_rows(scene);
-  row("eye", fmt::format("({}, {}, {}){}", to_string(eye[0]), to_string(eye[1]), to_string(eye[2]), c.edge_on > 0 ? fmt::format(", in the planes of {} pieces, which are edge-on", c.edge_on) : ""));
+  row("eye", fmt::format("({}, {}, {}){}", to_string(eye[0]), to_string(eye[1]), to_string(eye[2]), seen.edge_on > 0 ? fmt::format(", in the planes of {} pieces, which are edge-on", seen.edge_on) : ""));
   row("visible", fmt::format("{} of {} faces, in {} parts{}", seen.visible.size(), scene.counters().faces, parts, arguments.two_sided ? "" : "; --two-sided counts back sides too"));
   row("looked at", fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others", c.looked_at, c.opened, c.hidden, c.hidden_boxes));
   row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again", c.regions, c.splits, c.crossings, c.merged));

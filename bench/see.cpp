@@ -84,8 +84,8 @@ void best(double& least, double seconds) { least = least == 0 ? seconds : std::m
 // ---- How it scales, and what exactness costs ---------------------------------------------------------------------------------
 
 struct Scaling {
-  double boxes, view, prepare, exact, doubles;  // seconds; prepare: what a solver makes ready for an eye, a part of exact
-  double one_thread, two_threads;               // on the clock
+  double boxes, exact, doubles;    // processor seconds; of an eye: view and surface
+  double one_thread, two_threads;  // on the clock
   std::uint64_t visible, parts, predicates, beyond, wrong, bytes;
   bool same;
 };
@@ -106,9 +106,9 @@ Scaling measure_scaling(const Scene& scene, const Exact_point& eye) {
       return made;
     };
     if (turn > 0) timed(r.boxes, [&] { return Piece_boxes(scene); });
-    const Exact_view view = timed(r.view, [&] { return Exact_view(scene, eye); });
+    const auto look = [&](int n) { return visible_surface(Exact_view(scene, eye), boxes, threads(n)); };
     const double one = bench::now();
-    const auto surface = timed(r.exact, [&] { return visible_surface(view, boxes, threads(1)); });
+    const auto surface = timed(r.exact, [&] { return look(1); });
     best(r.one_thread, bench::now() - one);
     if (turn == 0) {
       const std::uint64_t peak = bench::process_memory("VmHWM");
@@ -117,17 +117,15 @@ Scaling measure_scaling(const Scene& scene, const Exact_point& eye) {
       const Predicate_counts& c = surface.counters.predicates;
       r.predicates = c.total(), r.beyond = c.fixed + c.gmp;
     }
-    timed(r.prepare, [&] { return visible_surface(view, boxes, Cones<Exact_view>{}, threads(1)); });
     {
-      const Number_view<double> plain(scene, eye);
-      const auto in_doubles = timed(r.doubles, [&] { return visible_surface(plain, boxes, threads(1)); });
+      const auto in_doubles = timed(r.doubles, [&] { return visible_surface(Number_view<double>(scene, eye), boxes, threads(1)); });
       std::vector<Face_id> wrong;
       const std::vector<Face_id> right = seen_by(surface), other = seen_by(in_doubles);
       std::set_symmetric_difference(right.begin(), right.end(), other.begin(), other.end(), std::back_inserter(wrong));
       r.wrong = wrong.size();
     }
     const double two = bench::now();
-    const auto second = visible_surface(view, boxes, threads(2));
+    const auto second = look(2);
     best(r.two_threads, bench::now() - two);
     r.same = r.same && second.visible == surface.visible && second.from_behind == surface.from_behind && second.parts.size() == surface.parts.size();
   }
@@ -173,9 +171,9 @@ std::size_t size_of(const std::string& kind, double faces) {
 }
 
 bool scaling(double max_faces, const std::string& folder) {
-  fmt::print("{:<22} {:<8} {:>7} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>6} {:>8} {:>9} {:>8} {:>6} {:>8}\n", "scene", "eye", "faces", "boxes s", "view s", "prepare s", "exact s", "double s", "2 threads",
+  fmt::print("{:<22} {:<8} {:>7} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>6} {:>8} {:>9} {:>8} {:>6} {:>8}\n", "scene", "eye", "faces", "boxes s", "exact s", "double s", "2 threads",
              "ex/dbl", "1/2 thr", "n^", "visible", "parts", "beyond %", "wrong", "bytes/f");
-  std::string csv = "scene,eye,faces,boxes_seconds,view_seconds,prepare_seconds,exact_seconds,double_seconds,one_thread_clock,two_threads_clock,exact_by_double,growth,visible,parts,predicates,beyond_doubles,wrong_in_doubles,bytes\n";
+  std::string csv = "scene,eye,faces,boxes_seconds,exact_seconds,double_seconds,one_thread_clock,two_threads_clock,exact_by_double,growth,visible,parts,predicates,beyond_doubles,wrong_in_doubles,bytes\n";
   bench::Plot plot("What an eye sees", "faces", "seconds");
   bool ok = true;
   double worst = 0;
@@ -197,10 +195,10 @@ bool scaling(double max_faces, const std::string& folder) {
         last[eye.name] = {faces, r.exact};
         worst = std::max(worst, r.exact / r.doubles);
         const double beyond = static_cast<double>(r.beyond) / static_cast<double>(std::max<std::uint64_t>(1, r.predicates));
-        fmt::print("{:<22} {:<8} {:>7.0f} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f} {:>7.2f} {:>7.2f} {:>6} {:>8} {:>9} {:>8.4f} {:>6} {:>8.0f}\n", kind, eye.name, faces, r.boxes, r.view, r.prepare, r.exact,
+        fmt::print("{:<22} {:<8} {:>7.0f} {:>9.5f} {:>9.5f} {:>9.5f} {:>9.5f} {:>7.2f} {:>7.2f} {:>6} {:>8} {:>9} {:>8.4f} {:>6} {:>8.0f}\n", kind, eye.name, faces, r.boxes, r.exact,
                    r.doubles, r.two_threads, r.exact / r.doubles, r.one_thread / r.two_threads, growth, r.visible, r.parts, 100 * beyond, r.wrong, static_cast<double>(r.bytes) / faces);
         std::fflush(stdout);
-        csv += fmt::format("{},{},{:.0f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.3f},{},{},{},{},{},{},{}\n", kind, eye.name, faces, r.boxes, r.view, r.prepare, r.exact, r.doubles, r.one_thread, r.two_threads, r.exact / r.doubles, growth,
+        csv += fmt::format("{},{},{:.0f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.3f},{},{},{},{},{},{},{}\n", kind, eye.name, faces, r.boxes, r.exact, r.doubles, r.one_thread, r.two_threads, r.exact / r.doubles, growth,
                            r.visible, r.parts, r.predicates, r.beyond, r.wrong, r.bytes);
         plot.add(kind + ", " + eye.name, faces, r.exact);
       }
@@ -217,7 +215,7 @@ bool scaling(double max_faces, const std::string& folder) {
 // ---- A room in a large building ------------------------------------------------------------------------------------------------
 
 struct In_rooms {
-  double boxes, view, prepare, surface;        // seconds, the last three a room
+  double boxes, look;                          // seconds, of an eye: view and surface
   double visible, parts, looked_at, opened;    // a room
 };
 
@@ -232,32 +230,27 @@ In_rooms measure_rooms(const Scene& scene) {
   const double all = static_cast<double>(along * along);
   for (std::size_t room = 0; room < along * along; ++room) {
     const Exact_point eye = in_room(planes, (2 * (room % along) + 1) * n / (2 * along), (2 * (room / along) + 1) * n / (2 * along));
-    double view_seconds = 0, prepare_seconds = 0, surface_seconds = 0;
+    double seconds = 0;
     for (int turn = 0; turn < turns; ++turn) {
       const double a = processor_seconds();
-      const Exact_view view(scene, eye);
-      const double b = processor_seconds();
-      const auto surface = visible_surface(view, boxes, threads(1));
-      const double c = processor_seconds();
-      visible_surface(view, boxes, Cones<Exact_view>{}, threads(1));
-      const double d = processor_seconds();
-      best(view_seconds, b - a), best(surface_seconds, c - b), best(prepare_seconds, d - c);
+      const auto surface = visible_surface(Exact_view(scene, eye), boxes, threads(1));
+      best(seconds, processor_seconds() - a);
       if (turn > 0) continue;
       r.visible += static_cast<double>(seen_by(surface).size()) / all, r.parts += static_cast<double>(surface.parts.size()) / all;
       r.looked_at += static_cast<double>(surface.counters.looked_at) / all, r.opened += static_cast<double>(surface.counters.opened) / all;
     }
-    r.view += view_seconds / all, r.prepare += prepare_seconds / all, r.surface += surface_seconds / all;
+    r.look += seconds / all;
   }
   return r;
 }
 
 bool rooms(double max_faces, const std::string& folder) {
-  fmt::print("A room in a large building, milliseconds a room (mean of up to nine rooms); search: surface without prepare\n{:>7} {:>8} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>8} {:>8} {:>9} {:>8}\n", "rooms", "faces", "boxes",
-             "view", "prepare", "surface", "search", "sum/first", "srch/1st", "visible", "parts", "looked at", "opened");
-  std::string csv = "rooms,faces,boxes_seconds,view_seconds,prepare_seconds,surface_seconds,visible,parts,looked_at,opened\n";
+  fmt::print("A room in a large building, milliseconds an eye (mean of up to nine rooms)\n{:>7} {:>8} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8}\n", "rooms", "faces", "boxes", "look", "/ first", "visible", "parts", "looked at",
+             "opened");
+  std::string csv = "rooms,faces,boxes_seconds,look_seconds,visible,parts,looked_at,opened\n";
   bench::Plot plot("A room in a large building", "faces", "seconds");
   bool ok = true;
-  double first = 0, first_search = 0;
+  double first = 0;
   for (const double n : {1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6}) {
     if (n > max_faces * 1.01) continue;
     const std::size_t side = size_of("rooms", n);
@@ -269,13 +262,11 @@ bool rooms(double max_faces, const std::string& folder) {
       ok = false;
       continue;
     }
-    const double sum = r.view + r.surface, search = r.surface - r.prepare;
-    if (first == 0) first = sum, first_search = search;
-    fmt::print("{:>7} {:>8} {:>9.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.2f} {:>9.2f} {:>8.1f} {:>8.1f} {:>9.1f} {:>8.1f}\n", side * side, faces, 1e3 * r.boxes, 1e3 * r.view, 1e3 * r.prepare, 1e3 * r.surface, 1e3 * search,
-               sum / first, search / first_search, r.visible, r.parts, r.looked_at, r.opened);
+    if (first == 0) first = r.look;
+    fmt::print("{:>7} {:>8} {:>9.3f} {:>8.3f} {:>8.2f} {:>8.1f} {:>8.1f} {:>9.1f} {:>8.1f}\n", side * side, faces, 1e3 * r.boxes, 1e3 * r.look, r.look / first, r.visible, r.parts, r.looked_at, r.opened);
     std::fflush(stdout);
-    csv += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.2f},{:.2f},{:.2f},{:.2f}\n", side * side, faces, r.boxes, r.view, r.prepare, r.surface, r.visible, r.parts, r.looked_at, r.opened);
-    plot.add("view", static_cast<double>(faces), r.view), plot.add("prepare", static_cast<double>(faces), r.prepare), plot.add("search", static_cast<double>(faces), search);
+    csv += fmt::format("{},{},{:.6f},{:.6f},{:.2f},{:.2f},{:.2f},{:.2f}\n", side * side, faces, r.boxes, r.look, r.visible, r.parts, r.looked_at, r.opened);
+    plot.add("an eye", static_cast<double>(faces), r.look), plot.add("boxes, once", static_cast<double>(faces), r.boxes);
   }
   fmt::print("\n");
   if (!folder.empty()) {
@@ -326,7 +317,8 @@ std::vector<Face_id> measure_ours(const Polygon_soup& soup, Ours& r) {
     const auto surface = visible_surface(view, boxes, field_of_view(view), threads(1));
     const double c = processor_seconds();
     best(r.scene, b - a), best(r.surface, c - b);
-    seen = seen_by(surface), r.visible = seen.size(), r.parts = surface.parts.size(), r.edge_on = surface.counters.edge_on;
+    seen = seen_by(surface), r.visible = seen.size(), r.parts = surface.parts.size(), r.edge_on = 0;
+    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) r.edge_on += view.eye_side(i) == CGAL::ZERO;
   }
   return seen;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // The exact model of View: names decide, then doubles with a derived bound, then integers as wide as the scene needs.
 
+#include <sightline/algorithms/point_visibility/lazy_table.h>
 #include <sightline/algorithms/point_visibility/view.h>
 
 namespace sightline {
@@ -27,16 +28,15 @@ class Exact_view {
   static constexpr std::uint32_t no_point = ~std::uint32_t{0};
 
   /// Pre: the scene outlives the view, and takes no further planes. `field`: normals of the sides of a field of view; side k meets side k + 1, in this sense, in a ray of it.
-  Exact_view(const Scene& scene, const Exact_point& eye, std::vector<std::array<Integer, 3>> field = {}) : scene_(&scene), eye_point_(eye), eye_(scene.locate(eye)), field_(std::move(field)) {
+  Exact_view(const Scene& scene, const Exact_point& eye, std::vector<std::array<Integer, 3>> field = {}) : scene_(&scene), eye_point_(eye), eye_(scene.locate(eye)), field_(std::move(field)), forms_(scene.pieces().size()) {
     if (scene.pieces().size() >= (std::size_t{1} << 28)) throw std::length_error("scenes of up to 2^28 pieces only");
-    place_directions();
-    place_pieces();
+    measure();
   }
 
   const Scene& scene() const { return *scene_; }
   const Exact_point& eye() const { return eye_point_; }
   int bits() const { return bits_; }
-  Sign eye_side(std::uint32_t piece) const { return static_cast<Sign>(forms_[piece].eye_side); }
+  Sign eye_side(std::uint32_t piece) const { return static_cast<Sign>(form(piece).eye_side); }
 
   // ---- Planes and rays ------------------------------------------------------------------------------------------------------
 
@@ -54,7 +54,7 @@ class Exact_view {
     return w;
   }
   Plane crossing(std::uint32_t f, std::uint32_t g) const {
-    const Form &m = forms_[std::min(f, g)], &n = forms_[std::max(f, g)];
+    const Form &m = form(std::min(f, g)), &n = form(std::max(f, g));
     Plane w{m.x - n.x, m.y - n.y, m.z - n.z, 0, 0, Eye_plane_name::crossing(f, g), false};
     w.size = magnitude(w.x, w.y, w.z), w.error = 0x1p-48 * (m.size + n.size);
     if (!std::isfinite(w.size) || !std::isfinite(w.error)) w.x = w.y = w.z = 0, w.size = 0, w.error = std::numeric_limits<double>::infinity();
@@ -69,7 +69,7 @@ class Exact_view {
   }
   /// Towards a point of the scene.
   Ray ray(std::uint32_t point) const {
-    const Approximate_vector& d = directions_[point];
+    const Approximate_vector d = approximate_direction(point);
     const double size = magnitude(d.x, d.y, d.z);
     return {d.x, d.y, d.z, size, 0x1p-50 * size + 0x1p-1000, {}, {}, point, false};
   }
@@ -95,7 +95,7 @@ class Exact_view {
     return side_unfiltered(w, r, counts);
   }
   Sign side(const Plane& w, std::uint32_t point, Predicate_counts& counts) const {
-    const Approximate_vector& d = directions_[point];
+    const Approximate_vector d = approximate_direction(point);
     const double value = w.x * d.x + w.y * d.y + w.z * d.z;
     const double bound = (w.size * 0x1p-50 + w.error) * magnitude(d.x, d.y, d.z) + 0x1p-1000 * (1 + w.size);
     if (value > bound) return ++counts.filtered, CGAL::POSITIVE;
@@ -105,7 +105,7 @@ class Exact_view {
   }
   /// Degenerate: ZERO where both planes are met at once, everywhere for pieces of one plane. Proof: P-61
   Sign nearer(std::uint32_t f, std::uint32_t g, const Ray& r, Predicate_counts& counts) const {
-    const Form &m = forms_[f], &n = forms_[g];
+    const Form &m = form(f), &n = form(g);
     const double value = (m.x - n.x) * r.x + (m.y - n.y) * r.y + (m.z - n.z) * r.z;
     const double bound = (m.size + n.size) * (2 * r.error + 0x1p-48 * r.size) + 0x1p-700;
     if (value > bound) return ++counts.filtered, CGAL::POSITIVE;
@@ -113,8 +113,8 @@ class Exact_view {
     return nearer_unfiltered(f, g, r, counts);
   }
   Sign beyond(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
-    const Form& m = forms_[f];
-    const Approximate_vector& d = directions_[point];
+    const Form& m = form(f);
+    const Approximate_vector d = approximate_direction(point);
     const double value = m.x * d.x + m.y * d.y + m.z * d.z - 1;
     const double bound = 0x1p-48 * (m.size * magnitude(d.x, d.y, d.z) + 1) + 0x1p-1000 * m.size;
     if (value > bound) return ++counts.filtered, CGAL::POSITIVE;
@@ -153,7 +153,7 @@ class Exact_view {
 
   Approximate_eye_plane approximate(const Plane& w) const { return {{w.x, w.y, w.z}, w.size, w.error}; }
   double farthest(std::uint32_t piece, const Ray& r) const {
-    const Form& m = forms_[piece];
+    const Form& m = form(piece);
     const double near = m.x * r.x + m.y * r.y + m.z * r.z - (m.size * (2 * r.error + 0x1p-48 * r.size) + 0x1p-700);
     const double length = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z) + 2 * r.error;
     const double far = length / near * box_units_ * (1 + 0x1p-40);
@@ -161,7 +161,7 @@ class Exact_view {
   }
   Approximate_vector approximate(const Ray& r) const { return {r.x, r.y, r.z}; }
   double nearness(std::uint32_t piece, const Approximate_vector& direction) const {
-    const Form& m = forms_[piece];
+    const Form& m = form(piece);
     return m.x * direction.x + m.y * direction.y + m.z * direction.z;
   }
 
@@ -172,6 +172,10 @@ class Exact_view {
   };
   template <class Number>
   using Vector = std::array<Number, 3>;
+  struct Wide_direction {
+    Vector<Integer> exact;
+    Approximate_vector approximate;
+  };
 
   Predicates predicates() const { return scene_->predicates(); }
   static double magnitude(double x, double y, double z) { return (std::fabs(x) + std::fabs(y) + std::fabs(z)) * (1 + 0x1p-50); }
@@ -187,57 +191,62 @@ class Exact_view {
 
   // ---- Construction ---------------------------------------------------------------------------------------------------------
 
-  /// w p - eye for each point p, as integers; and as doubles at one common scale.
-  void place_directions() {
+  /// How wide directions are, and how long.
+  void measure() {
     const Grid_points& points = scene_->points();
     const auto bits_of = [](const Integer& n) { return static_cast<int>(bit_length(n)); };
     bits_ = 1 + std::max(points.bits() + bits_of(eye_.w), std::max({bits_of(eye_.x), bits_of(eye_.y), bits_of(eye_.z)}));
     narrow_ = bits_ <= 62;
     width_ = bits_ <= 20 ? 2 : bits_ <= 41 ? 4 : bits_ <= 84 ? 8 : 0;
-    directions_.reserve(points.size());
+    if (narrow_) narrow_eye_ = {eye_.x.get_si(), eye_.y.get_si(), eye_.z.get_si(), eye_.w.get_si()};
+    else wide_directions_ = Lazy_table<Wide_direction, 16>(points.size());
     Rational units(1, eye_.w * points.divisor());
     mpq_div_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(points.shift()));
     if (!narrow_) mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(bits_));
     box_units_ = nearest_double(units);
-    if (narrow_) {
-      const std::int64_t w = eye_.w.get_si(), e[3] = {eye_.x.get_si(), eye_.y.get_si(), eye_.z.get_si()};
-      exact_directions_.reserve(points.size());
-      for (std::uint32_t p = 0; p < points.size(); ++p) {
-        const Vector<std::int64_t> d{w * points.small(p, 0) - e[0], w * points.small(p, 1) - e[1], w * points.small(p, 2) - e[2]};
-        exact_directions_.push_back(d);
-        directions_.push_back({static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])});
-      }
-      return;
-    }
-    for (std::uint32_t p = 0; p < points.size(); ++p) {
-      const Vector<Integer> d{eye_.w * points.integer(p, 0) - eye_.x, eye_.w * points.integer(p, 1) - eye_.y, eye_.w * points.integer(p, 2) - eye_.z};
-      wide_directions_.push_back(d);
-      directions_.push_back({scaled(d[0], bits_), scaled(d[1], bits_), scaled(d[2], bits_)});
-    }
   }
-  /// q = -n / (n eye + d w) of every piece, and the eye's side.
-  void place_pieces() {
-    const Predicates exact = predicates();
-    forms_.reserve(scene_->pieces().size());
-    for (const Piece& piece : scene_->pieces()) {
-      const std::array<Integer, 4> h = exact.coefficients(piece.support);
-      const Integer value = value_at_eye(h);
-      Form form{0, 0, 0, 0, sgn(value)};
-      if (form.eye_side != 0) {
-        long exponent = 0;
-        const double divisor = -mpz_get_d_2exp(&exponent, value.get_mpz_t());
-        const long scale = (narrow_ ? 0 : bits_) - exponent;
-        const auto quotient = [&](const Integer& n) {
-          long own = 0;
-          const double mantissa = mpz_get_d_2exp(&own, n.get_mpz_t());
-          return std::ldexp(mantissa / divisor, static_cast<int>(std::clamp(own + scale, -5000L, 5000L)));
-        };
-        form.x = quotient(h[0]), form.y = quotient(h[1]), form.z = quotient(h[2]);
-        form.size = magnitude(form.x, form.y, form.z);
-        if (!std::isfinite(form.size)) form.x = form.y = form.z = 0, form.size = std::numeric_limits<double>::infinity();
-      }
-      forms_.push_back(form);
-    }
+  /// w p - eye. Pre: narrow.
+  Vector<std::int64_t> narrow_direction(std::uint32_t p) const {
+    const Grid_points& points = scene_->points();
+    const auto& [x, y, z, w] = narrow_eye_;
+    return {w * points.small(p, 0) - x, w * points.small(p, 1) - y, w * points.small(p, 2) - z};
+  }
+  /// The same where it is not.
+  const Wide_direction& wide_direction(std::uint32_t point) const {
+    return wide_directions_.at(point, [&](std::size_t i) {
+      const Grid_points& points = scene_->points();
+      const auto p = static_cast<std::uint32_t>(i);
+      const Vector<Integer> d{eye_.w * points.integer(p, 0) - eye_.x, eye_.w * points.integer(p, 1) - eye_.y, eye_.w * points.integer(p, 2) - eye_.z};
+      return Wide_direction{d, {scaled(d[0], bits_), scaled(d[1], bits_), scaled(d[2], bits_)}};
+    });
+  }
+  /// As doubles, at one scale for all points.
+  Approximate_vector approximate_direction(std::uint32_t point) const {
+    if (!narrow_) return wide_direction(point).approximate;
+    const Vector<std::int64_t> d = narrow_direction(point);
+    return {static_cast<double>(d[0]), static_cast<double>(d[1]), static_cast<double>(d[2])};
+  }
+  /// q = -n / (n eye + d w) of a piece, and the eye's side.
+  const Form& form(std::uint32_t piece) const {
+    return forms_.at(piece, [&](std::size_t i) { return form_of(scene_->pieces()[i]); });
+  }
+  Form form_of(const Piece& piece) const {
+    const std::array<Integer, 4> h = predicates().coefficients(piece.support);
+    const Integer value = value_at_eye(h);
+    Form form{0, 0, 0, 0, sgn(value)};
+    if (form.eye_side == 0) return form;
+    long exponent = 0;
+    const double divisor = -mpz_get_d_2exp(&exponent, value.get_mpz_t());
+    const long scale = (narrow_ ? 0 : bits_) - exponent;
+    const auto quotient = [&](const Integer& n) {
+      long own = 0;
+      const double mantissa = mpz_get_d_2exp(&own, n.get_mpz_t());
+      return std::ldexp(mantissa / divisor, static_cast<int>(std::clamp(own + scale, -5000L, 5000L)));
+    };
+    form.x = quotient(h[0]), form.y = quotient(h[1]), form.z = quotient(h[2]);
+    form.size = magnitude(form.x, form.y, form.z);
+    if (!std::isfinite(form.size)) form.x = form.y = form.z = 0, form.size = std::numeric_limits<double>::infinity();
+    return form;
   }
   Integer value_at_eye(const std::array<Integer, 4>& h) const { return h[0] * eye_.x + h[1] * eye_.y + h[2] * eye_.z + h[3] * eye_.w; }
 
@@ -262,11 +271,11 @@ class Exact_view {
   template <class Number>
   Vector<Number> point_direction(std::uint32_t p) const {
     if (narrow_) {
-      const Vector<std::int64_t>& d = exact_directions_[p];
+      const Vector<std::int64_t> d = narrow_direction(p);
       if constexpr (std::is_same_v<Number, Integer>) return {Integer(static_cast<long>(d[0])), Integer(static_cast<long>(d[1])), Integer(static_cast<long>(d[2]))};
       else return {Number(d[0]), Number(d[1]), Number(d[2])};
     }
-    const Vector<Integer>& d = wide_directions_[p];
+    const Vector<Integer>& d = wide_direction(p).exact;
     if constexpr (std::is_same_v<Number, Integer>) {
       return d;
     } else {
@@ -331,7 +340,7 @@ class Exact_view {
     return static_cast<Sign>(sgn(dot(crossing_normal(f, g), direction(r))));
   }
   [[gnu::noinline]] Sign beyond_unfiltered(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
-    return static_cast<Sign>(-side(f, point, counts) * forms_[f].eye_side);
+    return static_cast<Sign>(-side(f, point, counts) * form(f).eye_side);
   }
   /// The ray of a point, or the one against it, whichever goes the way of r.
   Ray along(std::uint32_t point, const Ray& r, Predicate_counts& counts) const {
@@ -354,10 +363,9 @@ class Exact_view {
   int bits_ = 0, width_ = 0;  // of directions; in limbs, 0: GMP
   bool narrow_ = true;
   double box_units_ = 1;  // the length of a direction's unit in approximate coordinates
-  std::vector<Vector<std::int64_t>> exact_directions_;  // where narrow
-  std::vector<Vector<Integer>> wide_directions_;        // where not
-  std::vector<Approximate_vector> directions_;
-  std::vector<Form> forms_;
+  std::array<std::int64_t, 4> narrow_eye_{};                // where narrow
+  Lazy_table<Wide_direction, 16> wide_directions_;  // where not
+  Lazy_table<Form, 16> forms_;
 };
 
 static_assert(View<Exact_view>);

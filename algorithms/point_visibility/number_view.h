@@ -1,6 +1,7 @@
 #pragma once
 // Models of View in the plain numbers of a CGAL kernel: what most programs do.
 
+#include <sightline/algorithms/point_visibility/lazy_table.h>
 #include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/kernel/point_traits.h>
 
@@ -21,36 +22,21 @@ class Number_view {
     Eye_plane_name p, q;
   };
 
-  Number_view(const Scene& scene, const Exact_point& eye) : scene_(&scene), eye_point_(eye) {
+  Number_view(const Scene& scene, const Exact_point& eye) : scene_(&scene), eye_point_(eye), directions_(scene.points().size()), forms_(scene.pieces().size()) {
     for (std::size_t k = 0; k < 3; ++k) eye_[k] = number::from(eye[k]);
-    directions_.reserve(scene.points().size());
     Rational units = (scene.position({1, 0, 0, 1})[0] - scene.position({0, 0, 0, 1})[0]) * scene.points().divisor();  // of a grid step
     mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(scene.points().shift()));
     box_units_ = nearest_double(Rational(1 / units));
-    for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
-      const Exact_point at = scene.position(p);
-      directions_.push_back({number::from(at[0]) - eye_[0], number::from(at[1]) - eye_[1], number::from(at[2]) - eye_[2]});
-    }
-    for (const Piece& piece : scene.pieces()) {
-      // n . x = c for x relative to the eye, through three corners; the eye is in front where c < 0.
-      const std::span<const Piece_corner> corners = scene.corners(piece);
-      const Vector &a = directions_[corners[0].point], &b = directions_[corners[1].point], &c = directions_[corners[2].point];
-      const Vector normal = cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]});
-      const FT value = dot(normal, a);
-      const Sign side = sign(-value);
-      eye_sides_.push_back(side);
-      forms_.push_back(side == CGAL::ZERO ? Vector{FT(0), FT(0), FT(0)} : Vector{normal[0] / value, normal[1] / value, normal[2] / value});
-    }
   }
 
   const Scene& scene() const { return *scene_; }
   const Exact_point& eye() const { return eye_point_; }
-  Sign eye_side(std::uint32_t piece) const { return eye_sides_[piece]; }
+  Sign eye_side(std::uint32_t piece) const { return form(piece).eye_side; }
 
-  Plane edge(std::uint32_t p, std::uint32_t q) const { return {cross(directions_[p], directions_[q]), Eye_plane_name::edge(p, q)}; }
+  Plane edge(std::uint32_t p, std::uint32_t q) const { return {cross(direction(p), direction(q)), Eye_plane_name::edge(p, q)}; }
   Plane axis(std::uint32_t k) const { return {unit(k, FT(1)), Eye_plane_name::axis(k)}; }
   Plane crossing(std::uint32_t f, std::uint32_t g) const {
-    const Vector &m = forms_[f], &n = forms_[g];  // a difference of numbers is the same both ways but for its sign, rounded too
+    const Vector &m = form(f).q, &n = form(g).q;  // a difference of numbers is the same both ways but for its sign, rounded too
     return {{m[0] - n[0], m[1] - n[1], m[2] - n[2]}, Eye_plane_name::crossing(f, g)};
   }
   Plane opposite(const Plane& w) const { return {{-w.n[0], -w.n[1], -w.n[2]}, w.name}; }
@@ -63,17 +49,17 @@ class Number_view {
   }
   Sign side(const Plane& w, std::uint32_t point, Predicate_counts& counts) const {
     ++counts.filtered;
-    return w.name.has_point(point) ? CGAL::ZERO : sign(dot(w.n, directions_[point]));
+    return w.name.has_point(point) ? CGAL::ZERO : sign(dot(w.n, direction(point)));
   }
   Sign nearer(std::uint32_t f, std::uint32_t g, const Ray& r, Predicate_counts& counts) const {
     return side(crossing(f, g), r, counts);  // as a cut along that plane will find it, so that the cut settles it
   }
   Sign beyond(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
     ++counts.filtered;
-    return sign(dot(forms_[f], directions_[point]) - FT(1));
+    return sign(dot(form(f).q, direction(point)) - FT(1));
   }
   bool same_plane(std::uint32_t f, std::uint32_t g) const {
-    if constexpr (is_exact) return forms_[f] == forms_[g];
+    if constexpr (is_exact) return form(f).q == form(g).q;
     else return f == g;
   }
 
@@ -84,17 +70,17 @@ class Number_view {
   }
   Approximate_vector approximate(const Ray& r) const { return approximate(r.v); }
   double nearness(std::uint32_t piece, const Approximate_vector& direction) const {
-    const Approximate_vector m = approximate(forms_[piece]);
+    const Approximate_vector m = approximate(form(piece).q);
     return m.x * direction.x + m.y * direction.y + m.z * direction.z;
   }
   double farthest(std::uint32_t piece, const Ray& r) const {
-    const Approximate_vector m = approximate(forms_[piece]), v = approximate(r.v);
+    const Approximate_vector m = approximate(form(piece).q), v = approximate(r.v);
     const double near = m.x * v.x + m.y * v.y + m.z * v.z, far = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z) / near * box_units_ * (1 + 8 * slack);
     return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
   }
   /// Errors: std::domain_error where the numbers overflowed.
   Exact_point position(std::uint32_t piece, const Ray& r) const {
-    const FT near = dot(forms_[piece], r.v);
+    const FT near = dot(form(piece).q, r.v);
     Exact_point at;
     if (near == FT(0)) throw std::domain_error("a ray that runs along its plane");
     for (std::size_t k = 0; k < 3; ++k) at[k] = number::to(eye_[k] + r.v[k] / near);
@@ -104,6 +90,10 @@ class Number_view {
  private:
   using Vector = std::array<FT, 3>;
   using number = Field_number<FT>;
+  struct Form {
+    Vector q;
+    Sign eye_side;
+  };
   static constexpr double slack = std::is_same_v<FT, float> ? 0x1p-20 : 0x1p-49;
 
   static Vector cross(const Vector& a, const Vector& b) { return {FT(a[1] * b[2] - a[2] * b[1]), FT(a[2] * b[0] - a[0] * b[2]), FT(a[0] * b[1] - a[1] * b[0])}; }
@@ -115,12 +105,31 @@ class Number_view {
   static Vector unit(std::uint32_t k, const FT& length) { return {k == 0 ? length : FT(0), k == 1 ? length : FT(0), k == 2 ? length : FT(0)}; }
   static Approximate_vector approximate(const Vector& v) { return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), CGAL::to_double(v[2])}; }
 
+  const Vector& direction(std::uint32_t point) const {
+    return directions_.at(point, [&](std::size_t p) {
+      const Exact_point at = scene_->position(static_cast<std::uint32_t>(p));
+      return Vector{number::from(at[0]) - eye_[0], number::from(at[1]) - eye_[1], number::from(at[2]) - eye_[2]};
+    });
+  }
+  const Form& form(std::uint32_t piece) const {
+    return forms_.at(piece, [&](std::size_t i) { return form_of(scene_->pieces()[i]); });
+  }
+  Form form_of(const Piece& piece) const {
+    // n . x = c for x relative to the eye, through three corners; the eye is in front where c < 0.
+    const std::span<const Piece_corner> corners = scene_->corners(piece);
+    const Vector &a = direction(corners[0].point), &b = direction(corners[1].point), &c = direction(corners[2].point);
+    const Vector normal = cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]});
+    const FT value = dot(normal, a);
+    const Sign side = sign(-value);
+    return {side == CGAL::ZERO ? Vector{FT(0), FT(0), FT(0)} : Vector{normal[0] / value, normal[1] / value, normal[2] / value}, side};
+  }
+
   const Scene* scene_;
   Exact_point eye_point_;
   Vector eye_;
   double box_units_ = 1;  // the length of a unit of the file in approximate coordinates
-  std::vector<Vector> directions_, forms_;
-  std::vector<Sign> eye_sides_;
+  Lazy_table<Vector, 16> directions_;
+  Lazy_table<Form, 16> forms_;
 };
 
 static_assert(View<Number_view<double>>);

@@ -1,6 +1,7 @@
 #pragma once
 // The surfaces that are visible from a point, exactly: the sphere of directions is cut by planes through the eye and scene edges until one piece covers each region.
 
+#include <sightline/algorithms/point_visibility/lazy_table.h>
 #include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/kernel/threads.h>
 
@@ -18,7 +19,7 @@ struct Visible_options {
 
 /// What was modelled, and what was not.
 struct Visible_counters {
-  std::uint64_t pieces = 0, edge_on = 0;      ///< of the scene; of them in the eye's plane
+  std::uint64_t pieces = 0;                   ///< of the scene
   std::uint64_t opened = 0, looked_at = 0;    ///< boxes opened; pieces that were looked at in a region, each time
   std::uint64_t hidden = 0, hidden_boxes = 0; ///< pieces and boxes dropped behind what covers a region
   std::uint64_t regions = 0, splits = 0, crossings = 0, merged = 0;  ///< leaves; cuts, of them along a line where two pieces cross; pairs of leaves put together again
@@ -81,15 +82,13 @@ class Solver {
 
   using Region = typename Surface::Cone;
 
-  Solver(const V& view, const Piece_boxes& boxes, const Visible_options& options) : view_(view), boxes_(boxes), options_(options), predicates_(view.scene().predicates()), eye_(view.scene().locate(view.eye())), seen_(view.scene().counters().faces_read) {
-    place_chunks();
-  }
+  Solver(const V& view, const Piece_boxes& boxes, const Visible_options& options) : view_(view), boxes_(boxes), options_(options), predicates_(view.scene().predicates()), eye_(view.scene().locate(view.eye())), edges_(boxes.chunks().size()), seen_(view.scene().counters().faces_read) {}
 
   Surface solve(std::vector<Region> fields) {
     std::vector<Output> outputs(fields.size());
     for (std::size_t k = 0; k < fields.size(); ++k) {
-      Task task{fields[k], {}, nothing, {}, 0};
-      if (!boxes_.nodes().empty()) task.items.push_back({box_bit, 0});
+      Task task{fields[k], {}, {}, nothing, {}, 0};
+      if (!boxes_.nodes().empty()) task.boxes.push_back({0, 0});
       outputs[k].root = solve_in_parallel(std::move(task), 0x1p0 / static_cast<double>(fields.size()), outputs[k]);
     }
     Surface surface = gathered(outputs);
@@ -100,21 +99,25 @@ class Solver {
  private:
   // ---- What a region holds -----------------------------------------------------------------------------------------------------
 
-  /// Up to 32 edges of a piece: all of it, as a rule, else a slice of the fan around its first corner.
-  struct Chunk {
-    std::uint32_t piece, first, size;
-  };
-  /// A chunk that may meet the region, with a bit for each edge plane that has parts of the region on both sides (none: it covers the region); or a box.
+  /// A chunk that may meet the region, with a bit for each edge plane that has parts of the region on both sides (none: it covers the region).
   struct Item {
-    std::uint32_t index, active;
+    std::uint32_t chunk, active;
   };
-  static constexpr std::uint32_t box_bit = 0x80000000u;
-  static bool is_box(const Item& item) { return (item.index & box_bit) != 0; }
-  Item with_all_edges(std::uint32_t chunk) const { return {chunk, chunks_[chunk].size == 32 ? ~0u : (1u << chunks_[chunk].size) - 1}; }
+  Item with_all_edges(std::uint32_t chunk) const {
+    const std::uint32_t size = boxes_.chunks()[chunk].size;
+    return {chunk, size == 32 ? ~0u : (1u << size) - 1};
+  }
   static void remove(std::vector<Item>& items, std::size_t i) { items[i] = items.back(), items.pop_back(); }
+  /// A box that has not been opened, by its node.
+  struct Closed_box {
+    std::uint32_t node;
+    double distance;  // from the eye
+    friend bool operator<(const Closed_box& a, const Closed_box& b) { return a.distance != b.distance ? a.distance > b.distance : a.node > b.node; }  // a heap has the nearest first
+  };
   struct Task {
     Region region;
     std::vector<Item> items;
+    std::vector<Closed_box> boxes;    // a heap
     std::uint32_t cover;              // the chunk that is nearest of those that cover the region, or nothing
     std::vector<std::uint32_t> tied;  // chunks in the plane of the cover that come after it
     std::uint32_t depth;
@@ -128,36 +131,25 @@ class Solver {
     Visible_counters counters;
   };
 
-  void place_chunks() {
-    const Scene& scene = view_.scene();
-    first_chunk_.reserve(scene.pieces().size() + 1);
-    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
-      first_chunk_.push_back(static_cast<std::uint32_t>(chunks_.size()));
-      const Sign side = view_.eye_side(i);
-      if (side == CGAL::ZERO) {
-        ++edge_on_;
-        continue;
+  std::uint32_t piece_of(std::uint32_t chunk) const { return boxes_.chunks()[chunk].piece; }
+  std::span<const std::uint32_t> points_of(std::uint32_t chunk) const { return boxes_.points(boxes_.chunks()[chunk]); }
+  const Piece_boxes::Node& node(const Closed_box& box) const { return boxes_.nodes()[box.node]; }
+  /// The planes through the eye and a chunk's edges, its inside in their front. Pre: it is not edge-on.
+  const Plane* edges_of(std::uint32_t chunk) const {
+    const auto make = [&](std::size_t c) {
+      const std::span<const std::uint32_t> points = points_of(static_cast<std::uint32_t>(c));
+      // Counterclockwise as seen from the front is clockwise around the rays from an eye in front.
+      const bool turned = view_.eye_side(piece_of(static_cast<std::uint32_t>(c))) == CGAL::POSITIVE;
+      std::vector<Plane> edges;
+      edges.reserve(points.size());
+      for (std::size_t k = 0; k < points.size(); ++k) {
+        const std::uint32_t p = points[k], q = points[k + 1 == points.size() ? 0 : k + 1];
+        edges.push_back(turned ? view_.edge(q, p) : view_.edge(p, q));
       }
-      const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[i]);
-      for (std::size_t from = 1; from + 1 < corners.size();) {
-        const std::size_t to = std::min(corners.size() - 1, from + (corners.size() <= 32 ? corners.size() : 30));
-        const Chunk chunk{i, static_cast<std::uint32_t>(points_.size()), static_cast<std::uint32_t>(to - from + 2)};
-        points_.push_back(corners[0].point);
-        for (std::size_t k = from; k <= to; ++k) points_.push_back(corners[k].point);
-        for (std::uint32_t k = 0; k < chunk.size; ++k) {
-          const std::uint32_t p = points_[chunk.first + k], q = points_[chunk.first + (k + 1 == chunk.size ? 0 : k + 1)];
-          // Counterclockwise as seen from the front is clockwise around the rays from an eye in front.
-          edges_.push_back(side == CGAL::POSITIVE ? view_.edge(q, p) : view_.edge(p, q));
-        }
-        chunks_.push_back(chunk);
-        from = to;
-      }
-    }
-    first_chunk_.push_back(static_cast<std::uint32_t>(chunks_.size()));
+      return edges;
+    };
+    return edges_.at(chunk, make).data();
   }
-
-  std::uint32_t piece_of(std::uint32_t chunk) const { return chunks_[chunk].piece; }
-  std::span<const std::uint32_t> points_of(std::uint32_t chunk) const { return {points_.data() + chunks_[chunk].first, chunks_[chunk].size}; }
 
   /// Whether a comes before b where both are met at once.
   bool comes_first(std::uint32_t a, std::uint32_t b) const {
@@ -171,10 +163,10 @@ class Solver {
 
   /// Updates which edges of a chunk cut the region. Returns whether it may still meet it.
   bool update(Item& item, const Region& region, Predicate_counts& counts) const {
-    const Chunk& chunk = chunks_[item.index];
+    const Plane* edges = item.active != 0 ? edges_of(item.chunk) : nullptr;
     for (std::uint32_t bits = item.active; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
-      const Plane& edge = edges_[chunk.first + k];
+      const Plane& edge = edges[k];
       bool inside = false, outside = false;
       for (const Ray& r : region.rays) {
         const Sign s = view_.side(edge, r, counts);
@@ -226,98 +218,101 @@ class Solver {
   /// Drops what is hidden in the region, opens boxes, and returns the plane to cut it by; none where it is settled.
   std::optional<Plane> settle(Task& task, Output& out) const {
     std::size_t checked = 0;  // items before this have been compared with the cover
+    std::optional<Hiding> hiding;
     for (;;) {
-      find_cover(task, checked, out.counters);
+      if (find_cover(task, checked, out.counters) || (!hiding && task.cover != nothing)) drop_hidden_boxes(task, hiding.emplace(hiding_in(task)), out.counters);
       drop_hidden(task, checked, out.counters);
       checked = task.items.size();
-      const std::size_t place = box_to_open(task);
-      if (place == checked) break;
-      const std::uint32_t box = task.items[place].index & ~box_bit;
-      remove(task.items, place);
-      --checked;
-      open(box, task.region, task.items, out.counters);
+      if (task.boxes.empty() || has_enough(task)) break;
+      open_nearest(task, hiding, out.counters);
     }
     if (task.items.empty()) return std::nullopt;
     return choose(task, out);
   }
-  /// Keeps the nearest of what covers the region, apart from the items. Others stay there only where they cross it.
-  void find_cover(Task& task, std::size_t& checked, Visible_counters& counters) const {
+  /// Keeps the nearest of what covers the region, apart from the items. Others stay there only where they cross it. Returns whether another one is it.
+  bool find_cover(Task& task, std::size_t& checked, Visible_counters& counters) const {
+    bool changed = false;
     for (std::size_t i = checked; i < task.items.size();) {
       const Item item = task.items[i];
-      if (is_box(item) || item.active != 0) {
+      if (item.active != 0) {
         ++i;
         continue;
       }
-      const Depth depth = task.cover == nothing ? Depth::farther : compare(task.cover, item.index, task.region, counters.predicates);
-      if (depth == Depth::crossing && !has_side(task.region, crossing_of(task.cover, item.index))) {
+      const Depth depth = task.cover == nothing ? Depth::farther : compare(task.cover, item.chunk, task.region, counters.predicates);
+      if (depth == Depth::crossing && !has_side(task.region, crossing_of(task.cover, item.chunk))) {
         ++i;
         continue;
       }
       remove(task.items, i);
-      if (depth == Depth::tied) task.tied.push_back(item.index);
+      if (depth == Depth::tied) task.tied.push_back(item.chunk);
       if (depth != Depth::farther) continue;
-      if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.index))) task.tied.push_back(task.cover);
+      if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.chunk))) task.tied.push_back(task.cover);
       else task.tied.clear();
-      task.cover = item.index, checked = i = 0;  // all others once more
+      task.cover = item.chunk, checked = i = 0, changed = true;  // all others once more
     }
+    return changed;
+  }
+  /// What the cover of a region hides of boxes: those farther than all of it there, those beyond its plane.
+  struct Hiding {
+    double farthest;
+    Prepared_plane plane;  // the eye in front
+    bool hides(const Piece_boxes::Box& box, double distance) const { return distance > farthest || Piece_boxes::is_behind(box, plane); }
+  };
+  Hiding hiding_in(const Task& task) const {
+    const std::uint32_t cover = piece_of(task.cover);
+    double farthest = 0;  // of a polygon, so at a corner
+    for (const Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
+    const sightline::Plane support = view_.scene().pieces()[cover].support;
+    return {farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900, predicates_.prepare(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite())};
+  }
+  void drop_hidden_boxes(Task& task, const Hiding& hiding, Visible_counters& counters) const {
+    counters.hidden_boxes += std::erase_if(task.boxes, [&](const Closed_box& box) { return hiding.hides(node(box).box, box.distance); });
+    std::make_heap(task.boxes.begin(), task.boxes.end());
   }
   /// Drops what is behind the cover.
   void drop_hidden(Task& task, std::size_t checked, Visible_counters& counters) const {
     if (task.cover == nothing) return;
-    const std::uint32_t cover = piece_of(task.cover);
-    double farthest = 0;  // of the cover in this region: a polygon, so at a corner
-    for (const Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
-    farthest = farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900;
-    const sightline::Plane support = view_.scene().pieces()[cover].support;
-    const Prepared_plane plane = predicates_.prepare(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite());
     for (std::size_t i = checked; i < task.items.size();) {
       const Item item = task.items[i];
-      bool drop = false;
-      if (is_box(item)) {
-        const Piece_boxes::Box& box = boxes_.nodes()[item.index & ~box_bit].box;
-        drop = Piece_boxes::distance(box, eye_) > farthest || Piece_boxes::is_behind(box, plane);
-        counters.hidden_boxes += drop;
-      } else {
-        const Depth depth = compare(task.cover, item.index, task.region, counters.predicates);
-        drop = depth == Depth::nearer || depth == Depth::tied || (depth == Depth::crossing && item.active != 0 && is_beyond(task.cover, item.index, counters.predicates));
-        if (depth == Depth::tied) task.tied.push_back(item.index);
-        counters.hidden += drop;
-      }
+      const Depth depth = compare(task.cover, item.chunk, task.region, counters.predicates);
+      const bool drop = depth == Depth::nearer || depth == Depth::tied || (depth == Depth::crossing && item.active != 0 && is_beyond(task.cover, item.chunk, counters.predicates));
+      if (depth == Depth::tied) task.tied.push_back(item.chunk);
+      counters.hidden += drop;
       if (drop) remove(task.items, i);
       else ++i;
     }
   }
-  /// The place of the nearest box, or the end where there is none, or pieces enough to choose a cut from.
-  std::size_t box_to_open(const Task& task) const {
-    constexpr std::size_t enough = 6;
-    std::size_t pieces = 0, place = task.items.size();
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < task.items.size(); ++i) {
-      if (!is_box(task.items[i])) {
-        pieces += task.items[i].active != 0;  // one that covers the region offers no edge
-        continue;
-      }
-      const double distance = Piece_boxes::distance(boxes_.nodes()[task.items[i].index & ~box_bit].box, eye_);
-      if (!(distance >= nearest)) nearest = distance, place = i;
-    }
-    return pieces >= enough ? task.items.size() : place;
+  /// Whether there are pieces enough to choose a cut from; one that covers the region offers no edge.
+  static bool has_enough(const Task& task) {
+    constexpr std::ptrdiff_t enough = 6;
+    return std::count_if(task.items.begin(), task.items.end(), [](const Item& item) { return item.active != 0; }) >= enough;
   }
-
-  void open(std::uint32_t box, const Region& region, std::vector<Item>& items, Visible_counters& counters) const {
-    const Piece_boxes::Node& node = boxes_.nodes()[box];
+  void open_nearest(Task& task, const std::optional<Hiding>& hiding, Visible_counters& counters) const {
+    std::pop_heap(task.boxes.begin(), task.boxes.end());
+    const Closed_box opened = task.boxes.back();
+    task.boxes.pop_back();
     ++counters.opened;
-    if (node.second != 0) {
-      for (const std::uint32_t child : {box + 1, node.second})
-        if (!is_outside(boxes_.nodes()[child], region)) items.push_back({box_bit | child, 0});
+    if (const std::uint32_t second = node(opened).second; second != 0) {
+      for (const std::uint32_t child : {opened.node + 1, second}) {
+        const Piece_boxes::Node& box = boxes_.nodes()[child];
+        if (is_outside(box, task.region)) continue;
+        const double distance = Piece_boxes::distance(box.box, eye_);
+        if (hiding && hiding->hides(box.box, distance)) {
+          ++counters.hidden_boxes;
+          continue;
+        }
+        task.boxes.push_back({child, distance});
+        std::push_heap(task.boxes.begin(), task.boxes.end());
+      }
       return;
     }
-    for (const std::uint32_t piece : boxes_.pieces(node))
-      for (std::uint32_t chunk = first_chunk_[piece]; chunk < first_chunk_[piece + 1]; ++chunk) {
-        ++counters.looked_at;
-        if (is_outside(chunk, region, counters.predicates)) continue;
-        Item item = with_all_edges(chunk);
-        if (update(item, region, counters.predicates)) items.push_back(item);
-      }
+    for (std::uint32_t chunk = node(opened).first; chunk < node(opened).first + node(opened).count; ++chunk) {
+      if (view_.eye_side(piece_of(chunk)) == CGAL::ZERO) continue;
+      ++counters.looked_at;
+      if (is_outside(chunk, task.region, counters.predicates)) continue;
+      Item item = with_all_edges(chunk);
+      if (update(item, task.region, counters.predicates)) task.items.push_back(item);
+    }
   }
 
   Eye_plane_name crossing_of(std::uint32_t f, std::uint32_t g) const { return Eye_plane_name::crossing(piece_of(f), piece_of(g)); }
@@ -341,18 +336,18 @@ class Solver {
     const Item* best = nullptr;
     const Approximate_vector middle = middle_of(task.region);
     for (const Item& item : task.items) {
-      if (is_box(item) || item.active == 0) continue;
-      const double near = view_.nearness(piece_of(item.index), middle);
+      if (item.active == 0) continue;
+      const double near = view_.nearness(piece_of(item.chunk), middle);
       if (best == nullptr || near > nearest) nearest = near, best = &item;
     }
     if (best == nullptr) {
       ++out.counters.crossings;
-      return view_.crossing(piece_of(task.cover), piece_of(task.items.front().index));  // no boxes are left
+      return view_.crossing(piece_of(task.cover), piece_of(task.items.front().chunk));  // no boxes are left
     }
     const Plane* cheapest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t bits = best->active; bits != 0; bits &= bits - 1) {
-      const Plane& w = edges_[chunks_[best->index].first + static_cast<std::uint32_t>(std::countr_zero(bits))];
+      const Plane& w = edges_of(best->chunk)[std::countr_zero(bits)];
       const double cost = cost_of(w, task, out.counters.predicates);
       if (cheapest == nullptr || cost < least) least = cost, cheapest = &w;
     }
@@ -363,20 +358,15 @@ class Solver {
     constexpr double price = 3;
     const Plane against = view_.opposite(w);
     double front = 0, behind = 0, both = 0;
+    const auto weigh = [&](bool in_front, bool at_back, double weight) { (in_front && at_back ? both : in_front ? front : behind) += weight; };
+    for (const Closed_box& box : task.boxes) weigh(!is_behind(node(box), w), !is_behind(node(box), against), std::sqrt(static_cast<double>(node(box).count)));
     for (const Item& item : task.items) {
       bool in_front = false, at_back = false;
-      double weight = 1;
-      if (is_box(item)) {
-        const Piece_boxes::Node& node = boxes_.nodes()[item.index & ~box_bit];
-        in_front = !is_behind(node, w), at_back = !is_behind(node, against);
-        weight = std::sqrt(static_cast<double>(node.count));
-      } else {
-        for (const std::uint32_t p : points_of(item.index)) {
-          const Sign s = view_.side(w, p, counts);
-          in_front = in_front || s == CGAL::POSITIVE, at_back = at_back || s == CGAL::NEGATIVE;
-        }
+      for (const std::uint32_t p : points_of(item.chunk)) {
+        const Sign s = view_.side(w, p, counts);
+        in_front = in_front || s == CGAL::POSITIVE, at_back = at_back || s == CGAL::NEGATIVE;
       }
-      (in_front && at_back ? both : in_front ? front : behind) += weight;
+      weigh(in_front, at_back, 1);
     }
     return price * both + std::fabs(front - behind);
   }
@@ -406,7 +396,7 @@ class Solver {
     std::array<Region, 2> regions = cut(task.region, w, counters.predicates);
     ++counters.splits;
     if (w.name.kind() == Eye_plane_name::crossing_kind) {
-      const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().index);
+      const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().chunk);
       const Region& near = regions[0];
       for (std::size_t k = 0; k < near.rays.size(); ++k)
         if (near.sides[k].name == w.name) out.crossings.push_back({f, g, near.rays[k], near.rays[k + 1 == near.rays.size() ? 0 : k + 1]});
@@ -417,13 +407,11 @@ class Solver {
       to.region = std::move(regions[part]), to.cover = task.cover, to.tied = task.tied, to.depth = task.depth + 1;
       if (to.region.rays.size() < 3) continue;  // inexact signs only
       const Plane side = part == 0 ? w : view_.opposite(w);
-      for (Item item : task.items) {
-        if (is_box(item)) {
-          if (!is_behind(boxes_.nodes()[item.index & ~box_bit], side)) to.items.push_back(item);
-        } else if (item.active == 0 || (!is_behind(item.index, side, counters.predicates) && update(item, to.region, counters.predicates))) {
-          to.items.push_back(item);
-        }
-      }
+      for (const Closed_box& box : task.boxes)
+        if (!is_behind(node(box), side)) to.boxes.push_back(box);
+      std::make_heap(to.boxes.begin(), to.boxes.end());
+      for (Item item : task.items)
+        if (item.active == 0 || (!is_behind(item.chunk, side, counters.predicates) && update(item, to.region, counters.predicates))) to.items.push_back(item);
     }
     return tasks;
   }
@@ -475,7 +463,7 @@ class Solver {
         continue;
       }
       std::array<Task, 2> tasks = divide(step.task, *w, out);
-      step.task.items = {}, step.task.tied = {}, step.cut = w;
+      step.task.items = {}, step.task.boxes = {}, step.task.tied = {}, step.cut = w;
       steps.push_back(std::move(step));
       steps.push_back({std::move(tasks[1]), std::nullopt});
       steps.push_back({std::move(tasks[0]), std::nullopt});
@@ -551,7 +539,7 @@ class Solver {
   Surface gathered(const std::vector<Output>& outputs) const {
     Surface surface;
     for (const Output& out : outputs) surface.roots.push_back(append(out, out.root, surface));
-    surface.counters.pieces = view_.scene().pieces().size(), surface.counters.edge_on = edge_on_;
+    surface.counters.pieces = view_.scene().pieces().size();
     for (Face_id f = 0; f < seen_.size(); ++f) {
       if ((seen_[f] & from_front) != 0) surface.visible.push_back(f);
       if ((seen_[f] & from_behind) != 0) surface.from_behind.push_back(f);
@@ -564,10 +552,7 @@ class Solver {
   const Visible_options& options_;
   Predicates predicates_;
   Located_point eye_;
-  std::vector<Chunk> chunks_;
-  std::vector<std::uint32_t> first_chunk_, points_;
-  std::vector<Plane> edges_;
-  std::uint64_t edge_on_ = 0;
+  Lazy_table<std::vector<Plane>, 1> edges_;  // of chunks
   std::vector<std::atomic<unsigned char>> seen_;  // of each face, from_front and from_behind
   std::atomic<double> done_{0};
   std::atomic<unsigned> silent_{0};

@@ -4,7 +4,7 @@
 
 #include <sightline/algorithms/verify/covering.h>
 
-#include <bitset>
+#include <numeric>
 
 namespace sightline {
 
@@ -87,50 +87,92 @@ class Pair_check {
   std::vector<Integer_vector> common_;
 };
 
-/// Which of some planes through the eye have a cone wholly on one side. Two cones on different sides of one plane have no open set in common, whichever planes one takes; these are edge
-/// planes of cones spread over the order. Most pairs need nothing else.
-class Side_table {
+/// Hands on pairs of cones, one of each of two lists, but not those with a plane through the eye between them, which have no open set in common. Planes, of edges of the cones, share out
+/// both lists, each part once more by others, until a part is small or a plane does not help. A pair may be handed on more than once.
+/// Cost: about O(n log n) and the pairs; a plane is tested against all rays of a part. Proof: P-20
+template <class Take>
+class Pairs {
  public:
-  explicit Side_table(const std::vector<Cone>& cones) : sides_(cones.size()) {
-    const std::size_t planes = std::min(most_planes, cones.size() / 4);
-    for (std::size_t k = 0; k < planes; ++k) {
-      const Cone& from = cones[k * cones.size() / planes];
-      if (from.edge_on) continue;
-      const Integer_vector& plane = from.edge_planes[k % from.edge_planes.size()];
-      for (std::size_t i = 0; i < cones.size(); ++i) {
-        bool front = true, behind = true;
-        for (const Integer_vector& ray : cones[i].rays) {
-          const int side = sign_of_dot(plane, ray);
-          front = front && side >= 0, behind = behind && side <= 0;
-        }
-        sides_[i].front[k] = front, sides_[i].behind[k] = behind;
-      }
-    }
+  using Places = std::vector<std::size_t>;
+
+  /// take(i, j): cones to compare. Edge-on ones are left out.
+  Pairs(const std::vector<Cone>& cones, Take take) : cones_(cones), take_(std::move(take)) {}
+
+  /// progress(share): of all pairs, those that are done with, in [0, 1]; before each cone of a part.
+  void each(Places a, Places b, const std::function<void(double)>& progress = {}) {
+    const auto edge_on = [&](std::size_t i) { return cones_[i].edge_on; };
+    std::erase_if(a, edge_on), std::erase_if(b, edge_on);
+    progress_ = progress, done_ = 0;
+    share_out(a, b, 1, 0);
   }
-  bool apart(std::size_t i, std::size_t j) const { return (sides_[i].front & sides_[j].behind).any() || (sides_[i].behind & sides_[j].front).any(); }
 
  private:
-  static constexpr std::size_t most_planes = 256;
-  struct Sides_of_one {
-    std::bitset<most_planes> front, behind;
+  static constexpr std::size_t small = 16;
+  static constexpr unsigned deepest = 64, tries = 6;
+
+  struct Halves {
+    Places front, behind;  // and what is on both sides, in both
   };
-  std::vector<Sides_of_one> sides_;
+  Halves halves(const Places& places, const Integer_vector& plane) const {
+    Halves result;
+    for (const std::size_t i : places) {
+      bool in_front = false, at_back = false;
+      for (const Integer_vector& ray : cones_[i].rays) {
+        const int side = sign_of_dot(plane, ray);
+        in_front = in_front || side > 0, at_back = at_back || side < 0;
+        if (in_front && at_back) break;
+      }
+      if (in_front) result.front.push_back(i);
+      if (at_back) result.behind.push_back(i);
+    }
+    return result;
+  }
+  void share_out(const Places& a, const Places& b, double share, unsigned depth) {
+    const auto pairs = [](const Places& x, const Places& y) { return static_cast<double>(x.size()) * static_cast<double>(y.size()); };
+    if (std::min(a.size(), b.size()) > 0 && a.size() + b.size() > small && depth < deepest)
+      for (unsigned k = 0; k < tries; ++k) {
+        const Places& from = k % 2 == 0 ? a : b;
+        const Cone& cone = cones_[from[(2 * k + 1) * from.size() / (2 * tries)]];
+        const Integer_vector& plane = cone.edge_planes[(k + depth) % cone.edge_planes.size()];
+        const Halves first = halves(a, plane), second = halves(b, plane);
+        if (pairs(first.front, second.front) + pairs(first.behind, second.behind) > 0.75 * pairs(a, b)) continue;
+        share_out(first.front, second.front, share / 2, depth + 1);
+        share_out(first.behind, second.behind, share / 2, depth + 1);
+        return;
+      }
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      if (progress_) progress_(std::min(1.0, done_ + share * static_cast<double>(k) / static_cast<double>(a.size())));
+      for (const std::size_t j : b) take_(a[k], j);
+    }
+    done_ += share;
+  }
+
+  const std::vector<Cone>& cones_;
+  Take take_;
+  std::function<void(double)> progress_;
+  double done_ = 0;
 };
+
+/// Calls of Pairs' progress as those of Verify_options, with `total` things in all.
+inline std::function<void(double)> share_of(const Verify_options& options, std::size_t total) {
+  if (!options.progress) return {};
+  return [&options, total](double share) { options.progress(static_cast<std::size_t>(share * static_cast<double>(total)), total); };
+}
 
 // ---- The order --------------------------------------------------------------------------------------------------------------
 
-/// The first pair (earlier, later), by the later one's place in [begin, end), where the earlier one is nearer somewhere.
-inline std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones, std::size_t begin, std::size_t end,
-                                                                           const Verify_options& options) {
-  const Side_table sides(cones);
+/// The first pair (earlier, later), by the later one's place and then the earlier one's, where the earlier one is nearer somewhere.
+inline std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones, const Verify_options& options) {
   Pair_check check;
-  for (std::size_t later = begin; later < end; ++later) {
-    if (options.progress) options.progress(later, cones.size());
-    if (cones[later].edge_on) continue;
-    for (std::size_t earlier = 0; earlier < later; ++earlier)
-      if (!cones[earlier].edge_on && !sides.apart(earlier, later) && check.nearer_somewhere(cones[earlier], cones[later])) return std::pair(earlier, later);
-  }
-  return std::nullopt;
+  std::optional<std::pair<std::size_t, std::size_t>> first;  // (later, earlier)
+  Pairs pairs(cones, [&](std::size_t earlier, std::size_t later) {
+    if (earlier < later && (!first || std::pair(later, earlier) < *first) && check.nearer_somewhere(cones[earlier], cones[later])) first = std::pair(later, earlier);
+  });
+  std::vector<std::size_t> all(cones.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  pairs.each(all, all, share_of(options, cones.size()));
+  if (first) std::swap(first->first, first->second);
+  return first;
 }
 
 /// The certificate, step by step; throws a Rejection.
@@ -142,7 +184,7 @@ inline void check(const Polygon_soup& soup, const Order_certificate& certificate
   // 2. No fragment is nearer than one that is drawn after it.
   std::vector<Cone> cones;
   for (const Order_fragment& fragment : certificate.fragments) cones.emplace_back(fragment.vertices, certificate.eye);
-  const auto pair = first_misordered(cones, 0, cones.size(), options);
+  const auto pair = first_misordered(cones, options);
   if (pair) {
     const auto [earlier, later] = *pair;
     const auto full_name = [&](std::size_t i) { return name("fragment", i) + " (" + name("face", certificate.fragments[i].face) + ")"; };
@@ -159,7 +201,7 @@ inline void check(const Polygon_soup& soup, const Order_certificate& certificate
 /// Degenerate: fragments seen edge-on (the eye in their plane) may stand anywhere; contact in an edge or a point is no overlap;
 /// equal distance is in order both ways. A face whose edges cross although it winds nowhere but 0 or 1 times may be tiled or
 /// set aside. Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line.
-/// Cost: quadratic in the fragments, each pair in the product of their corners at most; a set-aside "self-intersecting" face is
+/// Cost: about O(n log n) for n fragments and the pairs that overlap, each in the product of their corners at most; quadratic at worst; a set-aside "self-intersecting" face is
 /// quadratic in its corners. Exact: yes, without filters. Proof: P-20, P-21, P-22
 inline Verdict verify_order(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options = {}) {
   try {

@@ -11,7 +11,7 @@
 namespace sightline::see_test {
 namespace {
 
-/// Scenes of each family; SIGHTLINE_LONG multiplies.
+/// Scenes of each family: as many as SIGHTLINE_LONG says.
 std::uint64_t seeds() {
   const char* text = std::getenv("SIGHTLINE_LONG");
   return text == nullptr ? 4 : std::strtoull(text, nullptr, 10);

@@ -178,11 +178,11 @@ TEST(Pair_check, separation_in_a_plane_agrees_with_clipping) {
   EXPECT_GT(overlapping, 1000u);
 }
 
-TEST(Side_table, tells_apart_only_cones_without_a_common_open_set_and_most_of_those) {
+TEST(Pairs, hand_on_all_that_overlap_and_few_others) {
   Dice dice(8);
   std::vector<Points> polygons;
   std::vector<order_check::Cone> cones;
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 240; ++i) {
     Points p = random_polygon(dice, 1 + i % 2, false);
     const Rational far = i % 3;  // some far away, so that their cones are thin
     for (Exact_point& q : p) q[0] += 20 * far, q[1] += 7 * far;
@@ -190,16 +190,43 @@ TEST(Side_table, tells_apart_only_cones_without_a_common_open_set_and_most_of_th
     if (cone.edge_on) continue;
     polygons.push_back(p), cones.push_back(cone);
   }
-  const order_check::Side_table sides(cones);
-  std::size_t apart = 0, told = 0;
-  for (std::size_t i = 0; i < cones.size(); ++i)
-    for (std::size_t j = 0; j < cones.size(); ++j) {
-      const bool overlap = has_area(clipped(polygons[i], polygons[j]));
-      ASSERT_FALSE(overlap && sides.apart(i, j)) << i << ' ' << j;
-      apart += !overlap, told += sides.apart(i, j);
+  std::set<std::pair<std::size_t, std::size_t>> taken;
+  std::vector<std::size_t> all(cones.size()), some;
+  for (std::size_t i = 0; i < cones.size(); ++i) {
+    all[i] = i;
+    if (i % 4 != 0) some.push_back(i);
+  }
+  double last = 0;
+  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) { taken.insert({i, j}); }).each(all, some, [&](double share) {
+    EXPECT_GE(share, last);
+    last = share;
+  });
+  EXPECT_GT(last, 0.9);
+  EXPECT_LE(last, 1);
+  std::size_t apart = 0, left_out = 0;
+  for (const std::size_t i : all)
+    for (const std::size_t j : some) {
+      const bool overlap = has_area(clipped(polygons[i], polygons[j])), is_taken = taken.contains({i, j});
+      ASSERT_TRUE(is_taken || !overlap) << i << ' ' << j;
+      apart += !overlap, left_out += !is_taken;
     }
-  EXPECT_GT(apart, 5000u);
-  EXPECT_GT(told, apart / 2);
+  EXPECT_EQ(std::count_if(taken.begin(), taken.end(), [](const auto& pair) { return pair.second % 4 == 0; }), 0);
+  EXPECT_GT(apart, 20000u);
+  EXPECT_GT(left_out, apart / 4);
+}
+
+TEST(Pairs, of_squares_side_by_side_are_few) {
+  // 30 x 30 of them before the eye, and one cone around all.
+  std::vector<order_check::Cone> cones;
+  for (int x = -15; x < 15; ++x)
+    for (int y = -15; y < 15; ++y) cones.emplace_back(Points{at(x, y, 10), at(x + 1, y, 10), at(x + 1, y + 1, 10), at(x, y + 1, 10)}, at(0, 0, 0));
+  cones.emplace_back(Points{at(-15, -15, 20), at(15, -15, 20), at(15, 15, 20), at(-15, 15, 20)}, at(0, 0, 0));
+  std::vector<std::size_t> all(cones.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  std::size_t taken = 0, with_itself = 0;
+  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) { ++taken, with_itself += i == j; }).each(all, all);
+  EXPECT_GE(with_itself, cones.size());
+  EXPECT_LT(taken, 20 * cones.size());  // of 901 x 901
 }
 
 }  // namespace
