@@ -63,7 +63,7 @@ class On_view {
     for (const Rational& x : view.at) largest = std::max(largest, Rational(abs(x)));
     if (largest == 0) throw std::invalid_argument("a viewpoint at infinity wants a direction that is not zero");
     std::array<double, 3> d;
-    for (std::size_t k = 0; k < 3; ++k) d[k] = nearest_double(view.at[k] / largest);
+    for (std::size_t k = 0; k < 3; ++k) d[k] = nearest_double(Rational(view.at[k] / largest));
     constexpr double error = 0x1p-53;
     return {view, d[0], d[1], d[2], 0, error, bound(d[0], d[1], d[2], error, 0), std::nullopt};
   }

@@ -150,7 +150,7 @@ class Region_relation {
     std::vector<Triple> arms;
     for (const Grid_point& p : face.corners) {
       const Grid_point arm = priority_detail::difference(p, grid_.points[0]);
-      arms.push_back({nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])});
+      arms.push_back({nearest_double(Rational(arm[0])), nearest_double(Rational(arm[1])), nearest_double(Rational(arm[2]))});
     }
     return arms;
   }
