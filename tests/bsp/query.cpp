@@ -205,14 +205,14 @@ TEST(Query, rays_by_hand) {
 TEST(Query, points_by_hand) {
   const Built built(soup_of({rectangle(0, 1, 0, 1, 0), rectangle(1, 2, 0, 1, 0), {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}, reversed(rectangle(0, 2, 0, 1, 0))}));
   Predicate_counts counts;
-  using Faces = std::vector<Face_id>;
+  using Ids = std::vector<Face_id>;
   const auto faces = [&](const Rational& x, const Rational& y, const Rational& z) { return faces_at(built.traits, built.tree, at(x, y, z), counts); };
-  EXPECT_EQ(faces(1, ratio(1, 2), 0), (Faces{0, 1, 2, 3}));
-  EXPECT_EQ(faces(ratio(1, 2), ratio(1, 2), 0), (Faces{0, 3}));
-  EXPECT_EQ(faces(2, 1, 0), (Faces{1, 3}));
-  EXPECT_EQ(faces(1, 1, 1), (Faces{2}));
-  EXPECT_EQ(faces(1, ratio(1, 2), ratio(3, 2)), Faces{});
-  EXPECT_EQ(faces(3, 0, 0), Faces{});
+  EXPECT_EQ(faces(1, ratio(1, 2), 0), (Ids{0, 1, 2, 3}));
+  EXPECT_EQ(faces(ratio(1, 2), ratio(1, 2), 0), (Ids{0, 3}));
+  EXPECT_EQ(faces(2, 1, 0), (Ids{1, 3}));
+  EXPECT_EQ(faces(1, 1, 1), (Ids{2}));
+  EXPECT_EQ(faces(1, ratio(1, 2), ratio(3, 2)), Ids{});
+  EXPECT_EQ(faces(3, 0, 0), Ids{});
 }
 
 // ---- Solids ----------------------------------------------------------------------------------------------------------------------

@@ -1,23 +1,19 @@
 // Convex polygons as cycles of lines: exact areas of what is cut.
 
-#include <gtest/gtest.h>
+#include "support.h"
+
 #include <rapidcheck/gtest.h>
 
 #include <sightline/algorithms/compare/flat_polygon.h>
 #include <sightline/algorithms/generate/random.h>
 
-using namespace sightline;
+using namespace compare_test;
 
 namespace {
 
 using Point = Flat_polygon::Point;
-using Points = std::vector<Point>;
+using Corners = std::vector<Point>;
 
-Rational ratio(long p, long q) {
-  Rational value(p, static_cast<unsigned long>(q));
-  value.canonicalize();
-  return value;
-}
 Flat_polygon box(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1) { return Flat_polygon::hull({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}); }
 Rational area(const std::vector<Flat_polygon>& polygons) {
   Rational sum = 0;
@@ -29,8 +25,8 @@ Flat_polygon common(Flat_polygon a, const Flat_polygon& b) {
   for (const Flat_polygon::Line& h : b.lines()) a = a.clipped(h);
   return a;
 }
-Points random_points(generate::Random& random) {
-  Points points(random.below(9));
+Corners random_points(generate::Random& random) {
+  Corners points(random.below(9));
   const std::int64_t reach = random.chance(1, 2) ? 3 : 40;
   for (Point& p : points)
     for (Rational& x : p) x = ratio(static_cast<long>(random.between(-reach, reach)), static_cast<long>(random.chance(1, 3) ? random.between(1, 5) : 1));
@@ -48,7 +44,7 @@ TEST(Flat_polygon_hull, of_fewer_than_three_corners_is_empty) {
 }
 
 TEST(Flat_polygon_hull, leaves_out_inner_and_straight_points_in_any_order) {
-  Points points{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}, {1, 1}, {0, 0}};
+  Corners points{{0, 0}, {1, 0}, {2, 0}, {2, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}, {1, 1}, {0, 0}};
   std::sort(points.begin(), points.end());
   for (int k = 0; k < 50; ++k) {
     std::rotate(points.begin(), points.begin() + 3, points.end());
@@ -136,7 +132,7 @@ RC_GTEST_PROP(Flat_polygon_area, is_the_sum_of_the_parts_on_both_sides_of_a_line
 RC_GTEST_PROP(Flat_polygon_area, of_a_hull_is_the_most_that_any_triangle_fan_of_its_points_has, ()) {
   // By Pick's theorem on lattice polygons: 2 area is an integer; and the hull holds every triangle of the points.
   generate::Random random(*rc::gen::arbitrary<std::uint64_t>());
-  const Points points = random_points(random);
+  const Corners points = random_points(random);
   const Flat_polygon hull = Flat_polygon::hull(points);
   for (const Point& p : points) {
     for (const Flat_polygon::Line& h : hull.lines()) RC_ASSERT(Rational(h[0] * p[0] + h[1] * p[1] + h[2]) >= 0);

@@ -1,8 +1,8 @@
 // How wrong an order is: zero for exact ones, and exact values for errors made on purpose.
 
-#include "../soup.h"
+#include "support.h"
 
-#include <gtest/gtest.h>
+#include "../soup.h"
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
@@ -11,18 +11,12 @@
 #include <sightline/algorithms/generate/transform.h>
 #include <sightline/kernel/exact_traits.h>
 
-using namespace sightline;
+using namespace compare_test;
 
 namespace {
 
 using Order = std::vector<Order_fragment>;
 
-Rational ratio(long p, long q) {
-  Rational value(p, static_cast<unsigned long>(q));
-  value.canonicalize();
-  return value;
-}
-Exact_point at(const Rational& x, const Rational& y, const Rational& z) { return {x, y, z}; }
 std::vector<Exact_point> square(const Rational& x, const Rational& y, const Rational& z, const Rational& side = 1) {
   return {at(x, y, z), at(x + side, y, z), at(x + side, y + side, z), at(x, y + side, z)};
 }

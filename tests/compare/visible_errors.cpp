@@ -1,8 +1,8 @@
 // How wrong a visible surface is: zero for exact ones, areas by hand for errors made on purpose, and laws of pixels.
 
-#include "../soup.h"
+#include "support.h"
 
-#include <gtest/gtest.h>
+#include "../soup.h"
 
 #include <sightline/algorithms/compare/visible_errors.h>
 #include <sightline/algorithms/generate/scenes.h>
@@ -10,7 +10,7 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
-using namespace sightline;
+using namespace compare_test;
 
 namespace {
 
@@ -19,12 +19,6 @@ constexpr double rounding = 1e-14;
 constexpr double side_of_cube = 1.0 / 6;
 
 const Exact_point origin{0, 0, 0};
-Rational ratio(long p, unsigned long q) {
-  Rational value(p, q);
-  value.canonicalize();
-  return value;
-}
-Exact_point at(const Rational& x, const Rational& y, const Rational& z) { return {x, y, z}; }
 
 /// In front of an eye at the origin, in the image towards +y: x to the right, z up; front to the eye.
 Points rectangle(const Rational& x0, const Rational& x1, const Rational& z0, const Rational& z1, const Rational& y = 1) {

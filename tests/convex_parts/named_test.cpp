@@ -38,9 +38,6 @@ Polygon shared(const Polygon& given) {
   return result;
 }
 
-Convex_parts parts_of(const Polygon& p) { return sightline::convex_parts(p.points, p.loops); }
-Convex_parts triangles_of(const Polygon& p) { return sightline::triangles(p.points, p.loops); }
-
 void expect_simple(const Polygon& given, std::size_t most_pieces, bool exhaustive = true) {
   const Polygon once = shared(given);
   for (const Polygon* p : {&given, &once}) {

@@ -24,6 +24,10 @@ struct Polygon {
   std::vector<Loop> loops;
 };
 
+// What is tested.
+inline Convex_parts parts_of(const Polygon& p) { return sightline::convex_parts(p.points, p.loops); }
+inline Convex_parts triangles_of(const Polygon& p) { return sightline::triangles(p.points, p.loops); }
+
 struct Sample {
   Rational x, y;
 };

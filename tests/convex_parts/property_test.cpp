@@ -13,9 +13,6 @@ using namespace oracle;
 
 namespace {
 
-Convex_parts parts_of(const Polygon& p) { return sightline::convex_parts(p.points, p.loops); }
-Convex_parts triangles_of(const Polygon& p) { return sightline::triangles(p.points, p.loops); }
-
 /// Whole ranges from the first case on, not growing ones.
 template <class T>
 rc::Gen<T> full(rc::Gen<T> gen) { return rc::gen::resize(rc::kNominalSize, std::move(gen)); }

@@ -4,8 +4,8 @@
 
 namespace cutset_test {
 namespace {
+
 using Random = std::mt19937_64;
-std::int64_t between(Random& random, std::int64_t low, std::int64_t high) { return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1)); }
 
 TEST(Expiry_queue, gives_out_what_ran_out_before_now_once_and_nothing_else) {
   Random random(3);

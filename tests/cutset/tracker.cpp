@@ -15,7 +15,7 @@ namespace cutset_test {
 namespace {
 
 using Random = std::mt19937_64;
-std::int64_t between(Random& random, std::int64_t low, std::int64_t high) { return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1)); }
+
 
 Body random_hull(Random& random) {
   for (;;) {

@@ -5,8 +5,6 @@
 namespace sightline::test {
 namespace {
 
-constexpr Format obj = Format::obj;
-
 TEST(Obj, corners_may_carry_texture_and_normal) {
   EXPECT_EQ(read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\nf 1/ 2// 3//-1\n", obj),
             "0 0 0, 1 0 0, 0 1 0 | 0 1 2, 0 1 2, 0 1 2, 0 1 2, 0 1 2");

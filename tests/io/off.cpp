@@ -5,7 +5,6 @@
 namespace sightline::test {
 namespace {
 
-constexpr Format off = Format::off;
 constexpr Format qoff = Format::qoff;
 
 TEST(Off, header_and_counts_stand_on_one_line_or_two_or_the_header_is_missing) {

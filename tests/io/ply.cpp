@@ -5,13 +5,12 @@
 namespace sightline::test {
 namespace {
 
-constexpr Format ply = Format::ply;
-const std::string points = "property float x\nproperty float y\nproperty float z\n";
-const std::string corners = "property list uchar int vertex_indices\n";
+const std::string vertex_lines = "property float x\nproperty float y\nproperty float z\n";
+const std::string face_line = "property list uchar int vertex_indices\n";
 
 /// A header of points (lines 3 to 6) and faces (lines 7 and 8); data begin in line 10.
 std::string header(const std::string& encoding, const std::string& point_count, const std::string& face_count) {
-  return "ply\nformat " + encoding + " 1.0\nelement vertex " + point_count + "\n" + points + "element face " + face_count + "\n" + corners + "end_header\n";
+  return "ply\nformat " + encoding + " 1.0\nelement vertex " + point_count + "\n" + vertex_lines + "element face " + face_count + "\n" + face_line + "end_header\n";
 }
 template <class Value>
 std::string bytes_of_value(Value value, bool big) {
@@ -36,7 +35,7 @@ TEST(Ply, other_elements_and_properties_are_passed_over) {
 TEST(Ply, faces_of_any_number_of_corners_are_kept) { EXPECT_EQ(read_text(header("ascii", "1", "4") + "0 0 0\n0\n1 0\n2 0 0\n4 0 0 0 0", ply), "0 0 0 |, 0, 0 0, 0 0 0 0"); }
 
 TEST(Ply, no_faces_is_a_scene_too) {
-  EXPECT_EQ(read_text("ply\nformat ascii 1.0\nelement vertex 1\n" + points + "end_header\n1 2 3\n", ply), "1 2 3 |");
+  EXPECT_EQ(read_text("ply\nformat ascii 1.0\nelement vertex 1\n" + vertex_lines + "end_header\n1 2 3\n", ply), "1 2 3 |");
 }
 
 TEST(Ply, binary_holds_floats_as_they_are_in_either_byte_order) {
@@ -112,7 +111,7 @@ TEST(Ply, a_header_that_is_none_is_an_error) {
   expect_error_at(3, 18, "unexpected \"x\"", begin + "element vertex 0 x\n", ply);
   expect_error_at(4, 9, "element \"vertex\" comes twice", begin + "element vertex 0\nelement vertex 0\n", ply);
   expect_error_at(3, 9, "triangle strips are not supported", begin + "element tristrips 0\n", ply);
-  expect_error_at(3, 1, "a property before the first element", begin + points, ply);
+  expect_error_at(3, 1, "a property before the first element", begin + vertex_lines, ply);
   expect_error_at(4, 10, "unknown type \"real\"", begin + "element vertex 0\nproperty real x\n", ply);
   expect_error_at(4, 15, "a list's length cannot be \"float\"", begin + "element face 0\nproperty list float int vertex_indices\n", ply);
   expect_error_at(4, 15, "the name of the property is missing", begin + "element face 0\nproperty float\n", ply);
@@ -122,7 +121,7 @@ TEST(Ply, a_header_that_is_none_is_an_error) {
   expect_error_at(4, 14, "\"vertex_index\" is not a list of integers", begin + "element face 0\nproperty int vertex_index\n", ply);
   expect_error_at(4, 27, "\"x\" is a list", begin + "element vertex 0\nproperty list uchar float x\n", ply);
   expect_error_at(3, 9, "element vertex has no property y", begin + "element vertex 0\nproperty float x\nproperty float z\nend_header\n", ply);
-  expect_error_at(7, 9, "element face has no property vertex_indices", begin + "element vertex 0\n" + points + "element face 0\nend_header\n", ply);
+  expect_error_at(7, 9, "element face has no property vertex_indices", begin + "element vertex 0\n" + vertex_lines + "element face 0\nend_header\n", ply);
   expect_error_at(3, 11, "the header has no element vertex", begin + "end_header\n", ply);
   expect_error_at(3, 12, "unexpected \"x\"", begin + "end_header x\n", ply);
 }
@@ -138,7 +137,7 @@ TEST(Ply, counts_larger_than_the_file_are_an_error_before_any_memory_is_taken) {
   const std::string head = header("binary_little_endian", "1", "1");
   expect_error_at_byte(head.size() + 12, "a list of 3 numbers, but there is room for 2 at most", head + std::string(12, '\0') + "\3" + std::string(11, '\0'), ply);
   // Each element has a byte, but the second value of the first one is cut off.
-  const std::string lists = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + points + "element mixed 1\nproperty list uchar char a\nproperty int b\nend_header\n";
+  const std::string lists = "ply\nformat binary_little_endian 1.0\nelement vertex 0\n" + vertex_lines + "element mixed 1\nproperty list uchar char a\nproperty int b\nend_header\n";
   EXPECT_EQ(read_text(lists + "\3abc1234", ply), " |");
   expect_error_at_byte(lists.size() + 7, "the file ends within its data", lists + "\3abc123", ply);
 }
@@ -147,7 +146,7 @@ TEST(Ply, text_that_is_cut_off_or_too_long_is_an_error) {
   expect_error_at(11, 1, "the file ends after 1 of 2 elements \"vertex\"", header("ascii", "2", "0") + "0.0000000 0 0\n", ply);
   expect_error_at(10, 4, "a coordinate is missing", header("ascii", "1", "0") + "0 0\n\n\n", ply);
   expect_error_at(11, 4, "a number is missing", header("ascii", "1", "1") + "0 0 0\n3 0\n\n\n\n", ply);
-  const std::string coloured = "ply\nformat ascii 1.0\nelement vertex 1\n" + points + "property uchar red\nend_header\n";
+  const std::string coloured = "ply\nformat ascii 1.0\nelement vertex 1\n" + vertex_lines + "property uchar red\nend_header\n";
   expect_error_at(9, 6, "a number is missing; complete the line", coloured + "0 0 0\n\n\n", ply);
   expect_error_at(9, 7, "\"#\" is not a number", coloured + "0 0 0 # 7\n", ply);  // there are no comments here
   EXPECT_EQ(read_text(coloured + "0 0 0 7", ply), "0 0 0 |");                       // exactly as many bytes as need be

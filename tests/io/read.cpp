@@ -33,13 +33,13 @@ class Read_scene : public testing::Test {
   fs::path folder_;
 };
 
-const std::string obj = "v 0 0 0\n", off = "OFF\n1 0 0\n0 0 0\n", stl = "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 endloop endfacet endsolid";
-const std::string ply = "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\nend_header\n0 0 0\n";
+const std::string obj_text = "v 0 0 0\n", off_text = "OFF\n1 0 0\n0 0 0\n", stl_text = "solid\nfacet normal 0 0 1 outer loop vertex 0 0 0 endloop endfacet endsolid";
+const std::string ply_text = "ply\nformat ascii 1.0\nelement vertex 1\nproperty int x\nproperty int y\nproperty int z\nend_header\n0 0 0\n";
 const std::string binary_stl(84, '\0');
 
 TEST_F(Read_scene, goes_by_the_ending_in_upper_or_lower_case) {
   for (const auto& [name, bytes] : std::vector<std::pair<std::string, std::string>>{
-           {"a.obj", obj}, {"a.OBJ", obj}, {"a.off", off}, {"a.Off", off}, {"a.ply", ply}, {"a.PLY", ply}, {"a.stl", stl}, {"a.sTl", stl}, {"a.b.obj", obj}})
+           {"a.obj", obj_text}, {"a.OBJ", obj_text}, {"a.off", off_text}, {"a.Off", off_text}, {"a.ply", ply_text}, {"a.PLY", ply_text}, {"a.stl", stl_text}, {"a.sTl", stl_text}, {"a.b.obj", obj_text}})
     EXPECT_EQ(read_scene(file(name, bytes)).point_count(), 1u) << name;
   EXPECT_EQ(text_of(read_scene(file("a.qoff", "OFF 1 0 0\n1/3 0 0"))), "1/3 0 0 |");
   EXPECT_EQ(text_of(read_scene(file("a.QOFF", "OFF 1 0 0\n1/3 0 0"))), "1/3 0 0 |");
@@ -47,12 +47,12 @@ TEST_F(Read_scene, goes_by_the_ending_in_upper_or_lower_case) {
 }
 
 TEST_F(Read_scene, goes_by_the_content_where_the_ending_is_unknown) {
-  EXPECT_EQ(read_scene(file("a", obj)).point_count(), 1u);
-  EXPECT_EQ(read_scene(file("a.txt", "\xEF\xBB\xBF# c\n\no x\n" + obj)).point_count(), 1u);
-  EXPECT_EQ(read_scene(file("a.txt", "# c\n" + off)).point_count(), 1u);
+  EXPECT_EQ(read_scene(file("a", obj_text)).point_count(), 1u);
+  EXPECT_EQ(read_scene(file("a.txt", "\xEF\xBB\xBF# c\n\no x\n" + obj_text)).point_count(), 1u);
+  EXPECT_EQ(read_scene(file("a.txt", "# c\n" + off_text)).point_count(), 1u);
   EXPECT_EQ(read_scene(file("a.txt", "COFF 1 0 0\n0 0 0 1 1 1\n")).point_count(), 1u);
-  EXPECT_EQ(read_scene(file("a.txt", ply)).point_count(), 1u);
-  EXPECT_EQ(read_scene(file("a.txt", stl)).point_count(), 1u);
+  EXPECT_EQ(read_scene(file("a.txt", ply_text)).point_count(), 1u);
+  EXPECT_EQ(read_scene(file("a.txt", stl_text)).point_count(), 1u);
   EXPECT_EQ(read_scene(file("a.bin", binary_stl)).point_count(), 0u);
   const std::string unknown = message(file("a.glb", "glTF...."));
   for (const char* ending : {".obj", ".off", ".qoff", ".ply", ".stl"}) EXPECT_NE(unknown.find(ending), std::string::npos) << unknown;
@@ -60,8 +60,8 @@ TEST_F(Read_scene, goes_by_the_content_where_the_ending_is_unknown) {
 }
 
 TEST_F(Read_scene, keeps_the_name_of_the_file) {
-  const fs::path path = file("a.obj", obj + "f 7\n");
-  EXPECT_EQ(read_scene(file("b.obj", obj)).file, (folder_ / "b.obj").string());
+  const fs::path path = file("a.obj", obj_text + "f 7\n");
+  EXPECT_EQ(read_scene(file("b.obj", obj_text)).file, (folder_ / "b.obj").string());
   try {
     (void)read_scene(path);
     ADD_FAILURE();
@@ -79,7 +79,7 @@ TEST_F(Read_scene, what_is_no_file_is_an_error) {
 }
 
 TEST_F(Read_scene, a_file_that_may_not_be_read_is_an_error) {
-  const fs::path secret = file("secret.obj", obj);
+  const fs::path secret = file("secret.obj", obj_text);
   fs::permissions(secret, fs::perms::none);
   if (std::ifstream(secret).good()) GTEST_SKIP() << "this user may read everything, so an unreadable file cannot be made";
   EXPECT_NE(message(secret).find("cannot be opened: Permission denied"), std::string::npos);

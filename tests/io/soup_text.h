@@ -9,6 +9,8 @@
 
 namespace sightline::test {
 
+constexpr Format obj = Format::obj, off = Format::off, ply = Format::ply, stl = Format::stl;
+
 /// "x y z, x y z | 0 1 2, 2 1 0": points in lowest terms, then faces; a hole follows its contour behind a '/'.
 inline std::string text_of(const Polygon_soup& soup) {
   std::string text;

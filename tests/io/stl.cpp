@@ -5,8 +5,6 @@
 namespace sightline::test {
 namespace {
 
-constexpr Format stl = Format::stl;
-
 std::string facet(const std::string& a, const std::string& b, const std::string& c) {
   return "facet normal 0 0 1\n outer loop\n  vertex " + a + "\n  vertex " + b + "\n  vertex " + c + "\n endloop\nendfacet\n";
 }

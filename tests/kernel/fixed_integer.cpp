@@ -1,6 +1,7 @@
 // Integers of fixed width against GMP.
 
-#include <gtest/gtest.h>
+#include "grid.h"
+
 #include <rapidcheck/gtest.h>
 
 #include <sightline/kernel/fixed_integer.h>
@@ -8,14 +9,9 @@
 #include <random>
 
 using namespace sightline;
+using kernel_test::power_of_two;
 
 namespace {
-
-Integer power_of_two(int k) {
-  Integer n;
-  mpz_setbit(n.get_mpz_t(), static_cast<mp_bitcnt_t>(k));
-  return n;
-}
 
 /// The number in [-2^(bits-1), 2^(bits-1)) that is congruent to n modulo 2^bits.
 Integer wrapped(const Integer& n, int bits) {
@@ -33,7 +29,7 @@ Fixed_integer<L> fixed(const Integer& n) {
 
 /// The value, found by signs and subtractions of known powers alone: nothing of from_limbs() is believed here.
 template <int L>
-Integer value(Fixed_integer<L> n) {
+Integer number_in(Fixed_integer<L> n) {
   Integer result = 0;
   if (n.sign() < 0) {
     result = -power_of_two(64 * L - 1);
@@ -64,11 +60,11 @@ void check_against_gmp() {
   for (int round = 0; round < 300; ++round) {
     const Integer a = sample<L>(random), b = sample<L>(random);
     const Fixed_integer<L> fa = fixed<L>(a), fb = fixed<L>(b);
-    ASSERT_EQ(value(fa), a);
+    ASSERT_EQ(number_in(fa), a);
     ASSERT_EQ(fa.sign(), sgn(a));
-    ASSERT_EQ(value(fa + fb), wrapped(a + b, 64 * L)) << a << " + " << b;
-    ASSERT_EQ(value(fa - fb), wrapped(a - b, 64 * L)) << a << " - " << b;
-    ASSERT_EQ(value(fa * fb), wrapped(a * b, 64 * L)) << a << " * " << b;
+    ASSERT_EQ(number_in(fa + fb), wrapped(a + b, 64 * L)) << a << " + " << b;
+    ASSERT_EQ(number_in(fa - fb), wrapped(a - b, 64 * L)) << a << " - " << b;
+    ASSERT_EQ(number_in(fa * fb), wrapped(a * b, 64 * L)) << a << " * " << b;
     ASSERT_EQ((fa - fb).sign(), sgn(wrapped(a - b, 64 * L)));
     ASSERT_EQ((fa - fa).sign(), 0);
   }
@@ -81,7 +77,7 @@ void check_sum_of_products_that_wraps_on_the_way() {
   for (int round = 0; round < 200; ++round) {
     const Integer a = sample<L>(random), b = sample<L>(random), c = sample<L>(random), d = sample<L>(random);
     const auto fa = fixed<L>(a), fb = fixed<L>(b), fc = fixed<L>(c), fd = fixed<L>(d);
-    ASSERT_EQ(value(fa * (fb + fc) - fa * fb - fa * fc + fd), d);
+    ASSERT_EQ(number_in(fa * (fb + fc) - fa * fb - fa * fc + fd), d);
   }
 }
 
@@ -108,9 +104,9 @@ void check_limb_conversions() {
       ASSERT_EQ(Integer(static_cast<unsigned long>(limbs[i])), shifted) << n << " limb " << i;
     }
     // Sign extension to more limbs, and the low limbs of a number that fits them.
-    ASSERT_EQ(value(Fixed_integer<L + 1>(limbs, L)), n);
+    ASSERT_EQ(number_in(Fixed_integer<L + 1>(limbs, L)), n);
     if (L > 1 && wrapped(n, 64) == n) {
-      ASSERT_EQ(value(Fixed_integer<1>(limbs, L)), n);
+      ASSERT_EQ(number_in(Fixed_integer<1>(limbs, L)), n);
     }
   }
 }
@@ -169,8 +165,8 @@ TEST(Fixed_integer, limbs_hold_every_number_of_their_width_and_no_other) {
 
 TEST(Fixed_integer, a_machine_integer_is_sign_extended) {
   for (const std::int64_t n : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
-    EXPECT_EQ(value(Fixed_integer<1>(n)), Integer(static_cast<long>(n)));
-    EXPECT_EQ(value(Fixed_integer<4>(n)), Integer(static_cast<long>(n)));
+    EXPECT_EQ(number_in(Fixed_integer<1>(n)), Integer(static_cast<long>(n)));
+    EXPECT_EQ(number_in(Fixed_integer<4>(n)), Integer(static_cast<long>(n)));
   }
 }
 

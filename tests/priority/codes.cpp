@@ -175,9 +175,6 @@ TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_
 
 // ---- The paper's components -----------------------------------------------------------------------------------------------------------
 
-/// The wall over a segment; its front is to the right of who walks from (x, y) to (u, v).
-Points wall(long x, long y, long u, long v) { return {at(x, y, 0), at(u, v, 0), at(u, v, 1), at(x, y, 1)}; }
-
 /// Rays through inner points of two different faces, from beyond the first: what they pierce, if they pierce both.
 template <class Function>
 void look_through_pairs(const Flats& flats, int rays, Function tell) {

@@ -16,12 +16,12 @@ struct Spot {
 };
 
 /// The wall over a segment. Its front is to the right of who walks from p to q: outside, where an object is walked round counterclockwise.
-Points wall(const Spot& p, const Spot& q, const Rational& low = 0, const Rational& high = 1) { return {at(p.x, p.y, low), at(q.x, q.y, low), at(q.x, q.y, high), at(p.x, p.y, high)}; }
+Points wall_over(const Spot& p, const Spot& q, const Rational& low = 0, const Rational& high = 1) { return {at(p.x, p.y, low), at(q.x, q.y, low), at(q.x, q.y, high), at(p.x, p.y, high)}; }
 
 /// The walls round an object: wall k goes from corner k to the next.
 std::vector<Points> walls_round(const std::vector<Spot>& outline) {
   std::vector<Points> walls;
-  for (std::size_t k = 0; k < outline.size(); ++k) walls.push_back(wall(outline[k], outline[(k + 1) % outline.size()]));
+  for (std::size_t k = 0; k < outline.size(); ++k) walls.push_back(wall_over(outline[k], outline[(k + 1) % outline.size()]));
   return walls;
 }
 
@@ -253,7 +253,7 @@ struct Splitting {
 TEST(Figure_7, of_b_split_along_the_plane_of_a_only_the_part_behind_a_can_be_obscured) {
   // A looks up at y = 1, B left at x = 2; A is in front of all of B's plane's left, B on both sides of A's plane.
   const Spot a1{1, 1}, a0{0, 1}, b1{2, 2}, b0{2, 0};
-  Splitting figure({wall(a1, a0), wall(b1, b0)});
+  Splitting figure({wall_over(a1, a0), wall_over(b1, b0)});
   EXPECT_EQ(arcs_in(figure.scene), (Arc_set{{0, 1}}));
   const auto [b_behind, b_front] = figure.split_along(1, 0);
   EXPECT_TRUE(figure.before(0, b_behind));
@@ -261,30 +261,30 @@ TEST(Figure_7, of_b_split_along_the_plane_of_a_only_the_part_behind_a_can_be_obs
   for (const std::uint32_t part : {b_behind, b_front}) EXPECT_FALSE(figure.before(part, 0));
   EXPECT_FALSE(figure.before(b_behind, b_front) || figure.before(b_front, b_behind));
   // The same, split by hand.
-  EXPECT_EQ(arcs_in(Related(soup_of({wall(a1, a0), wall({2, 1}, b0), wall(b1, {2, 1})}))), (Arc_set{{0, 1}}));
+  EXPECT_EQ(arcs_in(Related(soup_of({wall_over(a1, a0), wall_over({2, 1}, b0), wall_over(b1, {2, 1})}))), (Arc_set{{0, 1}}));
 }
 
 TEST(Figure_7, of_a_split_along_the_plane_of_b_only_the_part_in_front_of_b_can_obscure) {
   // A looks up at y = 1 and is on both sides of B's plane, x = 2; B looks left and is below A.
   const Spot a1{4, 1}, a0{0, 1}, b1{2, ratio(1, 2)}, b0{2, 0};
-  Splitting figure({wall(a1, a0), wall(b1, b0)});
+  Splitting figure({wall_over(a1, a0), wall_over(b1, b0)});
   EXPECT_EQ(arcs_in(figure.scene), (Arc_set{{0, 1}}));
   const auto [a_behind, a_front] = figure.split_along(0, 1);
   EXPECT_TRUE(figure.before(a_front, 1));
   EXPECT_FALSE(figure.before(a_behind, 1));
   for (const std::uint32_t part : {a_behind, a_front}) EXPECT_FALSE(figure.before(1, part));
-  EXPECT_EQ(arcs_in(Related(soup_of({wall({2, 1}, a0), wall(a1, {2, 1}), wall(b1, b0)}))), (Arc_set{{0, 2}}));
+  EXPECT_EQ(arcs_in(Related(soup_of({wall_over({2, 1}, a0), wall_over(a1, {2, 1}), wall_over(b1, b0)}))), (Arc_set{{0, 2}}));
 }
 
 TEST(Figure_8, splitting_breaks_up_a_strongly_connected_component) {
   // B looks up from y = 0, all along. A stands over it at x = 1 and looks right: it obscures B's left, from the right. C hangs under B at x = 2 and looks right too:
   // B's right end, in front of C, obscures it, and C, in front of A, obscures that. So A < B < C < A, but the two ends of B are the two parts along A's plane.
-  const Points a = wall({1, 1}, {1, 2}), b = wall({4, 0}, {-4, 0}), c = wall({2, -2}, {2, -1});
+  const Points a = wall_over({1, 1}, {1, 2}), b = wall_over({4, 0}, {-4, 0}), c = wall_over({2, -2}, {2, -1});
   const Related whole(soup_of({a, b, c}));
   EXPECT_EQ(arcs_in(whole), (Arc_set{{0, 1}, {1, 2}, {2, 0}}));
   EXPECT_EQ(searched(whole).size(), 1u);
 
-  const Related parts(soup_of({a, wall({1, 0}, {-4, 0}), wall({4, 0}, {1, 0}), c}));  // B1 behind A is 1, B2 in front 2
+  const Related parts(soup_of({a, wall_over({1, 0}, {-4, 0}), wall_over({4, 0}, {1, 0}), c}));  // B1 behind A is 1, B2 in front 2
   EXPECT_EQ(arcs_in(parts), (Arc_set{{2, 3}, {3, 0}, {0, 1}}));
   for (const Priority_components& found : {searched(parts), components(Explicit_priority_graph(parts.relation))}) {
     ASSERT_EQ(found.size(), 4u);
@@ -299,9 +299,9 @@ TEST(Figure_8, splitting_breaks_up_a_strongly_connected_component) {
 
 TEST(Figure_8, splitting_breaks_up_a_pair_that_obscure_each_other) {
   // Two walls whose planes cross in both, one above the other: each before the other, and in the order B2, A, B1 once B is split.
-  const Points a = wall({1, 0}, {-1, 0}, 0, 1), b = wall({0, -1}, {0, 1}, 2, 3);  // A looks up the y axis, B right
+  const Points a = wall_over({1, 0}, {-1, 0}, 0, 1), b = wall_over({0, -1}, {0, 1}, 2, 3);  // A looks up the y axis, B right
   EXPECT_EQ(arcs_in(Related(soup_of({a, b}))), (Arc_set{{0, 1}, {1, 0}}));
-  const Related parts(soup_of({a, wall({0, -1}, {0, 0}, 2, 3), wall({0, 0}, {0, 1}, 2, 3)}));
+  const Related parts(soup_of({a, wall_over({0, -1}, {0, 0}, 2, 3), wall_over({0, 0}, {0, 1}, 2, 3)}));
   EXPECT_EQ(arcs_in(parts), (Arc_set{{0, 1}, {2, 0}}));
   const Priority_components found = searched(parts);
   EXPECT_EQ((std::vector<std::uint32_t>{found.h(2), found.h(0), found.h(1)}), (std::vector<std::uint32_t>{0, 1, 2}));
@@ -313,7 +313,7 @@ TEST(Figure_8, splitting_breaks_up_a_pair_that_obscure_each_other) {
 /// it; opposite sides are back to back.
 std::vector<Points> ring() {
   const Rational quarter = ratio(1, 4), rest = ratio(3, 4);
-  return {wall({quarter, 0}, {2, 0}), wall({1, quarter}, {1, 2}), wall({rest, 1}, {-1, 1}), wall({0, rest}, {0, -1})};
+  return {wall_over({quarter, 0}, {2, 0}), wall_over({1, quarter}, {1, 2}), wall_over({rest, 1}, {-1, 1}), wall_over({0, rest}, {0, -1})};
 }
 
 TEST(Figure_9, a_ring_of_four_has_no_relation_across) {

@@ -102,7 +102,7 @@ Matrix arcs_from(const Flats& flats, const Points& region) {
 }
 
 /// Where the ray from an eye strictly in front goes through the inside of a face.
-std::optional<Rational> goes_through(const Flat& face, const Exact_point& eye, const Exact_point& direction) {
+std::optional<Rational> meets_front(const Flat& face, const Exact_point& eye, const Exact_point& direction) {
   if (face.height(eye) <= 0) return std::nullopt;
   const std::optional<Rational> t = face.crossing(eye, along(eye, 1, direction));
   if (!t || *t <= 0 || face.holds(along(eye, *t, direction)) != 1) return std::nullopt;
@@ -188,7 +188,7 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
       const Exact_point eye = point_of(region.points, random);
       const Exact_point target = inside_of(scene.flats[random.below(found.size())].corners, random), direction = minus(target, eye);
       std::vector<std::optional<Rational>> at_parameter;
-      for (const Flat& face : scene.flats) at_parameter.push_back(direction == Exact_point{0, 0, 0} ? std::nullopt : goes_through(face, eye, direction));
+      for (const Flat& face : scene.flats) at_parameter.push_back(direction == Exact_point{0, 0, 0} ? std::nullopt : meets_front(face, eye, direction));
       for (std::size_t i = 0; i < found.size(); ++i)
         for (std::size_t j = 0; j < found.size(); ++j)
           if (at_parameter[i] && at_parameter[j] && *at_parameter[i] < *at_parameter[j]) {
@@ -322,7 +322,7 @@ TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
       if (random.chance(1, 8)) direction = minus(eye, target);
       const Ray relation(scene.relation, eye, direction);
       std::vector<std::optional<Rational>> expected;
-      for (const Flat& face : scene.flats) expected.push_back(goes_through(face, eye, direction));
+      for (const Flat& face : scene.flats) expected.push_back(meets_front(face, eye, direction));
       const Matrix found = asked(relation);
       ASSERT_TRUE(consistent(relation)) << "scene " << k;
       for (std::uint32_t i = 0; i < expected.size(); ++i) {
@@ -346,7 +346,7 @@ TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
 
 /// Unit squares at heights 1 and 0, fronts up: the upper one, 0, may obscure the lower one, 1.
 Polygon_soup two_squares() { return soup_of({rectangle(0, 1, 0, 1, 1), rectangle(0, 1, 0, 1, 0)}); }
-const Matrix none{{0, 0}, {0, 0}}, upper_first{{0, 1}, {0, 0}};
+const Matrix no_arcs{{0, 0}, {0, 0}}, upper_first{{0, 1}, {0, 0}};
 
 TEST(Scope, of_a_ray_needs_a_direction) {
   const Related scene(two_squares());
@@ -359,16 +359,16 @@ TEST(Scope, of_a_ray_through_an_edge_along_a_face_or_from_behind_has_no_arc) {
   const auto along_ray = [&](const Exact_point& eye, const Exact_point& direction) { return asked(Ray(scene.relation, eye, direction)); };
   EXPECT_EQ(along_ray(at(half, half, 3), at(0, 0, -1)), upper_first);
   EXPECT_EQ(along_ray(at(half, half, 3), at(0, 0, -1000)), upper_first);
-  EXPECT_EQ(along_ray(at(0, half, 3), at(0, 0, -1)), none) << "through edges";
-  EXPECT_EQ(along_ray(at(1, 1, 3), at(0, 0, -1)), none) << "through corners";
-  EXPECT_EQ(along_ray(at(0, half, 2), at(half, 0, -1)), none) << "through the middle of the upper one and an edge of the lower one";
+  EXPECT_EQ(along_ray(at(0, half, 3), at(0, 0, -1)), no_arcs) << "through edges";
+  EXPECT_EQ(along_ray(at(1, 1, 3), at(0, 0, -1)), no_arcs) << "through corners";
+  EXPECT_EQ(along_ray(at(0, half, 2), at(half, 0, -1)), no_arcs) << "through the middle of the upper one and an edge of the lower one";
   EXPECT_EQ(along_ray(at(0, half, 2), at(ratio(499, 1000), 0, -1)), upper_first);
-  EXPECT_EQ(along_ray(at(half, half, 1), at(0, 0, -1)), none) << "from the plane of the upper one";
-  EXPECT_EQ(along_ray(at(half, half, ratio(1, 2)), at(0, 0, -1)), none) << "from between them";
-  EXPECT_EQ(along_ray(at(half, half, -1), at(0, 0, 1)), none) << "from behind";
-  EXPECT_EQ(along_ray(at(half, half, 3), at(0, 0, 1)), none) << "away from them";
-  EXPECT_EQ(along_ray(at(-1, half, 2), at(1, 0, 0)), none) << "parallel to them";
-  EXPECT_EQ(along_ray(at(-1, half, 1), at(1, 0, 0)), none) << "in a face";
+  EXPECT_EQ(along_ray(at(half, half, 1), at(0, 0, -1)), no_arcs) << "from the plane of the upper one";
+  EXPECT_EQ(along_ray(at(half, half, ratio(1, 2)), at(0, 0, -1)), no_arcs) << "from between them";
+  EXPECT_EQ(along_ray(at(half, half, -1), at(0, 0, 1)), no_arcs) << "from behind";
+  EXPECT_EQ(along_ray(at(half, half, 3), at(0, 0, 1)), no_arcs) << "away from them";
+  EXPECT_EQ(along_ray(at(-1, half, 2), at(1, 0, 0)), no_arcs) << "parallel to them";
+  EXPECT_EQ(along_ray(at(-1, half, 1), at(1, 0, 0)), no_arcs) << "in a face";
 }
 
 // ---- Regions by hand ----------------------------------------------------------------------------------------------------------------------
@@ -379,20 +379,20 @@ TEST(Scope, of_one_viewpoint_has_the_arc_inside_the_set_of_eyes_and_not_on_its_b
   const Rational half = ratio(1, 2), hair = exact(0x1p-60), million = 1000000;
   const auto eye = [&](const Rational& x, const Rational& y, const Rational& z) { return from(scene, View_region::eye(at(x, y, z))); };
   EXPECT_EQ(eye(half, half, 2), upper_first);
-  EXPECT_EQ(eye(2, half, 2), none) << "on its boundary";
+  EXPECT_EQ(eye(2, half, 2), no_arcs) << "on its boundary";
   EXPECT_EQ(eye(2 - hair, half, 2), upper_first);
-  EXPECT_EQ(eye(2 + hair, half, 2), none);
-  EXPECT_EQ(eye(-1, -1, 2), none) << "on its edge";
+  EXPECT_EQ(eye(2 + hair, half, 2), no_arcs);
+  EXPECT_EQ(eye(-1, -1, 2), no_arcs) << "on its edge";
   EXPECT_EQ(eye(hair - 1, hair - 1, 2), upper_first);
-  EXPECT_EQ(eye(half, half, 1), none) << "in the upper one's plane, on it";
-  EXPECT_EQ(eye(5, half, 1), none) << "in the upper one's plane, beside it";
+  EXPECT_EQ(eye(half, half, 1), no_arcs) << "in the upper one's plane, on it";
+  EXPECT_EQ(eye(5, half, 1), no_arcs) << "in the upper one's plane, beside it";
   EXPECT_EQ(eye(half, half, 1 + hair), upper_first);
-  EXPECT_EQ(eye(1, 1, 1), none) << "at a corner";
-  EXPECT_EQ(eye(half, half, half), none) << "between them";
-  EXPECT_EQ(eye(half, half, 0), none) << "in the lower one's plane";
-  EXPECT_EQ(eye(half, half, -2), none) << "behind both";
-  EXPECT_EQ(eye(million, half, 2), none);
-  EXPECT_EQ(eye(million, half, million), none) << "on its boundary, far away";
+  EXPECT_EQ(eye(1, 1, 1), no_arcs) << "at a corner";
+  EXPECT_EQ(eye(half, half, half), no_arcs) << "between them";
+  EXPECT_EQ(eye(half, half, 0), no_arcs) << "in the lower one's plane";
+  EXPECT_EQ(eye(half, half, -2), no_arcs) << "behind both";
+  EXPECT_EQ(eye(million, half, 2), no_arcs);
+  EXPECT_EQ(eye(million, half, million), no_arcs) << "on its boundary, far away";
   EXPECT_EQ(eye(million, half, million + hair), upper_first);
 }
 
@@ -428,27 +428,27 @@ TEST(Scope, of_a_region_that_touches_the_set_of_eyes_only_in_its_boundary_has_no
   const auto box = [&](const Exact_point& low, const Exact_point& high) { return from(scene, View_region::box(low, high)); };
   const auto hull = [&](const Points& points) { return from(scene, View_region{points}); };
   // Boxes.
-  EXPECT_EQ(box(at(-9, -9, -9), at(9, 9, 1)), none) << "its top in the upper one's plane";
+  EXPECT_EQ(box(at(-9, -9, -9), at(9, 9, 1)), no_arcs) << "its top in the upper one's plane";
   EXPECT_EQ(box(at(-9, -9, -9), at(9, 9, 1 + hair)), upper_first);
-  EXPECT_EQ(box(at(2, 0, 1), at(3, 1, 2)), none) << "an edge on the boundary";
+  EXPECT_EQ(box(at(2, 0, 1), at(3, 1, 2)), no_arcs) << "an edge on the boundary";
   EXPECT_EQ(box(at(2 - hair, 0, 1), at(3, 1, 2)), upper_first);
   EXPECT_EQ(box(at(2, 0, 1), at(3, 1, 2 + hair)), upper_first);
-  EXPECT_EQ(box(at(2, 2, 1), at(3, 3, 2)), none) << "a corner on an edge of the boundary";
+  EXPECT_EQ(box(at(2, 2, 1), at(3, 3, 2)), no_arcs) << "a corner on an edge of the boundary";
   EXPECT_EQ(box(at(2, 2, 1), at(3, 3, 2 + hair)), upper_first);
   // A rectangle within a facet of the boundary, where x = z, and one that is turned through it.
-  EXPECT_EQ(hull({at(1, 0, 1), at(3, 0, 3), at(3, 1, 3), at(1, 1, 1)}), none);
+  EXPECT_EQ(hull({at(1, 0, 1), at(3, 0, 3), at(3, 1, 3), at(1, 1, 1)}), no_arcs);
   EXPECT_EQ(hull({at(1 - hair, 0, 1), at(3 - hair, 0, 3), at(3 - hair, 1, 3), at(1 - hair, 1, 1)}), upper_first);
   EXPECT_EQ(hull({at(1, 0, 1), at(3, 0, 3), at(3 - hair, 1, 3), at(1, 1, 1)}), upper_first) << "one of its corners inside";
   // Segments: along a facet, through the set with both ends outside, and past it.
-  EXPECT_EQ(hull({at(2, -5, 2), at(2, 5, 2)}), none);
+  EXPECT_EQ(hull({at(2, -5, 2), at(2, 5, 2)}), no_arcs);
   EXPECT_EQ(hull({at(2 - hair, -5, 2), at(2 - hair, 5, 2)}), upper_first);
   EXPECT_EQ(hull({at(-5, half, 2), at(5, half, 2)}), upper_first);
-  EXPECT_EQ(hull({at(-5, -1, 2), at(5, -1, 2)}), none);
-  EXPECT_EQ(hull({at(3, half, 1), at(3, half, 3)}), none);
+  EXPECT_EQ(hull({at(-5, -1, 2), at(5, -1, 2)}), no_arcs);
+  EXPECT_EQ(hull({at(3, half, 1), at(3, half, 3)}), no_arcs);
   EXPECT_EQ(hull({at(3, half, 1), at(3, half, 3 + hair)}), upper_first);
   // A tetrahedron around a part of the set that holds none of its corners.
   EXPECT_EQ(hull({at(-50, -50, 2), at(50, -50, 2), at(0, 90, 2), at(0, 0, 3)}), upper_first);
-  EXPECT_EQ(hull({at(-50, -50, -2), at(50, -50, -2), at(0, 90, -2), at(0, 0, 1)}), none) << "its top at a corner of the upper one";
+  EXPECT_EQ(hull({at(-50, -50, -2), at(50, -50, -2), at(0, 90, -2), at(0, 0, 1)}), no_arcs) << "its top at a corner of the upper one";
 }
 
 TEST(Scope, of_a_degenerate_box_is_that_of_a_rectangle_a_segment_a_point_or_nothing) {
@@ -461,26 +461,26 @@ TEST(Scope, of_a_degenerate_box_is_that_of_a_rectangle_a_segment_a_point_or_noth
   EXPECT_EQ(size(-1, 1, 1), 0u);
   EXPECT_EQ(size(1, 1, -1), 0u);
   EXPECT_EQ(from(scene, View_region::box(at(0, 0, 2), at(1, 0, 3))), upper_first);
-  EXPECT_EQ(from(scene, View_region::box(at(-3, -3, 2), at(-3, 3, 2))), none);
+  EXPECT_EQ(from(scene, View_region::box(at(-3, -3, 2), at(-3, 3, 2))), no_arcs);
   EXPECT_EQ(from(scene, View_region::box(at(-3, -3, 2), at(-3, 3, 5))), upper_first);
   EXPECT_EQ(from(scene, View_region::box(at(0, 0, 2), at(0, 0, 2))), upper_first);
-  EXPECT_EQ(from(scene, View_region::box(at(0, 0, 2), at(1, 1, 1))), none) << "low above high";
+  EXPECT_EQ(from(scene, View_region::box(at(0, 0, 2), at(1, 1, 1))), no_arcs) << "low above high";
   const Region empty(scene.relation, View_region{});
-  EXPECT_EQ(asked(empty), none);
+  EXPECT_EQ(asked(empty), no_arcs);
   EXPECT_FALSE(empty.on_view(0) || empty.on_view(1));
 }
 
 TEST(Scope, of_a_region_between_two_faces_sees_one_of_them_and_of_one_that_both_cut_has_the_whole_relation) {
   const Related scene(two_squares());
   const Region between(scene.relation, View_region::box(at(0, 0, 0), at(1, 1, 1)));
-  EXPECT_EQ(asked(between), none);
+  EXPECT_EQ(asked(between), no_arcs);
   EXPECT_FALSE(between.on_view(0)) << "all of the region is behind it or in its plane";
   EXPECT_TRUE(between.on_view(1));
   const Region cut(scene.relation, View_region::box(at(0, 0, -1), at(1, 1, 2)));
   EXPECT_EQ(asked(cut), upper_first);
   EXPECT_TRUE(cut.on_view(0) && cut.on_view(1));
-  EXPECT_EQ(from(scene, View_region::box(at(-100, -100, -100), at(100, 100, -1))), none) << "beyond both";
-  EXPECT_EQ(from(scene, View_region::box(at(10, 10, -100), at(100, 100, 3))), none) << "beside, not high enough";
+  EXPECT_EQ(from(scene, View_region::box(at(-100, -100, -100), at(100, 100, -1))), no_arcs) << "beyond both";
+  EXPECT_EQ(from(scene, View_region::box(at(10, 10, -100), at(100, 100, 3))), no_arcs) << "beside, not high enough";
   EXPECT_EQ(from(scene, View_region::box(at(10, 10, -100), at(100, 100, 11))), upper_first);
 }
 
@@ -491,13 +491,13 @@ TEST(Scope, of_a_viewpoint_before_crossing_faces_has_both_arcs) {
   const auto eye = [&](long x, long z) { return from(scene, View_region::eye(at(x, 0, z))); };
   EXPECT_EQ(eye(5, 1), both);
   EXPECT_EQ(eye(1, 5), both);
-  EXPECT_EQ(eye(-1, 1), none) << "behind the wall";
-  EXPECT_EQ(eye(1, -1), none) << "below the floor";
-  EXPECT_EQ(eye(0, 1), none) << "in the wall's plane";
-  EXPECT_EQ(eye(0, 0), none) << "where they cross";
-  EXPECT_EQ(from(scene, View_region::box(at(-5, -5, -5), at(0, 5, 5))), none) << "touches the quadrant";
+  EXPECT_EQ(eye(-1, 1), no_arcs) << "behind the wall";
+  EXPECT_EQ(eye(1, -1), no_arcs) << "below the floor";
+  EXPECT_EQ(eye(0, 1), no_arcs) << "in the wall's plane";
+  EXPECT_EQ(eye(0, 0), no_arcs) << "where they cross";
+  EXPECT_EQ(from(scene, View_region::box(at(-5, -5, -5), at(0, 5, 5))), no_arcs) << "touches the quadrant";
   EXPECT_EQ(from(scene, View_region{{at(-1, 0, 5), at(5, 0, -1)}}), both) << "both ends see one face only, the middle sees both";
-  EXPECT_EQ(from(scene, View_region{{at(-1, 0, 1), at(1, 0, -1)}}), none) << "passes through the corner of the quadrant";
+  EXPECT_EQ(from(scene, View_region{{at(-1, 0, 1), at(1, 0, -1)}}), no_arcs) << "passes through the corner of the quadrant";
   // A wall that stands on the floor is before the floor's left half, and never behind it.
   const Related standing(soup_of({rectangle(-1, 1, -1, 1, 0), {at(0, -1, 0), at(0, 1, 0), at(0, 1, 1), at(0, -1, 1)}}));
   const Matrix wall_first{{0, 0}, {1, 0}};

@@ -265,4 +265,7 @@ inline Exact_point inside_of(const Points& points, Random& random) {
   return sum;
 }
 
+/// The wall over a segment; its front is to the right of who walks from (x, y) to (u, v).
+inline Points wall(long x, long y, long u, long v) { return {at(x, y, 0), at(u, v, 0), at(u, v, 1), at(x, y, 1)}; }
+
 }  // namespace priority_test

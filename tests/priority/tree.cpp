@@ -369,8 +369,6 @@ TEST(Priority_tree, of_three_bars_over_each_other_is_one_cycle_and_cut_has_four_
   EXPECT_TRUE(trees[2].counters.polygons == 4 || trees[2].counters.polygons == 5) << trees[2].counters.polygons;
 }
 
-Points wall(long x, long y, long u, long v) { return {at(x, y, 0), at(u, v, 0), at(u, v, 1), at(x, y, 1)}; }
-
 TEST(Priority_tree, of_a_body_with_three_blades_leaves_its_long_sides_as_no_plane_parts_them) {
   // That of graph.svg. Each of the three long sides, 0, 3 and 6, runs into the hull of the other two.
   const std::vector<std::array<long, 2>> outline{{1, 0}, {8, 0}, {8, 1}, {3, 1}, {-4, 8}, {-4, 7}, {0, 3}, {0, -8}, {1, -8}};

@@ -8,18 +8,18 @@ namespace {
 
 using namespace verify_test;
 
-const Points square = rectangle(0, 4, 0, 4, 0), roof = rectangle(1, 2, 1, 2, 3);
+const Points square = rectangle(0, 4, 0, 4, 0), small_roof = rectangle(1, 2, 1, 2, 3);
 
 Scene good() {
   Scene scene;
   scene.seen_from(at(1, 1, 10)).face(square);
-  scene.face(roof), scene.face({at(0, 0, 9), at(1, 0, 9), at(2, 0, 9)}), scene.face(square);
+  scene.face(small_roof), scene.face({at(0, 0, 9), at(1, 0, 9), at(2, 0, 9)}), scene.face(square);
   const Points skew = {at(10, 0, 0), at(14, 0, 1), at(14, 4, 0), at(10, 4, 1)};
   scene.face(skew);
   scene.leave_out(2, "zero area").leave_out(3, "duplicate of 0");
   const Points first = {skew[0], skew[1], skew[2]}, second = {skew[0], skew[2], skew[3]};
   scene.cut(4, 0, first).cut(4, 1, second).draw(4, first, 0).draw(4, second, 1);
-  return scene.draw(0, rectangle(0, 1, 0, 4, 0)).draw(0, rectangle(1, 4, 0, 4, 0)).draw(1, roof);
+  return scene.draw(0, rectangle(0, 1, 0, 4, 0)).draw(0, rectangle(1, 4, 0, 4, 0)).draw(1, small_roof);
 }
 
 TEST(Hostile, indices_out_of_range) {
@@ -81,10 +81,10 @@ TEST(Hostile, absurd_numbers) {
 TEST(Hostile, many_straight_corners_cost_little) {
   Points many;
   for (int k = 0; k < 20000; ++k) many.push_back(at(1 + ratio(k, 20000), 1, 3));
-  for (int k = 1; k < 4; ++k) many.push_back(roof[static_cast<std::size_t>(k)]);
+  for (int k = 1; k < 4; ++k) many.push_back(small_roof[static_cast<std::size_t>(k)]);
   Scene scene;
   scene.seen_from(at(1, 1, 10));
-  for (int k = 0; k < 2; ++k) scene.face(roof);
+  for (int k = 0; k < 2; ++k) scene.face(small_roof);
   expect_accepted(scene.draw(0, many).draw(1, many));
 }
 
@@ -94,7 +94,7 @@ TEST(Hostile, the_eye_anywhere) {
       for (int z = -1; z <= 4; ++z) {
         Scene scene = good();
         scene.seen_from(at(x, y, z));
-        const Verdict verdict = scene.verdict();  // never a crash; from above the roof always right
+        const Verdict verdict = scene.verdict();  // never a crash; from above the small_roof always right
         EXPECT_TRUE(verdict.accepted || z < 3) << verdict.why;
       }
 }

@@ -6,18 +6,18 @@ namespace {
 
 using namespace verify_test;
 
-const Points low = rectangle(-2, 2, -2, 2, 0), high = rectangle(-1, 1, -1, 1, 1);
-const Exact_point above = at(0, 0, 10), below = at(0, 0, -10);
+const Points low_quad = rectangle(-2, 2, -2, 2, 0), high_quad = rectangle(-1, 1, -1, 1, 1);
+const Exact_point high_eye = at(0, 0, 10), low_eye = at(0, 0, -10);
 
 TEST(Pair_order, of_parallel_quads_is_by_distance) {
-  for (const Exact_point& eye : {above, below, at(7, ratio(-3, 7), 5), at(1, 1, -1)}) {
+  for (const Exact_point& eye : {high_eye, low_eye, at(7, ratio(-3, 7), 5), at(1, 1, -1)}) {
     const bool from_above = sgn(eye[2]) > 0;
     Scene right;
     right.seen_from(eye);
-    const Face_id l = right.face(low), h = right.face(high);
+    const Face_id l = right.face(low_quad), h = right.face(high_quad);
     Scene wrong = right;
-    right.draw(from_above ? l : h, from_above ? low : high).draw(from_above ? h : l, from_above ? high : low);
-    wrong.draw(from_above ? h : l, from_above ? high : low).draw(from_above ? l : h, from_above ? low : high);
+    right.draw(from_above ? l : h, from_above ? low_quad : high_quad).draw(from_above ? h : l, from_above ? high_quad : low_quad);
+    wrong.draw(from_above ? h : l, from_above ? high_quad : low_quad).draw(from_above ? l : h, from_above ? low_quad : high_quad);
     expect_accepted(right);
     expect_rejected(wrong, "is nearer", {0, 1});
   }
@@ -26,9 +26,9 @@ TEST(Pair_order, of_parallel_quads_is_by_distance) {
 TEST(Pair_order, does_not_depend_on_the_sense_of_faces) {
   for (const bool turn_low : {false, true})
     for (const bool turn_high : {false, true}) {
-      const Points l = turn_low ? reversed(low) : low, h = turn_high ? reversed(high) : high;
+      const Points l = turn_low ? reversed(low_quad) : low_quad, h = turn_high ? reversed(high_quad) : high_quad;
       Scene right, wrong;
-      for (Scene* scene : {&right, &wrong}) scene->seen_from(above), scene->face(l), scene->face(h);
+      for (Scene* scene : {&right, &wrong}) scene->seen_from(high_eye), scene->face(l), scene->face(h);
       expect_accepted(right.draw(0, l).draw(1, h));
       expect_rejected(wrong.draw(1, h).draw(0, l), "fragment 0 (face 1) is drawn before fragment 1 (face 0)", {0, 1});
     }
@@ -37,21 +37,21 @@ TEST(Pair_order, does_not_depend_on_the_sense_of_faces) {
 TEST(Pair_order, between_the_faces_is_free) {
   for (const bool low_first : {false, true}) {
     Scene scene;
-    scene.seen_from(at(0, 0, ratio(1, 2))), scene.face(low), scene.face(high);
-    if (low_first) scene.draw(0, low).draw(1, high);
-    else scene.draw(1, high).draw(0, low);
+    scene.seen_from(at(0, 0, ratio(1, 2))), scene.face(low_quad), scene.face(high_quad);
+    if (low_first) scene.draw(0, low_quad).draw(1, high_quad);
+    else scene.draw(1, high_quad).draw(0, low_quad);
     expect_accepted(scene);
   }
 }
 
 TEST(Pair_order, of_coplanar_overlapping_faces_is_free) {
   const Points other = rectangle(-1, 5, -1, 5, 0);
-  for (const Points& second : {other, reversed(other), low, reversed(low)})
+  for (const Points& second : {other, reversed(other), low_quad, reversed(low_quad)})
     for (const bool first_first : {false, true}) {
       Scene scene;
-      scene.seen_from(above), scene.face(low), scene.face(second);
-      if (first_first) scene.draw(0, low).draw(1, second);
-      else scene.draw(1, second).draw(0, low);
+      scene.seen_from(high_eye), scene.face(low_quad), scene.face(second);
+      if (first_first) scene.draw(0, low_quad).draw(1, second);
+      else scene.draw(1, second).draw(0, low_quad);
       expect_accepted(scene);
     }
 }
@@ -90,7 +90,7 @@ TEST(Pair_order, of_crossing_quads_needs_a_split) {
   };
   const Points up = slab(-1, 1, 1), down = slab(-1, 1, -1);
   Scene empty;
-  empty.seen_from(above), empty.face(up), empty.face(down);
+  empty.seen_from(high_eye), empty.face(up), empty.face(down);
   for (const bool up_first : {false, true}) {
     Scene unsplit = empty;
     if (up_first) unsplit.draw(0, up).draw(1, down);
@@ -133,11 +133,11 @@ TEST(Pair_order, of_edge_on_faces_is_free) {
   const Points wall = {at(0, -3, -3), at(0, 3, -3), at(0, 3, 3), at(0, -3, 3)};  // x = 0: the eye is in its plane
   for (int place = 0; place < 3; ++place) {
     Scene scene;
-    scene.seen_from(above), scene.face(low), scene.face(high), scene.face(wall);
+    scene.seen_from(high_eye), scene.face(low_quad), scene.face(high_quad), scene.face(wall);
     for (int k = 0; k < 3; ++k) {
       if (k == place) scene.draw(2, wall);
-      if (k == 0) scene.draw(0, low);
-      if (k == 1) scene.draw(1, high);
+      if (k == 0) scene.draw(0, low_quad);
+      if (k == 1) scene.draw(1, high_quad);
     }
     expect_accepted(scene);
     Scene missing = scene;
@@ -145,25 +145,25 @@ TEST(Pair_order, of_edge_on_faces_is_free) {
     expect_rejected(missing, "face 2 has no fragment");
   }
   Scene off;  // a hair beside the plane it counts
-  off.seen_from(at(tiny(100), 0, 10)), off.face(low), off.face(wall);
-  expect_rejected(off.draw(1, wall).draw(0, low), "is nearer", {0, 1});
+  off.seen_from(at(tiny(100), 0, 10)), off.face(low_quad), off.face(wall);
+  expect_rejected(off.draw(1, wall).draw(0, low_quad), "is nearer", {0, 1});
 }
 
 TEST(Pair_order, with_the_eye_at_a_vertex_or_on_a_face_leaves_that_face_free) {
   for (const Exact_point& eye : {at(1, 1, 1), at(0, 0, 1), at(1, 0, 1), at(50, 3, 1)})
     for (const bool low_first : {false, true}) {
       Scene scene;
-      scene.seen_from(eye), scene.face(low), scene.face(high);
-      if (low_first) scene.draw(0, low).draw(1, high);
-      else scene.draw(1, high).draw(0, low);
+      scene.seen_from(eye), scene.face(low_quad), scene.face(high_quad);
+      if (low_first) scene.draw(0, low_quad).draw(1, high_quad);
+      else scene.draw(1, high_quad).draw(0, low_quad);
       expect_accepted(scene);
     }
   Scene three;  // and the others bound
   const Points middle = rectangle(-1, 1, -1, 1, ratio(1, 2));
-  three.seen_from(at(1, 1, 1)), three.face(low), three.face(high), three.face(middle);
+  three.seen_from(at(1, 1, 1)), three.face(low_quad), three.face(high_quad), three.face(middle);
   Scene wrong = three;
-  expect_accepted(three.draw(0, low).draw(1, high).draw(2, middle));
-  expect_rejected(wrong.draw(2, middle).draw(1, high).draw(0, low), "is nearer", {0, 2});
+  expect_accepted(three.draw(0, low_quad).draw(1, high_quad).draw(2, middle));
+  expect_rejected(wrong.draw(2, middle).draw(1, high_quad).draw(0, low_quad), "is nearer", {0, 2});
 }
 
 TEST(Pair_order, of_wide_cones_looks_only_forward) {
@@ -179,8 +179,8 @@ TEST(Pair_order, of_wide_cones_looks_only_forward) {
 
 TEST(Pair_order, reports_progress_up_to_the_end) {
   Scene scene;
-  scene.seen_from(above), scene.face(low), scene.face(high);
-  scene.draw(0, low).draw(1, high);
+  scene.seen_from(high_eye), scene.face(low_quad), scene.face(high_quad);
+  scene.draw(0, low_quad).draw(1, high_quad);
   std::vector<std::size_t> seen;
   Verify_options options;
   options.progress = [&](std::size_t done, std::size_t total) {

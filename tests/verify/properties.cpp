@@ -4,14 +4,10 @@
 
 #include <rapidcheck.h>
 
-#include <random>
-
 namespace {
 
 using namespace verify_test;
 
-using Dice = std::mt19937;
-long roll(Dice& dice, long least, long most) { return least + static_cast<long>(dice() % static_cast<unsigned long>(most - least + 1)); }
 
 /// An affine map of space with small integers. Post: invertible; sometimes mirrored.
 struct Affine {

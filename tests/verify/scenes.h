@@ -5,6 +5,8 @@
 
 #include <sightline/algorithms/verify/order.h>
 
+#include <random>
+
 namespace verify_test {
 
 using namespace sightline;
@@ -26,6 +28,8 @@ inline Points reversed(Points points) {
   std::reverse(points.begin(), points.end());
   return points;
 }
+using Dice = std::mt19937;
+inline long roll(Dice& dice, long least, long most) { return least + static_cast<long>(dice() % static_cast<unsigned long>(most - least + 1)); }
 /// The rectangle [x0, x1] x [y0, y1] at height z, front up.
 inline Points rectangle(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) {
   return {at(x0, y0, z), at(x1, y0, z), at(x1, y1, z), at(x0, y1, z)};

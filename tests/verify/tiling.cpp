@@ -6,12 +6,12 @@ namespace {
 
 using namespace verify_test;
 
-const Exact_point above = at(1, 2, 10);
-const Points square = rectangle(0, 4, 0, 4, 0);
+const Exact_point eye_above = at(1, 2, 10);
+const Points ground = rectangle(0, 4, 0, 4, 0);
 
 Scene one_face(const Points& outer, const std::vector<Points>& holes = {}) {
   Scene scene;
-  scene.seen_from(above).face(outer, holes);
+  scene.seen_from(eye_above).face(outer, holes);
   return scene;
 }
 Scene one_face_drawn(const Points& outer, const std::vector<Points>& parts, const std::vector<Points>& holes = {}) {
@@ -21,27 +21,27 @@ Scene one_face_drawn(const Points& outer, const std::vector<Points>& parts, cons
 }
 
 TEST(Tiling, by_the_face_itself_from_any_first_vertex) {
-  Points turned = square;
+  Points turned = ground;
   for (int k = 0; k < 4; ++k) {
-    expect_accepted(one_face_drawn(square, {turned}));
+    expect_accepted(one_face_drawn(ground, {turned}));
     std::rotate(turned.begin(), turned.begin() + 1, turned.end());
   }
 }
 
 TEST(Tiling, piece_numbers_mean_nothing_where_there_are_no_pieces) {
-  Scene scene = one_face(square);
+  Scene scene = one_face(ground);
   expect_accepted(scene.draw(0, rectangle(0, 1, 0, 4, 0), 5).draw(0, rectangle(1, 4, 0, 4, 0), UINT32_MAX));
 }
 
 TEST(Tiling, missing_doubled_and_foreign_fragments_are_found) {
   const Points left = rectangle(0, 1, 0, 4, 0), right = rectangle(1, 4, 0, 4, 0);
-  expect_accepted(one_face_drawn(square, {left, right}));
-  expect_rejected(one_face_drawn(square, {}), "face 0 has no fragment and is not set aside");
-  expect_rejected(one_face_drawn(square, {left}), "face 0 is not tiled");
-  expect_rejected(one_face_drawn(square, {left, right, right}), "face 0 is not tiled");
-  expect_rejected(one_face_drawn(square, {square, square}), "face 0 is not tiled");
-  expect_rejected(one_face_drawn(square, {left, right, rectangle(5, 6, 0, 1, 0)}), "face 0 is not tiled");
-  expect_rejected(one_face_drawn(square, {rectangle(5, 9, 0, 4, 0)}), "face 0 is not tiled");
+  expect_accepted(one_face_drawn(ground, {left, right}));
+  expect_rejected(one_face_drawn(ground, {}), "face 0 has no fragment and is not set aside");
+  expect_rejected(one_face_drawn(ground, {left}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(ground, {left, right, right}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(ground, {ground, ground}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(ground, {left, right, rectangle(5, 6, 0, 1, 0)}), "face 0 is not tiled");
+  expect_rejected(one_face_drawn(ground, {rectangle(5, 9, 0, 4, 0)}), "face 0 is not tiled");
 }
 
 TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in_front_of) {
@@ -54,15 +54,15 @@ TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in
   };
   const Exact_point below = at(1, 2, -10), in_plane = at(9, 9, 0);
   for (const Exact_point& eye : {below, in_plane}) {
-    expect_accepted(seen(square, eye, {}));
-    EXPECT_EQ(seen(square, eye, {}).verdict().why, "0 fragments in back-to-front order, every on-view face drawn once or set aside for a true reason");
-    expect_accepted(seen(square, eye, {square}));
-    expect_rejected(seen(square, eye, {}, false), "face 0 has no fragment");
-    expect_rejected(seen(square, eye, {rectangle(0, 1, 0, 4, 0)}), "face 0 is not tiled");
+    expect_accepted(seen(ground, eye, {}));
+    EXPECT_EQ(seen(ground, eye, {}).verdict().why, "0 fragments in back-to-front order, every on-view face drawn once or set aside for a true reason");
+    expect_accepted(seen(ground, eye, {ground}));
+    expect_rejected(seen(ground, eye, {}, false), "face 0 has no fragment");
+    expect_rejected(seen(ground, eye, {rectangle(0, 1, 0, 4, 0)}), "face 0 is not tiled");
   }
-  expect_rejected(seen(square, above, {}), "face 0 has no fragment");
-  expect_rejected(seen(square, at(9, 9, tiny(500)), {}), "face 0 has no fragment");
-  expect_accepted(seen(reversed(square), above, {}));
+  expect_rejected(seen(ground, eye_above, {}), "face 0 has no fragment");
+  expect_rejected(seen(ground, at(9, 9, tiny(500)), {}), "face 0 has no fragment");
+  expect_accepted(seen(reversed(ground), eye_above, {}));
   // A bent face: one of its pieces is on-view, the other is not.
   const Points bent = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)}, low = {at(0, 0, 0), at(4, 0, 0), at(0, 4, 0)}, high = {at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)};
   const auto pieces = [&](const Exact_point& eye, bool draw_low, bool draw_high) {
@@ -72,7 +72,7 @@ TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in
     if (draw_high) scene.draw(0, high, 1);
     return scene;
   };
-  const Exact_point between = at(9, 9, 1);  // above the plane of the low piece, below that of the high one
+  const Exact_point between = at(9, 9, 1);  // eye_above the plane of the low piece, below that of the high one
   expect_accepted(pieces(between, true, false));
   expect_accepted(pieces(between, true, true));
   expect_rejected(pieces(between, false, true), "face 0, piece 0 has no fragment");
@@ -83,33 +83,33 @@ TEST(Tiling, is_exact_to_any_bit) {
   for (const unsigned bits : {1u, 60u, 500u}) {
     const Rational e = tiny(bits);
     const Points left = rectangle(0, 1, 0, 4, 0);
-    expect_rejected(one_face_drawn(square, {left, rectangle(1 + e, 4, 0, 4, 0)}), "is not tiled");
-    expect_rejected(one_face_drawn(square, {left, rectangle(1 - e, 4, 0, 4, 0)}), "is not tiled");
-    expect_rejected(one_face_drawn(square, {rectangle(0, 4 + e, 0, 4, 0)}), "is not tiled");
-    expect_rejected(one_face_drawn(square, {rectangle(0, 4 - e, 0, 4, 0)}), "is not tiled");
-    expect_rejected(one_face_drawn(square, {rectangle(e, 4 + e, 0, 4, 0)}), "is not tiled");
-    expect_rejected(one_face_drawn(square, {rectangle(0, 4, 0, 4, e)}), "off the plane", {0});
-    Points bent = square;
+    expect_rejected(one_face_drawn(ground, {left, rectangle(1 + e, 4, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(ground, {left, rectangle(1 - e, 4, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(ground, {rectangle(0, 4 + e, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(ground, {rectangle(0, 4 - e, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(ground, {rectangle(e, 4 + e, 0, 4, 0)}), "is not tiled");
+    expect_rejected(one_face_drawn(ground, {rectangle(0, 4, 0, 4, e)}), "off the plane", {0});
+    Points bent = ground;
     bent[2][2] = e;
-    expect_rejected(one_face_drawn(square, {bent}), "off the plane", {0});
+    expect_rejected(one_face_drawn(ground, {bent}), "off the plane", {0});
     Points dented = {at(0, 0, 0), at(2, e, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)};
-    expect_rejected(one_face_drawn(square, {dented}), "is not convex", {0});
+    expect_rejected(one_face_drawn(ground, {dented}), "is not convex", {0});
     dented[1][1] = -e;
-    expect_rejected(one_face_drawn(square, {dented}), "is not tiled");
+    expect_rejected(one_face_drawn(ground, {dented}), "is not tiled");
   }
 }
 
 TEST(Tiling, fragments_are_convex_counterclockwise_polygons) {
-  expect_rejected(one_face_drawn(square, {reversed(square)}), "is clockwise", {0});
-  expect_rejected(one_face_drawn(square, {{}}), "fewer than three", {0});
-  expect_rejected(one_face_drawn(square, {{square[0]}}), "fewer than three", {0});
-  expect_rejected(one_face_drawn(square, {{square[0], square[1]}}), "fewer than three", {0});
-  expect_rejected(one_face_drawn(square, {{square[0], square[0], square[1], square[2], square[3]}}), "repeated vertex", {0});
-  expect_rejected(one_face_drawn(square, {{square[0], square[1], square[2], square[3], square[0]}}), "repeated vertex", {0});
-  expect_rejected(one_face_drawn(square, {square, {square[0], square[1], at(2, 0, 0)}}), "zero area", {1});
-  expect_rejected(one_face_drawn(square, {square, {square[0], square[1], square[0], square[1]}}), "zero area", {1});
+  expect_rejected(one_face_drawn(ground, {reversed(ground)}), "is clockwise", {0});
+  expect_rejected(one_face_drawn(ground, {{}}), "fewer than three", {0});
+  expect_rejected(one_face_drawn(ground, {{ground[0]}}), "fewer than three", {0});
+  expect_rejected(one_face_drawn(ground, {{ground[0], ground[1]}}), "fewer than three", {0});
+  expect_rejected(one_face_drawn(ground, {{ground[0], ground[0], ground[1], ground[2], ground[3]}}), "repeated vertex", {0});
+  expect_rejected(one_face_drawn(ground, {{ground[0], ground[1], ground[2], ground[3], ground[0]}}), "repeated vertex", {0});
+  expect_rejected(one_face_drawn(ground, {ground, {ground[0], ground[1], at(2, 0, 0)}}), "zero area", {1});
+  expect_rejected(one_face_drawn(ground, {ground, {ground[0], ground[1], ground[0], ground[1]}}), "zero area", {1});
   // A spike on a straight edge, out and back.
-  const Scene spiked = one_face_drawn(square, {{square[0], at(6, 0, 0), square[1], square[2], square[3]}});
+  const Scene spiked = one_face_drawn(ground, {{ground[0], at(6, 0, 0), ground[1], ground[2], ground[3]}});
   expect_rejected(spiked, "is not convex", {0});
   EXPECT_EQ(spiked.verdict().why, "fragment 0 of face 0 is not convex");
   // A dent that keeps all of its edges in one half of the directions, from each corner; it is its face's own contour.
@@ -119,31 +119,31 @@ TEST(Tiling, fragments_are_convex_counterclockwise_polygons) {
     std::rotate(dented.begin(), dented.begin() + 1, dented.end());
   }
   // Twice around: every corner is convex.
-  Points twice = square;
-  twice.insert(twice.end(), square.begin(), square.end());
-  expect_rejected(one_face_drawn(square, {twice}), "more than once around", {0});
+  Points twice = ground;
+  twice.insert(twice.end(), ground.begin(), ground.end());
+  expect_rejected(one_face_drawn(ground, {twice}), "more than once around", {0});
   const Points star = {at(0, 0, 0), at(4, 1, 0), at(0, 3, 0), at(2, -1, 0), at(3, 4, 0)};
-  expect_rejected(one_face_drawn(square, {star}), "more than once around", {0});
+  expect_rejected(one_face_drawn(ground, {star}), "more than once around", {0});
   // The same, begun at each corner: the count of rounds may not depend on it.
   Points turned = star;
   for (int k = 0; k < 5; ++k) {
     std::rotate(turned.begin(), turned.begin() + 1, turned.end());
-    expect_rejected(one_face_drawn(square, {turned}), "more than once around", {0});
+    expect_rejected(one_face_drawn(ground, {turned}), "more than once around", {0});
   }
 }
 
 TEST(Tiling, straight_corners_and_t_junctions_are_welcome) {
   const Points with_middle = {at(0, 0, 0), at(1, 0, 0), at(2, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)};
-  expect_accepted(one_face_drawn(square, {with_middle}));
-  expect_accepted(one_face_drawn(with_middle, {square}));
+  expect_accepted(one_face_drawn(ground, {with_middle}));
+  expect_accepted(one_face_drawn(with_middle, {ground}));
   // One side of the cut x = 2 in one part, the other in three, none of which lists the other's corners.
   const std::vector<Points> parts = {rectangle(0, 2, 0, 4, 0), rectangle(2, 4, 0, 1, 0), rectangle(2, 4, 1, 3, 0), rectangle(2, 4, 3, 4, 0)};
-  expect_accepted(one_face_drawn(square, parts));
+  expect_accepted(one_face_drawn(ground, parts));
   std::vector<Points> swapped = parts;
   std::swap(swapped[0], swapped[3]);
-  expect_accepted(one_face_drawn(square, swapped));
+  expect_accepted(one_face_drawn(ground, swapped));
   swapped[1] = rectangle(2, 4, 0, 2, 0);
-  expect_rejected(one_face_drawn(square, swapped), "is not tiled");
+  expect_rejected(one_face_drawn(ground, swapped), "is not tiled");
 }
 
 TEST(Tiling, tilted_and_turned_faces_work_alike) {
@@ -156,7 +156,7 @@ TEST(Tiling, tilted_and_turned_faces_work_alike) {
   expect_rejected(one_face_drawn(reversed(triangle), {reversed(first), second}), "is clockwise", {1});
   // For each coordinate plane in turn.
   for (std::size_t k = 0; k < 3; ++k) {
-    Points side = square, whole = square;
+    Points side = ground, whole = ground;
     for (Exact_point& p : whole) std::rotate(p.begin(), p.begin() + static_cast<std::ptrdiff_t>(k), p.end());
     expect_accepted(one_face_drawn(whole, {whole}));
     expect_rejected(one_face_drawn(whole, {reversed(whole)}), "is clockwise", {0});
@@ -167,7 +167,7 @@ TEST(Tiling, of_a_concave_face) {
   const Points ell = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(2, 2, 0), at(2, 4, 0), at(0, 4, 0)};
   expect_accepted(one_face_drawn(ell, {rectangle(0, 4, 0, 2, 0), rectangle(0, 2, 2, 4, 0)}));
   expect_rejected(one_face_drawn(ell, {ell}), "is not convex", {0});
-  expect_rejected(one_face_drawn(ell, {square}), "is not tiled");
+  expect_rejected(one_face_drawn(ell, {ground}), "is not tiled");
   expect_rejected(one_face_drawn(ell, {rectangle(0, 4, 0, 2, 0), rectangle(0, 2, 0, 4, 0)}), "is not tiled");
 }
 
@@ -177,16 +177,16 @@ TEST(Tiling, of_a_face_with_holes_of_either_sense) {
   std::vector<Points> two = ring;
   two.back() = rectangle(2, 3, 1, 2, 0), two.push_back(rectangle(ratio(7, 2), 4, 1, 2, 0));
   for (const Points& h : {hole, reversed(hole)}) {
-    expect_accepted(one_face_drawn(square, ring, {h}));
-    expect_rejected(one_face_drawn(square, {square}, {h}), "is not tiled");
-    expect_rejected(one_face_drawn(square, two, {h}), "is not tiled");
+    expect_accepted(one_face_drawn(ground, ring, {h}));
+    expect_rejected(one_face_drawn(ground, {ground}, {h}), "is not tiled");
+    expect_rejected(one_face_drawn(ground, two, {h}), "is not tiled");
     for (const Points& o : {other, reversed(other)}) {
-      expect_accepted(one_face_drawn(square, two, {h, o}));
-      expect_rejected(one_face_drawn(square, ring, {h, o}), "is not tiled");
+      expect_accepted(one_face_drawn(ground, two, {h, o}));
+      expect_rejected(one_face_drawn(ground, ring, {h, o}), "is not tiled");
     }
     std::vector<Points> from_behind;
     for (const Points& part : ring) from_behind.push_back(reversed(part));
-    expect_accepted(one_face_drawn(reversed(square), from_behind, {h}));
+    expect_accepted(one_face_drawn(reversed(ground), from_behind, {h}));
   }
 }
 
@@ -194,30 +194,30 @@ TEST(Tiling, of_keyhole_faces_repeated_points_and_spikes) {
   const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0), rectangle(2, 4, 1, 2, 0)};
   const Points keyhole = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 0, 0), at(1, 1, 0), at(1, 2, 0), at(2, 2, 0), at(2, 1, 0), at(1, 1, 0)};
   expect_accepted(one_face_drawn(keyhole, ring));
-  expect_rejected(one_face_drawn(keyhole, {square}), "is not tiled");
-  const Points stutter = {square[0], square[0], square[0], square[1], square[2], square[2], square[3], square[0]};
-  expect_accepted(one_face_drawn(stutter, {square}));
+  expect_rejected(one_face_drawn(keyhole, {ground}), "is not tiled");
+  const Points stutter = {ground[0], ground[0], ground[0], ground[1], ground[2], ground[2], ground[3], ground[0]};
+  expect_accepted(one_face_drawn(stutter, {ground}));
   const Points spiked = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(9, 2, 0), at(4, 2, 0), at(4, 4, 0), at(0, 4, 0)};
-  expect_accepted(one_face_drawn(spiked, {square}));
+  expect_accepted(one_face_drawn(spiked, {ground}));
 }
 
 TEST(Tiling, of_a_face_that_winds_twice_is_an_overlap) {
-  Points twice = square;
-  twice.insert(twice.end(), square.begin(), square.end());
-  expect_rejected(one_face_drawn(twice, {square, square}), "overlap", {0, 1});
-  expect_rejected(one_face_drawn(twice, {square, rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 0, 4, 0)}), "overlap", {0, 1});
+  Points twice = ground;
+  twice.insert(twice.end(), ground.begin(), ground.end());
+  expect_rejected(one_face_drawn(twice, {ground, ground}), "overlap", {0, 1});
+  expect_rejected(one_face_drawn(twice, {ground, rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 0, 4, 0)}), "overlap", {0, 1});
   // Two squares in one contour, overlapping in [3, 4] x [1, 3], joined at (3, 1).
   const Points both = {at(3, 1, 0), at(0, 1, 0), at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 1, 0), at(3, 1, 0), at(6, 1, 0), at(6, 3, 0), at(3, 3, 0)};
-  expect_rejected(one_face_drawn(both, {square, rectangle(3, 6, 1, 3, 0)}), "overlap", {0, 1});
+  expect_rejected(one_face_drawn(both, {ground, rectangle(3, 6, 1, 3, 0)}), "overlap", {0, 1});
   // A convex contour whose hole is a bow-tie: one lobe is cut out, the other is covered twice.
   const Points bow_tie = {at(1, 1, 0), at(3, 3, 0), at(3, 1, 0), at(1, 3, 0)};
   const std::vector<Points> once_and_twice = {rectangle(0, 2, 0, 4, 0), rectangle(3, 4, 0, 4, 0), {at(2, 0, 0), at(3, 0, 0), at(3, 1, 0), at(2, 2, 0)},
                                               {at(2, 2, 0), at(3, 3, 0), at(3, 4, 0), at(2, 4, 0)}, {at(2, 2, 0), at(1, 3, 0), at(1, 1, 0)}};
-  expect_rejected(one_face_drawn(square, once_and_twice, {bow_tie}), "overlap", {0, 4});
+  expect_rejected(one_face_drawn(ground, once_and_twice, {bow_tie}), "overlap", {0, 4});
   // Nothing overlaps where parts only touch, in a contour that is not convex.
   const Points pinched = {at(0, 0, 0), at(2, 0, 0), at(2, 2, 0), at(4, 2, 0), at(4, 4, 0), at(2, 4, 0), at(2, 2, 0), at(0, 2, 0)};
   expect_accepted(one_face_drawn(pinched, {rectangle(0, 2, 0, 2, 0), rectangle(2, 4, 2, 4, 0)}));
-  // An edge of one part only separates the two: the triangle points at the square.
+  // An edge of one part only separates the two: the triangle points at the ground.
   const Points arrow = {at(0, -1, 0), at(2, -1, 0), at(2, 0, 0), at(4, -1, 0), at(4, 1, 0), at(2, 0, 0), at(2, 1, 0), at(0, 1, 0)};
   const Points block = rectangle(0, 2, -1, 1, 0), head = {arrow[2], arrow[3], arrow[4]};
   expect_accepted(one_face_drawn(arrow, {block, head}));
@@ -240,10 +240,10 @@ TEST(Tiling, a_planar_face_may_have_pieces) {
   expect_rejected(one_only.cut(0, 0, first).draw(0, first, 0), "is not tiled");
   Scene turned = one_face(ell);
   expect_rejected(turned.cut(0, 0, reversed(first)).cut(0, 1, reversed(second)).draw(0, reversed(first), 0).draw(0, reversed(second), 1), "is clockwise");
-  Points twice = square;
-  twice.insert(twice.end(), square.begin(), square.end());
+  Points twice = ground;
+  twice.insert(twice.end(), ground.begin(), ground.end());
   Scene doubled = one_face(twice);
-  expect_rejected(doubled.cut(0, 0, square).cut(0, 1, square).draw(0, square, 0).draw(0, square, 1), "overlap");
+  expect_rejected(doubled.cut(0, 0, ground).cut(0, 1, ground).draw(0, ground, 0).draw(0, ground, 1), "overlap");
 }
 
 // ---- Non-planar faces -------------------------------------------------------------------------------------------------------
@@ -293,7 +293,7 @@ TEST(Non_planar, one_corner_off_the_plane_is_enough) {
       Points bent = {at(2, 0, 0), at(1, 2, height), at(-1, 2, 0), at(-2, 0, 0), at(-1, -2, height), at(1, -2, 0)};
       std::rotate(bent.begin(), bent.begin() + static_cast<std::ptrdiff_t>(first), bent.end());
       Scene scene = one_face(bent), aside = scene;
-      expect_rejected(scene.draw(0, square), "is not planar and has no pieces");
+      expect_rejected(scene.draw(0, ground), "is not planar and has no pieces");
       expect_rejected(aside.leave_out(0, "self-intersecting"), "is not planar");
     }
 }

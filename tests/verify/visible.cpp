@@ -5,16 +5,13 @@
 #include <sightline/algorithms/verify/certificate_json.h>
 
 #include <numeric>
-#include <random>
 #include <sstream>
 
 namespace {
 
 using namespace verify_test;
 using Directions = Visible_certificate::Directions;
-using Dice = std::mt19937;
 
-long roll(Dice& dice, long least, long most) { return least + static_cast<long>(dice() % static_cast<unsigned long>(most - least + 1)); }
 Exact_point plus(const Exact_point& a, const Rational& s, const Exact_point& b) { return at(a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]); }
 Rational dot(const Exact_point& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
 Exact_point cross(const Exact_point& a, const Exact_point& b) { return at(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]); }
@@ -782,13 +779,13 @@ TEST(Visible_by_cutting, pieces_of_one_face_in_one_plane_go_by_their_number) {
 
 // ---- JSON -------------------------------------------------------------------------------------------------------------------
 
-Visible_certificate read(const std::string& text) {
+Visible_certificate read_visible(const std::string& text) {
   std::istringstream in(text);
   return std::get<Visible_certificate>(read_certificate(in));
 }
-std::string fault_of(const std::string& text) {
+std::string fault_of_visible(const std::string& text) {
   try {
-    read(text);
+    read_visible(text);
   } catch (const std::invalid_argument& error) {
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
     return error.what();
@@ -802,7 +799,7 @@ TEST(Visible_json, what_is_written_is_read_back) {
     Dice dice(seed);
     const Sight sight = random_sight(dice);
     const auto& c = sight.certificate;
-    const Visible_certificate again = read(to_json(c).dump());
+    const Visible_certificate again = read_visible(to_json(c).dump());
     EXPECT_EQ(again.eye, c.eye);
     EXPECT_EQ(again.field, c.field);
     EXPECT_EQ(again.empty, c.empty);
@@ -838,8 +835,8 @@ TEST(Visible_json, has_the_documented_keys) {
 
 TEST(Visible_json, faults_are_named_with_their_place) {
   const std::string head = R"({"format":"sightline see 1","eye":["0","0","0"],"fragments":[{"face":0,"piece":0,"vertices":[]}],)";
-  EXPECT_EQ(fault_of(head + R"("parts":[],"empty":[]})"), "nothing");
-  EXPECT_EQ(fault_of(head + R"("field":[],"parts":[],"empty":[[]],"more":1})"), "nothing");
+  EXPECT_EQ(fault_of_visible(head + R"("parts":[],"empty":[]})"), "nothing");
+  EXPECT_EQ(fault_of_visible(head + R"("field":[],"parts":[],"empty":[[]],"more":1})"), "nothing");
   const std::vector<std::pair<std::string, std::string>> cases = {
       {R"({"format":"sightline see 1"})", "no \"eye\""},
       {R"({"format":"sightline see 1","eye":["0","0"]})", "eye: expected three numbers"},
@@ -862,7 +859,7 @@ TEST(Visible_json, faults_are_named_with_their_place) {
       {head + R"("field":7,"parts":[],"empty":[]})", "field: expected an array"},
       {head + R"("field":[["1","0","x"]],"parts":[],"empty":[]})", "field[0]: not a number"},
   };
-  for (const auto& [text, words] : cases) EXPECT_NE(fault_of(text).find(words), std::string::npos) << text << " -> " << fault_of(text);
+  for (const auto& [text, words] : cases) EXPECT_NE(fault_of_visible(text).find(words), std::string::npos) << text << " -> " << fault_of_visible(text);
   EXPECT_THROW(visible_certificate_from_json(nlohmann::json{{"format", "sightline order 1"}}), std::invalid_argument);
 }
 
