@@ -121,7 +121,9 @@ Exit run_decisions(const Cutset_arguments& arguments) {
   return Exit::done;
 }
 
-Exit run(const Cutset_arguments& arguments) {
+}  // namespace
+
+static Exit run(const Cutset_arguments& arguments) {
   const Common& common = arguments.common;
   check_usage(arguments.path);
   if (arguments.path.given() == arguments.decisions.wanted) throw Usage_error("cutset wants a path (--path FILE, --orbit FRAMES or --motion FILE) or --decision-tree");
@@ -188,8 +190,6 @@ Exit run(const Cutset_arguments& arguments) {
   row("seconds", fmt::format("{:.3f} for the graph, {:.4f} for {} frames", graph_seconds, seconds, frames.size()));
   return exit;
 }
-
-}  // namespace
 
 }  // namespace sightline::app
 

@@ -235,7 +235,9 @@ void print(const Scene& scene, const Found& found, const std::string& scope, con
   if (all.size() > shown) std::cout << fmt::format("   ... {} more: --json - prints them all\n", all.size() - shown);
 }
 
-Exit run(const Graph_arguments& arguments) {
+}  // namespace
+
+static Exit run(const Graph_arguments& arguments) {
   const Common& common = arguments.common;
   // Usage errors come before a long read.
   const std::vector<Exact_point> box = parse_points(arguments.box, "--box"), region = parse_points(arguments.region, "--region");
@@ -301,8 +303,6 @@ Exit run(const Graph_arguments& arguments) {
   if (!images.empty()) print(images);
   return Exit::done;
 }
-
-}  // namespace
 
 }  // namespace sightline::app
 

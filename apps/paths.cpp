@@ -8,8 +8,6 @@
 
 namespace sightline::app {
 
-using Direction3 = std::array<double, 3>;
-
 void add_to(CLI::App& command, Path_arguments& arguments) {
   command.add_option("--path", arguments.path, "viewpoints: a file with X,Y,Z a line; X,Y,Z,0 is the direction of a viewpoint at infinity")->check(not_empty);
   command.add_option("--orbit", arguments.orbit, "this many viewpoints on a level circle round the scene")->check(whole_number & CLI::Range(1, 100'000'000));
@@ -95,8 +93,6 @@ std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& sce
 
 // ---- Pictures ----------------------------------------------------------------------------------------------------------------
 
-static double dot(const Direction3& a, const Direction3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /// Points on a picture of a size, and how deep they are.
 struct Projection {
   std::vector<Flat_point> flat;
@@ -142,7 +138,7 @@ std::string painted(const Face_graph& graph, const std::vector<Outline>& outline
   Exact_point centre;
   Rational half = 0;
   for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2, half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
-  const auto place = [&](const Exact_point& p) { return Direction3{nearest_double((p[0] - centre[0]) / half), nearest_double((p[1] - centre[1]) / half), nearest_double((p[2] - centre[2]) / half)}; };
+  const auto place = [&](const Exact_point& p) { return Direction3{nearest_double(Rational((p[0] - centre[0]) / half)), nearest_double(Rational((p[1] - centre[1]) / half)), nearest_double(Rational((p[2] - centre[2]) / half))}; };
   std::vector<Direction3> points;
   for (std::uint32_t p = 0; p < scene.points().size(); ++p) points.push_back(place(scene.position(p)));
 

@@ -2,9 +2,6 @@
 
 namespace sightline::app {
 
-using Direction3 = std::array<double, 3>;
-
-static double dot(const Direction3& a, const Direction3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 static Direction3 cross(const Direction3& a, const Direction3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
 static Direction3 unit(const Direction3& a) {
   const double size = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
@@ -14,7 +11,7 @@ static Direction3 unit(const Direction3& a) {
   return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
 }
 static Direction3 difference(const Exact_point& a, const Exact_point& b) {
-  return {nearest_double(a[0] - b[0]), nearest_double(a[1] - b[1]), nearest_double(a[2] - b[2])};
+  return {nearest_double(Rational(a[0] - b[0])), nearest_double(Rational(a[1] - b[1])), nearest_double(Rational(a[2] - b[2]))};
 }
 
 static Direction3 parse_direction(const std::string& text, const std::string& option) {

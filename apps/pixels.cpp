@@ -9,8 +9,6 @@
 
 namespace sightline::app {
 
-using Direction3 = std::array<double, 3>;
-
 static std::array<std::uint32_t, 2> parse_size(const std::string& text) {
   std::istringstream in(text);
   std::uint32_t width = 0, height = 0;

@@ -175,7 +175,9 @@ Visible_certificate certificate_of(const Scene& scene, const Exact_point& eye, c
   return certificate;
 }
 
-Exit run(const See_arguments& arguments) {
+}  // namespace
+
+static Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
   if (arguments.kernel != "exact" && (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum || arguments.lines)) throw Usage_error("--certificate, --svg, --lines and --frustum are exact: leave out --kernel");
@@ -243,8 +245,6 @@ Exit run(const See_arguments& arguments) {
   row("seconds", fmt::format("{:.4f} ({})", seen.seconds, arguments.kernel));
   return Exit::done;
 }
-
-}  // namespace
 
 }  // namespace sightline::app
 
