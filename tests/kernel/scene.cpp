@@ -374,7 +374,6 @@ INSTANTIATE_TEST_SUITE_P(All, Scene_moved,
                                          Transformation{"up_to_1e308", [](long n) { return exact(static_cast<double>(n) * 0x1p1000); }, 21},
                                          Transformation{"from_subnormals_to_1e308", [](long n) { return n % 5 == 0 ? exact(static_cast<double>(n) * 0x1p1000) : n % 5 == 1 ? exact(static_cast<double>(n) * 4.9406564584124654e-324) : Rational(n); }, 2200}),
                          [](const auto& of) { return std::string(of.param.name); });
-}  // namespace
 
 TEST_P(Scene_moved, points_are_exact_pieces_sound_and_sides_right) {
   Random random(42);
@@ -392,6 +391,7 @@ TEST_P(Scene_moved, points_are_exact_pieces_sound_and_sides_right) {
     }
   }
 }
+}  // namespace
 
 TEST(Scene_grid, a_scene_of_mostly_zeros_and_numbers_too_small_for_doubles_is_exact) {
   // 60 bits times 10^-400: in the scale of the other coordinates nothing but zeros.
