@@ -68,11 +68,11 @@ require_packages() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends "${names[@]}" >/dev/null
 }
 
-# As many compilers at once as there are processors, but 2 GiB of memory for each.
+# As many compilers at once as there are processors, but 3 GiB of memory for each.
 compile_jobs() {
   local processors memory
   processors=$(nproc)
-  memory=$(awk '/MemAvailable/ {print int($2 / 2097152)}' /proc/meminfo)
+  memory=$(awk '/MemAvailable/ {print int($2 / 3145728)}' /proc/meminfo)
   if [ "$memory" -lt "$processors" ]; then processors=$memory; fi
   if [ "$processors" -lt 1 ]; then processors=1; fi
   echo "$processors"
