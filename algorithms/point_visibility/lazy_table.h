@@ -29,8 +29,9 @@ class Lazy_table {
   /// Row i, by make(i) where it is not there yet.
   template <class Make>
   const Row& at(std::size_t i, const Make& make) const {
-    const Row* made = blocks_[i / block].load(std::memory_order_acquire);
-    return (made != nullptr ? made : fill(i / block, make))[i % block];
+    const Row* rows = blocks_[i / block].load(std::memory_order_acquire);
+    if (rows == nullptr) rows = fill(i / block, make);  // one expression with ?: and [] goes wrong in g++ 12 under sanitizers
+    return rows[i % block];
   }
 
  private:

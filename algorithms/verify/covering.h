@@ -50,7 +50,7 @@ struct Verdict {
 };
 
 struct Verify_options {
-  std::function<void(std::size_t done, std::size_t total)> progress;  ///< fragments that were compared with all earlier ones; may be empty
+  std::function<void(std::size_t done, std::size_t total)> progress;  ///< the share of pairs that are done with, of all fragments; may be empty
 };
 
 namespace certificate_check {
