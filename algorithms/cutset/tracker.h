@@ -79,6 +79,7 @@ class Cut_set_tracker {
       const std::uint32_t c = dark_[k];
       const std::size_t before = changed_.size();
       if (bodies_[c].cut_edges == 0 && walk(bodies_[c])) {
+        ++last_.births;
         spread();
         settle(before);
       }
@@ -111,7 +112,8 @@ class Cut_set_tracker {
     std::uint32_t cut_edges = 0;           // at it
     bool on = false, queued = false;
     bool everywhere = false;               // watched wherever the cut-set is
-    bool met = false;                      // it changed, and its cluster is not yet found
+    bool met = false;                      // it changed, is watched everywhere, and its cluster is not yet found
+    bool turned = false;                   // it changed, and the cut-set is not yet brought up to that
   };
   /// A neighbour and the edge to it.
   struct Link {
@@ -141,7 +143,7 @@ class Cut_set_tracker {
     node.until = std::max(path_, std::min((path_ + answer.clear) * (1 - 0x1p-52), far));  // rounded down
     if (is_watched(node)) watch(i);
     if (answer.on == node.on) return;
-    node.on = answer.on, node.met = true;
+    node.on = answer.on, node.turned = true, node.met = node.everywhere;
     answer.on ? ++on_view_ : --on_view_;
     changed_.push_back(i), stack_.push_back(i);
     fetch(links_.data() + node.first_link);
@@ -165,7 +167,18 @@ class Cut_set_tracker {
 
   /// Brings the cut-set up to the changes from number `begin` on, and counts births.
   void settle(std::size_t begin) {
-    // Clusters.
+    count_births(begin);
+    // An edge between two nodes that changed stays what it was, and so does whether they are watched.
+    ends_.clear();
+    for (std::size_t k = begin; k < changed_.size(); ++k)
+      for (const Link& link : links(nodes_[changed_[k]]))
+        if (!nodes_[link.node].turned) turn_over(changed_[k], link), ends_.push_back(changed_[k]), ends_.push_back(link.node);
+    for (const std::uint32_t i : ends_)
+      if (nodes_[i].cut_edges > 0) watch(i);
+    for (std::size_t k = begin; k < changed_.size(); ++k) nodes_[changed_[k]].turned = false;
+  }
+  /// Of what changed, clusters that were not at the cut-set. A convex body has none: there all that changes hangs together with a change at the cut-set, but where it showed no face (P-50).
+  void count_births(std::size_t begin) {
     for (std::size_t k = begin; k < changed_.size(); ++k) {
       if (!nodes_[changed_[k]].met) continue;
       bool at_cut = false;
@@ -182,16 +195,6 @@ class Cut_set_tracker {
       }
       last_.births += !at_cut;
     }
-    // An edge between two nodes that changed is turned over twice.
-    for (std::size_t k = begin; k < changed_.size(); ++k)
-      for (const Link& link : links(nodes_[changed_[k]])) turn_over(changed_[k], link);
-    for (std::size_t k = begin; k < changed_.size(); ++k) {
-      watch_if_at_cut(changed_[k]);
-      for (const Link& link : links(nodes_[changed_[k]])) watch_if_at_cut(link.node);
-    }
-  }
-  void watch_if_at_cut(std::uint32_t i) {
-    if (nodes_[i].cut_edges > 0) watch(i);
   }
   void turn_over(std::uint32_t i, const Link& link) {
     Body& body = bodies_[nodes_[i].component];
@@ -250,7 +253,7 @@ class Cut_set_tracker {
   std::optional<typename On_view<Traits>::Eye> eye_;
   double path_ = 0;  // at least the way since the start
   Expiry_queue queue_;  // of the watched nodes, and of some that no longer are
-  std::vector<std::uint32_t> expired_, stack_, wave_, changed_;
+  std::vector<std::uint32_t> expired_, stack_, wave_, changed_, ends_;
   std::size_t on_view_ = 0;
   Cut_set_counters last_, counters_;
   Predicate_counts predicates_;

@@ -196,7 +196,8 @@ class Priority_index {
     return static_cast<std::uint32_t>(2 * k + (v[k] > 0));
   }
 
-  /// Divides at the median along the axis on which the centres of the faces' boxes are spread most.
+  /// Divides at the median: of the planes, where all are parallel, else along the axis on which the centres of the faces' boxes are spread most. Parallel planes in their order make one of the two
+  /// conditions of an arc all or nothing in all but two nodes of a level, and the other one is then as good as its bound: no search is led astray. Divided by place, a city's would be, √n times.
   void divide(std::uint32_t begin, std::uint32_t middle, std::uint32_t end) {
     Triple low = nowhere(1), high = nowhere(-1);
     for (std::uint32_t p = begin; p < end; ++p)
@@ -207,7 +208,10 @@ class Priority_index {
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
       if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+    const Oriented_plane& first = planes_[order_[begin]];
+    const bool parallel = std::all_of(order_.begin() + begin, order_.begin() + end, [&](std::uint32_t face) { return planes_[face].normal == first.normal; });
     std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
+      if (parallel && planes_[a].offset != planes_[b].offset) return planes_[a].offset < planes_[b].offset;
       const double x = centre_of(a, axis), y = centre_of(b, axis);
       return x != y ? x < y : a < b;
     });
