@@ -113,11 +113,16 @@ class Cut_set_tracker {
     bool on = false, queued = false;
     bool everywhere = false;               // watched wherever the cut-set is
     bool met = false;                      // it changed, is watched everywhere, and its cluster is not yet found
-    bool turned = false;                   // it changed, and the cut-set is not yet brought up to that
+    std::uint32_t turned = 0;              // the number of the latest search in which it changed
   };
   /// A neighbour and the edge to it.
   struct Link {
     std::uint32_t node, edge;
+  };
+  /// An edge between a node that changed and one that did not.
+  struct Flip {
+    std::uint32_t node;
+    Link link;
   };
   /// A component: what is kept of convex bodies.
   struct Body {
@@ -143,7 +148,7 @@ class Cut_set_tracker {
     node.until = std::max(path_, std::min((path_ + answer.clear) * (1 - 0x1p-52), far));  // rounded down
     if (is_watched(node)) watch(i);
     if (answer.on == node.on) return;
-    node.on = answer.on, node.turned = true, node.met = node.everywhere;
+    node.on = answer.on, node.turned = search_, node.met = node.everywhere;
     answer.on ? ++on_view_ : --on_view_;
     changed_.push_back(i), stack_.push_back(i);
     fetch(links_.data() + node.first_link);
@@ -153,14 +158,18 @@ class Cut_set_tracker {
     nodes_[i].queued = true;
     queue_.push(nodes_[i].until, i);
   }
-  /// Looks at the neighbours of what changed, and at theirs.
+  /// Looks at the neighbours of what changed, and at theirs. Once it was looked at, a node's status is known: an edge to one that did not change comes into the cut-set, or leaves it, and an edge
+  /// between two that changed stays what it was.
   void spread() {
     while (!stack_.empty()) {
       wave_.swap(stack_);
       for (const std::uint32_t i : wave_)
         for (const Link& link : links(nodes_[i])) fetch(&nodes_[link.node]), fetch(&place_[link.edge]);
       for (const std::uint32_t i : wave_)
-        for (const Link& link : links(nodes_[i])) look_at(link.node);
+        for (const Link& link : links(nodes_[i])) {
+          look_at(link.node);
+          if (nodes_[link.node].turned != search_) flips_.push_back({i, link});
+        }
       wave_.clear();
     }
   }
@@ -168,14 +177,14 @@ class Cut_set_tracker {
   /// Brings the cut-set up to the changes from number `begin` on, and counts births.
   void settle(std::size_t begin) {
     count_births(begin);
-    // An edge between two nodes that changed stays what it was, and so does whether they are watched.
-    ends_.clear();
-    for (std::size_t k = begin; k < changed_.size(); ++k)
-      for (const Link& link : links(nodes_[changed_[k]]))
-        if (!nodes_[link.node].turned) turn_over(changed_[k], link), ends_.push_back(changed_[k]), ends_.push_back(link.node);
-    for (const std::uint32_t i : ends_)
-      if (nodes_[i].cut_edges > 0) watch(i);
-    for (std::size_t k = begin; k < changed_.size(); ++k) nodes_[changed_[k]].turned = false;
+    for (const Flip& flip : flips_) turn_over(flip.node, flip.link);
+    for (const Flip& flip : flips_)
+      for (const std::uint32_t i : {flip.node, flip.link.node})
+        if (nodes_[i].cut_edges > 0) watch(i);
+    flips_.clear();
+    if (++search_ != 0) return;
+    search_ = 1;
+    for (Node& node : nodes_) node.turned = 0;
   }
   /// Of what changed, clusters that were not at the cut-set. A convex body has none: there all that changes hangs together with a change at the cut-set, but where it showed no face (P-50).
   void count_births(std::size_t begin) {
@@ -253,7 +262,9 @@ class Cut_set_tracker {
   std::optional<typename On_view<Traits>::Eye> eye_;
   double path_ = 0;  // at least the way since the start
   Expiry_queue queue_;  // of the watched nodes, and of some that no longer are
-  std::vector<std::uint32_t> expired_, stack_, wave_, changed_, ends_;
+  std::vector<std::uint32_t> expired_, stack_, wave_, changed_;
+  std::vector<Flip> flips_;
+  std::uint32_t search_ = 1;  // a move makes one, and one more for each body that showed no face
   std::size_t on_view_ = 0;
   Cut_set_counters last_, counters_;
   Predicate_counts predicates_;
