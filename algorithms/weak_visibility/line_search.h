@@ -19,13 +19,13 @@ struct Weak_counters {
   std::size_t away = 0;          ///< of these, facing away from each other
   std::size_t by_rays = 0;       ///< of these, seen along one of the first few lines
   std::size_t occluders = 0;     ///< pieces near the shafts, summed over pairs
-  std::size_t cells = 0, cuts = 0, shaves = 0, bisections = 0, blocked = 0, empty = 0, learned = 0, jumps = 0;
-  std::size_t programs = 0, exact_programs = 0, confirmed = 0, refuted = 0;  ///< `confirmed`, `refuted`: lines proposed in doubles, by the exact test
+  std::size_t cells = 0, cuts = 0, shaves = 0, bisections = 0, blocked = 0, empty = 0, corners = 0, learned = 0, jumps = 0;
+  std::size_t programs = 0, exact_programs = 0, form_programs = 0, by_forms = 0, confirmed = 0, refuted = 0;  ///< `confirmed`, `refuted`: lines proposed in doubles, by the exact test
   std::size_t lines = 0, open = 0, deepest = 0;
 
   Weak_counters& operator+=(const Weak_counters& o) {
     targets += o.targets, away += o.away, by_rays += o.by_rays, occluders += o.occluders, cells += o.cells, cuts += o.cuts, shaves += o.shaves, bisections += o.bisections;
-    blocked += o.blocked, empty += o.empty, learned += o.learned, jumps += o.jumps, programs += o.programs, exact_programs += o.exact_programs;
+    blocked += o.blocked, empty += o.empty, corners += o.corners, learned += o.learned, jumps += o.jumps, programs += o.programs, exact_programs += o.exact_programs, form_programs += o.form_programs, by_forms += o.by_forms;
     confirmed += o.confirmed, refuted += o.refuted, lines += o.lines, open += o.open, deepest = std::max(deepest, o.deepest);
     return *this;
   }
@@ -34,9 +34,11 @@ struct Weak_counters {
 /// One step of a proof that no line is free, in the order of a walk that takes a node before its two parts. P-72 says what they mean.
 struct Weak_step {
   enum class Kind : char { line, cut_source, cut_target, blocked, empty, away, open };
+  using Form = std::array<Integer, 4>;  ///< in grid coordinates
   struct Term {
     std::uint32_t line;
     Rational factor;
+    std::optional<Form> source, target;  ///< forms that are not negative there, to be multiplied too
   };
   Kind kind;
   std::uint32_t index = 0;          ///< of a line of the proof, or of a piece
@@ -131,7 +133,7 @@ class Line_search {
     std::vector<std::unique_ptr<Row>> rows;
     std::vector<Candidate> candidates;
     std::uint32_t parent = 0;
-    int bisections = 0;
+    int bisections = 0, narrowed = 0;
   };
   struct Literal {
     std::uint32_t line;
@@ -228,6 +230,7 @@ class Line_search {
   // ---- A cell ---------------------------------------------------------------------------------------------------------------
 
   static constexpr std::size_t deepest = 1000;
+  static constexpr int forms_after = 2;  // polygons made smaller, before proofs of degree two are tried
 
   Refutation refute(std::uint32_t d, std::size_t depth) {
     counters_->deepest = std::max(counters_->deepest, depth);
@@ -275,7 +278,7 @@ class Line_search {
     for (const bool front : {true, false}) {
       const Domain& whole = *domains_[d];
       auto piece = source ? std::make_unique<Domain>(clip(occluders_->frame(), whole.source, h, front), whole.target) : std::make_unique<Domain>(whole.source, clip(occluders_->frame(), whole.target, h, front));
-      piece->parent = d, piece->bisections = whole.bisections;
+      piece->parent = d, piece->bisections = whole.bisections, piece->narrowed = whole.narrowed;
       piece->candidates = whole.candidates;
       settle_candidates(*piece);
       domains_.push_back(std::move(piece));
@@ -305,7 +308,10 @@ class Line_search {
   };
   Refutation shave(std::uint32_t d, const std::vector<Shave>& shaves, std::size_t k, std::size_t depth) {
     while (k < shaves.size() && !across(shaves[k].plane, shaves[k].source ? domains_[d]->source : domains_[d]->target)) ++k;
-    if (k == shaves.size()) return refute(d, depth + 1);
+    if (k == shaves.size()) {
+      ++domains_[d]->narrowed;
+      return refute(d, depth + 1);
+    }
     ++counters_->shaves;
     bool front = true;
     return cut(d, shaves[k].source, shaves[k].plane, [&](std::uint32_t part) {
@@ -396,7 +402,7 @@ class Line_search {
     for (std::size_t k = 0; k < 3; ++k) h[k] *= weight;
     const Near_plane plane = near_plane(occluders_->frame(), h);
     return cut(d, source, plane, [this, depth](std::uint32_t part) {
-      ++domains_[part]->bisections;
+      ++domains_[part]->bisections, ++domains_[part]->narrowed;
       return refute(part, depth + 1);
     });
   }
@@ -623,7 +629,7 @@ class Line_search {
       const Row& r = row(domain, path_[k].line);
       if (r.decided == path_[k].sign) continue;
       if (r.decided == -path_[k].sign) {
-        ended = conclude(d, {{k, Rational(1)}});
+        ended = conclude(d, {{k, Rational(1), {}, {}}});
         return Look::ended;
       }
       rows_.push_back({k, &r});
@@ -661,6 +667,8 @@ class Line_search {
       line = start;
       if (alternate(domain, line)) return Look::found;
     }
+    if (conclude_at_corner(d, ended)) return Look::ended;
+    if (domain.narrowed >= forms_after && (conclude_by_forms(d, true, ended) || conclude_by_forms(d, false, ended))) return Look::ended;
     return Look::unclear;
   }
 
@@ -720,6 +728,7 @@ class Line_search {
   struct Multiplier {
     std::size_t place;  // of the path
     Rational factor;
+    std::optional<Weak_step::Form> source = {}, target = {};
   };
 
   bool by_lemma(std::uint32_t d, Refutation& ended) {
@@ -749,7 +758,7 @@ class Line_search {
     Used used;
     for (const Multiplier& m : multipliers) {
       const Literal& literal = path_[m.place];
-      lemma.terms.push_back({literal.line, m.factor});
+      lemma.terms.push_back({literal.line, m.factor, m.source, m.target});
       lemma.literals.push_back(literal);
       if (m.place < used.size()) used.set(m.place);
     }
@@ -767,7 +776,7 @@ class Line_search {
       if (const double w = game_.row_weights()[k]; w > 1e-13) proposal.push_back({k, w, {}});
     if (is_proof_in_doubles(domain, proposal)) {
       std::vector<Multiplier> multipliers;
-      for (const Weighted& w : proposal) multipliers.push_back({rows_[w.row].place, factor_of(w.row, exact(w.near))});
+      for (const Weighted& w : proposal) multipliers.push_back({rows_[w.row].place, factor_of(w.row, exact(w.near)), {}, {}});
       ended = conclude(d, multipliers);
       return true;
     }
@@ -775,7 +784,7 @@ class Line_search {
     ++counters_->exact_programs;
     const std::vector<std::size_t>&rows = game_.tight_rows(), &columns = game_.tight_columns();
     std::vector<Rational> weights;
-    if (!solve_exactly(domain, rows, columns, weights)) return false;
+    if (!solve_exactly(rows, columns, [&](std::size_t k, std::size_t c) { return exact_value(domain, k, c); }, weights)) return false;
     std::vector<Weighted> kept;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (sgn(weights[k]) < 0) return false;
@@ -783,9 +792,166 @@ class Line_search {
     }
     if (kept.empty() || !is_proof(domain, kept)) return false;
     std::vector<Multiplier> multipliers;
-    for (const Weighted& w : kept) multipliers.push_back({rows_[w.row].place, factor_of(w.row, w.exact)});
+    for (const Weighted& w : kept) multipliers.push_back({rows_[w.row].place, factor_of(w.row, w.exact), {}, {}});
     ended = conclude(d, multipliers);
     return true;
+  }
+
+  /// Three lines through a point v, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3 with forms c in p, and as p, v and the line are in one plane, c1 h1 + c2 h2 +
+  /// c3 h3 is 0 for all p and q. Where the signs on the path and those of the forms, on the source or on the target, are such that no term is negative, no line is
+  /// in the cell. Corners of boxes are like that. Proof: P-71c
+  bool conclude_at_corner(std::uint32_t d, Refutation& ended) {
+    Domain& domain = *domains_[d];
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      for (const std::uint32_t point : lines_[path_[rows_[i].place].line].points) {
+        through_.clear();
+        for (std::size_t k = 0; k < rows_.size(); ++k)
+          if (passes(lines_[path_[rows_[k].place].line], point)) through_.push_back(rows_[k].place);
+        if (through_.size() < 3 || through_[0] < rows_[i].place) continue;  // seen from an earlier line
+        for (std::size_t a = 0; a < through_.size(); ++a)
+          for (std::size_t b = a + 1; b < through_.size(); ++b)
+            for (std::size_t c = b + 1; c < through_.size(); ++c)
+              for (const bool source : {true, false})
+                if (corner_proof(d, domain, {through_[a], through_[b], through_[c]}, point, source, ended)) return true;
+      }
+    return false;
+  }
+  bool passes(const Line& line, std::uint32_t point) const {
+    if (line.points[0] == point || line.points[1] == point) return true;
+    const Triple v = occluders_->near_point_of(point);
+    const Six& l = line.near;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t u = (k + 1) % 3, w = (k + 2) % 3;
+      if (std::fabs(v[u] * l[w] - v[w] * l[u] - l[3 + k]) > 1e-9) return false;  // the moment that the line would have
+    }
+    const std::array<Integer, 3> p = occluders_->grid_point(point);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t u = (k + 1) % 3, w = (k + 2) % 3;
+      if (p[u] * line.exact[w] - p[w] * line.exact[u] != line.exact[3 + k]) return false;
+    }
+    return true;
+  }
+  bool corner_proof(std::uint32_t d, const Domain& domain, const std::array<std::size_t, 3>& places, std::uint32_t point, bool source, Refutation& ended) {
+    const std::array<Integer, 3> v = occluders_->grid_point(point);
+    std::vector<Multiplier> multipliers;
+    int all = 0;  // the sign of all terms
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Exact_six &u = lines_[path_[places[(k + 1) % 3]].line].exact, &w = lines_[path_[places[(k + 2) % 3]].line].exact;
+      Weak_step::Form h{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0], 0};
+      for (std::size_t i = 0; i < 3; ++i) h[3] -= h[i] * v[i];
+      if (sgn(h[0]) == 0 && sgn(h[1]) == 0 && sgn(h[2]) == 0) return false;
+      const Near_plane plane = near_plane(occluders_->frame(), h);
+      const Near_polygon& polygon = source ? domain.source : domain.target;
+      if (across(plane, polygon)) return false;
+      const int sign = position(plane, polygon) * path_[places[k]].sign;
+      if (sign == 0) continue;
+      if (all == 0) all = sign;
+      if (sign != all) return false;
+      if (sign * path_[places[k]].sign < 0)
+        for (Integer& x : h) x = -x;
+      Multiplier& m = multipliers.emplace_back(Multiplier{places[k], Rational(1), {}, {}});
+      (source ? m.source : m.target) = h;
+    }
+    if (multipliers.empty()) return false;
+    ++counters_->corners;
+    ended = conclude(d, multipliers);
+    return true;
+  }
+
+  // Multipliers that are forms: the path's sides times the forms of the polygon's edges, which are not negative on it. A sum of such products is of degree two in
+  // one of the points; it is not positive where its coefficients, for pairs of vertices of that polygon and a vertex of the other, are not. Proof: P-71d
+
+  bool conclude_by_forms(std::uint32_t d, bool source, Refutation& ended) {
+    Domain& domain = *domains_[d];
+    const Near_polygon &own = source ? domain.source : domain.target, &other = source ? domain.target : domain.source;
+    const Near_plane& plane = source ? *source_plane_ : occluders_->plane(target_);
+    const std::size_t m = own.size(), columns = m * (m + 1) / 2 * other.size();
+    if (columns > 400 || rows_.size() > 60) return false;
+    // 1. The forms, and their values on the vertices.
+    std::vector<Weak_step::Form> forms;
+    std::vector<std::vector<Rational>> heights(m);
+    for (std::size_t a = 0; a < m; ++a) {
+      forms.push_back(form_of(own, a, plane));
+      for (const Near_point& p : own) {
+        Rational& height = heights[a].emplace_back(value({forms[a], {}}, p), p.exact[3]);
+        height.canonicalize();
+      }
+      if (sgn(*std::min_element(heights[a].begin(), heights[a].end())) < 0) return false;  // no convex polygon
+    }
+    // 2. The game of all products.
+    const auto pair_of = [&](std::size_t i, std::size_t j) { return source ? i * other.size() + j : j * m + i; };
+    std::vector<double> scales;
+    wide_.restart(columns);
+    for (std::size_t a = 0; a < m; ++a) {
+      std::vector<double> near;
+      const Rational most = *std::max_element(heights[a].begin(), heights[a].end());
+      for (const Rational& h : heights[a]) near.push_back(nearest_double(Rational(h / most)));
+      for (const Path_row& r : rows_) {
+        const std::span<double> values = wide_.add_row();
+        const double sign = path_[r.place].sign * 0.5;
+        std::size_t c = 0;
+        for (std::size_t i = 0; i < m; ++i)
+          for (std::size_t k = i; k < m; ++k)
+            for (std::size_t j = 0; j < other.size(); ++j) values[c++] = sign * (near[i] * r.row->values[pair_of(k, j)] + near[k] * r.row->values[pair_of(i, j)]);
+      }
+    }
+    ++counters_->form_programs;
+    const double result = wide_.solve();
+    if (result > 1e-9) return false;
+    // 3. Exact weights: those of the basis, or, where there is room, these very doubles.
+    const auto coefficient = [&](std::size_t row, std::size_t column) {
+      const std::size_t a = row / rows_.size(), k = row % rows_.size(), j = column % other.size();
+      std::size_t i = 0, rest = column / other.size();
+      while (rest >= m - i) rest -= m - i, ++i;
+      return Rational(heights[a][i] * exact_value(domain, k, pair_of(i + rest, j)) + heights[a][i + rest] * exact_value(domain, k, pair_of(i, j)));
+    };
+    std::vector<std::pair<std::size_t, Rational>> weights;
+    if (result < -1e-7) {
+      for (std::size_t k = 0; k < wide_.rows(); ++k)
+        if (wide_.row_weights()[k] > 1e-10) weights.push_back({k, exact(wide_.row_weights()[k]) / *std::max_element(heights[k / rows_.size()].begin(), heights[k / rows_.size()].end())});
+    } else {
+      const std::vector<std::size_t>&rows = wide_.tight_rows(), &tight = wide_.tight_columns();
+      std::vector<Rational> solved;
+      if (!solve_exactly(rows, tight, coefficient, solved)) return false;
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        if (sgn(solved[k]) < 0) return false;
+        if (sgn(solved[k]) > 0) weights.push_back({rows[k], solved[k]});
+      }
+    }
+    for (std::size_t c = 0; c < columns; ++c) {
+      Rational sum;
+      for (const auto& [row, weight] : weights) sum += weight * coefficient(row, c);
+      if (sgn(sum) > 0) return false;
+    }
+    // 4. One form for each line.
+    std::map<std::size_t, std::array<Rational, 4>> sums;
+    for (const auto& [row, weight] : weights)
+      for (std::size_t k = 0; k < 4; ++k) sums[row % rows_.size()][k] += weight * Rational(forms[row / rows_.size()][k]);
+    std::vector<Multiplier> multipliers;
+    for (const auto& [row, sum] : sums) {
+      Integer common = 1;
+      for (const Rational& x : sum) common = lcm(common, x.get_den());
+      Weak_step::Form form;
+      for (std::size_t k = 0; k < 4; ++k) form[k] = sum[k].get_num() * (common / sum[k].get_den());
+      Multiplier& multiplier = multipliers.emplace_back(Multiplier{rows_[row].place, factor_of(row, Rational(Integer(1), common)), {}, {}});
+      (source ? multiplier.source : multiplier.target) = form;
+    }
+    if (multipliers.empty()) return false;
+    ++counters_->by_forms;
+    ended = conclude(d, multipliers);
+    return true;
+  }
+  /// A plane through an edge, upright on the polygon's plane, the polygon in front. It is zero on the edge.
+  static Weak_step::Form form_of(const Near_polygon& polygon, std::size_t edge, const Near_plane& plane) {
+    const std::array<Integer, 4>&a = polygon[edge].exact, &b = polygon[(edge + 1) % polygon.size()].exact;
+    std::array<Integer, 3> along;
+    for (std::size_t k = 0; k < 3; ++k) along[k] = a[3] * b[k] - b[3] * a[k];
+    const std::array<Integer, 4>& n = plane.exact;
+    const std::array<Integer, 3> inward{n[1] * along[2] - n[2] * along[1], n[2] * along[0] - n[0] * along[2], n[0] * along[1] - n[1] * along[0]};
+    Weak_step::Form form{inward[0] * a[3], inward[1] * a[3], inward[2] * a[3], Integer(-(inward[0] * a[0] + inward[1] * a[1] + inward[2] * a[2]))};
+    const Integer common = gcd(gcd(form[0], form[1]), gcd(form[2], form[3]));
+    for (Integer& x : form) x /= common;
+    return form;
   }
 
   struct Weighted {
@@ -830,12 +996,13 @@ class Line_search {
     return true;
   }
   /// Weights with sum 1 that give the same value in all of the columns: a square system.
-  bool solve_exactly(Domain& domain, const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, std::vector<Rational>& weights) const {
+  template <class Entry>
+  static bool solve_exactly(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry, std::vector<Rational>& weights) {
     const std::size_t n = rows.size() + 1;
-    if (columns.size() != rows.size() || n > 12) return false;
+    if (columns.size() != rows.size() || n > 24) return false;
     std::vector<std::vector<Rational>> a(n, std::vector<Rational>(n + 1));
     for (std::size_t i = 0; i + 1 < n; ++i) {
-      for (std::size_t k = 0; k + 1 < n; ++k) a[i][k] = exact_value(domain, rows[k], columns[i]);
+      for (std::size_t k = 0; k + 1 < n; ++k) a[i][k] = entry(rows[k], columns[i]);
       a[i][n - 1] = -1;
       a[n - 1][i] = 1;
     }
@@ -918,7 +1085,8 @@ class Line_search {
   std::vector<std::vector<std::uint32_t>> lemmas_of_;
   std::vector<Node> nodes_;
   std::vector<Path_row> rows_;
-  Matrix_game game_, small_;
+  std::vector<std::size_t> through_;
+  Matrix_game game_, small_, wide_;
   std::array<Near_point, 2> sightline_;
   std::size_t cells_ = 0;
 };

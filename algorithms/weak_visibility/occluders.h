@@ -31,15 +31,15 @@ class Occluders {
     const std::span<const Piece_corner> all = scene_->corners(scene_->pieces()[piece]);
     return {all[corner].point, all[(corner + 1) % all.size()].point};
   }
+  std::array<Integer, 3> grid_point(std::uint32_t point) const { return {grid(point, 0), grid(point, 1), grid(point, 2)}; }
+  Triple near_point_of(std::uint32_t point) const { return near(point); }
   Near_polygon polygon(std::uint32_t piece) const {
     Near_polygon corners;
     for (const Piece_corner& corner : scene_->corners(scene_->pieces()[piece])) corners.push_back({{grid(corner.point, 0), grid(corner.point, 1), grid(corner.point, 2), Integer(1)}, near(corner.point)});
     return corners;
   }
   Exact_six exact_edge_of(const std::array<std::uint32_t, 2>& points) const {
-    std::array<Integer, 3> a, b;
-    for (int k = 0; k < 3; ++k) a[static_cast<std::size_t>(k)] = grid(points[0], k), b[static_cast<std::size_t>(k)] = grid(points[1], k);
-    return exact_edge(a, b);
+    return exact_edge(grid_point(points[0]), grid_point(points[1]));
   }
 
   /// The pieces that may meet a segment between the two polygons: those that no plane beside both of them, nor a box, keeps away. In doubles, for proposals.
