@@ -230,6 +230,7 @@ class Line_search {
   // ---- A cell ---------------------------------------------------------------------------------------------------------------
 
   static constexpr std::size_t deepest = 1000;
+  static constexpr int special_after = 3;
   static constexpr int forms_after = 2;  // polygons made smaller, before proofs of degree two are tried
 
   Refutation refute(std::uint32_t d, std::size_t depth) {
@@ -296,9 +297,42 @@ class Line_search {
   /// A cell with neither a line nor a proof: its polygons are too large for what is left of it. First cuts off what the relaxation shows to hold none of its
   /// lines, edge by edge; if that is little, halves the longer one of the two polygons.
   Refutation narrow(std::uint32_t d, std::size_t depth) {
+    if (domains_[d]->narrowed >= special_after) {
+      Near_plane plane;
+      for (const bool source : {true, false})
+        if (common_plane(source ? domains_[d]->source : domains_[d]->target, plane)) {
+          ++counters_->cuts;
+          return cut(d, source, plane, [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
+        }
+    }
     std::vector<Shave> shaves;
     if (find_shaves(*domains_[d], shaves)) return shave(d, shaves, 0, depth);
     return bisect(d, depth);
+  }
+
+  /// A plane that holds two of the path's lines and cuts the polygon: the sides of lines in one plane depend on where one crosses it, so that lines near the plane
+  /// never resolve while their ends are on both sides of it.
+  bool common_plane(const Near_polygon& polygon, Near_plane& plane) const {
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      for (std::size_t k = i + 1; k < rows_.size(); ++k) {
+        const Line &a = lines_[path_[rows_[i].place].line], &b = lines_[path_[rows_[k].place].line];
+        double near = 0;
+        for (std::size_t x = 0; x < 6; ++x) near += a.near[x] * b.near[(x + 3) % 6];
+        if (std::fabs(near) > 1e-12) continue;
+        Integer product = 0;
+        for (std::size_t x = 0; x < 6; ++x) product += a.exact[x] * b.exact[(x + 3) % 6];
+        if (sgn(product) != 0) continue;
+        const auto direction = [](const Exact_six& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
+        const auto cross = [](const std::array<Integer, 3>& u, const std::array<Integer, 3>& v) { return std::array<Integer, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}; };
+        const std::array<Integer, 3> p = occluders_->grid_point(a.points[0]), q = occluders_->grid_point(b.points[0]);
+        std::array<Integer, 3> normal = cross(direction(a.exact), direction(b.exact));
+        const auto is_zero = [&] { return sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0; };
+        if (is_zero()) normal = cross(direction(a.exact), {q[0] - p[0], q[1] - p[1], q[2] - p[2]});  // parallel, and not the same line
+        if (is_zero()) continue;
+        plane = near_plane(occluders_->frame(), {normal[0], normal[1], normal[2], Integer(-(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))});
+        if (across(plane, polygon)) return true;
+      }
+    return false;
   }
 
   /// A plane across the source, or the target, with none of the cell's lines behind it, by doubles.
