@@ -156,6 +156,7 @@ class Line_search {
   };
   struct Weights {
     std::vector<double> source, target;
+    std::vector<Rational> exact_source, exact_target;  // where doubles are too coarse to be in the cell
   };
 
   // ---- From the whole to the first cell ---------------------------------------------------------------------------------------
@@ -210,11 +211,11 @@ class Line_search {
     domain.candidates.resize(kept);
   }
 
-  bool try_rays(const Domain& domain) {
+  bool try_rays(Domain& domain) {
     std::uniform_real_distribution<double> unit(0.05, 1);
     std::vector<Candidate> blockers;
     for (int k = 0; k < options_->rays; ++k) {
-      Weights line{std::vector<double>(domain.source.size(), 1), std::vector<double>(domain.target.size(), 1)};
+      Weights line{std::vector<double>(domain.source.size(), 1), std::vector<double>(domain.target.size(), 1), {}, {}};
       if (k > 0) {
         for (double& w : line.source) w = std::pow(unit(dice_), 3);
         for (double& w : line.target) w = std::pow(unit(dice_), 3);
@@ -222,7 +223,7 @@ class Line_search {
       normalise(line);
       find_blockers(domain, line, blockers, true);
       if (!blockers.empty()) continue;
-      if (confirm(domain, line)) return ++counters_->by_rays, true;
+      if (!confirm(domain, line)) return ++counters_->by_rays, true;
     }
     return false;
   }
@@ -249,8 +250,14 @@ class Line_search {
     std::vector<Edge_sign> unknown;
     const Candidate* chosen = choose(*domains_[d], blockers, unknown);
     if (chosen == nullptr) {
-      if (confirm(*domains_[d], line)) return {Weak_status::visible, 0, {}};
-      return bisect(d, depth);
+      const std::optional<std::uint32_t> closest = confirm(*domains_[d], line);
+      if (!closest) return {Weak_status::visible, 0, {}};
+      // What the exact test found and doubles did not.
+      blockers.clear();
+      for (const Candidate& candidate : domains_[d]->candidates)
+        if (candidate.piece == *closest) blockers.push_back(candidate);
+      chosen = choose(*domains_[d], blockers, unknown);
+      if (chosen == nullptr || (chosen->sense != 0 && unknown.empty())) return narrow(d, depth);
     }
     const Candidate blocker = *chosen;
     if (blocker.sense == 0) {
@@ -523,8 +530,9 @@ class Line_search {
     }
   }
 
-  /// The pieces that a line meets, by doubles; only one where that is enough. Senses are those that the domain has.
-  void find_blockers(const Domain& domain, const Weights& line, std::vector<Candidate>& blockers, bool one) const {
+  /// The pieces that a line meets, by doubles; only one where that is enough. Close to an edge, its own row of the domain tells more. Senses are those that the
+  /// domain has.
+  void find_blockers(Domain& domain, const Weights& line, std::vector<Candidate>& blockers, bool one) {
     blockers.clear();
     const Triple p = mean(domain.source, line.source), q = mean(domain.target, line.target);
     const Six numbers = pair_numbers(p, q);
@@ -537,10 +545,29 @@ class Line_search {
         sense = from > 0 ? 1 : -1;
       }
       const std::span<const Six> edges = occluders_->edges(candidate.piece);
-      if (!std::all_of(edges.begin(), edges.end(), [&](const Six& edge) { return sense * dot(numbers, edge) > 0; })) continue;
+      bool inside = true;
+      for (std::size_t e = 0; e < edges.size() && inside; ++e) {
+        double height = dot(numbers, edges[e]);
+        if (std::fabs(height) < close) {
+          const Edge_line edge = edge_lines(candidate.piece)[e];
+          height = edge.sense * height_of(domain, edge.line, line);
+        }
+        inside = sense * height > 0;
+      }
+      if (!inside) continue;
       blockers.push_back(candidate);
       if (one) return;
     }
+  }
+  static constexpr double close = 1e-9;
+  double height_of(Domain& domain, std::uint32_t line, const Weights& weights) {
+    if (sign_[line] != 0) return sign_[line];
+    const Row& r = row(domain, line);
+    if (r.decided != 0) return r.decided;
+    double sum = 0;
+    for (std::size_t i = 0; i < domain.source.size(); ++i)
+      for (std::size_t j = 0; j < domain.target.size(); ++j) sum += weights.source[i] * weights.target[j] * r.values[i * domain.target.size() + j];
+    return sum;
   }
 
   /// The blocker with the fewest edges that are not known to have the line inside. One that is cut first comes last.
@@ -634,6 +661,15 @@ class Line_search {
       most = std::max(most, std::fabs(r.values.back()));
     }
     r.error = 0x1p-46 * ((domain.source_size + domain.target_size) * line.ends_product + domain.source_size * domain.target_size * line.ends_sum) + 0x1p-1000;
+    if (most < 0x1p30 * r.error) {  // small polygons, or a line close to all of them: integers, rounded once
+      most = 0;
+      for (std::size_t c = 0; c < r.values.size(); ++c) {
+        const Integer weight = domain.source[c / domain.target.size()].exact[3] * domain.target[c % domain.target.size()].exact[3];
+        r.values[c] = occluders_->frame().near_cubic(dot(exact_pair_of(domain, c), line.exact), weight);
+        most = std::max(most, std::fabs(r.values[c]));
+      }
+      r.error = 0x1p-52 * most + 0x1p-1060;
+    }
     r.exponent = most > 0x1p-900 ? -std::ilogb(most) - 1 : 0;
     for (double& v : r.values) v = std::ldexp(v, r.exponent);
     r.error = std::ldexp(r.error, r.exponent);
@@ -668,7 +704,7 @@ class Line_search {
       }
       rows_.push_back({k, &r});
     }
-    line = {std::vector<double>(m, 1.0 / static_cast<double>(m)), std::vector<double>(n, 1.0 / static_cast<double>(n))};
+    line = {std::vector<double>(m, 1.0 / static_cast<double>(m)), std::vector<double>(n, 1.0 / static_cast<double>(n)), {}, {}};
     if (rows_.empty()) return Look::found;
 
     // The relaxation: weights for all pairs of vertices at once.
@@ -682,7 +718,7 @@ class Line_search {
     if (value < 1e-9 && conclude_from_game(d, ended)) return Look::ended;
 
     // From its weights, or a pair of vertices that has some, to a line: the best end for a fixed other end, in turn.
-    std::vector<Weights> starts(1, Weights{std::vector<double>(m, 0), std::vector<double>(n, 0)});
+    std::vector<Weights> starts(1, Weights{std::vector<double>(m, 0), std::vector<double>(n, 0), {}, {}});
     std::vector<std::pair<double, std::size_t>> heaviest;
     for (std::size_t c = 0; c < m * n; ++c) {
       const double w = game_.column_weights()[c];
@@ -702,8 +738,96 @@ class Line_search {
       if (alternate(domain, line)) return Look::found;
     }
     if (conclude_at_corner(d, ended)) return Look::ended;
+    if (value < thin) {
+      if (solve_relaxation_exactly(d, ended)) return Look::ended;
+      for (std::size_t c = 0; c < std::min<std::size_t>(2, starts.size()); ++c) {
+        line = starts[c];
+        if (alternate_exactly(domain, line)) return Look::found;
+      }
+    }
     if (domain.narrowed >= forms_after && (conclude_by_forms(d, true, ended) || conclude_by_forms(d, false, ended))) return Look::ended;
     return Look::unclear;
+  }
+
+  static constexpr double thin = 1e-8;  // what doubles leave to exact programs
+
+  /// The relaxation in rationals: a proof that there is no line, where its value is not positive.
+  bool solve_relaxation_exactly(std::uint32_t d, Refutation& ended) {
+    Domain& domain = *domains_[d];
+    if (rows_.size() * domain.pairs.size() > 1500) return false;
+    ++counters_->exact_programs;
+    exact_game_.restart(domain.pairs.size());
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      const std::span<Rational> values = exact_game_.add_row();
+      for (std::size_t c = 0; c < values.size(); ++c) values[c] = exact_value(domain, k, c);
+    }
+    if (sgn(exact_game_.solve()) > 0) return false;
+    std::vector<Weighted> proposal;
+    for (std::size_t k = 0; k < rows_.size(); ++k)
+      if (sgn(exact_game_.row_weights()[k]) > 0) proposal.push_back({k, 0, exact_game_.row_weights()[k]});
+    if (proposal.empty() || !is_proof(domain, proposal)) return false;
+    std::vector<Multiplier> multipliers;
+    for (const Weighted& w : proposal) multipliers.push_back({rows_[w.row].place, factor_of(w.row, w.exact), {}, {}});
+    ended = conclude(d, multipliers);
+    return true;
+  }
+  /// alternate(), in rationals.
+  bool alternate_exactly(Domain& domain, Weights& line) {
+    const std::size_t m = domain.source.size(), n = domain.target.size();
+    line.exact_source.clear(), line.exact_target.clear();
+    for (const double w : line.source) line.exact_source.push_back(exact(w));
+    for (const double w : line.target) line.exact_target.push_back(exact(w));
+    for (int round = 0; round < 4; ++round) {
+      const bool source = round % 2 == 0;
+      const std::size_t own = source ? m : n;
+      ++counters_->exact_programs;
+      exact_game_.restart(own);
+      for (std::size_t k = 0; k < rows_.size(); ++k) {
+        const std::span<Rational> values = exact_game_.add_row();
+        for (std::size_t i = 0; i < m; ++i)
+          for (std::size_t j = 0; j < n; ++j) values[source ? i : j] += (source ? line.exact_target[j] : line.exact_source[i]) * exact_value(domain, k, i * n + j);
+      }
+      const Rational value = exact_game_.solve();
+      std::vector<Rational>& weights = source ? line.exact_source : line.exact_target;
+      weights.assign(exact_game_.column_weights().begin(), exact_game_.column_weights().end());
+      if (sgn(value) <= 0) continue;
+      // Both ends off the boundaries, by steps that keep half of the margin: of this end by the margin, of the other one by what its weights can lose.
+      Rational least = 1;
+      for (std::size_t k = 0; k < exact_game_.rows(); ++k) {
+        Rational sum;
+        for (const Rational& v : exact_game_.row(k)) sum += v;
+        least = std::min(least, Rational(sum / static_cast<long>(own)));
+      }
+      const Rational step = least >= value ? Rational(1, 2) : Rational(value / (4 * (value - least)));
+      for (Rational& w : weights) w = (1 - step) * w + step / static_cast<long>(own);
+      return make_positive(domain, line, source);
+    }
+    return false;
+  }
+  /// Gives the vertices of the fixed end some weight each, so little that the line stays strictly in the cell.
+  bool make_positive(Domain& domain, Weights& line, bool source) {
+    const std::size_t m = domain.source.size(), n = domain.target.size();
+    std::vector<Rational>& weights = source ? line.exact_target : line.exact_source;
+    for (Rational step(1, 2); ; step /= 1024) {
+      std::vector<Rational> moved;
+      for (const Rational& w : weights) moved.push_back((1 - step) * w + step / static_cast<long>(weights.size()));
+      const std::vector<Rational>&s = source ? line.exact_source : moved, &t = source ? moved : line.exact_target;
+      bool inside = true;
+      for (std::size_t k = 0; k < rows_.size() && inside; ++k) {
+        Rational sum;
+        for (std::size_t i = 0; i < m; ++i)
+          for (std::size_t j = 0; j < n; ++j) sum += s[i] * t[j] * exact_value(domain, k, i * n + j);
+        inside = sgn(sum) > 0;
+      }
+      if (inside) {
+        weights = moved;
+        break;
+      }
+      if (bit_length(step.get_den()) > 4000) return false;
+    }
+    for (std::size_t i = 0; i < m; ++i) line.source[i] = nearest_double(line.exact_source[i]);
+    for (std::size_t j = 0; j < n; ++j) line.target[j] = nearest_double(line.exact_target[j]);
+    return true;
   }
 
   struct Path_row {
@@ -1059,30 +1183,42 @@ class Line_search {
 
   // ---- A line that nothing blocks ----------------------------------------------------------------------------------------------
 
-  /// Takes a proposed line, with few bits, then with more, and moved a little, to the exact test.
-  bool confirm(const Domain& domain, const Weights& line) {
+  /// Takes a proposed line, with few bits, then with more, and moved a little, to the exact test. Returns a piece that is in the way, or none.
+  std::optional<std::uint32_t> confirm(const Domain& domain, const Weights& line) {
+    std::optional<std::uint32_t> blocker;
+    const auto is_free = [&](const Near_point& p, const Near_point& q) {
+      if (blocker = occluders_->blocker(p, q); blocker) return false;
+      ++counters_->confirmed;
+      sightline_ = {p, q};
+      return true;
+    };
+    if (!line.exact_source.empty()) {
+      if (!is_free(inner_point(domain.source, line.exact_source), inner_point(domain.target, line.exact_target))) ++counters_->refuted;
+      return blocker;
+    }
     std::uniform_real_distribution<double> unit(0.9, 1.1);
-    for (const int bits : {10, 20, 40, 40, 20}) {
+    constexpr std::array bits{10, 20, 40, 52, 30};
+    for (std::size_t k = 0; k < bits.size(); ++k) {
       Weights moved = line;
-      if (bits == 40 || counters_ == nullptr)
+      if (k + 1 == bits.size())
         for (std::vector<double>* weights : {&moved.source, &moved.target})
           for (double& w : *weights) w *= unit(dice_);
-      const Near_point p = inner_point(domain.source, moved.source, bits), q = inner_point(domain.target, moved.target, bits);
-      if (!occluders_->blocker(p, q)) {
-        ++counters_->confirmed;
-        sightline_ = {p, q};
-        return true;
-      }
+      const auto rounded = [&](const std::vector<double>& weights) {
+        std::vector<Rational> result;
+        for (const double w : weights) result.push_back(Rational(std::max(1.0, std::round(std::ldexp(w, bits[k])))));
+        return result;
+      };
+      if (is_free(inner_point(domain.source, rounded(moved.source)), inner_point(domain.target, rounded(moved.target)))) return {};
     }
     ++counters_->refuted;
-    return false;
+    return blocker;
   }
-  Near_point inner_point(const Near_polygon& polygon, const std::vector<double>& weights, int bits) const {
+  /// Pre: positive weights.
+  Near_point inner_point(const Near_polygon& polygon, const std::vector<Rational>& weights) const {
     std::array<Rational, 4> sum;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Rational w(std::max(1.0, std::round(std::ldexp(weights[i], bits))));
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += w * Rational(polygon[i].exact[k]) / Rational(polygon[i].exact[3]);
-      sum[3] += w;
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[i] * Rational(polygon[i].exact[k]) / Rational(polygon[i].exact[3]);
+      sum[3] += weights[i];
     }
     Integer common = 1;
     for (const Rational& x : sum) common = lcm(common, x.get_den());
@@ -1120,7 +1256,8 @@ class Line_search {
   std::vector<Node> nodes_;
   std::vector<Path_row> rows_;
   std::vector<std::size_t> through_;
-  Matrix_game game_, small_, wide_;
+  Matrix_game<double> game_, small_, wide_;
+  Matrix_game<Rational> exact_game_;
   std::array<Near_point, 2> sightline_;
   std::size_t cells_ = 0;
 };
