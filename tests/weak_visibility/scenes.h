@@ -148,7 +148,7 @@ struct Draft {
   Points source;
   std::optional<bool> truth;
   std::vector<std::size_t> targets{0};
-  bool turnable = true;  ///< whether the other faces' fronts mean nothing
+  bool bodies = false;  ///< whether the faces' fronts are to stay, and the source is one of them
 };
 
 /// The shaft [-1, 1]^2 x [0, height]: source at its bottom, target at its top, each looking at the other. Every line between them stays in it.
@@ -489,7 +489,7 @@ inline Draft facing(Random& random, const Rational& gap) {
 /// A lid in the target's plane blocks nothing, just before it everything; also one in the source's.
 inline Draft lids(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
-  const Rational wide = Rational(1 + ratio(random.between(0, 2), 2));
+  const Rational wide = Rational(1 + ratio(random.between(1, 2), 2));
   draft.faces.push_back(rectangle(Rational(-wide), wide, -1, wide, Rational(4 + gap)));
   draft.faces.push_back(rectangle(-1, wide, Rational(-wide), 1, random.chance(1, 2) ? Rational(-gap) : Rational(0)));
   draft.truth = sgn(gap) >= 0;
@@ -524,7 +524,7 @@ inline void all_are_targets(Draft& draft) {
 inline Draft boxes(Random& random, const Rational& gap) {
   using view_scenes::box;
   Draft draft;
-  draft.turnable = false;
+  draft.bodies = true;
   const Exact_point low = lattice(random, 1), high = along(low, 1, box_size(random));
   switch (random.below(4)) {
     case 0: {  // one on the other: the upper one's bottom from the lower one's top
@@ -615,15 +615,15 @@ inline constexpr std::array drafters{Drafter{"shared_edges", shared_edges},
 /// Faces and roles in random order, turned at random where that changes nothing, the whole in one of several positions.
 inline Weak_scene finished(Draft draft, Random& random) {
   // What changes nothing: source and target in each other's place, occluders turned, more of them before what is hidden anyway.
-  if (draft.targets.size() == 1 && random.chance(1, 3)) std::swap(draft.source, draft.faces[draft.targets[0]]);
+  if (!draft.bodies && draft.targets.size() == 1 && random.chance(1, 3)) std::swap(draft.source, draft.faces[draft.targets[0]]);
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < draft.faces.size(); ++k) {
     order.push_back(k);
-    if (draft.turnable && std::count(draft.targets.begin(), draft.targets.end(), k) == 0) draft.faces[k] = either_way(draft.faces[k], random);
+    if (!draft.bodies && std::count(draft.targets.begin(), draft.targets.end(), k) == 0) draft.faces[k] = either_way(draft.faces[k], random);
   }
   Faces extra;
   view_scenes::add_any(extra, random.below(3), random);
-  const bool add_extra = random.chance(1, 3), add_source = random.chance(1, 4);
+  const bool add_extra = random.chance(1, 3), add_source = !draft.bodies && random.chance(1, 4);
   random.shuffle(order);
   Faces faces;
   Weak_scene scene;
