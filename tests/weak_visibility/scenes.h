@@ -73,7 +73,7 @@ inline Exact_point image(const Projective_map& map, const Exact_point& p) {
 
 /// The image of a scene under a projective map of positive weight on all its points, hence on all segments between them: segments go to segments, faces to faces,
 /// and the sign of orient(a, b, c, d) is multiplied by the determinant's. Where that is negative all loops are turned, so fronts stay fronts and the truth stays.
-/// Pre: as said, and a determinant other than 0, or std::invalid_argument.
+/// Pre: as said, and a determinant other than 0, or std::invalid_argument; planar faces, as how others are cut depends on where they are.
 inline Weak_scene project(const Weak_scene& scene, const Projective_map& map) {
   std::vector<std::vector<Rational>> rows;
   for (const auto& row : map) rows.emplace_back(row.begin(), row.end());
@@ -563,27 +563,39 @@ inline Draft boxes(Random& random, const Rational& gap) {
   return draft;
 }
 
+/// One face from that number on is moved by the gap along an axis.
+inline void move_a_face(Draft& draft, std::size_t first, const Rational& gap, Random& random) {
+  Points& face = draft.faces[first + random.below(draft.faces.size() - first)];
+  const std::size_t axis = random.below(3);
+  for (Exact_point& p : face) p[axis] += gap;
+}
+
 /// Anything on the integer lattice: faces cross each other and the source, and share planes, edges and corners.
-inline Draft lattice_faces(Random& random, const Rational&) {
+inline Draft lattice_faces(Random& random, const Rational& gap) {
   Draft draft;
   view_scenes::add_any(draft.faces, 2 + random.below(7), random);
   const Exact_point corner = lattice(random, 3);
   const auto [u, v] = view_scenes::directions(random, 3);
   draft.source = view_scenes::in_plane(corner, u, v, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
   if (random.chance(1, 2)) draft.source.pop_back();
+  move_a_face(draft, 0, gap, random);
   all_are_targets(draft);
   return draft;
 }
 
-inline Draft triangles(Random& random, const Rational&) {
+inline Draft triangles(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
-  const std::size_t count = 3 + random.below(9);
+  const Rational narrow = ratio(1, random.between(1, 6));
+  for (Points* square : {&draft.source, &draft.faces[0]})
+    for (Exact_point& p : *square) p[0] *= narrow, p[1] *= narrow;
+  const std::size_t count = 3 + random.below(10);
   while (draft.faces.size() < count) {
-    const Exact_point centre{ratio(random.between(-4, 4), 4), ratio(random.between(-4, 4), 4), ratio(random.between(4, 12), 4)};
+    const Exact_point centre{ratio(random.between(-3, 3), 4), ratio(random.between(-3, 3), 4), ratio(random.between(4, 12), 4)};
     Points corners(3, centre);
-    for (Exact_point& p : corners) p = along(p, ratio(1, 4), Exact_point{integer(random, -6, 6), integer(random, -6, 6), integer(random, -3, 3)});
+    for (Exact_point& p : corners) p = along(p, ratio(1, 4), Exact_point{integer(random, -12, 12), integer(random, -12, 12), integer(random, -3, 3)});
     if (!oracle::is_zero(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))) draft.faces.push_back(corners);
   }
+  move_a_face(draft, 1, gap, random);
   return draft;
 }
 

@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include <unistd.h>
 
@@ -53,7 +52,7 @@ inline Form height_of_q(const Frame& frame, const Half_space& plane) {
   return form;
 }
 
-/// SMT-LIB 2 for the sentence "this piece is visible", and whether it is linear.
+/// SMT-LIB 2 for the sentence "this piece is visible", without a question, and whether it is linear: that it is where all planes are parallel.
 class Sentence {
  public:
   Sentence(const Flats& flats, const Points& source, const Flat& piece) : frame_{{source[0], source[1], source[2]}, {piece.corners[0], piece.corners[1], piece.corners[2]}} {
@@ -66,9 +65,10 @@ class Sentence {
       if (!lies_in(flat.corners, from) && !lies_in(flat.corners, piece.plane)) claim(not_blocked_by(flat));
   }
   bool linear() const { return linear_; }
+  /// Whether it can be satisfied. The usual way to ask tries several methods, each for some time.
+  std::string question() const { return linear_ ? "(check-sat)" : "(check-sat-using qfnra-nlsat)"; }
   std::string text() const {
-    return std::string("(set-logic ") + (linear_ ? "QF_LRA" : "QF_NRA") + ")\n(declare-const u Real)\n(declare-const v Real)\n(declare-const s Real)\n(declare-const t Real)\n" +
-           claims_ + "(check-sat)\n";
+    return std::string("(set-logic ") + (linear_ ? "QF_LRA" : "QF_NRA") + ")\n(declare-const u Real)\n(declare-const v Real)\n(declare-const s Real)\n(declare-const t Real)\n" + claims_;
   }
 
  private:
@@ -127,31 +127,37 @@ inline bool has_z3() {
   return there;
 }
 
-/// Whether a sentence can be satisfied; none where z3 does not know within its time. Pre: has_z3()
-inline std::optional<bool> satisfiable(const std::string& sentence, unsigned milliseconds) {
+/// What z3 prints when it reads this. `effort` is the most of its own steps that it may take for a question, so that it gives up at the same place everywhere;
+/// a million are about a second. Pre: has_z3()
+inline std::string z3_output(const std::string& text, unsigned effort) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / ("sightline_" + std::to_string(::getpid()) + ".smt2");
-  std::ofstream(file) << sentence;
-  const std::string command = "z3 -smt2 -memory:2000 -t:" + std::to_string(milliseconds) + " -T:" + std::to_string(milliseconds / 1000 + 2) + ' ' + file.string() + " 2>&1";
-  std::string said;
+  std::ofstream(file) << text;
+  const std::string command = "z3 -smt2 -memory:2000 -T:120 rlimit=" + std::to_string(effort) + ' ' + file.string() + " 2>&1";
   FILE* const pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("z3 cannot be started");
-  char buffer[256];
-  while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) said += buffer;
+  std::string output;
+  for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) output += static_cast<char>(c);
   ::pclose(pipe);
   std::filesystem::remove(file);
-  if (said == "sat\n") return true;
-  if (said == "unsat\n") return false;
-  if (said == "unknown\n" || said == "timeout\n" || said.find("memory") != std::string::npos) return std::nullopt;
-  throw std::runtime_error("z3 says: " + said);
+  return output;
 }
 
-/// Whether a face is weakly visible from the scene's source; none where z3 does not know. Pre: has_z3()
-inline std::optional<bool> z3_says(const Weak_scene& scene, Face_id target, unsigned milliseconds) {
+/// Whether a sentence can be satisfied; none where z3 gives up. Pre: has_z3()
+inline std::optional<bool> satisfiable(const Sentence& sentence, unsigned effort) {
+  const std::string output = z3_output(sentence.text() + sentence.question() + '\n', effort);
+  if (output == "sat\n") return true;
+  if (output == "unsat\n") return false;
+  if (output == "unknown\n" || output == "timeout\n" || output.find("out of memory") != std::string::npos) return std::nullopt;
+  throw std::runtime_error("z3 says: " + output);
+}
+
+/// Whether a face is weakly visible from the scene's source; none where z3 gives up. Pre: has_z3()
+inline std::optional<bool> z3_says(const Weak_scene& scene, Face_id target, unsigned effort) {
   const Flats flats = oracle::flats_of(sightline::Scene(scene.soup));
   bool unknown = false;
   for (const Flat& piece : flats) {
     if (piece.face != target) continue;
-    const std::optional<bool> visible = satisfiable(Sentence(flats, scene.source, piece).text(), milliseconds);
+    const std::optional<bool> visible = satisfiable(Sentence(flats, scene.source, piece), effort);
     if (visible == true) return true;
     unknown = unknown || !visible;
   }
