@@ -343,11 +343,9 @@ class Weak_families : public testing::TestWithParam<std::size_t> {};
 TEST_P(Weak_families, have_the_truth_that_z3_and_rays_find) {
   const weak_scenes::Family& family = weak_scenes::families()[GetParam()];
   Tally tally;
-  std::size_t known = 0;
   for (std::uint64_t seed = 0; seed < 12 * times(); ++seed) {
     const Weak_scene scene = family.make(seed);
     ASSERT_FALSE(scene.targets.empty()) << scene.name;
-    known += scene.truth.has_value();
     for (std::size_t k = 0; k < std::min<std::size_t>(scene.targets.size(), 2); ++k) {
       ask(scene, scene.targets[k], 20, tally);
     }

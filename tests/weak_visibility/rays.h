@@ -38,7 +38,7 @@ struct Sightline {
 /// Degenerate: grazing is blocked. Exact: yes
 inline bool proves_visible(const Flats& flats, const Points& source, Face_id target, const Sightline& line) {
   const Half_space from = plane_of(source);
-  const auto& [p, q] = line;
+  const Exact_point &p = line.p, &q = line.q;
   if (sgn(from.height(p)) != 0 || oracle::holds(source, from.normal, p) <= 0 || sgn(from.height(q)) <= 0) return false;
   const auto ends_on = [&](const Flat& piece) { return piece.face == target && sgn(piece.height(q)) == 0 && piece.holds(q) > 0 && sgn(piece.height(p)) > 0; };
   const auto end = std::find_if(flats.begin(), flats.end(), ends_on);
