@@ -1,0 +1,51 @@
+#pragma once
+// Checks what can be seen from polygons without trusting, or sharing a line with, whatever found it: rationals and integers only.
+// Laws: proofs/weak_certificate.md (P-72). To be read in one sitting, from top to bottom, after covering.h.
+
+#include <sightline/algorithms/verify/covering.h>
+
+namespace sightline {
+
+/// The claim "from these polygons, these faces are weakly visible, and these are not". The fragments are the convex pieces of the scene, in any order; all else refers to them by their places.
+struct Weak_certificate : Covering {
+  std::vector<std::vector<Exact_point>> sources;  ///< convex planar polygons, counterclockwise as seen from the side that they look to
+  bool two_sided = false;                         ///< a fragment's back counts as visible too
+
+  /// Proves that a fragment is visible: a point inside a source and one inside the fragment, with nothing between them.
+  struct Sightline {
+    std::size_t fragment = 0, source = 0;
+    Exact_point from, to;
+  };
+  std::vector<Sightline> visible;
+
+  /// The line through a corner of a fragment and the next one, in that sense.
+  struct Edge {
+    std::size_t fragment = 0, corner = 0;
+  };
+  std::vector<Edge> lines;
+
+  using Form = std::array<Rational, 4>;  ///< (a, b, c, d) is a x + b y + c z + d
+
+  /// A positive multiple of a line's side, times a form in the point of the source and one in the point of the fragment, where there are such.
+  struct Term {
+    std::size_t line = 0;  ///< its place in `lines`
+    Rational factor;
+    std::optional<Form> source, target;
+  };
+  struct Node {
+    enum class Kind { line, cut_source, cut_target, blocked, empty, away } kind = Kind::empty;
+    std::size_t index = 0;     ///< line: its place in `lines`; blocked: the place of a fragment
+    Form plane;                ///< cut_*
+    std::vector<Term> terms;   ///< empty
+  };
+  /// Proves that nothing of a fragment is visible from a source: a tree over the lines between them, in preorder. A line has first its positive side, then its negative one; a cut likewise.
+  struct Hidden {
+    std::size_t fragment = 0, source = 0;
+    std::vector<Node> proof;
+  };
+  std::vector<Hidden> hidden;
+
+  std::vector<Face_id> undecided;  ///< faces that nothing is claimed about
+};
+
+}  // namespace sightline
