@@ -1215,7 +1215,7 @@ class Line_search {
   std::optional<std::uint32_t> confirm(const Domain& domain, const Weights& line) {
     std::optional<std::uint32_t> blocker;
     const auto is_free = [&](const Near_point& p, const Near_point& q) {
-      if (blocker = occluders_->blocker(p, q); blocker) return false;
+      if (blocker = occluders_->blocker(p, q, *source_plane_, occluders_->plane(target_)); blocker) return false;
       ++counters_->confirmed;
       sightline_ = {p, q};
       return true;
