@@ -231,8 +231,8 @@ class Line_search {
   // ---- A cell ---------------------------------------------------------------------------------------------------------------
 
   static constexpr std::size_t deepest = 1000;
-  static constexpr int special_after = 3;
-  static constexpr int forms_after = 2;  // polygons made smaller, before proofs of degree two are tried
+  // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many nothing.
+  static constexpr int forms_after = 2, special_after = 3, smallest = 80;
 
   Refutation refute(std::uint32_t d, std::size_t depth) {
     counters_->deepest = std::max(counters_->deepest, depth);
@@ -304,6 +304,7 @@ class Line_search {
   /// A cell with neither a line nor a proof: its polygons are too large for what is left of it. First cuts off what the relaxation shows to hold none of its
   /// lines, edge by edge; if that is little, halves the longer one of the two polygons.
   Refutation narrow(std::uint32_t d, std::size_t depth) {
+    if (domains_[d]->narrowed > smallest) return open();
     if (domains_[d]->narrowed >= special_after) {
       Near_plane plane;
       for (const bool source : {true, false})
@@ -821,7 +822,7 @@ class Line_search {
       (source ? line.exact_source : line.exact_target) = weights;
       if (sgn(value) <= 0) continue;
       // This end off the polygon's boundary, by a step that keeps half of the margin.
-      const Rational step = least >= value ? Rational(1, 2) : Rational(value / (4 * (value - least)));
+      const Rational half(1, 2), step = least >= value / 2 ? half : std::min(half, Rational(value / (4 * (value - least))));
       for (Rational& w : source ? line.exact_source : line.exact_target) w = (1 - step) * w + step / static_cast<long>(own);
       return make_positive(domain, line, source);
     }
