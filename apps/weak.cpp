@@ -83,7 +83,7 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Sources& sou
   for (const Face_id face : arguments.faces)  // a face of the scene that is a source: itself, not its double
     for (Drawn& item : drawn)
       if (item.fragment.face == face) item.fragment.face = static_cast<Face_id>(names.size() - 1);
-  std::erase_if(drawn, [](const Drawn& item) { return item.side != CGAL::POSITIVE; });
+  std::erase_if(drawn, [&](const Drawn& item) { return item.side != CGAL::POSITIVE && names[item.fragment.face] != "source"; });
   Svg svg = empty_picture(view);
   paint(svg, view, drawn, true, [&](const Drawn& item, double shade) {
     const std::string& name = names[item.fragment.face];

@@ -37,6 +37,14 @@ TEST_F(Weak, sees_the_sides_of_a_cube_that_face_the_source_and_proves_the_others
   EXPECT_EQ(weak({cube, "--from-face", "0"})["result"]["visible"].size(), 0u);
 }
 
+TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("rooms.json").string();
+  const Json lit = weak({rooms, "--from", "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", "--certificate", to});
+  EXPECT_EQ(lit["result"]["visible"].size(), 89u);
+  EXPECT_EQ(lit["result"]["hidden"].size(), 53u);
+  EXPECT_EQ(run({"verify", rooms, to}).code, done);
+}
+
 TEST_F(Weak, rejects_a_certificate_whose_answer_was_changed) {
   const std::string to = path("weak.json").string();
   weak({cornell, "--from-face", "5", "--certificate", to});
