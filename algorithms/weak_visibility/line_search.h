@@ -437,12 +437,14 @@ class Line_search {
     // A normal of few bits, through the middle.
     Triple direction{b.near[0] - a.near[0], b.near[1] - a.near[1], b.near[2] - a.near[2]};
     const double scale = size(direction);
+    if (!(scale > 0)) return open();  // too small for doubles to tell its corners apart
     std::array<Integer, 4> h;
     for (std::size_t k = 0; k < 3; ++k) h[k] = static_cast<long>(std::lround(direction[k] / scale * 16));
     for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * (a.exact[k] * b.exact[3] + b.exact[k] * a.exact[3]);
     const Integer weight = 2 * a.exact[3] * b.exact[3];
     for (std::size_t k = 0; k < 3; ++k) h[k] *= weight;
     const Near_plane plane = near_plane(occluders_->frame(), h);
+    if (!across(plane, source ? whole.source : whole.target)) return open();
     return cut(d, source, plane, [this, depth](std::uint32_t part) {
       ++domains_[part]->bisections, ++domains_[part]->narrowed;
       return refute(part, depth + 1);

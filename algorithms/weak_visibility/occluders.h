@@ -65,6 +65,37 @@ class Occluders {
     return found;
   }
 
+  /// What a ray hits first, in doubles: the piece, and whether from its front; nothing within a billionth of its length 1 counts. For samples. Exact: no
+  struct Hit {
+    std::uint32_t piece;
+    bool front;
+  };
+  std::optional<Hit> first_hit(const Triple& p, const Triple& direction) const {
+    const Triple ahead{p[0] + direction[0], p[1] + direction[1], p[2] + direction[2]};
+    const Six numbers = pair_numbers(p, ahead);
+    const double to_boxes = frame_.to_boxes();
+    double nearest = std::numeric_limits<double>::infinity();
+    std::optional<Hit> hit;
+    each_box([&](const Piece_boxes::Box& box) {
+      double enter = 0, leave = nearest * (1 + 1e-9);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double a = (box.low[k] / to_boxes - p[k]) / direction[k], b = (box.high[k] / to_boxes - p[k]) / direction[k];
+        if (direction[k] == 0 ? p[k] * to_boxes < box.low[k] || p[k] * to_boxes > box.high[k] : false) return false;
+        if (direction[k] != 0) enter = std::max(enter, std::min(a, b) - 1e-12), leave = std::min(leave, std::max(a, b) + 1e-12);
+      }
+      return enter <= leave;
+    }, [&](std::uint32_t piece) {
+      const std::array<double, 4>& h = planes_[piece].near;
+      const double height = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3], slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
+      const double at = -height / slope;
+      if (!(at > 1e-9) || at >= nearest) return;
+      const double sense = height > 0 ? 1 : -1;
+      const std::span<const Six> all = edges(piece);
+      if (std::all_of(all.begin(), all.end(), [&](const Six& edge) { return sense * dot(numbers, edge) >= 0; })) nearest = at, hit = Hit{piece, height > 0};
+    });
+    return hit;
+  }
+
   /// A closed piece that the closed segment from p to q meets, if there is one, other than those in the plane of the polygon that p or q is inside of: those meet
   /// only that end, also of all segments near this one. A segment within a piece's plane counts as meeting it where their boxes meet. So where there is none,
   /// all segments near this one are free; where there is one, that is certain but for such planes. Exact: yes.
