@@ -2,6 +2,7 @@
 
 #include "picture.h"
 
+#include <sightline/algorithms/baseline/ray_sampling.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 
@@ -16,8 +17,9 @@ struct Weak_arguments {
   View_arguments view;
   std::vector<Face_id> faces;
   std::vector<std::string> polygons;
-  std::string certificate, svg, obj, eye;
+  std::string method = "lines", certificate, svg, obj, eye;
   bool two_sided = false;
+  std::size_t rays = Ray_sampling_options{}.rays;
   std::size_t cells = Weak_search_options{}.cells;
 };
 
@@ -110,8 +112,19 @@ std::string obj_text(const Scene& scene, const std::vector<std::string>& names) 
   return text;
 }
 
+/// What rays hit, and the rest as hidden: nothing of it is proved.
+Weakly_visible sampled(const Weak_arguments& arguments, const Occluders& occluders, const Sources& sources) {
+  Weakly_visible found;
+  found.visible = visible_by_sampling(occluders, sources.polygons, {arguments.rays, arguments.common.seed, arguments.two_sided});
+  for (const Piece& piece : occluders.scene().pieces())
+    if (piece.number == 0 && !std::binary_search(found.visible.begin(), found.visible.end(), piece.face)) found.hidden.push_back(piece.face);
+  return found;
+}
+
 Exit run(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
+  const bool by_rays = arguments.method == "sample";
+  if (by_rays && !arguments.certificate.empty()) throw Usage_error("--method sample proves nothing: leave out --certificate, or take --method lines");
   if (arguments.faces.empty() && arguments.polygons.empty()) throw Usage_error("say what looks: --from-face ID, or --from \"X,Y,Z X,Y,Z X,Y,Z ...\"");
   const Polygon_soup soup = common.read();
   const Scene scene(soup);
@@ -126,7 +139,7 @@ Exit run(const Weak_arguments& arguments) {
   if (common.budget > 0) options.search.out_of_time = [&] { return watch.seconds() > common.budget; };
   options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
   watch = {};
-  const Weakly_visible found = weakly_visible(occluders, sources.polygons, options);
+  const Weakly_visible found = by_rays ? sampled(arguments, occluders, sources) : weakly_visible(occluders, sources.polygons, options);
   const double seconds = watch.seconds();
 
   if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(weak_certificate(scene, sources.points, arguments.two_sided, found)).dump() + "\n");
@@ -146,8 +159,9 @@ Exit run(const Weak_arguments& arguments) {
   row("visible", fmt::format("{} of {} faces", found.visible.size(), scene.counters().faces));
   row("hidden", fmt::format("{}", found.hidden.size()));
   row("undecided", found.undecided.empty() ? "none" : fmt::format("{}: --cells and --budget set how long each is looked at", found.undecided.size()));
-  row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets, c.away, c.by_rays, c.cells));
-  row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} linear programs, {} of them exact", c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections, c.programs + c.exact_programs, c.exact_programs));
+  if (by_rays) row("rays", fmt::format("{} from each source; nothing is proved", arguments.rays));
+  if (!by_rays) row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets, c.away, c.by_rays, c.cells));
+  if (!by_rays) row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} linear programs, {} of them exact", c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections, c.programs + c.exact_programs, c.exact_programs));
   row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene", seconds, prepare_seconds));
   return exit;
 }
@@ -162,6 +176,8 @@ void add_weak(CLI::App& app) {
   a->common.add_to(*command);
   command->add_option("--from-face", a->faces, "a face of the scene that looks to its front; may be repeated");
   command->add_option("--from", a->polygons, "a convex polygon \"X,Y,Z X,Y,Z X,Y,Z ...\", counterclockwise as seen from the side it looks to; may be repeated for a region of several")->check(sightline::app::not_empty);
+  command->add_option("--method", a->method, "lines: exact, with certificates; sample: random rays in doubles, what others do, to compare with")->check(CLI::IsMember({"lines", "sample"}))->capture_default_str();
+  command->add_option("--rays", a->rays, "of --method sample, from each source")->capture_default_str();
   command->add_flag("--two-sided", a->two_sided, "count faces seen from behind too (they hide what is behind them anyway)");
   command->add_option("--cells", a->cells, "how many cells a search may take before its face is undecided")->capture_default_str();
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");

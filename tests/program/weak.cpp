@@ -2,6 +2,8 @@
 
 #include "program.h"
 
+#include <algorithm>
+
 namespace program {
 
 class Weak : public Program {
@@ -43,6 +45,16 @@ TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
   EXPECT_EQ(lit["result"]["visible"].size(), 89u);
   EXPECT_EQ(lit["result"]["hidden"].size(), 53u);
   EXPECT_EQ(run({"verify", rooms, to}).code, done);
+}
+
+TEST_F(Weak, by_rays_sees_no_more_than_there_is_and_proves_nothing) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10";
+  const Json all = weak({rooms, "--from", lamp})["result"]["visible"], few = weak({rooms, "--from", lamp, "--method", "sample", "--rays", "300"})["result"]["visible"];
+  EXPECT_LT(few.size(), all.size());
+  EXPECT_GT(few.size(), 20u);
+  for (const Json& face : few) EXPECT_NE(std::find(all.begin(), all.end(), face), all.end()) << face;
+  const Outcome r = run({"weak", rooms, "--from", lamp, "--method", "sample", "--certificate", path("no.json").string()});
+  EXPECT_EQ(r.code, usage) << r;
 }
 
 TEST_F(Weak, rejects_a_certificate_whose_answer_was_changed) {
