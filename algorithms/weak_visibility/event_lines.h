@@ -94,7 +94,6 @@ class Event_lines {
     for (const std::uint32_t piece : occluders.near_shaft(source, target)) by_size.emplace_back(-area(occluders.corners(piece)), piece);
     std::sort(by_size.begin(), by_size.end());
     for (const auto& [size, piece] : by_size) add_piece(occluders, piece);
-    std::erase_if(to_, [&](const Literal& literal) { return lines_[literal.line].in_source; });  // there T ends at S's plane: true of all
     for (Line& line : lines_)
       if (line.in_source && sgn(dot(target_plane_, line.hull[0])) == 0 && sgn(dot(target_plane_, line.hull[1])) == 0) line.real = false;
   }
