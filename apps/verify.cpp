@@ -13,12 +13,13 @@ namespace sightline::app {
 static Verdict verdict_on(const Polygon_soup& soup, const Order_certificate& claim, const Verify_options& options) { return verify_order(soup, claim, options); }
 static Verdict verdict_on(const Polygon_soup& soup, const Graph_certificate& claim, const Verify_options& options) { return verify_graph(soup, claim, options); }
 static Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& claim, const Verify_options& options) { return verify_visible(soup, claim, options); }
+static Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim, const Verify_options& options) { return verify_weak(soup, claim, options); }
 
 static Exit run(const Common& common, const std::string& file) {
   const Polygon_soup soup = common.read();
   std::ifstream in(file);
   if (!in) throw Input_error::of_file(file, "cannot be opened; check the path");
-  std::variant<Order_certificate, Graph_certificate, Visible_certificate> certificate;
+  Certificate certificate;
   try {
     certificate = read_certificate(in);
   } catch (const std::exception& error) {  // not a certificate, or not a file

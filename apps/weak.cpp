@@ -3,7 +3,7 @@
 #include "picture.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
 
 #include <sstream>
 
@@ -52,48 +52,6 @@ Sources sources_of(const Weak_arguments& arguments, const Occluders& occluders) 
     }
   }
   return sources;
-}
-
-/// What `verify` reads. Lines of all proofs are numbered together.
-Weak_certificate certificate_of(const Scene& scene, const Sources& sources, bool two_sided, const Weakly_visible& found) {
-  Weak_certificate certificate;
-  certificate.sources = sources.points, certificate.two_sided = two_sided, certificate.undecided = found.undecided;
-  for (const Piece& piece : scene.pieces()) {
-    Order_fragment& fragment = certificate.fragments.emplace_back();
-    fragment.face = piece.face, fragment.piece = piece.number;
-    for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
-  }
-  add_pieces(certificate, scene);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
-  for (const Weakly_visible::Pair& pair : found.pairs) {
-    if (pair.answer.status == Weak_status::visible) {
-      certificate.visible.push_back({pair.piece, pair.source, scene.position(pair.answer.sightline[0].exact), scene.position(pair.answer.sightline[1].exact)});
-      continue;
-    }
-    const auto line_number = [&](std::uint32_t line) {
-      const Weak_line& edge = pair.answer.lines[line];
-      const auto [place, is_new] = numbers.try_emplace({edge.piece, edge.corner}, certificate.lines.size());
-      if (is_new) certificate.lines.push_back({edge.piece, edge.corner});
-      return place->second;
-    };
-    Weak_certificate::Hidden& hidden = certificate.hidden.emplace_back();
-    hidden.fragment = pair.piece, hidden.source = pair.source;
-    for (const Weak_step& step : pair.answer.proof) {
-      using Kind = Weak_certificate::Node::Kind;
-      Weak_certificate::Node& node = hidden.proof.emplace_back();
-      switch (step.kind) {
-        case Weak_step::Kind::line: node.kind = Kind::line, node.index = line_number(step.index); break;
-        case Weak_step::Kind::cut_source: node.kind = Kind::cut_source, node.plane = scene.file_coefficients(step.plane); break;
-        case Weak_step::Kind::cut_target: node.kind = Kind::cut_target, node.plane = scene.file_coefficients(step.plane); break;
-        case Weak_step::Kind::blocked: node.kind = Kind::blocked, node.index = step.index; break;
-        case Weak_step::Kind::away: node.kind = Kind::away; break;
-        case Weak_step::Kind::empty:
-        case Weak_step::Kind::open: node.kind = Kind::empty; break;  // none is open where all is decided
-      }
-      for (const Weak_step::Term& term : step.terms) node.terms.push_back({line_number(term.line), term.factor, {}, {}});
-    }
-  }
-  return certificate;
 }
 
 // ---- Pictures ---------------------------------------------------------------------------------------------------------------
@@ -171,7 +129,7 @@ Exit run(const Weak_arguments& arguments) {
   const Weakly_visible found = weakly_visible(occluders, sources.polygons, options);
   const double seconds = watch.seconds();
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, sources, arguments.two_sided, found)).dump() + "\n");
+  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(weak_certificate(scene, sources.points, arguments.two_sided, found)).dump() + "\n");
   const std::vector<std::string> names = names_of(scene, found, sources.points.size());
   if (!arguments.svg.empty()) draw(arguments, soup, sources, names);
   if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(scene, names));

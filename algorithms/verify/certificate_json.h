@@ -4,6 +4,7 @@
 #include <sightline/algorithms/verify/graph.h>
 #include <sightline/algorithms/verify/order.h>
 #include <sightline/algorithms/verify/visible.h>
+#include <sightline/algorithms/verify/weak.h>
 
 #include <nlohmann/json.hpp>
 
@@ -17,6 +18,7 @@ namespace certificate_json {
 inline constexpr const char* order_format = "sightline order 1";
 inline constexpr const char* graph_format = "sightline graph 1";
 inline constexpr const char* see_format = "sightline see 1";
+inline constexpr const char* weak_format = "sightline weak 1";
 
 [[noreturn]] inline void fail(const std::string& place, const std::string& what) { throw std::invalid_argument("certificate: " + place + ": " + what); }
 
@@ -34,19 +36,22 @@ inline std::uint32_t number32(const nlohmann::json& value, const std::string& pl
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX) fail(place, "expected an integer from 0 to 4294967295");
   return value.get<std::uint32_t>();
 }
-inline Exact_point point(const nlohmann::json& value, const std::string& place) {
-  if (array(value, place).size() != 3) fail(place, "expected three numbers");
-  Exact_point p;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!value[k].is_string()) fail(place, "expected exact numbers as strings \"p\" or \"p/q\"");
-    try {
-      p[k] = rational_from_string(value[k].get_ref<const std::string&>());
-    } catch (const std::invalid_argument& error) {
-      fail(place, error.what());
-    }
+inline Rational exact_number(const nlohmann::json& value, const std::string& place) {
+  if (!value.is_string()) fail(place, "expected exact numbers as strings \"p\" or \"p/q\"");
+  try {
+    return rational_from_string(value.get_ref<const std::string&>());
+  } catch (const std::invalid_argument& error) {
+    fail(place, error.what());
   }
-  return p;
 }
+template <std::size_t n>
+std::array<Rational, n> exact_numbers(const nlohmann::json& value, const std::string& place) {
+  if (array(value, place).size() != n) fail(place, std::string("expected ") + (n == 3 ? "three" : "four") + " numbers");
+  std::array<Rational, n> result;
+  for (std::size_t k = 0; k < n; ++k) result[k] = exact_number(value[k], place);
+  return result;
+}
+inline Exact_point point(const nlohmann::json& value, const std::string& place) { return exact_numbers<3>(value, place); }
 inline std::vector<Exact_point> points(const nlohmann::json& value, const std::string& place) {
   std::vector<Exact_point> result;
   for (const nlohmann::json& p : array(value, place)) result.push_back(point(p, place + '[' + std::to_string(result.size()) + ']'));
@@ -70,6 +75,11 @@ inline std::size_t place(const nlohmann::json& value, std::size_t below, const s
   return number;
 }
 
+inline bool truth(const nlohmann::json& value, const std::string& at) {
+  if (!value.is_boolean()) fail(at, "expected true or false");
+  return value.get<bool>();
+}
+
 /// What every certificate has.
 inline void read_covering(const nlohmann::json& value, Covering& covering) {
   covering.fragments = parts<Order_fragment>(value, "fragments");
@@ -81,6 +91,45 @@ inline void read_covering(const nlohmann::json& value, Covering& covering) {
     if (!why.is_string()) fail(at + ".why", "expected a string");
     covering.set_aside.push_back({number32(member(entry, "face", at), at + ".face"), why.get<std::string>()});
   }
+}
+
+/// The kinds of nodes, by the words that they begin with.
+inline constexpr std::array<std::pair<const char*, Weak_certificate::Node::Kind>, 6> node_words{{{"line", Weak_certificate::Node::Kind::line},
+                                                                                                {"cut source", Weak_certificate::Node::Kind::cut_source},
+                                                                                                {"cut target", Weak_certificate::Node::Kind::cut_target},
+                                                                                                {"blocked", Weak_certificate::Node::Kind::blocked},
+                                                                                                {"empty", Weak_certificate::Node::Kind::empty},
+                                                                                                {"away", Weak_certificate::Node::Kind::away}}};
+
+/// [line, factor] or [line, factor, {"source": form, "target": form}].
+inline Weak_certificate::Term term(const nlohmann::json& value, const Weak_certificate& certificate, const std::string& at) {
+  if (array(value, at).size() != 2 && value.size() != 3) fail(at, "expected [line, factor] or [line, factor, forms]");
+  Weak_certificate::Term result;
+  result.line = place(value[0], certificate.lines.size(), at + "[0]");
+  result.factor = exact_number(value[1], at + "[1]");
+  if (value.size() == 2) return result;
+  if (!value[2].is_object()) fail(at + "[2]", "expected an object");
+  if (value[2].contains("source")) result.source = exact_numbers<4>(value[2]["source"], at + "[2].source");
+  if (value[2].contains("target")) result.target = exact_numbers<4>(value[2]["target"], at + "[2].target");
+  return result;
+}
+
+/// [word], or [word, what it is about].
+inline Weak_certificate::Node node(const nlohmann::json& value, const Weak_certificate& certificate, const std::string& at) {
+  using Kind = Weak_certificate::Node::Kind;
+  if (array(value, at).empty() || !value[0].is_string()) fail(at, "expected an array that begins with a word");
+  const auto found = std::find_if(node_words.begin(), node_words.end(), [&](const auto& known) { return value[0].get_ref<const std::string&>() == known.first; });
+  if (found == node_words.end()) fail(at + "[0]", "expected \"line\", \"cut source\", \"cut target\", \"blocked\", \"empty\" or \"away\"");
+  Weak_certificate::Node result;
+  result.kind = found->second;
+  const std::size_t size = result.kind == Kind::away ? 1 : 2;
+  if (value.size() != size) fail(at, "expected " + std::to_string(size) + (size == 1 ? " entry" : " entries"));
+  if (result.kind == Kind::line) result.index = place(value[1], certificate.lines.size(), at + "[1]");
+  if (result.kind == Kind::blocked) result.index = place(value[1], certificate.fragments.size(), at + "[1]");
+  if (result.kind == Kind::cut_source || result.kind == Kind::cut_target) result.plane = exact_numbers<4>(value[1], at + "[1]");
+  if (result.kind == Kind::empty)
+    for (const nlohmann::json& entry : array(value[1], at + "[1]")) result.terms.push_back(term(entry, certificate, at + "[1][" + std::to_string(result.terms.size()) + ']'));
+  return result;
 }
 
 inline bool has_format(const nlohmann::json& value, const char* format) {
@@ -96,7 +145,12 @@ inline nlohmann::json parse(std::istream& in) {
   }
 }
 
-inline nlohmann::json write(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }
+template <std::size_t n>
+nlohmann::json write(const std::array<Rational, n>& numbers) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const Rational& r : numbers) result.push_back(to_string(r));
+  return result;
+}
 inline nlohmann::json write(const std::vector<Exact_point>& all) {
   nlohmann::json result = nlohmann::json::array();
   for (const Exact_point& p : all) result.push_back(write(p));
@@ -108,6 +162,25 @@ nlohmann::json write(const std::vector<Part>& all) {
   for (const Part& part : all) {
     result.push_back({{"face", part.face}, {"piece", part.piece}, {"vertices", write(part.vertices)}});
   }
+  return result;
+}
+
+inline nlohmann::json write(const Weak_certificate::Node& node) {
+  using Kind = Weak_certificate::Node::Kind;
+  const auto word = std::find_if(node_words.begin(), node_words.end(), [&](const auto& known) { return node.kind == known.second; });
+  nlohmann::json result = nlohmann::json::array({word->first});
+  if (node.kind == Kind::line || node.kind == Kind::blocked) result.push_back(node.index);
+  if (node.kind == Kind::cut_source || node.kind == Kind::cut_target) result.push_back(write(node.plane));
+  if (node.kind != Kind::empty) return result;
+  nlohmann::json terms = nlohmann::json::array();
+  for (const Weak_certificate::Term& term : node.terms) {
+    nlohmann::json& entry = terms.emplace_back(nlohmann::json::array({term.line, to_string(term.factor)}));
+    if (!term.source && !term.target) continue;
+    nlohmann::json& forms = entry.emplace_back(nlohmann::json::object());
+    if (term.source) forms["source"] = write(*term.source);
+    if (term.target) forms["target"] = write(*term.target);
+  }
+  result.push_back(std::move(terms));
   return result;
 }
 
@@ -127,10 +200,7 @@ inline Order_certificate order_certificate_from_json(const nlohmann::json& value
   if (!has_format(value, order_format)) fail("format", std::string("expected \"") + order_format + '"');
   Order_certificate certificate;
   certificate.eye = point(member(value, "eye", "top level"), "eye");
-  if (value.contains("on_view")) {
-    if (!value["on_view"].is_boolean()) fail("on_view", "expected true or false");
-    certificate.on_view = value["on_view"].get<bool>();
-  }
+  if (value.contains("on_view")) certificate.on_view = truth(value["on_view"], "on_view");
   read_covering(value, certificate);
   return certificate;
 }
@@ -171,12 +241,51 @@ inline Visible_certificate visible_certificate_from_json(const nlohmann::json& v
   return certificate;
 }
 
+/// The same for verify_weak(). "two_sided" (false) and "undecided" may be left out too.
+inline Weak_certificate weak_certificate_from_json(const nlohmann::json& value) {
+  using namespace certificate_json;
+  if (!has_format(value, weak_format)) fail("format", std::string("expected \"") + weak_format + '"');
+  Weak_certificate certificate;
+  read_covering(value, certificate);
+  const std::size_t fragments = certificate.fragments.size();
+  for (const nlohmann::json& source : array(member(value, "sources", "top level"), "sources"))
+    certificate.sources.push_back(points(source, "sources[" + std::to_string(certificate.sources.size()) + ']'));
+  const std::size_t sources = certificate.sources.size();
+  if (value.contains("two_sided")) certificate.two_sided = truth(value["two_sided"], "two_sided");
+  for (const nlohmann::json& line : array(member(value, "lines", "top level"), "lines")) {
+    const std::string at = "lines[" + std::to_string(certificate.lines.size()) + ']';
+    if (array(line, at).size() != 2) fail(at, "expected [fragment, corner]");
+    const std::size_t fragment = place(line[0], fragments, at);
+    certificate.lines.push_back({fragment, place(line[1], certificate.fragments[fragment].vertices.size(), at)});
+  }
+  for (const nlohmann::json& entry : array(member(value, "visible", "top level"), "visible")) {
+    const std::string at = "visible[" + std::to_string(certificate.visible.size()) + ']';
+    const std::size_t fragment = place(member(entry, "fragment", at), fragments, at + ".fragment"), source = place(member(entry, "source", at), sources, at + ".source");
+    certificate.visible.push_back({fragment, source, point(member(entry, "from", at), at + ".from"), point(member(entry, "to", at), at + ".to")});
+  }
+  for (const nlohmann::json& entry : array(member(value, "hidden", "top level"), "hidden")) {
+    const std::string at = "hidden[" + std::to_string(certificate.hidden.size()) + ']';
+    auto& hidden = certificate.hidden.emplace_back();
+    hidden.fragment = place(member(entry, "fragment", at), fragments, at + ".fragment");
+    hidden.source = place(member(entry, "source", at), sources, at + ".source");
+    for (const nlohmann::json& part : array(member(entry, "proof", at), at + ".proof"))
+      hidden.proof.push_back(node(part, certificate, at + ".proof[" + std::to_string(hidden.proof.size()) + ']'));
+  }
+  if (!value.contains("undecided")) return certificate;
+  for (const nlohmann::json& face : array(value["undecided"], "undecided"))
+    certificate.undecided.push_back(number32(face, "undecided[" + std::to_string(certificate.undecided.size()) + ']'));
+  return certificate;
+}
+
 /// Reads a certificate from JSON text. Throws std::invalid_argument where the text is not JSON or not a certificate of that kind.
 inline Order_certificate read_order_certificate(std::istream& in) { return order_certificate_from_json(certificate_json::parse(in)); }
 
+using Certificate = std::variant<Order_certificate, Graph_certificate, Visible_certificate, Weak_certificate>;
+
 /// The same for a certificate of whatever kind its "format" says.
-inline std::variant<Order_certificate, Graph_certificate, Visible_certificate> read_certificate(std::istream& in) {
+inline Certificate read_certificate(std::istream& in) {
   const nlohmann::json value = certificate_json::parse(in);
+  if (certificate_json::has_format(value, certificate_json::weak_format)) return weak_certificate_from_json(value);
   if (certificate_json::has_format(value, certificate_json::see_format)) return visible_certificate_from_json(value);
   if (certificate_json::has_format(value, certificate_json::graph_format)) return graph_certificate_from_json(value);
   return order_certificate_from_json(value);
@@ -208,6 +317,26 @@ inline nlohmann::json to_json(const Visible_certificate& certificate) {
   for (const Visible_certificate::Directions& cone : certificate.empty) empty.push_back(write(cone));
   value["eye"] = write(certificate.eye), value["parts"] = std::move(parts), value["empty"] = std::move(empty);
   if (!certificate.field.empty()) value["field"] = write(certificate.field);
+  return value;
+}
+
+/// The same for weak_certificate_from_json(). Pre: each node is of a kind that there is.
+inline nlohmann::json to_json(const Weak_certificate& certificate) {
+  using namespace certificate_json;
+  nlohmann::json value = write(weak_format, certificate);
+  nlohmann::json sources = nlohmann::json::array(), visible = sources, lines = sources, hidden = sources;
+  for (const std::vector<Exact_point>& source : certificate.sources) sources.push_back(write(source));
+  for (const Weak_certificate::Sightline& sightline : certificate.visible)
+    visible.push_back({{"fragment", sightline.fragment}, {"source", sightline.source}, {"from", write(sightline.from)}, {"to", write(sightline.to)}});
+  for (const Weak_certificate::Edge& line : certificate.lines) lines.push_back({line.fragment, line.corner});
+  for (const Weak_certificate::Hidden& entry : certificate.hidden) {
+    nlohmann::json proof = nlohmann::json::array();
+    for (const Weak_certificate::Node& node : entry.proof) proof.push_back(write(node));
+    hidden.push_back({{"fragment", entry.fragment}, {"source", entry.source}, {"proof", std::move(proof)}});
+  }
+  value["sources"] = std::move(sources), value["visible"] = std::move(visible), value["lines"] = std::move(lines), value["hidden"] = std::move(hidden);
+  value["undecided"] = certificate.undecided;
+  if (certificate.two_sided) value["two_sided"] = true;
   return value;
 }
 

@@ -111,6 +111,34 @@ struct Plane {
   int side(const Exact_point& p) const { return sgn(dot(normal, minus(p, origin))); }
 };
 
+/// A point, with a positive last coordinate, or a plane: at a point, positive in front.
+using Homogeneous = std::array<Integer, 4>;
+
+inline Homogeneous homogeneous(const Exact_point& p) {
+  const Integer scale = lcm(lcm(p[0].get_den(), p[1].get_den()), p[2].get_den());
+  Homogeneous h;
+  for (std::size_t k = 0; k < 3; ++k) h[k] = p[k].get_num() * (scale / p[k].get_den());
+  h[3] = scale;
+  return h;
+}
+
+/// Pre: the polygon has area. Post: it runs counterclockwise as seen from the front.
+inline Homogeneous plane_of(const Polygon& polygon) {
+  const Integer_vector normal = newell_normal(polygon);
+  const Rational offset = -dot(normal, polygon[0]);
+  Homogeneous plane;
+  for (std::size_t k = 0; k < 3; ++k) plane[k] = normal[k] * offset.get_den();
+  plane[3] = offset.get_num();
+  return plane;
+}
+
+inline int side(const Homogeneous& plane, const Homogeneous& p) {
+  thread_local Integer sum;
+  mpz_mul(sum.get_mpz_t(), plane[0].get_mpz_t(), p[0].get_mpz_t());
+  for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), plane[k].get_mpz_t(), p[k].get_mpz_t());
+  return sgn(sum);
+}
+
 // ---- Faces and polygons -----------------------------------------------------------------------------------------------------
 
 /// A face of the soup as points: consecutive repetitions dropped, holes turned so that they run against the outer loop.
@@ -320,6 +348,16 @@ struct Rejection {
 
 [[noreturn]] inline void reject(std::string why, std::vector<std::size_t> fragments = {}) { throw Rejection{{false, std::move(why), std::move(fragments)}}; }
 
+/// What a check answers that returns its line on acceptance and throws a Rejection otherwise.
+template <class Check>
+Verdict verdict_of(Check check) {
+  try {
+    return {true, check(), {}};
+  } catch (const Rejection& rejection) {
+    return rejection.verdict;
+  }
+}
+
 inline std::string name(const char* kind, std::size_t number) { return kind + (' ' + std::to_string(number)); }
 
 inline std::string name(const Exact_point& p) {
@@ -328,8 +366,10 @@ inline std::string name(const Exact_point& p) {
   return text.str();
 }
 
-inline bool canonical(const Exact_point& p) {
-  return std::all_of(p.begin(), p.end(), [](const Rational& r) { return sgn(r.get_den()) > 0 && gcd(r.get_num(), r.get_den()) == 1; });
+inline bool canonical(const Rational& r) { return sgn(r.get_den()) > 0 && gcd(r.get_num(), r.get_den()) == 1; }
+template <std::size_t n>
+bool canonical(const std::array<Rational, n>& all) {
+  return std::all_of(all.begin(), all.end(), [](const Rational& r) { return canonical(r); });
 }
 inline bool canonical(const Polygon& polygon) { return std::all_of(polygon.begin(), polygon.end(), [](const Exact_point& p) { return canonical(p); }); }
 

@@ -23,34 +23,17 @@ namespace graph_check {
 
 using namespace certificate_check;
 
-using Homogeneous = std::array<Integer, 4>;
-
-/// A polygon's corners with positive last coordinate, and its plane: value > 0 in front.
+/// A polygon's corners and its plane.
 struct Oriented_face {
   std::vector<Homogeneous> corners;
   Homogeneous plane;
 
-  explicit Oriented_face(const Polygon& polygon) {
-    for (const Exact_point& p : polygon) {
-      const Integer scale = lcm(lcm(p[0].get_den(), p[1].get_den()), p[2].get_den());
-      Homogeneous& h = corners.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) h[k] = p[k].get_num() * (scale / p[k].get_den());
-      h[3] = scale;
-    }
-    const Integer_vector normal = newell_normal(polygon);
-    const Rational offset = -dot(normal, polygon[0]);
-    for (std::size_t k = 0; k < 3; ++k) plane[k] = normal[k] * offset.get_den();
-    plane[3] = offset.get_num();
+  explicit Oriented_face(const Polygon& polygon) : plane(plane_of(polygon)) {
+    for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
   }
 
-  int side(const Homogeneous& p) const {
-    thread_local Integer sum;
-    mpz_mul(sum.get_mpz_t(), plane[0].get_mpz_t(), p[0].get_mpz_t());
-    for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), plane[k].get_mpz_t(), p[k].get_mpz_t());
-    return sgn(sum);
-  }
   bool has_corner(int side_of, const Oriented_face& other) const {
-    return std::any_of(corners.begin(), corners.end(), [&](const Homogeneous& p) { return other.side(p) == side_of; });
+    return std::any_of(corners.begin(), corners.end(), [&](const Homogeneous& p) { return side(other.plane, p) == side_of; });
   }
 };
 
@@ -95,9 +78,9 @@ inline void check(const Polygon_soup& soup, const Graph_certificate& certificate
     if (arc.from >= n || arc.to >= n || arc.corner_from >= faces[arc.from].corners.size() || arc.corner_to >= faces[arc.to].corners.size())
       reject(name("arc", k) + " names something that is not there");
     if (component[arc.from] != component[arc.to]) reject(name("arc", k) + " leaves its component", {arc.from, arc.to});
-    if (faces[arc.to].side(faces[arc.from].corners[arc.corner_from]) <= 0)
+    if (side(faces[arc.to].plane, faces[arc.from].corners[arc.corner_from]) <= 0)
       reject(name("arc", k) + ": the corner of " + name("fragment", arc.from) + " is not in front of " + name("fragment", arc.to), {arc.from, arc.to});
-    if (faces[arc.from].side(faces[arc.to].corners[arc.corner_to]) >= 0)
+    if (side(faces[arc.from].plane, faces[arc.to].corners[arc.corner_to]) >= 0)
       reject(name("arc", k) + ": the corner of " + name("fragment", arc.to) + " is not behind " + name("fragment", arc.from), {arc.from, arc.to});
     forth[arc.from].push_back(arc.to), back[arc.to].push_back(arc.from);
   }
@@ -126,12 +109,10 @@ inline void check(const Polygon_soup& soup, const Graph_certificate& certificate
 /// the scene (as for orders); (2) the arcs hold, by their corners, and join each component both ways; (3) no fragment may obscure one of an earlier component.
 /// Degenerate: as the relation (algorithms/priority/relation.h). Cost: quadratic in the fragments. Exact: yes, without filters. Proof: P-21, P-22, P-34
 inline Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options = {}) {
-  try {
+  return certificate_check::verdict_of([&] {
     graph_check::check(soup, certificate, options);
-  } catch (const certificate_check::Rejection& rejection) {
-    return rejection.verdict;
-  }
-  return {true, std::to_string(certificate.sizes.size()) + " strongly connected components of " + std::to_string(certificate.fragments.size()) + " faces in order of priority", {}};
+    return std::to_string(certificate.sizes.size()) + " strongly connected components of " + std::to_string(certificate.fragments.size()) + " faces in order of priority";
+  });
 }
 
 }  // namespace sightline

@@ -204,12 +204,10 @@ inline void check(const Polygon_soup& soup, const Order_certificate& certificate
 /// Cost: about O(n log n) for n fragments and the pairs that overlap, each in the product of their corners at most; quadratic at worst; a set-aside "self-intersecting" face is
 /// quadratic in its corners. Exact: yes, without filters. Proof: P-20, P-21, P-22
 inline Verdict verify_order(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options = {}) {
-  try {
+  return certificate_check::verdict_of([&] {
     order_check::check(soup, certificate, options);
-  } catch (const order_check::Rejection& rejection) {
-    return rejection.verdict;
-  }
-  return {true, std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every " + (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason", {}};
+    return std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every " + (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason";
+  });
 }
 
 }  // namespace sightline

@@ -212,13 +212,11 @@ inline void check(const Polygon_soup& soup, const Visible_certificate& certifica
 /// their plane) are passed over and have no parts; contact in an edge or a point is no overlap; T-junctions of cones are welcome. Pre: none on the certificate; rejects
 /// whatever is wrong with it. Post: `why` is one line. Cost: about O(n log n) for n parts, empty cones and fragments, and the pairs that overlap; quadratic at worst. Exact: yes, without filters. Proof: P-63
 inline Verdict verify_visible(const Polygon_soup& soup, const Visible_certificate& certificate, const Verify_options& options = {}) {
-  try {
+  return certificate_check::verdict_of([&] {
     visible_check::check(soup, certificate, options);
-  } catch (const certificate_check::Rejection& rejection) {
-    return rejection.verdict;
-  }
-  const std::string counts = std::to_string(certificate.parts.size()) + " visible parts and " + std::to_string(certificate.empty.size()) + " empty cones";
-  return {true, counts + " tile " + (certificate.field.empty() ? "all directions" : "the field") + ", every face counted or set aside for a true reason", {}};
+    const std::string counts = std::to_string(certificate.parts.size()) + " visible parts and " + std::to_string(certificate.empty.size()) + " empty cones";
+    return counts + " tile " + (certificate.field.empty() ? "all directions" : "the field") + ", every face counted or set aside for a true reason";
+  });
 }
 
 }  // namespace sightline

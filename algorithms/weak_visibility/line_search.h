@@ -231,8 +231,8 @@ class Line_search {
   // ---- A cell ---------------------------------------------------------------------------------------------------------------
 
   static constexpr std::size_t deepest = 1000;
-  static constexpr int special_after = 3;
-  static constexpr int forms_after = 2;  // polygons made smaller, before proofs of degree two are tried
+  // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many nothing.
+  static constexpr int forms_after = 2, special_after = 3, smallest = 80;
 
   Refutation refute(std::uint32_t d, std::size_t depth) {
     counters_->deepest = std::max(counters_->deepest, depth);
@@ -304,6 +304,7 @@ class Line_search {
   /// A cell with neither a line nor a proof: its polygons are too large for what is left of it. First cuts off what the relaxation shows to hold none of its
   /// lines, edge by edge; if that is little, halves the longer one of the two polygons.
   Refutation narrow(std::uint32_t d, std::size_t depth) {
+    if (domains_[d]->narrowed > smallest) return open();
     if (domains_[d]->narrowed >= special_after) {
       Near_plane plane;
       for (const bool source : {true, false})
@@ -665,7 +666,7 @@ class Line_search {
       most = 0;
       for (std::size_t c = 0; c < r.values.size(); ++c) {
         const Integer weight = domain.source[c / domain.target.size()].exact[3] * domain.target[c % domain.target.size()].exact[3];
-        r.values[c] = occluders_->frame().near_cubic(dot(exact_pair_of(domain, c), line.exact), weight);
+        r.values[c] = nearest_double(occluders_->frame().near_cubic(dot(exact_pair_of(domain, c), line.exact), weight));
         most = std::max(most, std::fabs(r.values[c]));
       }
       r.error = 0x1p-52 * most + 0x1p-1060;
@@ -715,7 +716,8 @@ class Line_search {
     }
     ++counters_->programs;
     const double value = game_.solve();
-    if (value < 1e-9 && conclude_from_game(d, ended)) return Look::ended;
+    Relaxation relaxation = Relaxation::unclear;
+    if (value < thin && (relaxation = conclude_from_game(d, ended)) == Relaxation::empty) return Look::ended;
 
     // From its weights, or a pair of vertices that has some, to a line: the best end for a fixed other end, in turn.
     std::vector<Weights> starts(1, Weights{std::vector<double>(m, 0), std::vector<double>(n, 0), {}, {}});
@@ -738,17 +740,24 @@ class Line_search {
       if (alternate(domain, line)) return Look::found;
     }
     if (conclude_at_corner(d, ended)) return Look::ended;
-    if (value < thin) {
-      if (solve_relaxation_exactly(d, ended)) return Look::ended;
+    const bool worth_it = is_worth_it(domain.narrowed);
+    if (value < thin && (worth_it || domain.narrowed < forms_after)) {
+      if (relaxation == Relaxation::unclear && solve_relaxation_exactly(d, ended)) return Look::ended;
       for (std::size_t c = 0; c < std::min<std::size_t>(2, starts.size()); ++c) {
         line = starts[c];
         if (alternate_exactly(domain, line)) return Look::found;
       }
     }
-    if (domain.narrowed >= forms_after && (conclude_by_forms(d, true, ended) || conclude_by_forms(d, false, ended))) return Look::ended;
+    if (worth_it && (conclude_by_forms(d, true, ended) || conclude_by_forms(d, false, ended))) return Look::ended;
     return Look::unclear;
   }
 
+  /// Dear proofs are tried again only once the polygons have become much smaller: after 2, 3, 5, 8, ... steps.
+  static bool is_worth_it(int narrowed) {
+    int last = 1, next = forms_after;
+    while (next < narrowed) last = std::exchange(next, next + last);
+    return next == narrowed;
+  }
   static constexpr double thin = 1e-8;  // what doubles leave to exact programs
 
   /// The relaxation in rationals: a proof that there is no line, where its value is not positive.
@@ -780,26 +789,41 @@ class Line_search {
     for (int round = 0; round < 4; ++round) {
       const bool source = round % 2 == 0;
       const std::size_t own = source ? m : n;
+      // The values of the other end's weights, exactly; rounded, a game in doubles; its basis, exactly.
       ++counters_->exact_programs;
-      exact_game_.restart(own);
+      std::vector<std::vector<Rational>> rows(rows_.size(), std::vector<Rational>(own));
+      small_.restart(own);
       for (std::size_t k = 0; k < rows_.size(); ++k) {
-        const std::span<Rational> values = exact_game_.add_row();
+        Rational most;
         for (std::size_t i = 0; i < m; ++i)
-          for (std::size_t j = 0; j < n; ++j) values[source ? i : j] += (source ? line.exact_target[j] : line.exact_source[i]) * exact_value(domain, k, i * n + j);
+          for (std::size_t j = 0; j < n; ++j) rows[k][source ? i : j] += (source ? line.exact_target[j] : line.exact_source[i]) * exact_value(domain, k, i * n + j);
+        for (const Rational& v : rows[k]) most = std::max(most, Rational(abs(v)));
+        const std::span<double> values = small_.add_row();
+        for (std::size_t c = 0; c < own; ++c) {
+          if (sgn(most) != 0) rows[k][c] /= most;
+          values[c] = nearest_double(rows[k][c]);
+        }
       }
-      const Rational value = exact_game_.solve();
-      std::vector<Rational>& weights = source ? line.exact_source : line.exact_target;
-      weights.assign(exact_game_.column_weights().begin(), exact_game_.column_weights().end());
+      small_.solve();
+      std::vector<Rational> solved, weights(own);
+      Rational value;
+      const std::vector<std::size_t>& columns = small_.tight_columns();
+      if (!solve_exactly(columns, small_.tight_rows(), [&](std::size_t c, std::size_t k) { return rows[k][c]; }, solved, value)) return false;
+      for (std::size_t c = 0; c < columns.size(); ++c) {
+        if (sgn(solved[c]) < 0) return false;
+        weights[columns[c]] = solved[c];
+      }
+      Rational least = 1;  // of the means of rows
+      for (const std::vector<Rational>& row : rows) {
+        Rational sum, mean;
+        for (std::size_t c = 0; c < own; ++c) sum += weights[c] * row[c], mean += row[c] / static_cast<long>(own);
+        value = std::min(value, sum), least = std::min(least, mean);
+      }
+      (source ? line.exact_source : line.exact_target) = weights;
       if (sgn(value) <= 0) continue;
-      // Both ends off the boundaries, by steps that keep half of the margin: of this end by the margin, of the other one by what its weights can lose.
-      Rational least = 1;
-      for (std::size_t k = 0; k < exact_game_.rows(); ++k) {
-        Rational sum;
-        for (const Rational& v : exact_game_.row(k)) sum += v;
-        least = std::min(least, Rational(sum / static_cast<long>(own)));
-      }
-      const Rational step = least >= value ? Rational(1, 2) : Rational(value / (4 * (value - least)));
-      for (Rational& w : weights) w = (1 - step) * w + step / static_cast<long>(own);
+      // This end off the polygon's boundary, by a step that keeps half of the margin.
+      const Rational half(1, 2), step = least >= value / 2 ? half : std::min(half, Rational(value / (4 * (value - least))));
+      for (Rational& w : source ? line.exact_source : line.exact_target) w = (1 - step) * w + step / static_cast<long>(own);
       return make_positive(domain, line, source);
     }
     return false;
@@ -926,9 +950,11 @@ class Line_search {
     return leaf({Weak_step::Kind::empty, 0, {}, std::move(lemma.terms)}, used);
   }
 
-  bool conclude_from_game(std::uint32_t d, Refutation& ended) {
+  enum class Relaxation { empty, has_room, unclear };
+
+  Relaxation conclude_from_game(std::uint32_t d, Refutation& ended) {
     Domain& domain = *domains_[d];
-    // 1. The weights as they are: by doubles, with their errors, and by integers where these do not tell.
+    // 1. The weights as they are: by doubles, with their errors.
     std::vector<Weighted> proposal;
     for (std::size_t k = 0; k < rows_.size(); ++k)
       if (const double w = game_.row_weights()[k]; w > 1e-13) proposal.push_back({k, w, {}});
@@ -936,23 +962,25 @@ class Line_search {
       std::vector<Multiplier> multipliers;
       for (const Weighted& w : proposal) multipliers.push_back({rows_[w.row].place, factor_of(w.row, exact(w.near)), {}, {}});
       ended = conclude(d, multipliers);
-      return true;
+      return Relaxation::empty;
     }
     // 2. The exact solution for the basis that doubles ended with.
     ++counters_->exact_programs;
     const std::vector<std::size_t>&rows = game_.tight_rows(), &columns = game_.tight_columns();
     std::vector<Rational> weights;
-    if (!solve_exactly(rows, columns, [&](std::size_t k, std::size_t c) { return exact_value(domain, k, c); }, weights)) return false;
+    Rational value;
+    if (!solve_exactly(rows, columns, [&](std::size_t k, std::size_t c) { return exact_value(domain, k, c); }, weights, value)) return Relaxation::unclear;
     std::vector<Weighted> kept;
     for (std::size_t k = 0; k < rows.size(); ++k) {
-      if (sgn(weights[k]) < 0) return false;
+      if (sgn(weights[k]) < 0) return Relaxation::unclear;
       if (sgn(weights[k]) > 0) kept.push_back({rows[k], 0, weights[k]});
     }
-    if (kept.empty() || !is_proof(domain, kept)) return false;
+    if (sgn(value) > 0) return Relaxation::has_room;
+    if (kept.empty() || !is_proof(domain, kept)) return Relaxation::unclear;
     std::vector<Multiplier> multipliers;
     for (const Weighted& w : kept) multipliers.push_back({rows_[w.row].place, factor_of(w.row, w.exact), {}, {}});
     ended = conclude(d, multipliers);
-    return true;
+    return Relaxation::empty;
   }
 
   /// Three lines through a point v, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3 with forms c in p, and as p, v and the line are in one plane, c1 h1 + c2 h2 +
@@ -1055,7 +1083,7 @@ class Line_search {
     }
     ++counters_->form_programs;
     const double result = wide_.solve();
-    if (result > 1e-9) return false;
+    if (result > 1e-12) return false;
     // 3. Exact weights: those of the basis, or, where there is room, these very doubles.
     const auto coefficient = [&](std::size_t row, std::size_t column) {
       const std::size_t a = row / rows_.size(), k = row % rows_.size(), j = column % other.size();
@@ -1064,13 +1092,14 @@ class Line_search {
       return Rational(heights[a][i] * exact_value(domain, k, pair_of(i + rest, j)) + heights[a][i + rest] * exact_value(domain, k, pair_of(i, j)));
     };
     std::vector<std::pair<std::size_t, Rational>> weights;
-    if (result < -1e-7) {
+    if (result < -1e-11) {
       for (std::size_t k = 0; k < wide_.rows(); ++k)
         if (wide_.row_weights()[k] > 1e-10) weights.push_back({k, exact(wide_.row_weights()[k]) / *std::max_element(heights[k / rows_.size()].begin(), heights[k / rows_.size()].end())});
     } else {
       const std::vector<std::size_t>&rows = wide_.tight_rows(), &tight = wide_.tight_columns();
       std::vector<Rational> solved;
-      if (!solve_exactly(rows, tight, coefficient, solved)) return false;
+      Rational exact_result;
+      if (!solve_exactly(rows, tight, coefficient, solved, exact_result)) return false;
       for (std::size_t k = 0; k < rows.size(); ++k) {
         if (sgn(solved[k]) < 0) return false;
         if (sgn(solved[k]) > 0) weights.push_back({rows[k], solved[k]});
@@ -1141,8 +1170,7 @@ class Line_search {
   Rational exact_value(Domain& domain, std::size_t row, std::size_t c) const {
     const Literal& literal = path_[rows_[row].place];
     const std::size_t n = domain.target.size();
-    Rational v(dot(exact_pair_of(domain, c), lines_[literal.line].exact), domain.source[c / n].exact[3] * domain.target[c % n].exact[3]);
-    v.canonicalize();
+    const Rational v = occluders_->frame().near_cubic(dot(exact_pair_of(domain, c), lines_[literal.line].exact), domain.source[c / n].exact[3] * domain.target[c % n].exact[3]);
     return factor_of(row, literal.sign > 0 ? v : Rational(-v));
   }
   bool is_proof(Domain& domain, const std::vector<Weighted>& weights) const {
@@ -1155,9 +1183,9 @@ class Line_search {
   }
   /// Weights with sum 1 that give the same value in all of the columns: a square system.
   template <class Entry>
-  static bool solve_exactly(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry, std::vector<Rational>& weights) {
+  static bool solve_exactly(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry, std::vector<Rational>& weights, Rational& value) {
     const std::size_t n = rows.size() + 1;
-    if (columns.size() != rows.size() || n > 24) return false;
+    if (columns.size() != rows.size() || n > 17) return false;
     std::vector<std::vector<Rational>> a(n, std::vector<Rational>(n + 1));
     for (std::size_t i = 0; i + 1 < n; ++i) {
       for (std::size_t k = 0; k + 1 < n; ++k) a[i][k] = entry(rows[k], columns[i]);
@@ -1178,6 +1206,7 @@ class Line_search {
     }
     weights.clear();
     for (std::size_t k = 0; k + 1 < n; ++k) weights.push_back(a[k][n] / a[k][k]);
+    value = a[n - 1][n] / a[n - 1][n - 1];
     return true;
   }
 
@@ -1187,7 +1216,7 @@ class Line_search {
   std::optional<std::uint32_t> confirm(const Domain& domain, const Weights& line) {
     std::optional<std::uint32_t> blocker;
     const auto is_free = [&](const Near_point& p, const Near_point& q) {
-      if (blocker = occluders_->blocker(p, q); blocker) return false;
+      if (blocker = occluders_->blocker(p, q, *source_plane_, occluders_->plane(target_)); blocker) return false;
       ++counters_->confirmed;
       sightline_ = {p, q};
       return true;

@@ -20,12 +20,12 @@ class Near_frame {
     return nearest_double(value);
   }
   double near(const Scene& scene, std::uint32_t point, int axis) const { return std::ldexp(scene.points().approximate(point, axis), -exponent_); }
-  /// A form of degree three in coordinates of the grid, over w, as it would be in near ones; within a relative 2^-53.
-  double near_cubic(const Integer& p, const Integer& w) const {
-    Rational value(p, w * divisor_ * divisor_ * divisor_);
+  /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
+  Rational near_cubic(const Integer& p, const Integer& w) const {
+    Rational value(p, divisor_ == 1 ? w : Integer(w * divisor_ * divisor_ * divisor_));
     value.canonicalize();
     mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(3 * shift_));
-    return nearest_double(value);
+    return value;
   }
   /// What a plane's last coefficient is multiplied by less than the others.
   Rational unit() const {

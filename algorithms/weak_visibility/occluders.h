@@ -65,9 +65,10 @@ class Occluders {
     return found;
   }
 
-  /// A piece that the open segment from p to q meets, if there is one: of its closed polygon. A segment within a piece's plane counts as meeting it where their
-  /// boxes meet, so that "none" is certain, and "this one" is but for such planes. Exact: yes.
-  std::optional<std::uint32_t> blocker(const Near_point& p, const Near_point& q) const {
+  /// A closed piece that the closed segment from p to q meets, if there is one, other than those in the plane of the polygon that p or q is inside of: those meet
+  /// only that end, also of all segments near this one. A segment within a piece's plane counts as meeting it where their boxes meet. So where there is none,
+  /// all segments near this one are free; where there is one, that is certain but for such planes. Exact: yes.
+  std::optional<std::uint32_t> blocker(const Near_point& p, const Near_point& q, const Near_plane& of_p, const Near_plane& of_q) const {
     const Exact_six pair = exact_pair(p.exact, q.exact);
     const Six numbers = pair_numbers(p.near, q.near);
     const double to_boxes = frame_.to_boxes();
@@ -84,7 +85,7 @@ class Occluders {
         if (box.low[k] > around.high[k] || box.high[k] < around.low[k]) return false;
       return !misses(box, p.near, q.near, to_boxes);
     }, [&](std::uint32_t piece) {
-      if (!found && meets(piece, p, q, pair, numbers)) found = piece;
+      if (!found && meets(piece, p, q, of_p, of_q, pair, numbers)) found = piece;
     });
     return found;
   }
@@ -162,10 +163,18 @@ class Occluders {
     return false;
   }
 
-  bool meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Exact_six& pair, const Six& numbers) const {
-    const int from = side(planes_[piece], p), to = side(planes_[piece], q);
-    if (from == 0 && to == 0) return true;  // not looked at further
-    if (from * to >= 0) return false;       // one end on the plane is no inner point
+  static bool same_plane(const Near_plane& g, const Near_plane& h) {
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t k = i + 1; k < 4; ++k)
+        if (g.exact[i] * h.exact[k] != g.exact[k] * h.exact[i]) return false;
+    return true;
+  }
+  bool meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Near_plane& of_p, const Near_plane& of_q, const Exact_six& pair, const Six& numbers) const {
+    const int at_p = side(planes_[piece], p), at_q = side(planes_[piece], q);
+    if (at_p == 0 && at_q == 0) return true;  // not looked at further
+    if (at_p * at_q > 0) return false;
+    if ((at_p == 0 && same_plane(planes_[piece], of_p)) || (at_q == 0 && same_plane(planes_[piece], of_q))) return false;
+    const int from = at_p != 0 ? at_p : -at_q;
     const double ps = size_of(p), qs = size_of(q);
     const std::span<const Triple> polygon = corners(piece);
     for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -144,4 +144,21 @@ TEST_F(Certificates, pieces_of_a_cut_face_that_are_changed_are_rejected) {
   expect_rejected_after(scene, made, [](Json& c) { std::swap(c["pieces"][0]["vertices"], c["pieces"][1]["vertices"]); });
 }
 
+TEST_F(Certificates, of_what_polygons_can_see_are_verified) {
+  // A square that looks down on the source, and a roof between the two.
+  const std::string scene = file("roof.off", "OFF\n8 2 0\n0 1 3\n1 1 3\n1 0 3\n0 0 3\n-5 -5 1\n6 -5 1\n6 6 1\n-5 6 1\n4 0 1 2 3\n4 4 5 6 7\n");
+  const Json made = Json::parse(R"({"format": "sightline weak 1",
+    "fragments": [{"face": 0, "piece": 0, "vertices": [["0","1","3"],["1","1","3"],["1","0","3"],["0","0","3"]]}, {"face": 1, "piece": 0, "vertices": [["-5","-5","1"],["6","-5","1"],["6","6","1"],["-5","6","1"]]}],
+    "sources": [[["0","0","0"],["1","0","0"],["1","1","0"],["0","1","0"]]], "visible": [], "lines": [],
+    "hidden": [{"fragment": 0, "source": 0, "proof": [["blocked", 1]]}, {"fragment": 1, "source": 0, "proof": [["away"]]}]})");
+  expect_accepted(scene, made);
+  EXPECT_NE(expect_rejected_after(scene, made, [](Json& c) { c["two_sided"] = true; }).find("hidden 1 (face 1), node 0 is not away"), std::string::npos);
+  EXPECT_NE(expect_rejected_after(scene, made, [](Json& c) { c["hidden"][0]["proof"][0][1] = 0; }).find("hidden 0 (face 0), node 0 is not blocked by fragment 0"), std::string::npos);
+  Json unread = made;
+  unread["hidden"][0]["proof"][0][1] = 2;
+  const Outcome r = verify(scene, unread);
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_NE(r.err.find("hidden[0].proof[0][1]: expected a number below 2"), std::string::npos) << r;
+}
+
 }  // namespace program

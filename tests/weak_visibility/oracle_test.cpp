@@ -193,6 +193,10 @@ TEST(Weak_oracle_law, is_open_one_sided_and_knows_coplanar_faces) {
     scene.soup = test_scenes::soup_of(faces);
     return scene;
   };
+  const auto low_end = [](Weak_scene scene) {
+    scene.source = rectangle(0, 2, -1, 0, 0);
+    return scene;
+  };
   const std::vector<Case> cases{{"floor and wall", corner_of_a_room({}), Truth::visible},
                                 {"the floor looks down", turned(corner_of_a_room({})), Truth::hidden},
                                 {"the wall looks away", to_the_back(corner_of_a_room({})), Truth::hidden},
@@ -207,6 +211,9 @@ TEST(Weak_oracle_law, is_open_one_sided_and_knows_coplanar_faces) {
                                 {"a fence at its far edge", corner_of_a_room({fence(2)}), Truth::visible},
                                 {"a fence just before the wall", corner_of_a_room({fence(tiny())}), Truth::hardly_visible},
                                 {"an L-shaped wall, partly behind lids", l_shaped_wall({rectangle(-3, 3, -3, 3, 1), rectangle(-3, 3, -3, ratio(1, 2), ratio(1, 2))}), Truth::visible},
+                                // Whichever its two pieces are, in one of these cases only the first one is in sight, in another only the second.
+                                {"the top of an L-shaped wall above a screen", l_shaped_wall({{at(0, -3, 0), at(0, 3, 0), at(ratio(1, 4), 3, 1), at(ratio(1, 4), -3, 1)}}), Truth::visible},
+                                {"the low end of an L-shaped wall beside a partition", low_end(l_shaped_wall({{at(0, 0, 0), at(2, 0, 0), at(2, 0, 2), at(0, 0, 2)}})), Truth::visible},
                                 {"an L-shaped wall behind the plate", l_shaped_wall({fence(0), rectangle(0, 2, -1, 1, 3), diagonal}), Truth::hidden}};
   for (const Case& c : cases) {
     const bool ray = find_sightline(c.scene, 0, 200, 1).has_value();
@@ -268,7 +275,9 @@ TEST(Weak_oracle_z3, says_of_single_pairs_what_exact_segments_say) {
       answers >> answer;
       const bool proof = proves_visible(flats, scene.source, target, pair);
       ASSERT_TRUE(answer == "sat" || answer == "unsat") << answer;
-      const bool in_a_plane = std::any_of(flats.begin(), flats.end(), [&](const Flat& flat) { return sgn(flat.height(pair.p)) == 0 || (sgn(flat.height(pair.q)) == 0 && flat.face != target); });
+      const bool in_a_plane = std::any_of(flats.begin(), flats.end(), [&](const Flat& flat) {
+        return sgn(flat.height(pair.p)) == 0 || (sgn(flat.height(pair.q)) == 0 && flat.face != target);
+      });
       EXPECT_TRUE(proof || answer == "unsat") << scene.name;
       EXPECT_TRUE(!proof || in_a_plane || answer == "sat") << scene.name;
       ++(proof ? free : blocked), degenerate += in_a_plane;

@@ -1,7 +1,7 @@
 #pragma once
 // Weak visibility with a known answer: source in z = 0, target in z = 1, convex occluders between in planes z = constant. A line is the pair (a, b) of its points at z = 0
 // and z = 1; at height z it is at (1 - z) a + z b. So the lines that an occluder blocks are a convex polytope in R^4, and the target is visible iff such polytopes do not
-// cover the polytope of all lines from source to target up to measure zero. `project` (scenes.h) makes edges skew and planes cross, and keeps the truth.
+// cover the polytope of all lines from source to target up to measure zero. `project` (scene.h) makes edges skew and planes cross, and keeps the truth.
 
 #include "rays.h"
 

@@ -31,7 +31,8 @@ struct Frame {
   std::array<Exact_point, 3> source, target;
 };
 
-/// Twice the area, six times the volume: positive iff d is on the side from which a, b, c run clockwise.
+/// Six times a volume: positive iff d is on the side from which a, b, c run counterclockwise. Of (p, q, a, b) it is bilinear in p and q, and positive where the line
+/// passes outside the edge (a, b) of a polygon that p is in front of and q is not.
 inline Rational orient(const Exact_point& a, const Exact_point& b, const Exact_point& c, const Exact_point& d) { return dot(minus(b, a), cross(minus(c, a), minus(d, a))); }
 
 inline Form side_of_line(const Frame& frame, const Exact_point& a, const Exact_point& b) {
@@ -55,7 +56,8 @@ inline Form height_of_q(const Frame& frame, const Half_space& plane) {
 /// SMT-LIB 2 for the sentence "this piece is visible", without a question, and whether it is linear: that it is where all planes are parallel.
 class Sentence {
  public:
-  Sentence(const Flats& flats, const Points& source, const Flat& piece) : frame_{{source[0], source[1], source[2]}, {piece.corners[0], piece.corners[1], piece.corners[2]}} {
+  Sentence(const Flats& flats, const Points& source, const Flat& piece)
+      : frame_{{source[0], source[1], source[2]}, {piece.corners[0], piece.corners[1], piece.corners[2]}} {
     const Half_space from = plane_of(source);
     for (const Half_space& wall : oracle::walls(source, from.normal)) claim(positive(height_of_p(frame_, wall)));
     for (const Half_space& wall : oracle::walls(piece.corners, piece.plane.normal)) claim(positive(height_of_q(frame_, wall)));
