@@ -85,7 +85,7 @@ class Event_lines {
 
   /// `beside`: the side of the target's plane, 1 or -1, on which the source is. Pieces come first that are large.
   Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane, const Near_polygon& target, const Near_plane& target_plane, int beside)
-      : source_(source), target_(target), source_plane_(source_plane.exact), target_plane_(target_plane.exact), beside_(beside) {
+      : source_(source), target_(target), near_source_plane_(source_plane), near_target_plane_(target_plane), beside_(beside) {
     for (std::size_t i = 0; i < source.size(); ++i) from_.push_back({edge(source[i].exact, source[(i + 1) % source.size()].exact), 0});
     for (std::size_t i = 0; i < target.size(); ++i) to_.push_back({edge(target[i].exact, target[(i + 1) % target.size()].exact), 0});
     for (std::size_t i = 0; i < from_.size(); ++i) from_[i].sense = -sense_of(source[i].exact, source[(i + 1) % source.size()].exact, from_[i].line);
@@ -95,13 +95,15 @@ class Event_lines {
     std::sort(by_size.begin(), by_size.end());
     for (const auto& [size, piece] : by_size) add_piece(occluders, piece);
     for (Line& line : lines_)
-      if (line.in_source && sgn(dot(target_plane_, line.hull[0])) == 0 && sgn(dot(target_plane_, line.hull[1])) == 0) line.real = false;
+      if (line.in_source && sgn(dot(target_plane.exact, line.hull[0])) == 0 && sgn(dot(target_plane.exact, line.hull[1])) == 0) line.real = false;
   }
 
   const Near_polygon& source() const { return source_; }
-  const Homogeneous& source_plane() const { return source_plane_; }
-  const Homogeneous& target_plane() const { return target_plane_; }
   const Near_polygon& target() const { return target_; }
+  const Near_plane& near_source_plane() const { return near_source_plane_; }
+  const Near_plane& near_target_plane() const { return near_target_plane_; }
+  const Homogeneous& source_plane() const { return near_source_plane_.exact; }
+  const Homogeneous& target_plane() const { return near_target_plane_.exact; }
   int beside() const { return beside_; }
   const std::vector<Line>& lines() const { return lines_; }
   const std::vector<Literal>& from() const { return from_; }  ///< hold iff a line leaves through the source
@@ -138,7 +140,7 @@ class Event_lines {
     const auto [at, is_new] = numbers_.try_emplace(six, static_cast<std::uint32_t>(lines_.size()));
     if (is_new) {
       lines_.push_back({six, false, false, {}});
-      lines_.back().in_source = all_zero(meet(source_plane_, six));
+      lines_.back().in_source = all_zero(meet(source_plane(), six));
     }
     return at->second;
   }
@@ -159,7 +161,7 @@ class Event_lines {
   }
   /// Whether both points are behind the source, or both beyond the target.
   bool is_outside(const Homogeneous& a, const Homogeneous& b) const {
-    return (sgn(dot(source_plane_, a)) < 0 && sgn(dot(source_plane_, b)) < 0) || (sgn(dot(target_plane_, a)) * beside_ < 0 && sgn(dot(target_plane_, b)) * beside_ < 0);
+    return (sgn(dot(source_plane(), a)) < 0 && sgn(dot(source_plane(), b)) < 0) || (sgn(dot(target_plane(), a)) * beside_ < 0 && sgn(dot(target_plane(), b)) * beside_ < 0);
   }
   /// The side of a plane on which a polygon is, 0 where it is in the plane, 2 where it is on both sides.
   static int position(const Homogeneous& h, const Near_polygon& polygon) {
@@ -205,12 +207,12 @@ class Event_lines {
     // p in front of it where its trace on the source says so, and q the same.
     Literal p_in_front{0, 0}, q_in_front{0, 0};
     if (source_at == 2) {
-      const std::uint32_t number = trace(corners, plane, source_plane_);
-      p_in_front = {number, sgn(side(join(in_front(plane, source_, 1), in_front(source_plane_, target_, 1)), lines_[number].six))};
+      const std::uint32_t number = trace(corners, plane, source_plane());
+      p_in_front = {number, sgn(side(join(in_front(plane, source_, 1), in_front(source_plane(), target_, 1)), lines_[number].six))};
     }
     if (target_at == 2) {
-      const std::uint32_t number = trace(corners, plane, target_plane_);
-      q_in_front = {number, sgn(side(join(in_front(target_plane_, source_, beside_), in_front(plane, target_, 1)), lines_[number].six))};
+      const std::uint32_t number = trace(corners, plane, target_plane());
+      q_in_front = {number, sgn(side(join(in_front(target_plane(), source_, beside_), in_front(plane, target_, 1)), lines_[number].six))};
     }
     for (const int sense : {1, -1}) {  // p in front and q behind, then the other way round
       if (source_at == -sense || target_at == sense) continue;
@@ -223,7 +225,7 @@ class Event_lines {
   }
 
   Near_polygon source_, target_;
-  Homogeneous source_plane_, target_plane_;
+  Near_plane near_source_plane_, near_target_plane_;
   int beside_;
   std::map<Exact_six, std::uint32_t, Less_entries> numbers_;
   std::vector<Line> lines_;

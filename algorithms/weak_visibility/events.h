@@ -482,7 +482,7 @@ class Event_search {
       if (!std::all_of(scene_->from().begin(), scene_->from().end(), holds) || !std::all_of(scene_->to().begin(), scene_->to().end(), holds)) continue;
       if (sgn(dot(scene_->source_plane(), q)) <= 0) continue;
       answer_.sightline = {near_point(occluders_->frame(), p), near_point(occluders_->frame(), q)};
-      if (occluders_->blocker(answer_.sightline[0], answer_.sightline[1])) continue;
+      if (occluders_->blocker(answer_.sightline[0], answer_.sightline[1], scene_->near_source_plane(), scene_->near_target_plane())) continue;
       answer_.status = Weak_status::visible;
       ++counters_->confirmed;
       return;
@@ -548,7 +548,7 @@ inline Events_answer weakly_visible_by_events(const Occluders& occluders, const 
     ++sides;
     for (int k = 0; k < options.rays; ++k) {
       const std::array<Near_point, 2> line{inner_point(from), inner_point(target)};
-      if (occluders.blocker(line[0], line[1])) continue;
+      if (occluders.blocker(line[0], line[1], source.plane, target_plane)) continue;
       ++counters.by_rays;
       return {Weak_status::visible, line};
     }
