@@ -5,6 +5,7 @@
 #include <sightline/algorithms/baseline/ray_sampling.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/events.h>
 
 #include <sstream>
 
@@ -121,10 +122,21 @@ Weakly_visible sampled(const Weak_arguments& arguments, const Occluders& occlude
   return found;
 }
 
+/// The same answers by another method, without proofs of what is hidden.
+Weakly_visible by_events(const Weak_arguments& arguments, const Occluders& occluders, const Sources& sources, const Weak_options& lines) {
+  Events_options options;
+  options.two_sided = arguments.two_sided, options.seed = arguments.common.seed, options.threads = arguments.common.threads;
+  options.out_of_time = lines.search.out_of_time, options.progress = lines.progress;
+  Weakly_visible_by_events events = weakly_visible_by_events(occluders, sources.polygons, options);
+  Weakly_visible found;
+  found.visible = std::move(events.visible), found.hidden = std::move(events.hidden), found.undecided = std::move(events.undecided);
+  return found;
+}
+
 Exit run(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
-  const bool by_rays = arguments.method == "sample";
-  if (by_rays && !arguments.certificate.empty()) throw Usage_error("--method sample proves nothing: leave out --certificate, or take --method lines");
+  const bool by_lines = arguments.method == "lines";
+  if (!by_lines && !arguments.certificate.empty()) throw Usage_error("--method " + arguments.method + " writes no certificate: leave out --certificate, or take --method lines");
   if (arguments.faces.empty() && arguments.polygons.empty()) throw Usage_error("say what looks: --from-face ID, or --from \"X,Y,Z X,Y,Z X,Y,Z ...\"");
   const Polygon_soup soup = common.read();
   const Scene scene(soup);
@@ -139,7 +151,7 @@ Exit run(const Weak_arguments& arguments) {
   if (common.budget > 0) options.search.out_of_time = [&] { return watch.seconds() > common.budget; };
   options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
   watch = {};
-  const Weakly_visible found = by_rays ? sampled(arguments, occluders, sources) : weakly_visible(occluders, sources.polygons, options);
+  const Weakly_visible found = by_lines ? weakly_visible(occluders, sources.polygons, options) : arguments.method == "events" ? by_events(arguments, occluders, sources, options) : sampled(arguments, occluders, sources);
   const double seconds = watch.seconds();
 
   if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(weak_certificate(scene, sources.points, arguments.two_sided, found)).dump() + "\n");
@@ -159,9 +171,9 @@ Exit run(const Weak_arguments& arguments) {
   row("visible", fmt::format("{} of {} faces", found.visible.size(), scene.counters().faces));
   row("hidden", fmt::format("{}", found.hidden.size()));
   row("undecided", found.undecided.empty() ? "none" : fmt::format("{}: --cells and --budget set how long each is looked at", found.undecided.size()));
-  if (by_rays) row("rays", fmt::format("{} from each source; nothing is proved", arguments.rays));
-  if (!by_rays) row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets, c.away, c.by_rays, c.cells));
-  if (!by_rays) row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} linear programs, {} of them exact", c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections, c.programs + c.exact_programs, c.exact_programs));
+  if (arguments.method == "sample") row("rays", fmt::format("{} from each source; nothing is proved", arguments.rays));
+  if (by_lines) row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets, c.away, c.by_rays, c.cells));
+  if (by_lines) row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} linear programs, {} of them exact", c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections, c.programs + c.exact_programs, c.exact_programs));
   row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene", seconds, prepare_seconds));
   return exit;
 }
@@ -176,7 +188,7 @@ void add_weak(CLI::App& app) {
   a->common.add_to(*command);
   command->add_option("--from-face", a->faces, "a face of the scene that looks to its front; may be repeated");
   command->add_option("--from", a->polygons, "a convex polygon \"X,Y,Z X,Y,Z X,Y,Z ...\", counterclockwise as seen from the side it looks to; may be repeated for a region of several")->check(sightline::app::not_empty);
-  command->add_option("--method", a->method, "lines: exact, with certificates; sample: random rays in doubles, what others do, to compare with")->check(CLI::IsMember({"lines", "sample"}))->capture_default_str();
+  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, for up to some tens of edges; sample: random rays in doubles, what others do, to compare with")->check(CLI::IsMember({"lines", "events", "sample"}))->capture_default_str();
   command->add_option("--rays", a->rays, "of --method sample, from each source")->capture_default_str();
   command->add_flag("--two-sided", a->two_sided, "count faces seen from behind too (they hide what is behind them anyway)");
   command->add_option("--cells", a->cells, "how many cells a search may take before its face is undecided")->capture_default_str();

@@ -57,6 +57,14 @@ TEST_F(Weak, by_rays_sees_no_more_than_there_is_and_proves_nothing) {
   EXPECT_EQ(r.code, usage) << r;
 }
 
+TEST_F(Weak, by_events_says_the_same) {
+  for (const std::string& from : {"0,0,3 0,1,3 1,1,3 1,0,3", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "0,0,3 1,0,3 1,1,3 0,1,3"}) {
+    const Json lines = weak({cube, "--from", from})["result"], events = weak({cube, "--from", from, "--method", "events"})["result"];
+    EXPECT_EQ(lines["visible"], events["visible"]) << from;
+    EXPECT_EQ(lines["hidden"], events["hidden"]) << from;
+  }
+}
+
 TEST_F(Weak, rejects_a_certificate_whose_answer_was_changed) {
   const std::string to = path("weak.json").string();
   weak({cornell, "--from-face", "5", "--certificate", to});
