@@ -58,7 +58,7 @@ TEST_F(Weak, by_rays_sees_no_more_than_there_is_and_proves_nothing) {
 }
 
 TEST_F(Weak, by_events_says_the_same) {
-  for (const std::string& from : {"0,0,3 0,1,3 1,1,3 1,0,3", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "0,0,3 1,0,3 1,1,3 0,1,3"}) {
+  for (const char* const from : {"0,0,3 0,1,3 1,1,3 1,0,3", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "0,0,3 1,0,3 1,1,3 0,1,3"}) {
     const Json lines = weak({cube, "--from", from})["result"], events = weak({cube, "--from", from, "--method", "events"})["result"];
     EXPECT_EQ(lines["visible"], events["visible"]) << from;
     EXPECT_EQ(lines["hidden"], events["hidden"]) << from;
