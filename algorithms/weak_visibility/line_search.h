@@ -460,7 +460,6 @@ class Line_search {
   /// The lines that pass the piece outside an edge, edge by edge; what is left is blocked.
   Refutation branch(std::uint32_t d, const Candidate& blocker, const std::vector<Edge_sign>& unknown, std::size_t depth) {
     const std::size_t base = path_.size();
-    bool undecided = false;
     std::vector<Refutation> outside;
     for (const Edge_sign& edge : unknown) {
       push({edge.line, -edge.inside});
@@ -470,7 +469,6 @@ class Line_search {
         while (path_.size() > base) pop();
         return r;
       }
-      undecided |= r.status == Weak_status::undecided;
       const std::size_t place = path_.size();
       const bool needless = r.status == Weak_status::hidden && place < Used().size() && !r.used[place];
       outside.push_back(r);
