@@ -107,6 +107,7 @@ class Matrix_game {
       if (basic_[c] < rows_) rows += y_[basic_[c]] = positive(at(c, rows_)), tight_rows_.push_back(basic_[c]);
     for (std::size_t k = 0; k < rows_; ++k)
       if (other_[k] >= rows_) columns += x_[other_[k] - rows_] = positive(at(columns_, k)), tight_columns_.push_back(other_[k] - rows_);
+    if (!(columns > 0) || !(rows > 0)) return 1;  // entries beyond what was asked for: weights that prove nothing
     for (Number& x : x_) x /= columns;
     for (Number& y : y_) y /= rows;
     return 1 / rows - shift;
