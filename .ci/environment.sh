@@ -18,6 +18,7 @@ nlohmann-json3-dev|nlohmann/json.hpp|--json
 test_packages='
 libgtest-dev|gtest/gtest.h|tests
 librapidcheck-dev|rapidcheck.h|tests of laws on random input
+z3|z3|a second opinion on weak visibility; tests skip what needs it where it is missing
 '
 
 is_debian_12() { (. /etc/os-release 2>/dev/null && [ "$ID" = debian ] && [ "$VERSION_ID" = 12 ]); }

@@ -26,4 +26,5 @@ void add_cutset(CLI::App& app);
 void add_verify(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_see(CLI::App& app);
+void add_weak(CLI::App& app);
 void add_make(CLI::App& app);

@@ -91,20 +91,6 @@ void Progress::operator()(std::size_t done, std::size_t all) {
   std::cerr << fmt::format("\r{} [{:<40}] {:2}%", what_, std::string(static_cast<std::size_t>(percent) * 40 / 100, '#'), percent) << std::flush;
 }
 
-void add_pieces(Covering& covering, const Scene& scene) {
-  std::vector<bool> cut(scene.counters().faces_read);
-  for (const Piece& piece : scene.pieces())
-    if (piece.number > 0) cut[piece.face] = true;
-  for (const Face_id face : scene.non_planar()) cut[face] = true;
-  for (const Piece& piece : scene.pieces()) {
-    if (!cut[piece.face]) continue;
-    Covering::Piece& part = covering.pieces.emplace_back();
-    part.face = piece.face, part.piece = piece.number;
-    for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
-  }
-  for (const Set_aside& entry : scene.set_aside()) covering.set_aside.push_back({entry.face, entry.why});
-}
-
 Json point_json(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }
 
 Json predicates_json(const Predicate_counts& counts) {

@@ -3,7 +3,7 @@
 
 #include "command.h"
 
-#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/covering_of_scene.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <fmt/format.h>
@@ -76,9 +76,6 @@ class Progress {
   Stopwatch watch_;
   std::atomic<int> shown_{-1};
 };
-
-/// What a certificate needs beside its fragments: the pieces of faces that were cut, and what is set aside.
-void add_pieces(Covering& covering, const Scene& scene);
 
 /// The "scene" object of every command's JSON.
 Json scene_json(const Scene& scene);

@@ -9,7 +9,7 @@
 
 void add_make(CLI::App& app) {
   std::string kinds;
-  for (const auto& kind : sightline::generate::kinds()) kinds += fmt::format("\n  {:<22} {} (size: {})", kind.name, kind.what, kind.size_means);
+  for (const auto& kind : sightline::generate::kinds()) kinds += fmt::format("\n  {:<26} {} (size: {})", kind.name, kind.what, kind.size_means);
   CLI::App* command = app.add_subcommand("make", "Makes a scene of the project's own");
   command->footer("Kinds:" + kinds + "\nExample: sightline make rooms --size 4 --out rooms.off");
   struct Arguments {

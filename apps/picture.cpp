@@ -91,7 +91,12 @@ Flat_point projected(const View& view, const Exact_point& p) { return projected(
 
 Svg empty_picture(const View& view) { return {view.width, view.height, "#f4f3ef"}; }
 
-void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines) {
+std::string colour_by_face(const Drawn& item, double shade) {
+  const bool front = item.side == CGAL::POSITIVE;
+  return fmt::format("hsl({:.0f},{}%,{:.0f}%)", std::fmod(item.fragment.face * 137.50776405, 360.0), front ? 45 : 12, (front ? 62 : 55) + 18 * shade);
+}
+
+void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines, const Colour& colour) {
   const Direction3 light = unit({0.3, -0.5, 0.8});
   const Axes axes = axes_of(view);
   for (const Drawn& item : drawn) {
@@ -101,17 +106,13 @@ void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool out
       corners.push_back(difference(p, view.eye));
       points.push_back(projected(view, axes, corners.back()));
     }
-    // A hue for each face, a shade for the way it faces; back sides are duller.
     Direction3 normal{};
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const auto arm = [&](std::size_t k) { return Direction3{corners[k][0] - corners[0][0], corners[k][1] - corners[0][1], corners[k][2] - corners[0][2]}; };
       const Direction3 part = cross(arm(i - 1), arm(i));
       for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
     }
-    const double shade = dot(unit(normal), light);
-    const double hue = std::fmod(item.fragment.face * 137.50776405, 360.0);
-    const bool front = item.side == CGAL::POSITIVE;
-    const std::string fill = fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue, front ? 45 : 12, (front ? 62 : 55) + 18 * shade);
+    const std::string fill = colour(item, dot(unit(normal), light));
     svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4);
   }
 }

@@ -44,8 +44,12 @@ std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& 
 std::vector<Exact_point> corner_rays(const View& view);
 /// A point of the scene in the picture. Pre: in front of the eye.
 Flat_point projected(const View& view, const Exact_point& p);
+/// A colour that SVG knows, for a polygon and a shade from -1 to 1 by the way that it faces.
+using Colour = std::function<std::string(const Drawn&, double)>;
+/// A hue for each face; back sides are duller.
+std::string colour_by_face(const Drawn& item, double shade);
 /// Paints each polygon over those before it, with thin outlines or without. Pre: nothing drawn is behind the near plane.
-void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines);
+void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines, const Colour& colour = colour_by_face);
 Svg empty_picture(const View& view);
 
 }  // namespace sightline::app

@@ -20,7 +20,7 @@ struct Kind {
 
 /// All kinds of scene, by name.
 inline std::span<const Kind> kinds() {
-  static constexpr std::array<Kind, 14> all{{
+  static constexpr std::array<Kind, 15> all{{
       {"bars", "bars", "flat bars in a cycle, each over the next", 12, [](std::size_t n, std::uint64_t) { return bars(n); }},
       {"city", "boxes", "axis-parallel boxes on a plane", 100, [](std::size_t n, std::uint64_t s) { return city(n, s); }},
       {"city_rotated", "boxes", "the same, each box turned by a rational rotation", 100, [](std::size_t n, std::uint64_t s) { return city(n, s, true); }},
@@ -35,6 +35,7 @@ inline std::span<const Kind> kinds() {
       {"soup_constant_density", "triangles", "random triangles with edges n^(-1/3) in the unit cube", 2000, [](std::size_t n, std::uint64_t s) { return soup_constant_density(n, s); }},
       {"stacked", "faces", "unit squares above each other", 10, [](std::size_t n, std::uint64_t) { return stacked(n); }},
       {"terrain", "triangles (at least)", "a fractal height field", 1000, [](std::size_t n, std::uint64_t s) { return terrain(n, s); }},
+      {"triangles_between_squares", "triangles", "random triangles between two squares that look at each other", 50, [](std::size_t n, std::uint64_t s) { return triangles_between_squares(n, s); }},
   }};
   return all;
 }

@@ -77,6 +77,34 @@ inline Polygon_soup soup_constant_density(std::size_t n, std::uint64_t seed) {
   return result;
 }
 
+/// The queries that weak visibility is measured with elsewhere: from the square [-1, 1]^2 at z = 0, face 0, looking up, to the same at z = 10, face 1, looking down, and
+/// between them n random triangles, faces 2 to n + 1, about 2 wide. Query t of size n is drawn from the 32-bit Mersenne twister of seed 1000 n + t (modulo 2^32), in
+/// float arithmetic: u = 2 (draw / 2^32) - 1, the centre (1.2 u, 1.2 u, 5 + 4 u), each corner moved by 1.05 u along each axis, z clamped to [0.1, 9.9].
+/// Post: three points for each triangle, coordinates are floats. A triangle may have no area, with a probability that is none in practice.
+inline Polygon_soup triangles_between_squares(std::size_t n, std::uint64_t t) {
+  require(n <= 1000000000, "triangles_between_squares: at most 10^9 triangles");
+  Polygon_soup soup;
+  soup.file = "triangles_between_squares";
+  soup.coordinates.reserve(9 * n + 24);
+  for (const auto& [x, y, z] : std::array<std::array<double, 3>, 8>{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 10}, {-1, 1, 10}, {1, 1, 10}, {1, -1, 10}}})
+    soup.add_point(x, y, z);
+  soup.add_face({0, 1, 2, 3}), soup.add_face({4, 5, 6, 7});
+  std::mt19937 engine(static_cast<std::uint32_t>(1000 * std::uint64_t{n} + t));
+  // As std::uniform_real_distribution<float>(-1, 1) of libstdc++, where a draw that rounds to 2^32 counts as the float before.
+  const auto u = [&] { return std::min(static_cast<float>(engine()) * 0x1p-32f, 1 - 0x1p-24f) * 2 - 1; };
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::array<float, 3> draws{u(), u(), u()}, centre{1.2f * draws[0], 1.2f * draws[1], 5 + 4 * draws[2]};
+    Point_id last = 0;
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      std::array<float, 3> p;
+      for (std::size_t i = 0; i < 3; ++i) p[i] = centre[i] + 1.05f * u();
+      last = soup.add_point(p[0], p[1], double{std::clamp(p[2], 0.1f, 9.9f)});
+    }
+    soup.add_face({last - 2, last - 1, last});
+  }
+  return soup;
+}
+
 /// A landscape of at least n triangles over a square lattice of step 2^-10, front up: two for each of m x m cells, m the least.
 /// Heights are multiples of 2^-20, the sum of octaves whose amplitude and wave length halve. Post: a height field, every
 /// inner edge in two triangles, diagonals in random directions.

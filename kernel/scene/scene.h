@@ -82,8 +82,9 @@ class Scene {
   Plane add_plane(const std::array<Integer, 4>& h) { return planes_.intern(h[0], h[1], h[2], h[3]); }
 
   /// An oriented plane in the file's coordinates, up to a positive factor. Exact: yes.
-  std::array<Rational, 4> file_coefficients(Plane plane) const {
-    const std::array<Integer, 4> h = predicates().coefficients(plane);
+  std::array<Rational, 4> file_coefficients(Plane plane) const { return file_coefficients(predicates().coefficients(plane)); }
+  /// The same for coefficients in grid coordinates.
+  std::array<Rational, 4> file_coefficients(const std::array<Integer, 4>& h) const {
     Integer offset = h[3] * unit_;
     for (std::size_t k = 0; k < 3; ++k) offset -= h[k] * offset_[k];
     return {Rational(h[0] * scale_), Rational(h[1] * scale_), Rational(h[2] * scale_), Rational(offset)};

@@ -56,7 +56,7 @@ RC_GTEST_PROP(Verified, orders_from_any_eye_and_any_options, ()) {
 
 TEST(Verified, orders_of_generated_scenes) {
   const std::map<std::string_view, std::size_t> sizes{{"bars", 9}, {"city", 6}, {"city_rotated", 6}, {"convex_sphere", 100}, {"crossing", 8}, {"grid", 2}, {"lattice", 2},
-                                                      {"menger_sponge", 1}, {"menger_sponge_merged", 1}, {"rooms", 1}, {"soup", 60}, {"soup_constant_density", 50}, {"stacked", 20}, {"terrain", 80}};
+                                                      {"menger_sponge", 1}, {"menger_sponge_merged", 1}, {"rooms", 1}, {"soup", 60}, {"soup_constant_density", 50}, {"stacked", 20}, {"terrain", 80}, {"triangles_between_squares", 30}};
   ASSERT_EQ(sizes.size(), generate::kinds().size()) << "a new kind of scene: give it a size here";
   for (const auto& [kind, size] : sizes) {
     Random random(size);

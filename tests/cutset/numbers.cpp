@@ -7,25 +7,90 @@ namespace {
 
 using Random = std::mt19937_64;
 
-TEST(Expiry_queue, gives_out_what_ran_out_before_now_once_and_nothing_else) {
+/// What a place should hold, by the definition.
+struct Watched_node {
+  std::uint32_t place;
+  std::array<double, 4> row;
+  double until;
+  bool on, at_cut;
+};
+
+TEST(Watch_list, tests_what_ran_out_and_nothing_else) {
   Random random(3);
-  Expiry_queue queue;
-  std::multimap<double, std::uint32_t> kept;
-  double now = 0;
-  std::uint32_t item = 0;
-  for (int k = 0; k < 2000; ++k) {
-    for (std::int64_t n = between(random, 0, 5); n > 0; --n, ++item) {
-      const double time = now + static_cast<double>(between(random, 0, 8)) * std::ldexp(1.0, static_cast<int>(between(random, -4, 2)));
-      queue.push(time, item), kept.emplace(time, item);
+  using Tester = On_view<Exact_traits>;
+  Watch_list list;
+  std::map<std::uint32_t, Watched_node> kept;
+  double path = 0;
+  std::uint32_t node = 0;
+  std::size_t most = 0;
+  std::uint64_t opened = 0, confirmed = 0, holding = 0, away = 0, unclear = 0;
+  const auto small = [&] { return static_cast<double>(between(random, -6, 6)); };
+  const auto set = [&](std::uint32_t i, Watched_node& w) {
+    w.until = path + static_cast<double>(between(random, 0, 8)) * std::ldexp(1.0, static_cast<int>(between(random, -4, 2)));
+    w.on = random() % 2 == 0, w.at_cut = random() % 3 > 0;
+    list.set(w.place, i, Tester::Row{w.row[0], w.row[1], w.row[2], w.row[3]}, w.on, w.until, w.at_cut);
+  };
+  for (int move = 0; move < 3000; ++move) {
+    // More at first than later: places are given up, and taken again.
+    for (std::int64_t n = between(random, 0, move < 1500 ? 12 : 4); n > 0; --n, ++node) {
+      Watched_node& w = kept[node];
+      w.place = list.take(), w.row = {small(), small(), small(), small()};
+      set(node, w);
     }
-    now += static_cast<double>(between(random, 0, 8)) / 4;
-    std::vector<std::uint32_t> expired, expected;
-    queue.advance(now, expired);
-    while (!kept.empty() && kept.begin()->first < now) expected.push_back(kept.begin()->second), kept.erase(kept.begin());
-    ASSERT_EQ(sorted(expired), sorted(expected)) << k;
-    ASSERT_EQ(queue.size(), kept.size());
-    ASSERT_EQ(queue.now(), now);
+    for (std::int64_t n = between(random, 0, 2); n > 0 && !kept.empty(); --n) {
+      const auto w = std::next(kept.begin(), static_cast<std::ptrdiff_t>(random() % kept.size()));
+      ASSERT_EQ(list.remove(w->second.place), w->second.until);
+      kept.erase(w);
+    }
+    if (move % 100 == 50) {
+      list.forget_all();
+      for (auto& [i, w] : kept) w.until = -1;
+    }
+    path += static_cast<double>(between(random, 0, 4)) / 4;
+    Tester::Eye eye{};
+    eye.x = small(), eye.y = small(), eye.z = small(), eye.w = move % 5 > 0, eye.bound = static_cast<double>(between(random, 0, 3));
+    std::vector<std::uint32_t> open, expected;
+    const Watch_list::Confirmed result = list.test(eye, path, open);
+    std::uint64_t tests = 0, tests_away = 0;
+    for (auto& [i, w] : kept) {
+      if (w.until >= path) {
+        ++holding;
+        continue;
+      }
+      const double height = w.row[0] * eye.x + w.row[1] * eye.y + w.row[2] * eye.z + w.row[3] * eye.w;
+      if (w.on ? height > eye.bound : height < -eye.bound) {
+        ++tests, tests_away += !w.at_cut;
+        w.until = std::max(path, (path + (std::fabs(height) - eye.bound)) * (1 - 0x1p-52));
+      } else {
+        expected.push_back(i), unclear += std::fabs(height) <= eye.bound;
+      }
+    }
+    ASSERT_EQ(sorted(open), expected) << move;
+    ASSERT_EQ(result.nodes, tests);
+    ASSERT_EQ(result.away, tests_away);
+    most = std::max(most, kept.size()), opened += open.size(), confirmed += tests, away += tests_away;
+    for (const std::uint32_t i : open) {
+      Watched_node& w = kept.at(i);
+      if (random() % 8 == 0) list.remove(w.place), kept.erase(i);
+      else if (random() % 2 == 0) set(i, w);
+      else w.until = path, list.set_until(w.place, path);
+    }
+    if (!kept.empty()) kept.begin()->second.at_cut ^= true, list.set_at_cut(kept.begin()->second.place, kept.begin()->second.at_cut);
   }
+  EXPECT_GT(most, 600u) << "more than a group of blocks";
+  EXPECT_LT(kept.size(), most / 2);
+  for (const std::uint64_t count : {opened, confirmed, holding, away, unclear}) EXPECT_GT(count, 1000u);
+}
+
+TEST(Watch_list, leaves_open_what_overflows) {
+  Watch_list list;
+  const On_view<Exact_traits>::Row row{1, -1, 0, 0};
+  list.set(list.take(), 7, row, true, 0, true);
+  On_view<Exact_traits>::Eye eye{};
+  std::vector<std::uint32_t> open;
+  eye.x = eye.y = eye.bound = std::numeric_limits<double>::infinity(), eye.w = 1;  // a height that is no number
+  list.test(eye, 1, open);
+  EXPECT_EQ(open, std::vector<std::uint32_t>{7});
 }
 
 TEST(Tracker, notices_moves_below_the_last_bit_of_doubles) {

@@ -173,6 +173,7 @@ TEST(Generate, scenes_are_the_same_everywhere_and_differ_by_seed) {
       {"soup_constant_density", 4547890741699796672u},
       {"stacked", 10648042557059944281u},
       {"terrain", 11350070746479544031u},
+      {"triangles_between_squares", 11538573766325856895u},
   };
   for (const generate::Kind& kind : generate::kinds()) {
     const std::uint64_t h = hash(generate::make(kind.name, kind.example_size, 1));
@@ -182,6 +183,50 @@ TEST(Generate, scenes_are_the_same_everywhere_and_differ_by_seed) {
     const bool random = without_chance.count(kind.name) == 0;
     EXPECT_EQ(h != hash(generate::make(kind.name, kind.example_size, 2)), random) << kind.name;
   }
+}
+
+TEST(Generate, triangles_between_squares_are_those_of_the_formula) {
+  // The formula in the standard's words. Distributions differ between libraries; this one is meant.
+#if defined(__GLIBCXX__)
+  for (const std::size_t n : {1u, 10u, 50u})
+    for (const std::uint64_t t : {0u, 1u, 39u}) {
+      std::mt19937 engine(static_cast<std::uint32_t>(1000 * n + t));
+      std::uniform_real_distribution<float> u(-1, 1);
+      const Polygon_soup soup = generate::triangles_between_squares(n, t);
+      ASSERT_EQ(soup.point_count(), 8 + 3 * n);
+      for (std::size_t k = 0; k < n; ++k) {
+        float centre[3];
+        for (float& c : centre) c = u(engine);
+        centre[0] *= 1.2f, centre[1] *= 1.2f, centre[2] = 5 + 4 * centre[2];
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+          const Exact_point p = soup.point(soup.loop(static_cast<Face_id>(2 + k))[corner]);
+          for (std::size_t i = 0; i < 3; ++i) {
+            float x = centre[i] + 1.05f * u(engine);
+            if (i == 2) x = std::clamp(x, 0.1f, 9.9f);
+            EXPECT_EQ(p[i], exact(double{x})) << n << " " << t << " " << k;
+          }
+        }
+      }
+    }
+#endif
+  // The squares look at each other, and the triangles are strictly between.
+  const Polygon_soup soup = generate::triangles_between_squares(3, 0);
+  EXPECT_EQ(soup.face_count(), 5u);
+  const Integer_soup s(soup);
+  EXPECT_GT(s.normal(0)[2], 0);
+  EXPECT_LT(s.normal(1)[2], 0);
+  std::size_t clamped = 0;
+  for (std::uint64_t t = 0; t < 20; ++t) {
+    const Polygon_soup many = generate::triangles_between_squares(50, t);
+    for (Point_id p = 0; p < many.point_count(); ++p) {
+      const Exact_point x = many.point(p);
+      EXPECT_EQ(abs(x[0]) == 1 && abs(x[1]) == 1 && x[2] == (p < 4 ? 0 : 10), p < 8);
+      if (p < 8) continue;
+      EXPECT_TRUE(abs(x[0]) <= 2.25 && abs(x[1]) <= 2.25 && x[2] >= exact(double{0.1f}) && x[2] <= exact(double{9.9f}));
+      clamped += x[2] == exact(double{0.1f}) || x[2] == exact(double{9.9f});
+    }
+  }
+  EXPECT_GT(clamped, 0u);
 }
 
 TEST(Generate, lattice_and_merged_sponge_have_the_area_of_their_unit_quads) {

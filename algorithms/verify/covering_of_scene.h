@@ -1,0 +1,34 @@
+#pragma once
+// How engines tell a check what the scene is. The check trusts none of it, and does not include this file.
+
+#include <sightline/algorithms/verify/covering.h>
+#include <sightline/kernel/scene/scene.h>
+
+namespace sightline {
+
+/// What a certificate needs beside its fragments: the pieces of faces that were cut, and what is set aside.
+inline void add_pieces(Covering& covering, const Scene& scene) {
+  std::vector<bool> cut(scene.counters().faces_read);
+  for (const Piece& piece : scene.pieces())
+    if (piece.number > 0) cut[piece.face] = true;
+  for (const Face_id face : scene.non_planar()) cut[face] = true;
+  for (const Piece& piece : scene.pieces()) {
+    if (!cut[piece.face]) continue;
+    Covering::Piece& part = covering.pieces.emplace_back();
+    part.face = piece.face, part.piece = piece.number;
+    for (const Piece_corner& corner : scene.corners(piece)) part.vertices.push_back(scene.position(corner.point));
+  }
+  for (const Set_aside& entry : scene.set_aside()) covering.set_aside.push_back({entry.face, entry.why});
+}
+
+/// The same, with the scene's convex pieces as fragments, in their order.
+inline void add_all(Covering& covering, const Scene& scene) {
+  for (const Piece& piece : scene.pieces()) {
+    Order_fragment& fragment = covering.fragments.emplace_back();
+    fragment.face = piece.face, fragment.piece = piece.number;
+    for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
+  }
+  add_pieces(covering, scene);
+}
+
+}  // namespace sightline

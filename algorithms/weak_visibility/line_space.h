@@ -1,0 +1,149 @@
+#pragma once
+// The lines from one convex polygon to another: exact vertices with doubles beside them, and the sides of edge lines and planes on them.
+
+#include <sightline/kernel/scene/scene.h>
+
+namespace sightline {
+
+/// Coordinates near [-1, 1] for doubles: the grid divided by a scale of the scene's own.
+class Near_frame {
+ public:
+  explicit Near_frame(const Scene& scene) : divisor_(scene.points().divisor()) {
+    exponent_ = std::max(0, std::ilogb(std::max(1.0, scene.points().range())) + 1);
+    shift_ = scene.points().shift() + exponent_;
+  }
+  /// A coordinate p / w of the grid, within a relative 2^-53.
+  double near(const Integer& p, const Integer& w) const {
+    Rational value(p, w * divisor_);
+    value.canonicalize();
+    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(shift_));
+    return nearest_double(value);
+  }
+  double near(const Scene& scene, std::uint32_t point, int axis) const { return std::ldexp(scene.points().approximate(point, axis), -exponent_); }
+  /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
+  Rational near_cubic(const Integer& p, const Integer& w) const {
+    Rational value(p, divisor_ == 1 ? w : Integer(w * divisor_ * divisor_ * divisor_));
+    value.canonicalize();
+    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(3 * shift_));
+    return value;
+  }
+  /// What a plane's last coefficient is multiplied by less than the others.
+  Rational unit() const {
+    Rational one(divisor_);
+    mpq_mul_2exp(one.get_mpq_t(), one.get_mpq_t(), static_cast<mp_bitcnt_t>(shift_));
+    return one;
+  }
+  /// From these coordinates to those of boxes (Grid_points::approximate).
+  double to_boxes() const { return std::ldexp(1.0, exponent_); }
+
+ private:
+  Integer divisor_;
+  int exponent_;
+  long shift_;
+};
+
+using Triple = std::array<double, 3>;
+using Six = std::array<double, 6>;
+
+/// A point in homogeneous grid coordinates, the last one positive, reduced; and in doubles, each within a relative 2^-52.
+struct Near_point {
+  std::array<Integer, 4> exact;
+  Triple near;
+};
+using Near_polygon = std::vector<Near_point>;
+
+inline Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact) {
+  const Integer common = gcd(gcd(exact[0], exact[1]), gcd(exact[2], exact[3]));
+  Near_point p;
+  for (std::size_t k = 0; k < 4; ++k) p.exact[k] = exact[k] / common;
+  for (std::size_t k = 0; k < 3; ++k) p.near[k] = frame.near(p.exact[k], p.exact[3]);
+  return p;
+}
+
+/// An oriented plane in grid coordinates.
+struct Near_plane {
+  std::array<Integer, 4> exact;
+  std::array<double, 4> near;  ///< a positive multiple, each within a relative 2^-52
+};
+
+inline Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact) {
+  Near_plane h{exact, {}};
+  const Integer size = std::max({Integer(abs(exact[0])), Integer(abs(exact[1])), Integer(abs(exact[2]))});
+  for (std::size_t k = 0; k < 3; ++k) h.near[k] = nearest_double(Rational(exact[k]) / Rational(size));
+  h.near[3] = nearest_double(Rational(Rational(exact[3]) / Rational(size)) / frame.unit());
+  return h;
+}
+
+/// The side of a point: doubles where they tell, integers where not. The bound: four products of factors each within 2^-52, and their sum. Exact: yes.
+inline int side(const Near_plane& h, const Near_point& p) {
+  double value = h.near[3], size = std::fabs(h.near[3]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double product = h.near[k] * p.near[k];
+    value += product, size += std::fabs(product);
+  }
+  const double bound = 0x1p-49 * size + 0x1p-1000;
+  if (value > bound) return 1;
+  if (value < -bound) return -1;
+  thread_local Integer sum;
+  mpz_mul(sum.get_mpz_t(), h.exact[0].get_mpz_t(), p.exact[0].get_mpz_t());
+  for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), h.exact[k].get_mpz_t(), p.exact[k].get_mpz_t());
+  return sgn(sum);
+}
+
+inline Integer value(const Near_plane& h, const Near_point& p) { return Integer(h.exact[0] * p.exact[0] + h.exact[1] * p.exact[1] + h.exact[2] * p.exact[2] + h.exact[3] * p.exact[3]); }
+
+/// The part of a convex polygon where the plane is >= 0: fewer than three vertices where that has no inside. Exact: yes.
+inline Near_polygon clip(const Near_frame& frame, const Near_polygon& polygon, const Near_plane& h, bool front) {
+  std::vector<int> sides;
+  for (const Near_point& p : polygon) sides.push_back(front ? side(h, p) : -side(h, p));
+  if (std::none_of(sides.begin(), sides.end(), [](int s) { return s > 0; })) return {};
+  Near_polygon part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const std::size_t next = (i + 1) % polygon.size();
+    if (sides[i] >= 0) part.push_back(polygon[i]);
+    if (sides[i] * sides[next] >= 0) continue;
+    // Where the edge crosses the plane: |h(q)| p + |h(p)| q, each taken with its weight.
+    const Integer at = abs(value(h, polygon[i])), after = abs(value(h, polygon[next]));
+    std::array<Integer, 4> crossing;
+    for (std::size_t k = 0; k < 4; ++k) crossing[k] = after * polygon[i].exact[k] + at * polygon[next].exact[k];
+    part.push_back(near_point(frame, crossing));
+  }
+  return part;
+}
+
+// ---- Lines as six numbers -----------------------------------------------------------------------------------------------------
+//
+// side(p, q, e) = det[p, q, a, b] for homogeneous points and the edge from a to b. For p in front of a counterclockwise polygon and q behind it, the segment
+// p q crosses its inside iff the side is positive for all of its edges. Proof: P-70
+
+/// The numbers of the ordered pair (p, q), against which an edge's (direction, moment) are multiplied in order.
+inline Six pair_numbers(const Triple& p, const Triple& q) {
+  return {p[2] * q[1] - p[1] * q[2], p[0] * q[2] - p[2] * q[0], p[1] * q[0] - p[0] * q[1], p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+/// (direction, moment) of the line from a to b.
+inline Six edge_numbers(const Triple& a, const Triple& b) {
+  return {b[0] - a[0], b[1] - a[1], b[2] - a[2], a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double dot(const Six& a, const Six& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]; }
+
+/// The same in integers: direction and moment of the line through two grid points.
+using Exact_six = std::array<Integer, 6>;
+inline Exact_six exact_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b) {
+  return {b[0] - a[0], b[1] - a[1], b[2] - a[2], a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Exact_six exact_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q) {
+  return {p[2] * q[1] - p[1] * q[2], p[0] * q[2] - p[2] * q[0], p[1] * q[0] - p[0] * q[1], p[0] * q[3] - q[0] * p[3], p[1] * q[3] - q[1] * p[3], p[2] * q[3] - q[2] * p[3]};
+}
+inline Integer dot(const Exact_six& a, const Exact_six& b) {
+  Integer sum = a[0] * b[0];
+  for (std::size_t k = 1; k < 6; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[k].get_mpz_t());
+  return sum;
+}
+
+inline double size(const Triple& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
+
+/// Bounds the error of dot(pair_numbers, edge_numbers): at most 6 products of three coordinates for each of four choices, each factor within 2^-52 of the
+/// truth, and eight roundings: (3 x 2 + 8) x 6 u < 2^7 u. `p`, `q`, `a`, `b`: largest coordinates. Proof: P-70
+inline double side_error(double p, double q, double a, double b) { return 0x1p-46 * ((p + q) * a * b + p * q * (a + b)) + 0x1p-1000; }
+
+}  // namespace sightline

@@ -1,0 +1,120 @@
+#pragma once
+// Matrix games by the simplex method: the best mixture of columns against the worst row, and the mixture of rows that proves it.
+
+#include <sightline/kernel/number.h>
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+namespace sightline {
+
+/// The game max over mixtures x of columns, min over rows k, of sum_c x_c a(k, c). A positive value says that some mixture is positive in all rows; a mixture of
+/// rows that is at most 0 in all columns proves that none is. Rows come one at a time. Values are expected within [-1, 1], or the shift that makes them positive
+/// is not one. Cost: O(rows x columns) a step. Exact: with rational numbers; with doubles what it proposes is checked by those who ask. Proof: P-71
+template <class Number>
+class Matrix_game {
+ public:
+  void restart(std::size_t columns) { columns_ = columns, rows_ = 0, entries_.clear(); }
+  std::size_t rows() const { return rows_; }
+  /// Room for the values of one more row.
+  std::span<Number> add_row() {
+    entries_.resize(entries_.size() + columns_);
+    ++rows_;
+    return {entries_.data() + (rows_ - 1) * columns_, columns_};
+  }
+  void remove_row() { entries_.resize(--rows_ * columns_); }
+  std::span<const Number> row(std::size_t k) const { return {entries_.data() + k * columns_, columns_}; }
+
+  /// The value of the game. Pre: a row and a column. Post: column_weights(), row_weights() are optimal mixtures, tight_columns(), tight_rows() the basis.
+  Number solve() {
+    start();
+    for (int step = 0; step < max_steps; ++step) {
+      const std::size_t entering = entering_row(step);
+      if (entering == rows_) break;
+      const std::size_t leaving = leaving_column(entering);
+      if (leaving == columns_) break;  // by rounding only: entries are positive
+      pivot(leaving, entering);
+    }
+    return finish();
+  }
+
+  std::span<const Number> column_weights() const { return x_; }  ///< sum 1
+  std::span<const Number> row_weights() const { return y_; }     ///< sum 1
+  const std::vector<std::size_t>& tight_columns() const { return tight_columns_; }
+  const std::vector<std::size_t>& tight_rows() const { return tight_rows_; }
+
+ private:
+  static constexpr bool is_exact = !std::is_floating_point_v<Number>;
+  static constexpr int shift = 2, max_steps = 300, careful_after = 150;  // exact games that take more steps are not solved, and say so by what is checked
+
+  // The linear program: most sum of y >= 0 with sum_k y_k (a(k, c) + shift) <= 1 in each column c. The tableau is condensed: a line for each basic variable,
+  // a place for each other one; variables k < rows are y_k, rows + c is the slack of column c.
+  Number& at(std::size_t line, std::size_t place) { return tableau_[line * (rows_ + 1) + place]; }
+  void start() {
+    tableau_.assign((columns_ + 1) * (rows_ + 1), Number(1));
+    for (std::size_t c = 0; c < columns_; ++c)
+      for (std::size_t k = 0; k < rows_; ++k) at(c, k) = entries_[k * columns_ + c] + shift;
+    for (std::size_t k = 0; k < rows_; ++k) at(columns_, k) = -1;
+    at(columns_, rows_) = 0;
+    basic_.resize(columns_), other_.resize(rows_);
+    for (std::size_t c = 0; c < columns_; ++c) basic_[c] = rows_ + c;
+    for (std::size_t k = 0; k < rows_; ++k) other_[k] = k;
+  }
+  std::size_t entering_row(int step) {
+    std::size_t best = rows_;
+    Number least = is_exact ? 0 : -1e-11;
+    for (std::size_t k = 0; k < rows_; ++k) {
+      const Number& cost = at(columns_, k);
+      if (cost >= least) continue;
+      best = k, least = cost;
+      if (step > careful_after) break;  // the first one: no cycles for long
+    }
+    return best;
+  }
+  std::size_t leaving_column(std::size_t entering) {
+    std::size_t best = columns_;
+    Number least = 0;
+    for (std::size_t c = 0; c < columns_; ++c) {
+      const Number& slope = at(c, entering);
+      if (slope <= (is_exact ? 0 : 1e-11)) continue;
+      const Number ratio = at(c, rows_) / slope;
+      if (best == columns_ || ratio < least || (ratio == least && basic_[c] < basic_[best])) best = c, least = ratio;
+    }
+    return best;
+  }
+  void pivot(std::size_t line, std::size_t place) {
+    const Number inverse = 1 / at(line, place);
+    Number* own = &at(line, 0);
+    for (std::size_t k = 0; k <= rows_; ++k) own[k] *= inverse;
+    own[place] = inverse;
+    for (std::size_t c = 0; c <= columns_; ++c) {
+      if (c == line) continue;
+      Number* other = &at(c, 0);
+      const Number factor = other[place];
+      if (factor == 0) continue;
+      other[place] = 0;
+      for (std::size_t k = 0; k <= rows_; ++k) other[k] -= factor * own[k];
+    }
+    std::swap(basic_[line], other_[place]);
+  }
+  Number finish() {
+    x_.assign(columns_, 0), y_.assign(rows_, 0);
+    tight_columns_.clear(), tight_rows_.clear();
+    Number columns = 0, rows = 0;
+    const auto positive = [](const Number& x) { return x > 0 ? x : Number(0); };
+    for (std::size_t c = 0; c < columns_; ++c)
+      if (basic_[c] < rows_) rows += y_[basic_[c]] = positive(at(c, rows_)), tight_rows_.push_back(basic_[c]);
+    for (std::size_t k = 0; k < rows_; ++k)
+      if (other_[k] >= rows_) columns += x_[other_[k] - rows_] = positive(at(columns_, k)), tight_columns_.push_back(other_[k] - rows_);
+    for (Number& x : x_) x /= columns;
+    for (Number& y : y_) y /= rows;
+    return 1 / rows - shift;
+  }
+
+  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<Number> entries_, tableau_, x_, y_;
+  std::vector<std::size_t> basic_, other_, tight_columns_, tight_rows_;
+};
+
+}  // namespace sightline

@@ -1,0 +1,131 @@
+// Weak visibility: the random-triangle queries that others are measured with, and real rooms. Times of searches, certificates and checks.
+// bench_weak [--max K] [--queries N] [--scenes FOLDER] [--sources N] [--out FOLDER]
+
+#include "measure.h"
+
+#include <sightline/algorithms/generate/soups.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/io/read.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace sightline;
+
+namespace {
+
+/// Published, or measured with others' code on a machine of this kind, mean milliseconds: a program with floats and tolerances, and a prototype in doubles without proofs.
+struct Others {
+  std::size_t triangles;
+  double floats, prototype;
+};
+constexpr Others others[] = {{10, 0.15, 0}, {20, 0.6, 0}, {50, 5.8, 0.06}, {100, 70, 0.7}, {200, 951, 37}, {300, 0, 127}, {400, 1700, 112}, {1000, 0, 136}};
+
+std::string ratio(double theirs, double ours) { return theirs > 0 ? fmt::format("{:.1f}", theirs / ours) : "-"; }
+
+std::vector<Exact_point> corners_of(const Scene& scene, const Piece& piece) {
+  std::vector<Exact_point> points;
+  for (const Piece_corner& corner : scene.corners(piece)) points.push_back(scene.position(corner.point));
+  return points;
+}
+
+void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) {
+  fmt::print("random triangles between two squares, {} queries each, one core, milliseconds; every answer is checked\n", queries);
+  fmt::print("{:>5} {:>9} {:>9} {:>9} {:>9} {:>8} {:>7} {:>10} {:>9} {:>9} {:>9} {:>9}\n", "k", "mean", "max", "prepare", "check", "visible", "hidden", "undecided", "cells", "leaves", "floats/", "proto/");
+  csv << "k,mean_ms,max_ms,prepare_ms,check_ms,visible,hidden,undecided,cells,steps\n";
+  for (const Others& other : others) {
+    if (other.triangles > most) break;
+    double total = 0, worst = 0, prepare = 0, check = 0;
+    std::size_t steps = 0;
+    std::array<std::size_t, 3> answers{};
+    Weak_counters counters;
+    for (std::size_t t = 0; t < queries; ++t) {
+      const Polygon_soup soup = generate::triangles_between_squares(other.triangles, t);
+      const Scene scene(soup);
+      const double start = bench::now();
+      const Occluders occluders(scene);
+      const Weak_source source = weak_source(occluders, 0);
+      const double ready = bench::now();
+      Weak_search_options options;
+      Line_search search(occluders, source.polygon, source.plane, occluders.polygon(1), 1, options);
+      Weak_answer answer = search.run(counters);
+      const double found = bench::now();
+      prepare += ready - start, total += found - ready, worst = std::max(worst, found - ready);
+      ++answers[static_cast<std::size_t>(answer.status)];
+      steps += answer.proof.size();
+      // A certificate for this pair alone: nothing is claimed about other faces.
+      Weakly_visible all;
+      for (Face_id f = 0; f < soup.face_count(); ++f)
+        if (f != 1 || answer.status == Weak_status::undecided) all.undecided.push_back(f);
+      if (answer.status != Weak_status::undecided) all.pairs.push_back({1, 0, std::move(answer)});
+      const Weak_certificate certificate = weak_certificate(scene, {corners_of(scene, scene.pieces()[0])}, false, all);
+      const double written = bench::now();
+      const Verdict verdict = verify_weak(soup, certificate);
+      check += bench::now() - written;
+      if (!verdict.accepted) throw std::logic_error(fmt::format("k = {}, query {}: {}", other.triangles, t, verdict.why));
+    }
+    const double n = static_cast<double>(queries), mean = 1e3 * total / n;
+    fmt::print("{:>5} {:>9.3f} {:>9.2f} {:>9.3f} {:>9.2f} {:>8} {:>7} {:>10} {:>9} {:>9} {:>9} {:>9}\n", other.triangles, mean, 1e3 * worst, 1e3 * prepare / n, 1e3 * check / n, answers[1], answers[0], answers[2], counters.cells / queries, steps / queries, ratio(other.floats, mean), ratio(other.prototype, mean));
+    csv << fmt::format("{},{},{},{},{},{},{},{},{},{}\n", other.triangles, mean, 1e3 * worst, 1e3 * prepare / n, 1e3 * check / n, answers[1], answers[0], answers[2], counters.cells, steps);
+    std::fflush(stdout);
+  }
+}
+
+/// All faces of a scene from some of its faces, in their order, evenly spread.
+void rooms(const std::filesystem::path& folder, std::size_t count, std::ostream& csv) {
+  fmt::print("rooms of others, all faces from {} faces each, one core, seconds\n", count);
+  fmt::print("{:>28} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>10} {:>9}\n", "scene", "faces", "mean", "max", "check", "find/", "visible", "undecided", "cells");
+  csv << "scene,faces,mean_s,max_s,check_s,visible,undecided,cells\n";
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".qoff") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    const Polygon_soup soup = read_scene(file);
+    const Scene scene(soup);
+    const Occluders occluders(scene);
+    double total = 0, worst = 0, check = 0;
+    std::size_t visible = 0, undecided = 0;
+    Weak_counters counters;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::size_t piece = (2 * k + 1) * scene.pieces().size() / (2 * count);
+      Weak_options options;
+      options.threads = 1;
+      const double start = bench::now();
+      const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, static_cast<std::uint32_t>(piece))}, options);
+      const double end = bench::now();
+      total += end - start, worst = std::max(worst, end - start);
+      visible += found.visible.size(), undecided += found.undecided.size(), counters += found.counters;
+      const Weak_certificate certificate = weak_certificate(scene, {corners_of(scene, scene.pieces()[piece])}, false, found);
+      const double written = bench::now();
+      const Verdict verdict = verify_weak(soup, certificate);
+      check += bench::now() - written;
+      if (!verdict.accepted) throw std::logic_error(fmt::format("{}, piece {}: {}", file.string(), piece, verdict.why));
+    }
+    const double n = static_cast<double>(count);
+    fmt::print("{:>28} {:>6} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.2f} {:>8} {:>10} {:>9}\n", file.stem().string(), scene.counters().faces, total / n, worst, check / n, total / check, visible / count, undecided, counters.cells / count);
+    csv << fmt::format("{},{},{},{},{},{},{},{}\n", file.stem().string(), scene.counters().faces, total / n, worst, check / n, visible, undecided, counters.cells);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Weak visibility: random triangles, and real rooms");
+  std::size_t most = 1000, queries = 40, sources = 10;
+  std::string scenes, out;
+  app.add_option("--max", most, "the most triangles")->capture_default_str();
+  app.add_option("--queries", queries, "for each number of triangles")->capture_default_str();
+  app.add_option("--scenes", scenes, "a folder of .qoff files, instead of random triangles");
+  app.add_option("--sources", sources, "faces of each scene that look")->capture_default_str();
+  app.add_option("--out", out, "a folder for CSV");
+  CLI11_PARSE(app, argc, argv);
+  std::ofstream csv;
+  if (!out.empty()) csv.open(std::filesystem::path(out) / (scenes.empty() ? "weak_triangles.csv" : "weak_rooms.csv"));
+  if (scenes.empty()) random_triangles(most, queries, csv);
+  else rooms(scenes, sources, csv);
+}

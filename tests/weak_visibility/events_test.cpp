@@ -1,0 +1,269 @@
+// Plantinga's events against truths by construction, sightlines tested by brute force, the other engine, and hand-made places where edges meet.
+// SIGHTLINE_LONG: so many times the scenes, for a long run.
+
+#include "parallel_planes.h"
+
+#include <sightline/algorithms/weak_visibility/events.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace {
+
+using namespace sightline;
+using weak_scenes::Family;
+using weak_scenes::Weak_scene;
+
+std::uint64_t event_seeds(std::uint64_t usual) {
+  const char* more = std::getenv("SIGHTLINE_LONG");
+  return more != nullptr ? usual * static_cast<std::uint64_t>(std::max(1L, std::atol(more))) : usual;
+}
+
+const std::vector<Family>& event_families() {
+  static const std::vector<Family> all = [] {
+    std::vector<Family> list = weak_scenes::families();
+    list.push_back({"parallel_planes", weak_oracle::parallel_planes_scene});
+    return list;
+  }();
+  return all;
+}
+
+/// The answer for one face; every sightline is tested by brute force.
+Weak_status by_events(const Weak_scene& scene, Face_id face, const Events_options& options, Event_counters& counters) {
+  const Scene read(scene.soup);
+  const Occluders occluders(read);
+  const Weak_source source = weak_source(occluders, scene.source);
+  const oracle::Flats flats = oracle::flats_of(read);
+  Weak_status status = Weak_status::hidden;
+  for (std::uint32_t piece = 0; piece < read.pieces().size(); ++piece) {
+    if (read.pieces()[piece].face != face) continue;
+    const Events_answer answer = weakly_visible_by_events(occluders, source, piece, options, counters);
+    if (answer.status == Weak_status::hidden) continue;
+    status = answer.status;
+    if (status == Weak_status::undecided) continue;
+    const weak_oracle::Sightline line{read.position(answer.sightline[0].exact), read.position(answer.sightline[1].exact)};
+    if (!options.two_sided) { EXPECT_TRUE(weak_oracle::proves_visible(flats, scene.source, face, line)) << scene.name << ", face " << face; }
+    return status;
+  }
+  return status;
+}
+
+class Event_families : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Event_families, are_all_decided_as_they_were_built) {
+  const Family& family = event_families()[GetParam()];
+  Event_counters counters;
+  Events_options options;
+  options.rays = 0;
+  for (std::uint64_t seed = 0; seed < event_seeds(12); ++seed) {
+    const Weak_scene scene = family.make(seed);
+    for (const Face_id face : scene.targets) {
+      const Weak_status status = by_events(scene, face, options, counters);
+      EXPECT_NE(status, Weak_status::undecided) << scene.name << ", face " << face;
+      if (scene.truth) {
+        EXPECT_EQ(status == Weak_status::visible, *scene.truth) << scene.name << ", face " << face;
+      } else if (status == Weak_status::hidden) {
+        EXPECT_FALSE(weak_oracle::find_sightline(scene, face, 100, seed)) << scene.name << ", face " << face;
+      }
+    }
+  }
+  EXPECT_GT(counters.targets, 0u);
+  EXPECT_EQ(counters.refuted, 0u);  // a free cell has a sightline
+}
+INSTANTIATE_TEST_SUITE_P(All, Event_families, testing::Range(std::size_t{0}, event_families().size()), [](const auto& of) { return event_families()[of.param].name; });
+
+TEST(Events, agree_with_the_search_among_lines_where_it_decides) {
+  Event_counters counters;
+  Weak_counters others;
+  std::size_t visible = 0, hidden = 0;
+  for (const char* name : {"lattice_faces", "nudged", "boxes", "triangles", "valley", "facing", "hinged"})
+    for (const Family& family : event_families()) {
+      if (family.name != name) continue;
+      for (std::uint64_t seed = 0; seed < event_seeds(6); ++seed) {
+        const Weak_scene scene = family.make(seed);
+        const Scene read(scene.soup);
+        const Occluders occluders(read);
+        const Weak_source source = weak_source(occluders, scene.source);
+        for (std::uint32_t piece = 0; piece < read.pieces().size(); ++piece) {
+          Events_options options;
+          Weak_search_options search;
+          options.two_sided = search.two_sided = seed % 2 == 0;
+          options.rays = 0, search.cells = 2000;
+          const Weak_status ours = weakly_visible_by_events(occluders, source, piece, options, counters).status;
+          const Weak_status theirs = Line_search(occluders, source.polygon, source.plane, occluders.polygon(piece), piece, search).run(others).status;
+          if (theirs == Weak_status::undecided) continue;
+          EXPECT_EQ(ours, theirs) << scene.name << ", piece " << piece;
+          ++(theirs == Weak_status::visible ? visible : hidden);
+        }
+      }
+    }
+  EXPECT_GT(visible, 20u);
+  EXPECT_GT(hidden, 20u);
+}
+
+TEST(Events, see_the_same_from_source_to_target_as_back) {
+  Event_counters counters;
+  Events_options options;
+  options.rays = 0;
+  std::size_t visible = 0, hidden = 0;
+  for (const Family& family : event_families()) {
+    if (family.name == "boxes" || family.name == "nudged") continue;  // several targets; targets that are not planar
+    for (std::uint64_t seed = 0; seed < event_seeds(3); ++seed) {
+      Weak_scene scene = family.make(seed);
+      if (scene.targets.size() != 1) continue;
+      // Both as faces, then each in turn as the source.
+      const auto points_of = [&](Face_id face) {
+        weak_scenes::Points points;
+        for (const Point_id p : scene.soup.loop(face, 0)) points.push_back(scene.soup.point(p));
+        return points;
+      };
+      std::vector<Point_id> loop;
+      for (const Exact_point& p : scene.source) loop.push_back(scene.soup.add_point(p[0], p[1], p[2]));
+      scene.soup.add_face(loop);
+      const Face_id source = static_cast<Face_id>(scene.soup.face_count() - 1);
+      if (!Scene(scene.soup).set_aside().empty()) continue;
+      Weak_scene back = scene;
+      back.source = points_of(scene.targets[0]);
+      const Weak_status forth = by_events(scene, scene.targets[0], options, counters);
+      EXPECT_EQ(forth, by_events(back, source, options, counters)) << scene.name;
+      ++(forth == Weak_status::visible ? visible : hidden);
+    }
+  }
+  EXPECT_GT(visible, 5u);
+  EXPECT_GT(hidden, 5u);
+}
+
+TEST(Events, of_a_target_that_stands_on_the_source_show_it) {
+  // All lines that touch the target's two free edges pass its apex; its third edge is in the source's plane.
+  const Weak_scene scene{"standing", test_scenes::soup_of({{weak_scenes::at(-1, 2, 0), weak_scenes::at(1, 2, 0), weak_scenes::at(0, 2, 2)}}),
+                         {weak_scenes::at(-1, -1, 0), weak_scenes::at(1, -1, 0), weak_scenes::at(1, 1, 0), weak_scenes::at(-1, 1, 0)}, {0}, true};
+  Event_counters counters;
+  Events_options options;
+  options.rays = 0;
+  EXPECT_EQ(by_events(scene, 0, options, counters), Weak_status::visible);
+  EXPECT_EQ(counters.away, 0u);
+}
+
+TEST(Events, keep_surfaces_from_source_to_target) {
+  const Weak_scene scene = weak_scenes::families()[0].make(1);
+  const Scene read(scene.soup);
+  const Occluders occluders(read);
+  Events_options options;
+  options.rays = 0, options.surfaces = true;
+  const Weakly_visible_by_events found = weakly_visible_by_events(occluders, {weak_source(occluders, scene.source)}, options);
+  EXPECT_EQ(found.visible.size() + found.hidden.size() + found.undecided.size(), read.counters().faces);
+  EXPECT_EQ(found.sightlines.size(), found.visible.size());
+  ASSERT_FALSE(found.surfaces.empty());
+  const weak_oracle::Half_space from = weak_oracle::plane_of(scene.source);
+  for (const Event_surface& surface : found.surfaces) {
+    const weak_oracle::Half_space to = weak_oracle::plane_of(oracle::flats_of(read)[surface.piece].corners);
+    for (const auto& [p, q] : surface.rulings) {
+      EXPECT_EQ(sgn(from.height(p)), 0);
+      EXPECT_GE(oracle::holds(scene.source, from.normal, p), 0);
+      EXPECT_EQ(sgn(to.height(q)), 0);
+    }
+  }
+}
+
+TEST(Events, beyond_the_budget_are_undecided) {
+  const Weak_scene scene = weak_scenes::families()[0].make(0);
+  Event_counters counters;
+  Events_options options;
+  options.rays = 0, options.events = 3;
+  EXPECT_EQ(by_events(scene, scene.targets[0], options, counters), Weak_status::undecided);
+  EXPECT_LE(counters.horizon + counters.edge_vertex + counters.triple, 5u);
+}
+
+// ---- Cells beside events ------------------------------------------------------------------------------------------------------------------
+
+/// The combinations of sides of touched lines that random lines near the event line have; and what the visit says they can have.
+template <class Visit_cells>
+void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_six*>& touched, Visit_cells visit_cells) {
+  std::set<std::vector<int>> said, seen;
+  visit_cells(chart, touched, [&](const std::vector<int>& signs, const Event_move& move) {
+    said.insert(signs);
+    const Exact_six line = moved(chart, move, Rational(1, 1ul << 40));
+    for (std::size_t k = 0; k < touched.size(); ++k) EXPECT_EQ(sgn(side(line, *touched[k])), signs[k]);
+    return false;
+  });
+  generate::Random random(1);
+  for (int k = 0; k < 20000; ++k) {
+    Event_move move;
+    for (Rational& x : move.first) x = Rational(static_cast<long>(random.between(-1000000, 1000000))) / (1ul << random.below(20));
+    const Exact_six line = moved(chart, move, Rational(1, 1ul << 40));
+    std::vector<int> signs;
+    for (const Exact_six* t : touched) signs.push_back(sgn(side(line, *t)));
+    if (std::find(signs.begin(), signs.end(), 0) == signs.end()) seen.insert(signs);
+  }
+  for (const std::vector<int>& signs : seen) EXPECT_EQ(said.count(signs), 1u);
+  EXPECT_GE(seen.size() * 3, said.size());
+}
+
+TEST(Event_cells, around_three_skew_lines_are_all_eight) {
+  const auto x = [](long a, long b, long c) { return Homogeneous{a, b, c, 1}; };
+  // Lines x = k, z = k y of a hyperbolic paraboloid; the other ruling: y = c, z = c x. Event line y = 0.
+  const std::vector<Exact_six> lines{join(x(0, 0, 0), x(0, 1, 0)), join(x(1, 0, 0), x(1, 1, 1)), join(x(2, 0, 0), x(2, 1, 2)), join(x(3, 0, 0), x(3, 1, 3))};
+  const Event_chart chart{x(0, 0, 0), x(1, 0, 0), x(0, 1, 0), x(1, 1, 1)};
+  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) { return visit_cells_at_regulus(c, t, v); };
+  std::size_t three = 0, four = 0;
+  expect_all_cells(chart, {&lines[0], &lines[1], &lines[2]}, visit);
+  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2]}, [&](const auto&, const auto&) { return ++three, false; });
+  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2], &lines[3]}, [&](const auto&, const auto&) { return ++four, false; });
+  EXPECT_EQ(three, 8u);
+  EXPECT_EQ(four, 14u);  // four planes through a point in general position
+  expect_all_cells(chart, {&lines[0], &lines[1], &lines[2], &lines[3]}, visit);
+}
+
+TEST(Event_cells, around_a_pencil_reach_between_its_own_lines) {
+  const auto x = [](long a, long b, long c) { return Homogeneous{a, b, c, 1}; };
+  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) { return visit_cells_at_pencil(c, t, v); };
+  // Through the origin, in the plane y = 0; the event line is the z axis.
+  const Event_chart chart{x(0, 0, 0), x(0, 0, 1), {1, 0, 0, 0}, {0, 1, 0, 0}};
+  const Exact_six star = join(x(0, 0, 0), x(1, 2, 3)), star_2 = join(x(0, 0, 0), x(2, -1, 1)), flat = join(x(0, 0, 3), x(1, 0, 5)), flat_2 = join(x(0, 0, -2), x(2, 0, -2)),
+                  own = join(x(0, 0, 0), x(1, 0, 1)), own_2 = join(x(0, 0, 0), x(1, 0, 2)), own_3 = join(x(0, 0, 0), x(-1, 0, 2));
+  expect_all_cells(chart, {&star, &flat}, visit);
+  expect_all_cells(chart, {&star, &star_2, &flat, &flat_2}, visit);
+  expect_all_cells(chart, {&star, &flat, &own, &own_2}, visit);
+  expect_all_cells(chart, {&star, &star_2, &flat, &flat_2, &own, &own_2, &own_3}, visit);
+  // A line that pierces the plane between two lines of the pencil, near the event line: first order does not know it.
+  std::set<std::vector<int>> cells;
+  visit_cells_at_pencil(chart, {&own, &own_2}, [&](const std::vector<int>& signs, const Event_move&) { return cells.insert(signs), false; });
+  EXPECT_EQ(cells.size(), 4u);
+}
+
+// ---- Roots -----------------------------------------------------------------------------------------------------------------------------------
+
+TEST(Quadratic_roots, compare_as_numbers_where_60_bits_do_not_tell) {
+  // Roots 1/2 +- 2^-k sqrt(2), and neighbours: s^2 - s + 1/4 - 2^(1 - 2 k) = 0.
+  const Parameter_range whole{Quadratic_root(0), Quadratic_root(1)};
+  for (const unsigned long k : {5ul, 40ul, 100ul, 300ul}) {
+    const Integer scale = Integer(1) << (2 * k);
+    std::vector<Quadratic_root> roots, other;
+    append_roots({{Integer(scale / 4 - 2), Integer(-scale), scale}}, whole, roots);
+    append_roots({{Integer(1), Integer(-2), Integer(0)}}, whole, roots);
+    append_roots({{Integer(3 * (scale / 4 - 2)), Integer(-3 * scale), Integer(3 * scale)}}, whole, other);
+    ASSERT_EQ(roots.size(), 3u);
+    ASSERT_EQ(other.size(), 2u);
+    EXPECT_TRUE(roots[0] < roots[2] && roots[2] < roots[1]) << k;
+    EXPECT_FALSE(roots[1] < roots[2] || roots[2] < roots[0] || roots[1] < roots[0]) << k;
+    EXPECT_TRUE(roots[0] == other[0] && roots[1] == other[1] && !(roots[0] == other[1])) << k;
+    const Rational low = inner_rational({roots[0], roots[2]}), high = inner_rational({roots[2], roots[1]}, 3);
+    EXPECT_LT(low, Rational(1, 2));
+    EXPECT_GT(high, Rational(1, 2));
+    const Quadratic f{{Integer(scale / 4 - 2), Integer(-scale), scale}};
+    EXPECT_EQ(f.sign(low), -1);
+    EXPECT_EQ(f.sign(high), -1);
+  }
+}
+
+TEST(Quadratic_roots, have_different_rationals_between_them) {
+  const Parameter_range range{Quadratic_root(0), Quadratic_root(1)};
+  std::set<Rational> found;
+  for (unsigned long attempt = 0; attempt < 200; ++attempt) found.insert(inner_rational(range, attempt));
+  EXPECT_EQ(found.size(), 200u);
+  EXPECT_GT(*found.begin(), 0);
+  EXPECT_LT(*found.rbegin(), 1);
+}
+
+}  // namespace

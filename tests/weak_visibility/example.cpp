@@ -1,0 +1,34 @@
+// The example of algorithms/weak_visibility/README.md, run.
+
+#include <sightline/algorithms/weak_visibility/certificate.h>
+
+#include <iostream>
+
+void light(const sightline::Polygon_soup& soup, const std::vector<sightline::Exact_point>& lamp, std::ostream& out) {
+  const sightline::Scene scene(soup);
+  const sightline::Occluders occluders(scene);  // serves any number of sources
+  const auto found = sightline::weakly_visible(occluders, {weak_source(occluders, lamp)});
+  for (const sightline::Face_id face : found.visible) out << "face " << face << " is lit\n";
+  for (const sightline::Face_id face : found.hidden) out << "face " << face << " is dark\n";
+  const auto certificate = sightline::weak_certificate(scene, {lamp}, false, found);
+  out << (sightline::verify_weak(soup, certificate).accepted ? "proved\n" : "not proved\n");
+}
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+TEST(Example, of_the_page_lights_a_floor_past_a_table) {
+  sightline::Polygon_soup soup;
+  const auto face = [&](double x0, double x1, double y0, double y1, double z) {  // looks up
+    std::vector<sightline::Point_id> square;
+    for (const auto& [x, y] : {std::pair(x0, y0), std::pair(x1, y0), std::pair(x1, y1), std::pair(x0, y1)}) square.push_back(soup.add_point(x, y, z));
+    soup.add_face(square);
+  };
+  face(-4, 4, -4, 4, 0);    // the floor
+  face(-1, 1, -1, 1, 2);    // a table
+  face(-0.25, 0.25, -0.25, 0.25, 1);  // a shelf below it, that the lamp does not reach
+  std::ostringstream out;
+  light(soup, {{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}}, out);  // looks down
+  EXPECT_EQ(out.str(), "face 0 is lit\nface 1 is lit\nface 2 is dark\nproved\n");
+}
