@@ -9,7 +9,8 @@
 
 namespace sightline {
 
-/// The claim "from these polygons, these faces are weakly visible, and these are not". The fragments are the convex pieces of the scene, in any order; all else refers to them by their places.
+/// The claim "from these polygons, these faces are weakly visible, and these are not". The fragments are the convex pieces of the scene, in any order;
+/// all else refers to them by their places.
 struct Weak_certificate : Covering {
   std::vector<std::vector<Exact_point>> sources;  ///< convex planar polygons, counterclockwise as seen from the side that they look to
   bool two_sided = false;                         ///< a fragment's back counts as visible too
@@ -41,7 +42,8 @@ struct Weak_certificate : Covering {
     Form plane;                ///< cut_*
     std::vector<Term> terms;   ///< empty
   };
-  /// Proves that nothing of a fragment is visible from a source: a tree over the lines between them, in preorder. A line has first its positive side, then its negative one; a cut likewise.
+  /// Proves that nothing of a fragment is visible from a source: a tree over the lines between them, in preorder.
+  /// A line has first its positive side, then its negative one; a cut likewise.
   struct Hidden {
     std::size_t fragment = 0, source = 0;
     std::vector<Node> proof;
@@ -64,7 +66,8 @@ inline constexpr std::size_t most_cuts = 1000;
 
 // ---- Lines and polygons -----------------------------------------------------------------------------------------------------
 
-/// The oriented line from a to b, as the form det[p, q, a, b] in p and q: its entries 01, 02, 03, 12, 13, 23. Seen from p before it, positive where q is left of it.
+/// The oriented line from a to b, as the form det[p, q, a, b] in p and q: its entries 01, 02, 03, 12, 13, 23.
+/// Of an edge of a polygon that p is in front of and q behind: positive if the segment passes inside.
 using Line = std::array<Integer, 6>;
 
 inline Line line_through(const Homogeneous& a, const Homogeneous& b) {
@@ -92,7 +95,8 @@ inline bool reaches(const Homogeneous& plane, const Corners& corners, int sign) 
 /// 1 or -1: the corners are on that closed side of the plane, and not all on it. 0: they are on both sides, or all on it.
 inline int position(const Homogeneous& plane, const Corners& corners) { return int{reaches(plane, corners, 1)} - int{reaches(plane, corners, -1)}; }
 
-/// Where the line from p to q, p in front of a convex polygon's plane or q behind it, meets that plane: 1 inside the polygon, 0 on its boundary, -1 outside. With p and q exchanged, front = -1.
+/// Where the line from p to q, p in front of a convex polygon's plane or q behind it, meets that plane: 1 inside the polygon, 0 on its boundary, -1 outside.
+/// With p and q exchanged, front = -1.
 inline int crossing(const Line& line, const Corners& corners, int front = 1) {
   int least = 1;
   for (std::size_t i = 0; i < corners.size() && least >= 0; ++i)
@@ -137,7 +141,8 @@ struct Outline {
 /// Checks sightlines against all fragments; those whose boxes of coordinates are apart are passed over.
 class Sightlines {
  public:
-  Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments, const std::vector<Outline>& sources) : certificate_(certificate), fragments_(fragments), sources_(sources) {
+  Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments, const std::vector<Outline>& sources)
+      : certificate_(certificate), fragments_(fragments), sources_(sources) {
     for (std::size_t i = 0; i < fragments.size(); ++i) boxes_.push_back({i, certificate.fragments[i].vertices});
     std::sort(boxes_.begin(), boxes_.end(), [](const Box& a, const Box& b) { return a.low[0] < b.low[0]; });
   }
@@ -298,7 +303,8 @@ class Trees {
   using Node = Weak_certificate::Node;
   using Term = Weak_certificate::Term;
 
-  Trees(const Weak_certificate& certificate, const std::vector<Outline>& fragments, const std::vector<Outline>& sources) : certificate_(certificate), fragments_(fragments), sources_(sources), edges_(fragments.size()) {
+  Trees(const Weak_certificate& certificate, const std::vector<Outline>& fragments, const std::vector<Outline>& sources)
+      : certificate_(certificate), fragments_(fragments), sources_(sources), edges_(fragments.size()) {
     for (std::size_t k = 0; k < certificate.lines.size(); ++k) {
       const auto& [fragment, corner] = certificate.lines[k];
       if (fragment >= fragments.size() || corner >= certificate.fragments[fragment].vertices.size()) reject(name("line", k) + " names an edge that there is not");
@@ -310,7 +316,8 @@ class Trees {
 
   std::size_t leaves() const { return leaves_; }
 
-  /// Rejects unless the tree is one, and each of its leaves holds. `step` is called now and then. Cost: linear in the nodes, each in the pairs of corners of a cell at most; no recursion. Proof: P-72c .. P-72f
+  /// Rejects unless the tree is one, and each of its leaves holds. `step` is called now and then.
+  /// Cost: linear in the nodes, each in the pairs of corners of a cell at most; no recursion. Proof: P-72c .. P-72f
   void check(std::size_t k, const std::function<void()>& step) {
     const auto& [fragment, source, proof] = certificate_.hidden[k];
     if (fragment >= fragments_.size()) reject(name("hidden", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
@@ -372,7 +379,8 @@ class Trees {
   int decided(std::size_t line) const { return line < path_.size() ? path_[line] : 0; }
 
   std::shared_ptr<Cell> cell_of(std::shared_ptr<const Corners> source, std::shared_ptr<const Corners> target, std::size_t cuts) const {
-    if (source->size() > most_products / std::max<std::size_t>(1, target->size())) reject(name("fragment", fragment_) + " and " + name("source", source_) + " have too many corners to be checked", {fragment_});
+    if (source->size() > most_products / std::max<std::size_t>(1, target->size()))
+      reject(name("fragment", fragment_) + " and " + name("source", source_) + " have too many corners to be checked", {fragment_});
     return std::make_shared<Cell>(Cell{std::move(source), std::move(target), cuts, {}});
   }
 
@@ -562,17 +570,20 @@ inline std::string check(const Polygon_soup& soup, const Weak_certificate& certi
     if (!open[f]) reject(name("face", f) + " is undecided, but shown to be hidden");
   const auto count = [](const std::vector<char>& of) { return static_cast<std::size_t>(std::count(of.begin(), of.end(), 1)); };
   const std::size_t faces = count(drawn), seen = count(visible), unknown = count(undecided);
-  return std::to_string(seen) + " faces visible, " + std::to_string(faces - seen - unknown) + " hidden, " + std::to_string(unknown) + " undecided from " + std::to_string(sources.size()) + " source polygons; " + std::to_string(trees.leaves()) + " leaves of proofs";
+  return std::to_string(seen) + " faces visible, " + std::to_string(faces - seen - unknown) + " hidden, " + std::to_string(unknown) + " undecided from " +
+         std::to_string(sources.size()) + " source polygons; " + std::to_string(trees.leaves()) + " leaves of proofs";
 }
 
 }  // namespace weak_check
 
-/// Whether the certificate proves which faces can be seen from the sources: (1) the fragments are the scene (as for orders); (2) each sightline goes from the inside of its source, to its front, to the inside of its
-/// fragment, from its front (with `two_sided`, or its back), and no fragment meets it, nor an end of it but in the plane of the source or of the fragment; (3) each tree of a fragment and a source shows that almost
-/// no line between them is free; (4) each face that is drawn has a sightline, or a tree for each of its fragments and each source, or is undecided.
-/// Degenerate: contact of measure zero is not visibility; a source and a fragment in one plane do not see each other. Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line; where
-/// accepted, the counts of faces. Cost: fragments times sightlines, most by their boxes; linear in the nodes of trees, each in the pairs of corners of what is left of source and fragment. Cells of
-/// more than 10^7 pairs or below more than 1000 cuts are rejected. Exact: yes, without filters. Proof: P-21, P-22, P-72
+/// Whether the certificate proves which faces can be seen from the sources: (1) the fragments are the scene (as for orders); (2) each sightline goes from the
+/// inside of its source, to its front, to the inside of its fragment, from its front (with `two_sided`, or its back), and no fragment meets it, nor an end of it but
+/// in the plane of the source or of the fragment; (3) each tree of a fragment and a source shows that almost no line between them is free; (4) each face that is
+/// drawn has a sightline, or a tree for each of its fragments and each source, or is undecided.
+/// Degenerate: contact of measure zero is not visibility; a source and a fragment in one plane do not see each other.
+/// Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line; where accepted, the counts of faces.
+/// Cost: fragments times sightlines, most by their boxes; linear in the nodes of trees, each in the pairs of corners of what is left of source and fragment. Cells
+/// of more than 10^7 pairs or below more than 1000 cuts are rejected. Exact: yes, without filters. Proof: P-21, P-22, P-72
 inline Verdict verify_weak(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options = {}) {
   return certificate_check::verdict_of([&] { return weak_check::check(soup, certificate, options); });
 }

@@ -136,7 +136,8 @@ TEST(Certificate_json, of_what_polygons_can_see_has_the_documented_keys) {
   EXPECT_EQ(json["lines"], nlohmann::json::parse("[[1, 2], [2, 0]]"));
   EXPECT_EQ(json["hidden"][0]["fragment"], 0);
   EXPECT_EQ(json["hidden"][0]["source"], 0);
-  EXPECT_EQ(json["hidden"][0]["proof"], nlohmann::json::parse(R"([["line",0],["line",1],["empty",[[0,"5/81",{"target":["1","0","0","1"]}],[1,"1",{"source":["0","1/100","0","1"]}]]],["blocked",2],["blocked",1]])"));
+  const char* proof = R"([["line",0],["line",1],["empty",[[0,"5/81",{"target":["1","0","0","1"]}],[1,"1",{"source":["0","1/100","0","1"]}]]],["blocked",2],["blocked",1]])";
+  EXPECT_EQ(json["hidden"][0]["proof"], nlohmann::json::parse(proof));
   EXPECT_EQ(json["hidden"][1]["proof"], nlohmann::json::parse(R"([["away"]])"));
   EXPECT_FALSE(json.contains("two_sided"));
   EXPECT_TRUE(to_json(weak_test::two_sided().certificate)["two_sided"]);

@@ -14,9 +14,11 @@ class Damage {
 
   /// Does one thing to the certificate, and says which kind it was; empty if there was nothing to do it to.
   std::string once() {
-    static constexpr std::array kinds = {&Damage::leafs_face, &Damage::multiplier, &Damage::multiplier, &Damage::order_of_children, &Damage::node_lost, &Damage::node_doubled, &Damage::nodes_line, &Damage::line, &Damage::plane,
-                                         &Damage::nodes_kind, &Damage::end_point, &Damage::source_vertex, &Damage::source_turned, &Damage::entrys_index, &Damage::entry_lost, &Damage::two_sided, &Damage::undecided,
-                                         &Damage::fragment_vertex, &Damage::multipliers_form, &Damage::term_lost, &Damage::leafs_face, &Damage::order_of_children, &Damage::end_point, &Damage::plane};
+    static constexpr std::array kinds = {
+        &Damage::leafs_face, &Damage::multiplier, &Damage::order_of_children, &Damage::end_point, &Damage::plane,  // twice as often as the others
+        &Damage::leafs_face, &Damage::multiplier, &Damage::order_of_children, &Damage::end_point, &Damage::plane,
+        &Damage::node_lost, &Damage::node_doubled, &Damage::nodes_line, &Damage::line, &Damage::nodes_kind, &Damage::source_vertex, &Damage::source_turned,
+        &Damage::entrys_index, &Damage::entry_lost, &Damage::two_sided, &Damage::undecided, &Damage::fragment_vertex, &Damage::multipliers_form, &Damage::term_lost};
     return (this->*kinds[below(kinds.size())])();
   }
 
@@ -190,11 +192,6 @@ TEST(Weak_mutations, are_rejected_or_true) {
   const auto scenes = all_scenes();
   std::map<std::string, std::array<std::size_t, 2>> counts;  // rejected, accepted and true
   std::size_t rejected = 0, harmless = 0;
-#if defined(__SANITIZE_ADDRESS__)
-  constexpr unsigned share = 20;  // of the rounds: sanitizers take twenty times as long
-#else
-  constexpr unsigned share = 1;
-#endif
   for (unsigned seed = 0; seed < 24000 / share; ++seed) {
     Dice dice(seed);
     const auto& [what, base] = scenes[seed % scenes.size()];
@@ -211,15 +208,15 @@ TEST(Weak_mutations, are_rejected_or_true) {
     if (!verdict.accepted) continue;
     EXPECT_EQ(Judge(scene.certificate).fault(dice, 40), "") << what << ", " << kind << ", seed " << seed << ": " << verdict.why;
   }
-  EXPECT_GT(rejected, 10000u / share);
-  EXPECT_GT(harmless, 1000u / share);
+  EXPECT_GT(rejected, 10000 / share);
+  EXPECT_GT(harmless, 1000 / share);
   for (const auto& [kind, of] : counts) std::cout << "    " << kind << ": " << of[0] << " rejected, " << of[1] << " harmless\n";
 }
 
 /// Random blockers between two triangles: a blocking leaf is right iff, for each two corners, the segment meets the blocker.
 TEST(Weak_mutations, of_blockers_on_a_small_grid_are_judged_as_by_segments) {
   std::size_t accepted = 0, rejected = 0;
-  for (unsigned seed = 0; seed < 4000; ++seed) {
+  for (unsigned seed = 0; seed < 4000 / share; ++seed) {
     SCOPED_TRACE(seed);
     Dice dice(seed);
     const auto corner = [&](long reach, long low, long high) { return at(roll(dice, -reach, reach), roll(dice, -reach, reach), roll(dice, low, high)); };
@@ -251,8 +248,8 @@ TEST(Weak_mutations, of_blockers_on_a_small_grid_are_judged_as_by_segments) {
     EXPECT_EQ(verdict.accepted, right) << verdict.why;
     ++(right ? accepted : rejected);
   }
-  EXPECT_GT(accepted, 300u);
-  EXPECT_GT(rejected, 300u);
+  EXPECT_GT(accepted, 300 / share);
+  EXPECT_GT(rejected, 300 / share);
 }
 
 }  // namespace

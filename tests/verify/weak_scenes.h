@@ -14,6 +14,12 @@ using Kind = Node::Kind;
 using Term = Weak_certificate::Term;
 using Proof = std::vector<Node>;
 
+#if defined(__SANITIZE_ADDRESS__)
+inline constexpr unsigned share = 30;  // each number costs a hundred times as much
+#else
+inline constexpr unsigned share = 1;
+#endif
+
 inline Form form(const Rational& a, const Rational& b, const Rational& c, const Rational& d) { return {a, b, c, d}; }
 inline Node node(Kind kind, std::size_t index = 0) {
   Node result;
@@ -102,7 +108,9 @@ inline Rational infinite() {
 inline Points up(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) { return rectangle(x0, x1, y0, y1, z); }
 inline Points down(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) { return reversed(rectangle(x0, x1, y0, y1, z)); }
 /// In the plane x = c, looking to -x.
-inline Points facing_back(const Rational& c, const Rational& y0, const Rational& y1, const Rational& z0, const Rational& z1) { return {at(c, y0, z0), at(c, y0, z1), at(c, y1, z1), at(c, y1, z0)}; }
+inline Points facing_back(const Rational& c, const Rational& y0, const Rational& y1, const Rational& z0, const Rational& z1) {
+  return {at(c, y0, z0), at(c, y0, z1), at(c, y1, z1), at(c, y1, z0)};
+}
 
 /// Nothing but a source and a target.
 inline Weak_scene nothing_between() {
@@ -251,7 +259,8 @@ inline Weak_scene strip(std::size_t n) {
 }
 
 inline std::vector<std::pair<const char*, Weak_scene>> all_scenes() {
-  return {{"one blocker", one_blocker()}, {"two abutting", two_abutting()}, {"T-junction", t_junction()}, {"source through floor", source_through_floor()}, {"target through ground", target_through_ground()},
+  return {{"one blocker", one_blocker()}, {"two abutting", two_abutting()}, {"T-junction", t_junction()}, {"source through floor", source_through_floor()},
+          {"target through ground", target_through_ground()},
           {"all away", all_away()}, {"open slit", open_slit()}, {"closed slit", closed_slit()}, {"skew slit", skew_slit()}, {"skew slit, mirrored", skew_slit_mirrored()},
           {"skew slit, both", skew_slit_both()}, {"keel", keel()}, {"two-sided", two_sided()}, {"two sources", two_sources()}, {"strip", strip(5)}};
 }
@@ -346,7 +355,8 @@ struct Judge {
         bool sees = true;  // and so do others close to it
         for (int n = 0; sees && n < 4; ++n) {
           const Rational step = n == 0 ? Rational(0) : tiny(200);
-          const Exact_point near_p = along(p, step, from_to(p, random_inside(c.sources[entry.source], dice))), near_q = along(q, step, from_to(q, random_inside(c.fragments[entry.fragment].vertices, dice)));
+          const Exact_point near_p = along(p, step, from_to(p, random_inside(c.sources[entry.source], dice)));
+          const Exact_point near_q = along(q, step, from_to(q, random_inside(c.fragments[entry.fragment].vertices, dice)));
           sees = look_at_each_other(entry.source, entry.fragment, near_p, near_q) && is_free(near_p, near_q);
         }
         if (sees) return "a pair sees each other";
