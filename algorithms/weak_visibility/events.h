@@ -587,9 +587,7 @@ inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occlud
     Event_counters counters;
   };
   const std::vector<Piece>& pieces = occluders.scene().pieces();
-  std::vector<std::uint32_t> first;  // piece of each face; pieces of a face are neighbours
-  for (std::uint32_t i = 0; i < pieces.size(); ++i)
-    if (i == 0 || pieces[i].face != pieces[i - 1].face) first.push_back(i);
+  const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Result> results(first.size());
   std::atomic<std::size_t> done = 0;
   const auto decide = [&](std::size_t f) {

@@ -84,6 +84,14 @@ struct Weakly_visible {
   Weak_counters counters;
 };
 
+/// The first piece of each face that is kept; pieces of a face are neighbours.
+inline std::vector<std::uint32_t> first_pieces(const std::vector<Piece>& pieces) {
+  std::vector<std::uint32_t> first;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+    if (i == 0 || pieces[i].face != pieces[i - 1].face) first.push_back(i);
+  return first;
+}
+
 /// The faces that are weakly visible from at least one of the sources: for some p inside it and some q inside the face, q strictly in front of the source and p
 /// strictly in front of the face (or off its plane, where two-sided), no closed face meets the open segment from p to q. Grazing, and cracks of width zero, are
 /// not visibility. Degenerate: a face in a source's plane is hidden; faces that coincide or overlap in a plane do not hide one another. Post: the same at any
@@ -96,9 +104,7 @@ inline Weakly_visible weakly_visible(const Occluders& occluders, const std::vect
     Weak_counters counters;
   };
   const std::vector<Piece>& pieces = occluders.scene().pieces();
-  std::vector<std::uint32_t> first;  // piece of each face; pieces of a face are neighbours
-  for (std::uint32_t i = 0; i < pieces.size(); ++i)
-    if (i == 0 || pieces[i].face != pieces[i - 1].face) first.push_back(i);
+  const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Result> results(first.size());
   std::atomic<std::size_t> done = 0;
   const auto decide = [&](std::size_t f) {
