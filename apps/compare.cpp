@@ -111,7 +111,7 @@ void add_compare(CLI::App& app) {
   a->sources.add_to(*command, "weak: ");
   command->add_option("--rays", a->rays, "weak: numbers of random rays from each source, with commas")->delimiter(',')->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--cells", a->weak.cells, "weak: how many cells a search may take before its face is undecided")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--event-edges", a->weak.event_edges, "weak: faces that lines leave open go to events where so many edges are near at most; events alone are asked of scenes with so many edges at most")->check(sightline::app::whole_number)->capture_default_str();
+  command->add_option("--event-edges", a->weak.event_edges, "weak: faces that lines leave open go to events where so many edges are near at most; events alone are asked where no pair has more")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--svg", a->svg, "weak: plot the seconds and the errors");
   command->footer("order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of inexact kernels).\n"
                   "pairs wrong: overlapping fragments drawn in the wrong order; beyond rounding: by more than 2^-20 of the distance.\n"

@@ -37,7 +37,7 @@ struct Weak_task {
   int threads = 0;
   std::uint64_t seed = 1;
   std::size_t cells = Weak_search_options{}.cells;
-  std::size_t event_edges = 100;          ///< lines: what stays undecided goes to events where no more edges are near
+  std::size_t event_edges = 300;          ///< lines: what stays undecided goes to events where no more edges are near
   std::size_t rays = 100000;              ///< sample
   bool surfaces = false;                  ///< events: whether to keep them
   std::function<bool()> out_of_time;      ///< lines, events

@@ -56,7 +56,7 @@ inline std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders
   std::vector<Weak_step> proof;
   const auto leaf = [&](const Near_polygon& from) -> std::optional<Weak_step> {
     const int towards = side_of(source.plane, target), back = side_of(plane, from);
-    if (towards <= 0 || back == 0 || (back < 0 && !two_sided)) return Weak_step{Kind::away, 0, {}, {}};
+    if (towards <= 0 || (back < 0 && !two_sided)) return Weak_step{Kind::away, 0, {}, {}};
     std::vector<Six> pairs;
     for (const Near_point& p : from)
       for (const Near_point& q : target) pairs.push_back(pair_numbers(p.near, q.near));

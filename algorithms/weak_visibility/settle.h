@@ -57,6 +57,13 @@ inline std::vector<Open_cell> open_cells(const Occluders& occluders, const Weak_
   return found;
 }
 
+/// The edges of the pieces that may come between a source and a piece, with its own: what the cost of events goes by.
+inline std::size_t edges_between(const Occluders& occluders, const Weak_source& source, std::uint32_t piece) {
+  std::size_t edges = 0;
+  for (const std::uint32_t near : occluders.near_shaft(source.polygon, occluders.polygon(piece))) edges += occluders.size(near);
+  return edges;
+}
+
 /// What events found of a pair, as a search among lines would say it; where hidden, without a proof.
 inline Weak_answer weak_answer(const Events_answer& found) {
   Weak_answer answer;
@@ -83,17 +90,12 @@ inline Event_counters settle_by_events(const Occluders& occluders, const std::ve
   }
 
   // 2. Events.
-  const auto edges_between = [&](const Weak_source& source, std::uint32_t piece) {
-    std::size_t edges = 0;
-    for (const std::uint32_t near : occluders.near_shaft(source.polygon, occluders.polygon(piece))) edges += occluders.size(near);
-    return edges;
-  };
   const auto settle = [&](Settled& face) {
     std::vector<Weakly_visible::Pair> open;
     for (Weakly_visible::Pair& pair : face.pairs) {
       Events_answer answer;
       const Weak_source& source = sources[pair.source];
-      if (edges_between(source, pair.piece) <= most_edges) answer = weakly_visible_by_events(occluders, source, pair.piece, options, face.counters);
+      if (edges_between(occluders, source, pair.piece) <= most_edges) answer = weakly_visible_by_events(occluders, source, pair.piece, options, face.counters);
       if (answer.status == Weak_status::hidden) continue;
       if (answer.status == Weak_status::visible) {
         open.clear();

@@ -23,6 +23,9 @@ class Weak_volume {
       planes_.push_back(scene_.file_coefficients(piece.support));
       boxes_.push_back(box_of(polygon));
     }
+    Polygon corners;
+    for (const std::array<Exact_point, 2>& box : boxes_) corners.insert(corners.end(), box.begin(), box.end());
+    box_ = box_of(corners);
     for (std::size_t k = 0; k < polygons_.size(); ++k) add_surface(polygons_[k], planes_[k]);
     if (surface_.empty()) throw std::invalid_argument("the faces of a volume enclose nothing; give those of a closed polyhedron");
   }
@@ -33,8 +36,10 @@ class Weak_volume {
   const std::vector<std::vector<Exact_point>>& surface() const { return surface_; }
 
   /// Whether its inside holds points right in front of some part of a convex polygon, right behind where asked for: then these see it, whatever else there is.
-  /// Degenerate: a polygon in the surface is in front of what it looks into, and behind it of what has it in front. Cost: as said above. Exact: yes
+  /// Degenerate: a polygon in the surface is in front of what it looks into, and behind it of what has it in front. Cost: none to speak of where it is outside the solid's
+  /// box, else as said above. Exact: yes
   bool sees_from_within(const std::vector<Exact_point>& polygon, bool behind) const {
+    if (apart(box_of(polygon), box_)) return false;
     const Exact_plane plane = plane_of(polygon);
     const std::vector<Polygon> parts = parts_of(polygon);
     return std::any_of(parts.begin(), parts.end(), [&](const Polygon& part) { return is_inside_beside(part, plane, behind ? -1 : 1); });
@@ -144,6 +149,7 @@ class Weak_volume {
   std::vector<Polygon> polygons_;
   std::vector<Exact_plane> planes_;
   std::vector<std::array<Exact_point, 2>> boxes_;
+  std::array<Exact_point, 2> box_;  // of all of them
   std::vector<Polygon> surface_;
 };
 

@@ -145,7 +145,7 @@ class Compare_weak : public Program {
 
 TEST_F(Compare_weak, lines_make_no_error_and_rays_miss_fewer_faces_the_more_they_are) {
   const std::string svg = path("weak.svg").string();
-  const Outcome r = run({"compare", rooms, "weak", "--from", lamp, "--rays", "100,10000", "--svg", svg, "--json", "-"});
+  const Outcome r = run({"compare", rooms, "weak", "--from", lamp, "--rays", "100,10000", "--event-edges", "20", "--svg", svg, "--json", "-"});
   ASSERT_EQ(r.code, done) << r;
   const Json result = r.json()["result"];
   EXPECT_EQ(result["question"], "weak");
@@ -156,7 +156,7 @@ TEST_F(Compare_weak, lines_make_no_error_and_rays_miss_fewer_faces_the_more_they
   for (const Json& row : result["rows"]) {
     const std::string name = row["method"] == "sample" ? row["rays"].dump() : row["method"].get<std::string>();
     if (name == "events") {
-      EXPECT_EQ(row["status"].get<std::string>().rfind("left out: 568 edges", 0), 0u) << row;
+      EXPECT_EQ(row["status"].get<std::string>().rfind("left out: ", 0), 0u) << row;
       continue;
     }
     EXPECT_EQ(row["status"], "done") << row;

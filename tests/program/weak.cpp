@@ -114,6 +114,8 @@ TEST_F(Weak, says_undecided_with_exit_code_4_where_it_may_not_search) {
   arguments.insert(arguments.end(), source.begin(), source.end());
   EXPECT_EQ(weak(arguments)["result"]["hidden"], Json({0, 1, 2}));  // the two are seen from behind
   arguments.insert(arguments.end(), {"--cells", "1"});
+  EXPECT_EQ(weak(arguments)["result"]["by_events"], Json({0}));
+  arguments.insert(arguments.end(), {"--event-edges", "0"});
   EXPECT_EQ(weak(arguments, undecided)["result"]["undecided"], Json({0}));
 }
 
