@@ -28,3 +28,4 @@ void add_compare(CLI::App& app);
 void add_see(CLI::App& app);
 void add_weak(CLI::App& app);
 void add_make(CLI::App& app);
+void add_judge(CLI::App& app);
