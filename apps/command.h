@@ -27,5 +27,7 @@ void add_verify(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_see(CLI::App& app);
 void add_weak(CLI::App& app);
-void add_make(CLI::App& app);
+void add_generate(CLI::App& app);
+void add_fuzz(CLI::App& app);
+void add_reduce(CLI::App& app);
 void add_judge(CLI::App& app);
