@@ -261,7 +261,7 @@ Json sums_of(const std::vector<const Judged*>& cases) {
   return row;
 }
 
-std::string replay(const Judge_arguments& arguments, const Group& group, std::uint64_t seed) {
+std::string command_again(const Judge_arguments& arguments, const Group& group, std::uint64_t seed) {
   return fmt::format("sightline judge --program {} --query {} --contract {} {} --cases 1 --seed {}{}{}{}", shell_word(arguments.program), arguments.query, arguments.contract, group.again, seed,
                      arguments.format == "off" ? "" : " --format " + arguments.format, arguments.two_sided ? " --two-sided" : "", arguments.cycles ? " --cycles" : "");
 }
@@ -331,7 +331,7 @@ Exit run(const Judge_arguments& arguments) {
       if (!c.not_asked.empty()) reasons[c.not_asked] = reasons.value(c.not_asked, std::size_t{0}) + 1;
       if (!c.breaks) continue;
       failures.push_back({{"family", group.family}, {"distance", group.distance}, {"seed", c.seed}, {"faces", c.faces}, {"mark", mark_names[static_cast<std::size_t>(c.mark)]}, {"why", c.why},
-                          {"wrong_visible", c.grade.wrong_visible}, {"wrong_hidden", c.grade.wrong_hidden}, {"again", replay(arguments, group, c.seed)}});
+                          {"wrong_visible", c.grade.wrong_visible}, {"wrong_hidden", c.grade.wrong_hidden}, {"again", command_again(arguments, group, c.seed)}});
       if (!smallest.is_null() && smallest["faces"] <= c.faces) continue;
       smallest = failures.back();
       smallest["files"] = arguments.keep.empty() ? std::vector<std::string>() : keep_files(court, arguments.keep);

@@ -11,7 +11,7 @@ std::string escaped(const std::string& text) {
   for (const char c : text) safe += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '"' ? "&quot;" : std::string(1, c);
   return safe;
 }
-std::string words(const Json& value) { return escaped(value.get<std::string>()); }
+std::string text_of(const Json& value) { return escaped(value.get<std::string>()); }
 
 /// What may become of a case, in the order of the bars, with its colour.
 struct Colour {
@@ -49,7 +49,7 @@ std::string table_row(const Json& row, bool is_total) {
   const auto count = [](const Json& value, bool bad) { return fmt::format("<td{}>{}</td>", bad && value != 0 ? " class=\"bad\"" : "", value == 0 ? "" : value.dump()); };
   const auto seconds = [&](const char* key) { return row["seconds"][key].is_null() ? std::string("<td></td>") : fmt::format("<td>{:.3f}</td>", row["seconds"][key].get<double>()); };
   const Json &cases = row["cases"], &faces = row["faces"];
-  std::string html = fmt::format("<tr{}><td class=\"name\">{}</td><td class=\"name\">{}</td><td>{}</td>", is_total ? " class=\"total\"" : "", words(row["family"]), words(row["distance"]), bar(row));
+  std::string html = fmt::format("<tr{}><td class=\"name\">{}</td><td class=\"name\">{}</td><td>{}</td>", is_total ? " class=\"total\"" : "", text_of(row["family"]), text_of(row["distance"]), bar(row));
   html += count(row["asked"], false);
   for (const char* mark : {"right", "abstained", "timed out", "out of memory"}) html += count(cases[mark], false);
   for (const char* mark : {"wrong", "invalid", "crashed"}) html += count(cases[mark], true);
@@ -65,15 +65,15 @@ std::string judge_page(const Json& document) {
   std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>sightline judge</title><style>" + std::string(style) + "</style></head><body>\n";
 
   // 1. What was asked, and the verdict.
-  html += fmt::format("<h1>{}</h1>\n<p>asked <b>{}</b>{}, promises <b>{}</b>; at most {} s and {:.0f} MB a case</p>\n", words(document["program"]), words(document["query"]), document["two_sided"] == true ? ", two-sided" : "",
-                      words(document["contract"]), document["limits"]["seconds"].get<double>(), document["limits"]["bytes"].get<double>() / (1 << 20));
+  html += fmt::format("<h1>{}</h1>\n<p>asked <b>{}</b>{}, promises <b>{}</b>; at most {} s and {:.0f} MB a case</p>\n", text_of(document["program"]), text_of(document["query"]), document["two_sided"] == true ? ", two-sided" : "",
+                      text_of(document["contract"]), document["limits"]["seconds"].get<double>(), document["limits"]["bytes"].get<double>() / (1 << 20));
   html += total["asked"] == 0 ? "<p class=\"verdict broken\">Nothing was asked.</p>\n"
           : holds             ? fmt::format("<p class=\"verdict holds\">The contract holds in all {} cases.</p>\n", total["asked"].get<std::size_t>())
                               : fmt::format("<p class=\"verdict broken\">The contract is broken in {} of {} cases.</p>\n", total["breaches"].get<std::size_t>(), total["asked"].get<std::size_t>());
   if (!result["smallest"].is_null()) {
     const Json& s = result["smallest"];
-    html += fmt::format("<p>The smallest that breaks it: {} ({}), seed {}, {} faces: {}: {}.<br>Again: <code>{}</code></p>\n", words(s["family"]), words(s["distance"]), s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(), words(s["mark"]),
-                        words(s["why"]), words(s["again"]));
+    html += fmt::format("<p>The smallest that breaks it: {} ({}), seed {}, {} faces: {}: {}.<br>Again: <code>{}</code></p>\n", text_of(s["family"]), text_of(s["distance"]), s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(), text_of(s["mark"]),
+                        text_of(s["why"]), text_of(s["again"]));
   }
 
   // 2. The table.
@@ -94,8 +94,8 @@ std::string judge_page(const Json& document) {
   if (!failures.empty()) html += "<h2>What broke the contract</h2>\n<table><tr><th class=\"name\">family</th><th class=\"name\">distance</th><th>seed</th><th>faces</th><th class=\"name\">case</th><th class=\"name\">why, and how to ask it again</th></tr>\n";
   for (std::size_t i = 0; i < std::min(failures.size(), shown); ++i) {
     const Json& f = *failures[i];
-    html += fmt::format("<tr><td class=\"name\">{}</td><td class=\"name\">{}</td><td>{}</td><td>{}</td><td class=\"name\">{}</td><td class=\"why\">{}<br><code>{}</code></td></tr>\n", words(f["family"]), words(f["distance"]), f["seed"].get<std::uint64_t>(),
-                        f["faces"].get<std::size_t>(), words(f["mark"]), words(f["why"]), words(f["again"]));
+    html += fmt::format("<tr><td class=\"name\">{}</td><td class=\"name\">{}</td><td>{}</td><td>{}</td><td class=\"name\">{}</td><td class=\"why\">{}<br><code>{}</code></td></tr>\n", text_of(f["family"]), text_of(f["distance"]), f["seed"].get<std::uint64_t>(),
+                        f["faces"].get<std::size_t>(), text_of(f["mark"]), text_of(f["why"]), text_of(f["again"]));
   }
   if (!failures.empty()) html += "</table>\n";
   if (failures.size() > shown) html += fmt::format("<p>And {} more: --json has them all.</p>\n", failures.size() - shown);
