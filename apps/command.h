@@ -27,4 +27,6 @@ void add_verify(CLI::App& app);
 void add_compare(CLI::App& app);
 void add_see(CLI::App& app);
 void add_weak(CLI::App& app);
-void add_make(CLI::App& app);
+void add_generate(CLI::App& app);
+void add_fuzz(CLI::App& app);
+void add_reduce(CLI::App& app);

@@ -1,5 +1,5 @@
 #pragma once
-// All generators, and one that is called by name: `sightline make KIND --size N --seed S`.
+// All generators, and one that is called by name: `sightline generate KIND --size N --seed S`.
 
 #include <sightline/algorithms/generate/buildings.h>
 #include <sightline/algorithms/generate/shapes.h>
@@ -14,28 +14,28 @@ namespace sightline::generate {
 /// A generator with its parameters reduced to a size and a seed.
 struct Kind {
   std::string_view name, size_means, what;
-  std::size_t example_size;
+  std::size_t example_size, small_size;  ///< a scene to look at; one of few faces, for many scenes
   Polygon_soup (*make)(std::size_t size, std::uint64_t seed);
 };
 
 /// All kinds of scene, by name.
 inline std::span<const Kind> kinds() {
   static constexpr std::array<Kind, 15> all{{
-      {"bars", "bars", "flat bars in a cycle, each over the next", 12, [](std::size_t n, std::uint64_t) { return bars(n); }},
-      {"city", "boxes", "axis-parallel boxes on a plane", 100, [](std::size_t n, std::uint64_t s) { return city(n, s); }},
-      {"city_rotated", "boxes", "the same, each box turned by a rational rotation", 100, [](std::size_t n, std::uint64_t s) { return city(n, s, true); }},
-      {"convex_sphere", "faces (at least)", "a closed, exactly convex body near the unit sphere", 1000, [](std::size_t n, std::uint64_t s) { return convex_sphere(n, s); }},
-      {"crossing", "faces", "rectangles that cross in one segment", 10, [](std::size_t n, std::uint64_t) { return crossing(n); }},
-      {"grid", "cells along an axis", "all walls of n x n x n unit cells", 5, [](std::size_t n, std::uint64_t) { return grid(n); }},
-      {"lattice", "cells along an axis", "squares across n x n x n unit cells, all crossing", 6, [](std::size_t n, std::uint64_t) { return lattice(n); }},
-      {"menger_sponge", "level", "the boundary of the Menger sponge in unit quads", 2, [](std::size_t n, std::uint64_t) { return menger_sponge(n); }},
-      {"menger_sponge_merged", "level", "the same in larger rectangles", 2, [](std::size_t n, std::uint64_t) { return menger_sponge(n, true); }},
-      {"rooms", "rooms along a side", "a house of n x n rooms with doors, windows, furniture", 4, [](std::size_t n, std::uint64_t s) { return rooms(n, n, s); }},
-      {"soup", "triangles", "random triangles with edges about 1/10 in the unit cube", 1000, [](std::size_t n, std::uint64_t s) { return soup(n, 0.1, s); }},
-      {"soup_constant_density", "triangles", "random triangles with edges n^(-1/3) in the unit cube", 2000, [](std::size_t n, std::uint64_t s) { return soup_constant_density(n, s); }},
-      {"stacked", "faces", "unit squares above each other", 10, [](std::size_t n, std::uint64_t) { return stacked(n); }},
-      {"terrain", "triangles (at least)", "a fractal height field", 1000, [](std::size_t n, std::uint64_t s) { return terrain(n, s); }},
-      {"triangles_between_squares", "triangles", "random triangles between two squares that look at each other", 50, [](std::size_t n, std::uint64_t s) { return triangles_between_squares(n, s); }},
+      {"bars", "bars", "flat bars in a cycle, each over the next", 12, 4, [](std::size_t n, std::uint64_t) { return bars(n); }},
+      {"city", "boxes", "axis-parallel boxes on a plane", 100, 2, [](std::size_t n, std::uint64_t s) { return city(n, s); }},
+      {"city_rotated", "boxes", "the same, each box turned by a rational rotation", 100, 2, [](std::size_t n, std::uint64_t s) { return city(n, s, true); }},
+      {"convex_sphere", "faces (at least)", "a closed, exactly convex body near the unit sphere", 1000, 8, [](std::size_t n, std::uint64_t s) { return convex_sphere(n, s); }},
+      {"crossing", "faces", "rectangles that cross in one segment", 10, 4, [](std::size_t n, std::uint64_t) { return crossing(n); }},
+      {"grid", "cells along an axis", "all walls of n x n x n unit cells", 5, 1, [](std::size_t n, std::uint64_t) { return grid(n); }},
+      {"lattice", "cells along an axis", "squares across n x n x n unit cells, all crossing", 6, 1, [](std::size_t n, std::uint64_t) { return lattice(n); }},
+      {"menger_sponge", "level", "the boundary of the Menger sponge in unit quads", 2, 1, [](std::size_t n, std::uint64_t) { return menger_sponge(n); }},
+      {"menger_sponge_merged", "level", "the same in larger rectangles", 2, 1, [](std::size_t n, std::uint64_t) { return menger_sponge(n, true); }},
+      {"rooms", "rooms along a side", "a house of n x n rooms with doors, windows, furniture", 4, 1, [](std::size_t n, std::uint64_t s) { return rooms(n, n, s); }},
+      {"soup", "triangles", "random triangles with edges about 1/10 in the unit cube", 1000, 8, [](std::size_t n, std::uint64_t s) { return soup(n, 0.1, s); }},
+      {"soup_constant_density", "triangles", "random triangles with edges n^(-1/3) in the unit cube", 2000, 8, [](std::size_t n, std::uint64_t s) { return soup_constant_density(n, s); }},
+      {"stacked", "faces", "unit squares above each other", 10, 5, [](std::size_t n, std::uint64_t) { return stacked(n); }},
+      {"terrain", "triangles (at least)", "a fractal height field", 1000, 8, [](std::size_t n, std::uint64_t s) { return terrain(n, s); }},
+      {"triangles_between_squares", "triangles", "random triangles between two squares that look at each other", 50, 6, [](std::size_t n, std::uint64_t s) { return triangles_between_squares(n, s); }},
   }};
   return all;
 }

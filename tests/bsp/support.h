@@ -6,6 +6,7 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/algorithms/generate/scenes.h>
+#include <sightline/algorithms/generate/tangles.h>
 #include <sightline/algorithms/generate/transform.h>
 #include <sightline/algorithms/verify/order.h>
 #include <sightline/kernel/exact_traits.h>
@@ -134,45 +135,8 @@ inline Exact_point lattice_point(Random& random, std::int64_t reach = 2) {
   return p;
 }
 
-/// A few faces on a tiny lattice: coplanar, touching, interpenetrating, repeated, turned, concave, non-planar, without area.
-inline Polygon_soup random_soup(Random& random, std::size_t most_faces = 7) {
-  static const std::vector<std::vector<std::array<int, 2>>> outlines{
-      {{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
-      {{-1, -1}, {2, -1}, {2, 2}, {1, 2}, {1, 0}, {0, 0}, {0, 2}, {-1, 2}}, {{0, 0}, {2, -1}, {1, 0}, {2, 1}}, {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}};
-  std::vector<Points> faces;
-  const std::size_t count = 1 + random.below(most_faces);
-  while (faces.size() < count) {
-    Points loop;
-    switch (random.below(8)) {
-      case 0:  // any loop, mostly not planar
-        for (std::size_t k = 3 + random.below(3); k > 0; --k) loop.push_back(lattice_point(random));
-        break;
-      case 1:  // a triangle, at times without area
-        for (std::size_t k = 0; k < 3; ++k) loop.push_back(lattice_point(random));
-        break;
-      case 2:  // an earlier one again, perhaps turned, perhaps begun elsewhere
-        if (faces.empty()) continue;
-        loop = faces[random.below(faces.size())];
-        if (random.chance(1, 2)) loop = reversed(loop);
-        std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random.below(loop.size())), loop.end());
-        break;
-      case 3: {  // axis-parallel
-        const std::size_t axis = random.below(3);
-        const Exact_point origin = lattice_point(random);
-        Exact_point u{0, 0, 0}, v{0, 0, 0};
-        u[(axis + 1) % 3] = v[(axis + 2) % 3] = 1;
-        for (const auto& [a, b] : outlines[random.below(outlines.size())]) loop.push_back(along(along(origin, a, u), b, v));
-        break;
-      }
-      default: {  // an outline in any plane of the lattice
-        const Exact_point origin = lattice_point(random), u = lattice_point(random, 1), v = lattice_point(random, 1);
-        for (const auto& [a, b] : outlines[random.below(outlines.size())]) loop.push_back(along(along(origin, a, u), b, v));
-      }
-    }
-    faces.push_back(loop);
-  }
-  return soup_of(faces);
-}
+/// generate::tangle as a soup.
+inline Polygon_soup random_soup(Random& random, std::size_t most_faces = 7) { return soup_of(generate::tangle(random, most_faces)); }
 
 /// The same scene where floating point is worse: far from the origin, tiny, one ulp off, turned.
 inline Polygon_soup moved_somewhere(const Polygon_soup& soup, Random& random) {

@@ -172,50 +172,8 @@ struct Related {
 
 // ---- Random scenes -------------------------------------------------------------------------------------------------------------------
 
-/// Two to eight triangles and parallelograms on a small lattice, most of them placed by an earlier one: in its plane (either sense), parallel to it,
-/// on one of its edges, on a corner, with a corner on its edge or inside, or through it. Every face is planar and convex.
-inline Polygon_soup touching_soup(Random& random) {
-  std::vector<Points> faces;
-  const auto parallelogram = [](const Exact_point& p, const Exact_point& u, const Exact_point& v) {
-    return Points{p, along(p, 1, u), along(along(p, 1, u), 1, v), along(p, 1, v)};
-  };
-  const std::size_t count = 2 + random.below(7);
-  while (faces.size() < count) {
-    const Exact_point p = lattice_point(random), u = lattice_point(random, 1), v = lattice_point(random, 1);
-    Points face;
-    const std::uint64_t kind = faces.empty() ? random.below(2) : random.below(9);
-    if (kind == 0) {
-      face = {p, lattice_point(random), lattice_point(random)};
-    } else if (kind == 1) {
-      face = parallelogram(p, u, v);
-    } else {
-      const Points& other = faces[random.below(faces.size())];
-      const std::size_t n = other.size(), k = random.below(n);
-      const Exact_point &a = other[k], &b = other[(k + 1) % n], &c = other[(k + 2) % n];
-      const Exact_point inner = centroid({a, b, c}), middle = centroid({a, b});
-      switch (kind) {
-        case 2: {  // in its plane
-          const Exact_point offset = along(along(Exact_point{0, 0, 0}, random.between(-2, 2), minus(b, a)), random.between(-2, 2), minus(c, a));
-          for (const Exact_point& q : other) face.push_back(along(q, 1, offset));
-          break;
-        }
-        case 3:  // parallel
-          for (const Exact_point& q : other) face.push_back(along(q, 1, p));
-          break;
-        case 4: face = {b, a, p}; break;  // on its edge
-        case 5: face = parallelogram(a, u, v); break;
-        case 6: face = {middle, p, along(p, 1, u)}; break;
-        case 7: face = {inner, p, along(p, 1, u)}; break;
-        default: face = parallelogram(along(along(inner, ratio(-1, 2), u), ratio(-1, 2), v), u, v);  // through it
-      }
-    }
-    const Exact_point normal = Flat(face).normal;
-    if (normal == Exact_point{0, 0, 0}) continue;
-    if (random.chance(1, 2)) face = reversed(face);
-    faces.push_back(face);
-  }
-  return soup_of(faces);
-}
+/// generate::touching_faces as a soup.
+inline Polygon_soup touching_soup(Random& random) { return soup_of(generate::touching_faces(random)); }
 
 enum class Move { none, far, tiny, one_ulp, turned };
 

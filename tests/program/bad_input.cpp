@@ -180,7 +180,7 @@ TEST_F(Bad_input, targets_that_cannot_be_written_are_told_and_exit_3) {
     EXPECT_EQ(r.code, bad_input) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;
   }
-  const Outcome r = run({"make", "stacked", "--out", path("no/such/folder/x.off").string()});
+  const Outcome r = run({"generate", "stacked", "--out", path("no/such/folder/x.off").string()});
   EXPECT_EQ(r.code, bad_input) << r;
   EXPECT_TRUE(r.one_line_of_error()) << r;
 }

@@ -59,7 +59,7 @@ TEST_F(Certificates, a_vertex_moved_by_two_to_the_minus_sixty_is_rejected) {
 
 TEST_F(Certificates, two_fragments_that_overlap_and_change_places_are_rejected) {
   const std::string stacked = path("stacked.off").string();
-  ASSERT_EQ(run({"make", "stacked", "--size", "6", "--out", stacked}).code, done);
+  ASSERT_EQ(run({"generate", "stacked", "--size", "6", "--out", stacked}).code, done);
   const Json made = certificate(stacked, "0.5,0.25,100");
   ASSERT_EQ(made["fragments"].size(), 6u);
   for (std::size_t i = 0; i < 6; ++i)

@@ -35,7 +35,7 @@ static const std::map<std::string, std::vector<std::string>> commands{
     {"cutset", {"SCENE", "--path", "--orbit", "--motion", "--decision-tree", "--check", "--svg"}},
     {"verify", {"SCENE", "CERTIFICATE"}},
     {"compare", {"SCENE", "--eye", "--kernels", "--max-fragments"}},
-    {"make", {"KIND", "--size", "--seed", "--out"}},
+    {"generate", {"FAMILY", "--size", "--seed", "--ulps", "--offset", "--scale", "--out", "--query"}},
 };
 
 TEST_F(Command_line, help_names_every_command) {
@@ -53,13 +53,13 @@ TEST_F(Command_line, help_of_each_command_names_each_of_its_options) {
     EXPECT_EQ(r.code, done) << r;
     EXPECT_EQ(r.err, "") << r;
     std::vector<std::string> all = options;
-    if (command != "make") all.insert(all.end(), {"--json", "--coordinates", "--threads", "--seed", "--budget"});
+    if (command != "generate") all.insert(all.end(), {"--json", "--coordinates", "--threads", "--seed", "--budget"});
     for (const std::string& option : all) EXPECT_NE(r.out.find(option), std::string::npos) << option << " is not in " << r;
   }
 }
 
-TEST_F(Command_line, help_of_make_lists_the_kinds_with_the_meaning_of_their_size) {
-  const Outcome r = run({"make", "--help"});
+TEST_F(Command_line, help_of_generate_lists_the_kinds_with_the_meaning_of_their_size) {
+  const Outcome r = run({"generate", "--help"});
   EXPECT_NE(r.out.find("rooms "), std::string::npos) << r;
   EXPECT_NE(r.out.find("(size:"), std::string::npos) << r;
 }
@@ -85,7 +85,7 @@ TEST_F(Command_line, missing_and_surplus_arguments_are_usage_errors) {
   for (const auto& [command, options] : commands) expect_usage_error({command});
   expect_usage_error({"info", cube, cube});
   expect_usage_error({"verify", cube}, "CERTIFICATE");
-  expect_usage_error({"make", "rooms"}, "--out");
+  expect_usage_error({"generate", "rooms"}, "--out");
   expect_usage_error({"info", cube, "--json"}, "--json");
 }
 
@@ -146,8 +146,8 @@ TEST_F(Command_line, compare_wants_an_eye_of_three_numbers_if_any) {
   EXPECT_EQ(run({"compare", cube, "bsp", "--kernels", "exact"}).code, done);
 }
 
-TEST_F(Command_line, make_wants_a_kind_that_there_is) {
-  expect_usage_error({"make", "castle", "--out", path("a.off").string()}, "castle");
+TEST_F(Command_line, generate_wants_a_family_that_there_is) {
+  expect_usage_error({"generate", "castle", "--out", path("a.off").string()}, "castle");
   EXPECT_FALSE(fs::exists(path("a.off")));
 }
 

@@ -101,7 +101,7 @@ class Compare_visible : public Program {
 
 TEST_F(Compare_visible, exact_kernels_see_the_same_and_more_pixels_are_less_wrong) {
   const std::string scene = path("town.qoff").string();
-  ASSERT_EQ(run({"make", "city_rotated", "--size", "20", "--seed", "4", "--out", scene}).code, done);
+  ASSERT_EQ(run({"generate", "city_rotated", "--size", "20", "--seed", "4", "--out", scene}).code, done);
   const auto errors = rows({scene, "see", "--sizes", "32,256", "--bits", "16,32"});
   EXPECT_EQ(errors.size(), 9u);
   for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
@@ -142,7 +142,7 @@ class Budget : public Program {};
 
 TEST_F(Budget, that_runs_out_is_exit_4_and_one_line) {
   const std::string soup = path("soup.off").string();
-  ASSERT_EQ(run({"make", "soup_constant_density", "--size", "20000", "--out", soup}).code, done);
+  ASSERT_EQ(run({"generate", "soup_constant_density", "--size", "20000", "--out", soup}).code, done);
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"bsp", soup}, {"order", soup, "--eye", "0.3,-2,0.1"}, {"bsp", soup, "--json", "-"}, {"bsp", soup, "--threads", "2"}, {"bsp", soup, "--kernel", "double"}}) {
     std::vector<std::string> with_budget = words;
@@ -156,7 +156,7 @@ TEST_F(Budget, that_runs_out_is_exit_4_and_one_line) {
 
 TEST_F(Budget, that_runs_out_in_verify_is_exit_4) {
   const std::string scene = path("soup.off").string(), certificate = path("c.json").string();
-  ASSERT_EQ(run({"make", "soup", "--size", "300", "--out", scene}).code, done);
+  ASSERT_EQ(run({"generate", "soup", "--size", "300", "--out", scene}).code, done);
   ASSERT_EQ(run({"order", scene, "--eye", "3,2,1", "--certificate", certificate}).code, done);
   const Outcome r = run({"verify", scene, certificate, "--budget", "0.001"});
   EXPECT_EQ(r.code, undecided) << r;
@@ -165,7 +165,7 @@ TEST_F(Budget, that_runs_out_in_verify_is_exit_4) {
 
 TEST_F(Budget, of_compare_is_for_each_kernel_and_an_exact_one_that_is_late_is_exit_4) {
   const std::string scene = path("soup.off").string();
-  ASSERT_EQ(run({"make", "soup", "--size", "1000", "--out", scene}).code, done);
+  ASSERT_EQ(run({"generate", "soup", "--size", "1000", "--out", scene}).code, done);
   const Outcome r = run({"compare", scene, "bsp", "--budget", "0.001", "--json", "-"});
   EXPECT_EQ(r.code, undecided) << r;
   const Json d = r.json();

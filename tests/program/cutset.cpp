@@ -122,7 +122,7 @@ TEST_F(Cutset, bad_files_name_line_and_column) {
 
 TEST_F(Cutset, too_many_planes_for_a_decision_tree_are_said) {
   const std::string sphere = path("sphere.off").string();
-  run({"make", "convex_sphere", "--size", "48", "--out", sphere});
+  run({"generate", "convex_sphere", "--size", "48", "--out", sphere});
   const Outcome r = run({"cutset", sphere, "--decision-tree"});
   EXPECT_EQ(r.code, bad_input) << r;
   EXPECT_NE(r.err.find("24"), std::string::npos) << r;

@@ -21,7 +21,7 @@ class Graph : public Program {
   }
   std::string made(const std::string& kind, const std::string& size) {
     const std::string file = path(kind + size + ".off").string();
-    const Outcome r = run({"make", kind, "--size", size, "--out", file});
+    const Outcome r = run({"generate", kind, "--size", size, "--out", file});
     EXPECT_EQ(r.code, done) << r;
     return file;
   }

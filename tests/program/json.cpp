@@ -205,7 +205,7 @@ TEST_F(Json_output, verify_reads_the_scene_with_the_coordinates_it_is_told) {
 
 TEST_F(Json_output, threads_change_nothing_but_seconds) {
   const std::string soup = path("soup.off").string();
-  ASSERT_EQ(run({"make", "soup", "--size", "1500", "--out", soup}).code, done);
+  ASSERT_EQ(run({"generate", "soup", "--size", "1500", "--out", soup}).code, done);
   for (const std::string& scene : {soup, cornell})
     for (const std::vector<std::string>& command : {std::vector<std::string>{"info", scene}, {"bsp", scene}, {"order", scene, "--eye", "1.5,-2,0.25"}}) {
       std::string first;
@@ -233,7 +233,7 @@ TEST_F(Json_output, more_threads_than_processors_are_no_reason_for_a_message) {
 
 TEST_F(Json_output, the_seed_is_used_and_repeats) {
   const std::string soup = path("soup.off").string();
-  ASSERT_EQ(run({"make", "soup", "--size", "500", "--out", soup}).code, done);
+  ASSERT_EQ(run({"generate", "soup", "--size", "500", "--out", soup}).code, done);
   std::set<std::string> results;
   for (const char* seed : {"1", "2", "3", "4", "1", "4", "9999999999999999999"}) {
     const Json d = json_of({"bsp", soup, "--seed", seed});

@@ -106,7 +106,7 @@ TEST_F(See, draws_what_it_sees) {
 
 TEST_F(See, is_the_same_with_any_number_of_threads_and_in_every_exact_kernel) {
   const std::string city = path("city.qoff").string();
-  ASSERT_EQ(run({"make", "city_rotated", "--size", "40", "--seed", "3", "--out", city}).code, done);
+  ASSERT_EQ(run({"generate", "city_rotated", "--size", "40", "--seed", "3", "--out", city}).code, done);
   const Json one = see({city, "--eye", "0,0,1", "--threads", "1", "--lines"}), many = see({city, "--eye", "0,0,1", "--threads", "5", "--lines"});
   EXPECT_EQ(one["result"], many["result"]);
   EXPECT_EQ(one["counters"], many["counters"]);

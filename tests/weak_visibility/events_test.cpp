@@ -136,7 +136,7 @@ TEST(Events, see_the_same_from_source_to_target_as_back) {
 
 TEST(Events, of_a_target_that_stands_on_the_source_show_it) {
   // All lines that touch the target's two free edges pass its apex; its third edge is in the source's plane.
-  const Weak_scene scene{"standing", test_scenes::soup_of({{weak_scenes::at(-1, 2, 0), weak_scenes::at(1, 2, 0), weak_scenes::at(0, 2, 2)}}),
+  const Weak_scene scene{"standing", weak_scenes::soup_of({{weak_scenes::at(-1, 2, 0), weak_scenes::at(1, 2, 0), weak_scenes::at(0, 2, 2)}}),
                          {weak_scenes::at(-1, -1, 0), weak_scenes::at(1, -1, 0), weak_scenes::at(1, 1, 0), weak_scenes::at(-1, 1, 0)}, {0}, true};
   Event_counters counters;
   Events_options options;

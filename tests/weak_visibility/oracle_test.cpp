@@ -166,7 +166,7 @@ TEST(Weak_oracle_z3, decides_what_is_known_by_hand) {
 Weak_scene corner_of_a_room(const Faces& faces) {
   Faces all{{at(0, -1, 0), at(0, 1, 0), at(0, 1, 2), at(0, -1, 2)}};
   all.insert(all.end(), faces.begin(), faces.end());
-  return {"corner of a room", test_scenes::soup_of(all), rectangle(0, 2, -1, 1, 0), {0}, std::nullopt};
+  return {"corner of a room", weak_scenes::soup_of(all), rectangle(0, 2, -1, 1, 0), {0}, std::nullopt};
 }
 
 enum class Truth { hidden, hardly_visible, visible };
@@ -190,7 +190,7 @@ TEST(Weak_oracle_law, is_open_one_sided_and_knows_coplanar_faces) {
   const auto l_shaped_wall = [](Faces faces) {
     Weak_scene scene = corner_of_a_room({});
     faces.insert(faces.begin(), {at(0, -1, 0), at(0, 1, 0), at(0, 1, 2), at(0, 0, 2), at(0, 0, 1), at(0, -1, 1)});
-    scene.soup = test_scenes::soup_of(faces);
+    scene.soup = weak_scenes::soup_of(faces);
     return scene;
   };
   const auto low_end = [](Weak_scene scene) {
@@ -225,7 +225,7 @@ TEST(Weak_oracle_law, is_open_one_sided_and_knows_coplanar_faces) {
 TEST(Weak_oracle_rays, prove_nothing_at_the_boundary) {
   const Points square = rectangle(-1, 1, -1, 1, 0);
   const Faces faces{reversed(rectangle(-1, 1, -1, 1, 2)), rectangle(0, 5, -5, 5, 1), {at(-5, ratio(1, 2), -1), at(5, ratio(1, 2), -1), at(5, ratio(1, 2), 3), at(-5, ratio(1, 2), 3)}};
-  const Flats flats = oracle::flats_of(sightline::Scene(test_scenes::soup_of(faces)));
+  const Flats flats = oracle::flats_of(sightline::Scene(weak_scenes::soup_of(faces)));
   const auto proof = [&](const Exact_point& p, const Exact_point& q) { return proves_visible(flats, square, 0, {p, q}); };
   const Rational left = ratio(-1, 3);
   EXPECT_TRUE(proof(at(left, 0, 0), at(left, 0, 2)));

@@ -188,7 +188,7 @@ inline std::optional<Sightline> decide(const Parallel_scene& scene) {
 inline Weak_scene in_space(const Parallel_scene& scene, const std::string& name, std::optional<bool> truth) {
   Faces faces{weak_scenes::reversed(scene.target)};
   faces.insert(faces.end(), scene.occluders.begin(), scene.occluders.end());
-  return {name, test_scenes::soup_of(faces), scene.source, {0}, truth};
+  return {name, weak_scenes::soup_of(faces), scene.source, {0}, truth};
 }
 
 // ---- From a seed -----------------------------------------------------------------------------------------------------------------------------------------

@@ -2,72 +2,52 @@
 // Small scenes from a seed for weak visibility: a source polygon, targets, and where it is known by construction, the truth. They come in threes: seeds 3 k, 3 k + 1,
 // 3 k + 2 are one scene whose faces touch exactly, are 2^-40 apart, and overlap by 2^-40.
 
-#include "drafts.h"
+#include "../point_visibility/oracle.h"
+
+#include <sightline/algorithms/generate/weak_scenes.h>
 
 #include <functional>
 
 namespace weak_scenes {
 
+using namespace sightline::generate::weak_drafts;
+using sightline::Exact_point;
+using sightline::Face_id;
+using sightline::Integer;
+using sightline::Polygon_soup;
+using sightline::Rational;
+using sightline::generate::along;
+using sightline::generate::at;
+using sightline::generate::centroid;
+using sightline::generate::cross;
+using sightline::generate::either_way;
+using sightline::generate::Faces;
+using sightline::generate::image;
+using sightline::generate::integer;
+using sightline::generate::lattice;
+using sightline::generate::minus;
+using sightline::generate::Points;
+using sightline::generate::project;
+using sightline::generate::Projective_map;
+using sightline::generate::Random;
+using sightline::generate::random_axes;
+using sightline::generate::random_projection;
+using sightline::generate::ratio;
+using sightline::generate::rectangle;
+using sightline::generate::reversed;
+using sightline::generate::scaling;
+using sightline::generate::soup_of;
+using sightline::generate::Weak_scene;
+
+inline const Rational& tiny_gap() {
+  static const Rational gap(1, 1ul << 40);
+  return gap;
+}
+
 struct Family {
   std::string name;
   std::function<Weak_scene(std::uint64_t seed)> make;  ///< the same seed gives the same scene
 };
-
-struct Drafter {
-  const char* name;
-  Draft (*draft)(Random& random, const Rational& gap);
-};
-inline constexpr std::array drafters{Drafter{"shared_edges", shared_edges},
-                                     Drafter{"cracks", cracks},
-                                     Drafter{"t_junctions", t_junctions},
-                                     Drafter{"coplanar_overlap", coplanar_overlap},
-                                     Drafter{"slats", slats},
-                                     Drafter{"edges_in_one_plane", edges_in_one_plane},
-                                     Drafter{"concurrent_edges", concurrent_edges},
-                                     Drafter{"regulus", regulus},
-                                     Drafter{"tangent", tangent},
-                                     Drafter{"five_edges", five_edges},
-                                     Drafter{"apertures", apertures},
-                                     Drafter{"hinged", hinged},
-                                     Drafter{"facing", facing},
-                                     Drafter{"lids", lids},
-                                     Drafter{"valley", valley},
-                                     Drafter{"boxes", boxes},
-                                     Drafter{"lattice_faces", lattice_faces},
-                                     Drafter{"triangles", triangles}};
-
-/// Faces and roles in random order, turned at random where that changes nothing, the whole in one of several positions.
-inline Weak_scene finished(Draft draft, Random& random) {
-  // What changes nothing: source and target in each other's place, occluders turned, more of them before what is hidden anyway.
-  if (!draft.bodies && draft.targets.size() == 1 && random.chance(1, 3)) std::swap(draft.source, draft.faces[draft.targets[0]]);
-  std::vector<std::size_t> order;
-  for (std::size_t k = 0; k < draft.faces.size(); ++k) {
-    order.push_back(k);
-    if (!draft.bodies && std::count(draft.targets.begin(), draft.targets.end(), k) == 0) draft.faces[k] = either_way(draft.faces[k], random);
-  }
-  Faces extra;
-  view_scenes::add_any(extra, random.below(3), random);
-  const bool add_extra = random.chance(1, 3), add_source = !draft.bodies && random.chance(1, 4);
-  random.shuffle(order);
-  Faces faces;
-  Weak_scene scene;
-  for (const std::size_t k : order) {
-    if (std::count(draft.targets.begin(), draft.targets.end(), k) > 0) scene.targets.push_back(static_cast<Face_id>(faces.size()));
-    faces.push_back(draft.faces[k]);
-  }
-  if (add_extra && draft.truth == false) view_scenes::add(faces, extra);
-  if (add_source) faces.push_back(draft.source);
-  scene.soup = view_scenes::soup_of(faces), scene.source = draft.source, scene.truth = draft.truth;
-  const sightline::Scene read(scene.soup);
-  for (const sightline::Set_aside& face : read.set_aside()) std::erase(scene.targets, face.face);
-  switch (random.below(5)) {
-    case 0: return scene;
-    case 1: return project(scene, random_axes(random));
-    case 2: return project(scene, random_rotation(random));
-    case 3: return project(scene, random_shear(random));
-    default: return project(scene, random_projection(scene, random));
-  }
-}
 
 inline Draft drafted(std::size_t which, std::uint64_t seed, Random& random) {
   const Rational gap = seed % 3 == 0 ? Rational(0) : seed % 3 == 1 ? tiny_gap() : Rational(-tiny_gap());

@@ -1,4 +1,4 @@
-// make: every kind makes a scene that the other commands read.
+// generate: every kind makes a scene that the other commands read.
 
 #include "program.h"
 
@@ -6,13 +6,13 @@
 
 namespace program {
 
-class Make : public Program {
+class Generate : public Program {
  protected:
   /// The kinds that the help lists.
   std::vector<std::string> kinds() {
-    const Outcome r = run({"make", "--help"});
+    const Outcome r = run({"generate", "--help"});
     std::vector<std::string> names;
-    std::istringstream lines(r.out.substr(std::min(r.out.size(), r.out.find("Kinds:"))));
+    std::istringstream lines(r.out.substr(std::min(r.out.size(), r.out.find("Kinds of any size"))));
     std::string line;
     std::getline(lines, line);
     while (std::getline(lines, line) && line.starts_with("  ")) names.push_back(line.substr(2, line.find(' ', 2) - 2));
@@ -26,10 +26,10 @@ class Make : public Program {
   }
 };
 
-TEST_F(Make, every_kind_in_its_own_size_is_a_scene_of_faces_that_none_is_set_aside_of) {
+TEST_F(Generate, every_kind_in_its_own_size_is_a_scene_of_faces_that_none_is_set_aside_of) {
   for (const std::string& kind : kinds()) {
     const std::string scene = path(kind + ".qoff").string();
-    const Outcome r = run({"make", kind, "--out", scene});
+    const Outcome r = run({"generate", kind, "--out", scene});
     ASSERT_EQ(r.code, done) << r;
     EXPECT_EQ(r.err, "") << r;
     const Json d = info(scene);
@@ -39,11 +39,11 @@ TEST_F(Make, every_kind_in_its_own_size_is_a_scene_of_faces_that_none_is_set_asi
   }
 }
 
-TEST_F(Make, every_kind_can_be_ordered_and_the_order_verified) {
+TEST_F(Generate, every_kind_can_be_ordered_and_the_order_verified) {
   for (const std::string& kind : kinds()) {
     const std::string scene = path(kind + ".qoff").string(), certificate = path("c.json").string();
     const std::string size = kind == "bars" ? "5" : kind.starts_with("menger_sponge") ? "1" : kind == "convex_sphere" || kind == "terrain" ? "100" : kind.starts_with("soup") ? "40" : "2";
-    ASSERT_EQ(run({"make", kind, "--size", size, "--out", scene}).code, done) << kind << size;
+    ASSERT_EQ(run({"generate", kind, "--size", size, "--out", scene}).code, done) << kind << size;
     for (const char* eye : {"7/3,-11,5.3", "0,0,0", "1/2,1/2,1/2"}) {
       const Outcome o = run({"order", scene, "--eye", eye, "--certificate", certificate});
       ASSERT_EQ(o.code, done) << o;
@@ -53,23 +53,23 @@ TEST_F(Make, every_kind_can_be_ordered_and_the_order_verified) {
   }
 }
 
-TEST_F(Make, a_seed_repeats_and_another_gives_another_scene) {
+TEST_F(Generate, a_seed_repeats_and_another_gives_another_scene) {
   for (const char* kind : {"soup", "city", "rooms", "terrain", "convex_sphere"}) {
     std::set<std::string> texts;
     for (const char* seed : {"1", "2", "1"}) {
       const std::string scene = path("a.qoff").string();
-      ASSERT_EQ(run({"make", kind, "--seed", seed, "--out", scene}).code, done);
+      ASSERT_EQ(run({"generate", kind, "--seed", seed, "--out", scene}).code, done);
       texts.insert(read_file(scene));
     }
     EXPECT_EQ(texts.size(), 2u) << kind;
   }
 }
 
-TEST_F(Make, each_format_holds_the_same_scene) {
+TEST_F(Generate, each_format_holds_the_same_scene) {
   Json first;
   for (const char* ending : {".off", ".obj", ".ply", ".qoff", ".OFF"}) {
     const std::string scene = path(std::string("rooms") + ending).string();
-    const Outcome r = run({"make", "rooms", "--size", "2", "--out", scene});
+    const Outcome r = run({"generate", "rooms", "--size", "2", "--out", scene});
     ASSERT_EQ(r.code, done) << r;
     Json result = info(scene)["result"];
     if (first.is_null()) first = result;
@@ -77,28 +77,28 @@ TEST_F(Make, each_format_holds_the_same_scene) {
   }
 }
 
-TEST_F(Make, stl_holds_triangles_and_refuses_others) {
-  const Outcome soup = run({"make", "soup", "--out", path("soup.stl").string()});
+TEST_F(Generate, stl_holds_triangles_and_refuses_others) {
+  const Outcome soup = run({"generate", "soup", "--out", path("soup.stl").string()});
   EXPECT_EQ(soup.code, done) << soup;
   EXPECT_EQ(info(path("soup.stl").string())["scene"]["faces"], 1000);
-  const Outcome stacked = run({"make", "stacked", "--out", path("stacked.stl").string()});
+  const Outcome stacked = run({"generate", "stacked", "--out", path("stacked.stl").string()});
   EXPECT_EQ(stacked.code, bad_input) << stacked;
   EXPECT_TRUE(stacked.one_line_of_error()) << stacked;
   EXPECT_FALSE(fs::exists(path("stacked.stl"))) << "no half a file";
 }
 
-TEST_F(Make, sizes_that_make_no_sense_are_usage_errors_at_once) {
+TEST_F(Generate, sizes_that_make_no_sense_are_usage_errors_at_once) {
   for (const std::string& kind : kinds())
     for (const char* size : {"1000000000000", "9999999999999999999", "18446744073709551615", "-1", "many"}) {
-      const Outcome r = run({"make", kind, "--size", size, "--out", path("a.off").string()}, {10, 1024});
+      const Outcome r = run({"generate", kind, "--size", size, "--out", path("a.off").string()}, {10, 1024});
       EXPECT_EQ(r.code, usage) << r;
       EXPECT_TRUE(r.one_line_of_error()) << r;
       EXPECT_FALSE(fs::exists(path("a.off")));
     }
 }
 
-TEST_F(Make, an_unknown_ending_is_told) {
-  const Outcome r = run({"make", "stacked", "--out", path("a.xyz").string()});
+TEST_F(Generate, an_unknown_ending_is_told) {
+  const Outcome r = run({"generate", "stacked", "--out", path("a.xyz").string()});
   EXPECT_TRUE(r.code == usage || r.code == bad_input) << r;
   EXPECT_TRUE(r.one_line_of_error()) << r;
 }

@@ -1,65 +1,9 @@
 #pragma once
-// What scenes are made of: families of small ones in the easiest position, degenerate on purpose, most with a truth known by construction. A gap of 0 lets faces just
-// touch, a positive one leaves so much between them, a negative one makes them overlap.
+// Families of questions of weak visibility: a shaft that surfaces close, or edges that one line meets. Each has a truth known by construction.
 
-#include "scene.h"
+#include <sightline/algorithms/generate/weak_draft.h>
 
-namespace weak_scenes {
-
-// ---- Parts of them ---------------------------------------------------------------------------------------------------------
-
-/// A scene in the making; its target is faces[0], unless there are others.
-struct Draft {
-  Faces faces;
-  Points source;
-  std::optional<bool> truth;
-  std::vector<std::size_t> targets{0};
-  bool bodies = false;  ///< whether the faces' fronts are to stay, and the source is one of them
-};
-
-/// The shaft [-1, 1]^2 x [0, height]: source at its bottom, target at its top, each looking at the other. Every line between them stays in it.
-inline Draft shaft(const Rational& height) { return {{reversed(rectangle(-1, 1, -1, 1, height))}, rectangle(-1, 1, -1, 1, 0), std::nullopt}; }
-
-inline const Rational& tiny_gap() {
-  static const Rational gap(1, 1ul << 40);
-  return gap;
-}
-
-/// A convex face drawn in towards its centroid (gap > 0) or blown up (gap < 0), in its plane.
-inline Points shrunk(const Points& face, const Rational& gap) {
-  const Exact_point middle = centroid(face);
-  Points points;
-  for (const Exact_point& p : face) points.push_back(along(p, gap, minus(middle, p)));
-  return points;
-}
-inline void shrink_one(Faces& faces, std::size_t first, const Rational& gap, Random& random) {
-  Points& face = faces[first + random.below(faces.size() - first)];
-  face = shrunk(face, gap);
-}
-
-/// The parallelogram with the edge `on` - u .. `on` + u that extends from it by w, front up if w is left of u seen from above.
-inline Points plate(const Exact_point& on, const Exact_point& u, const Exact_point& w) {
-  const Exact_point a = along(on, -1, u), b = along(on, 1, u);
-  return {a, b, along(b, 1, w), along(a, 1, w)};
-}
-
-inline Exact_point scaled(const Rational& factor, const Exact_point& v) { return along(at(0, 0, 0), factor, v); }
-inline Exact_point level_direction(Random& random) {
-  Exact_point u = at(0, 0, 0);
-  while (oracle::is_zero(u)) u = {integer(random, -2, 2), integer(random, -2, 2), 0};
-  return u;
-}
-/// A fraction strictly between 0 and 1.
-inline Rational share(Random& random) {
-  const std::int64_t whole = random.between(2, 5), part = random.between(1, whole - 1);
-  return ratio(part, whole);
-}
-/// Numbers in increasing order from `low` to `high`, these included, `inner` of them between.
-inline std::vector<Rational> subdivided(const Rational& low, const Rational& high, std::size_t inner, Random& random) {
-  std::set<Rational> cuts{low, high};
-  while (cuts.size() < inner + 2) cuts.insert(Rational(low + (high - low) * ratio(random.between(1, 11), 12)));
-  return {cuts.begin(), cuts.end()};
-}
+namespace sightline::generate::weak_drafts {
 
 // ---- Families: surfaces that close the shaft -----------------------------------------------------------------------------------------------------
 // A surface over all of [-1, 1]^2 between the heights of source and target hides the target: the height above it of a point that goes along a line changes sign.
@@ -116,7 +60,7 @@ inline Draft t_junctions(Random& random, const Rational& gap) {
     left.push_back(q), right.push_back(p);
     tiles[tile] = left, tiles.push_back(right);
   }
-  view_scenes::add(draft.faces, tiles);
+  add(draft.faces, tiles);
   shrink_one(draft.faces, 1, gap, random);
   draft.truth = sgn(gap) > 0;
   return draft;
@@ -295,174 +239,11 @@ inline Draft apertures(Random& random, const Rational& gap) {
       draft.faces.push_back(plate(along(on, Rational(-half), across), scaled(4, u), scaled(-4, across)));
     } else {  // four rectangles, each beside the next
       const Rational x0 = Rational(on[0] - half), x1 = Rational(on[0] + half), y0 = Rational(on[1] - other), y1 = Rational(on[1] + other), &z = on[2];
-      view_scenes::add(draft.faces, {rectangle(-1, x0, -1, y1, z), rectangle(-1, x1, y1, 1, z), rectangle(x1, 1, y0, 1, z), rectangle(x0, 1, -1, y0, z)});
+      add(draft.faces, {rectangle(-1, x0, -1, y1, z), rectangle(-1, x1, y1, 1, z), rectangle(x1, 1, y0, 1, z), rectangle(x0, 1, -1, y0, z)});
     }
   }
   draft.truth = sgn(gap) > 0;
   return draft;
 }
 
-// ---- Families: source and target with edges, corners, planes in common -------------------------------------------------------------------------------
-
-/// A floor and a wall that share an edge or a corner, and a plate in the plane x = z between them. Lines from (a, y) on the floor to (b, y') on the wall cross it at
-/// x = a b / (a + b), at most 1; where both are triangles of half-width a / 2, b / 2 at |y| <= x.
-inline Draft hinged(Random& random, const Rational& gap) {
-  Draft draft;
-  const Rational near = Rational(1 - gap);
-  if (random.chance(1, 2)) {
-    draft.source = {at(0, -1, 0), at(2, -1, 0), at(2, 1, 0), at(0, 1, 0)};
-    draft.faces = {{at(0, -1, 0), at(0, 1, 0), at(0, 1, 2), at(0, -1, 2)}};
-    const Rational end = integer(random, 1, 2), side = integer(random, 1, 2);
-    switch (random.below(3)) {
-      case 0: draft.faces.push_back({at(gap, -1, gap), at(end, Rational(-side), end), at(end, side, end), at(gap, 1, gap)}); break;
-      case 1: draft.faces.push_back({at(0, -1, 0), at(near, Rational(-side), near), at(near, side, near), at(0, 1, 0)}); break;
-      default: draft.faces.push_back({at(0, -1, 0), at(end, -1, end), at(end, near, end), at(0, near, 0)});
-    }
-  } else {
-    draft.source = {at(0, 0, 0), at(2, -1, 0), at(2, 1, 0)};
-    draft.faces = {{at(0, 0, 0), at(0, 1, 2), at(0, -1, 2)}};
-    switch (random.below(3)) {
-      case 0: draft.faces.push_back({at(gap, 0, gap), at(1, -1, 1), at(1, 1, 1)}); break;
-      case 1: draft.faces.push_back({at(0, 0, 0), at(near, Rational(-near), near), at(near, near, near)}); break;
-      default: draft.faces.push_back({at(0, 0, 0), at(1, -1, 1), at(1, near, 1)});
-    }
-  }
-  draft.truth = sgn(gap) > 0;
-  return draft;
-}
-
-/// Planes that cut the other polygon, or nearly: nothing between, and little in front.
-inline Draft facing(Random& random, const Rational& gap) {
-  Draft draft = shaft(4);
-  const Rational low = integer(random, -2, 1), high = Rational(low + integer(random, 1, 2)), back = integer(random, -3, -1);
-  draft.truth = sgn(gap) > 0;
-  switch (random.below(6)) {
-    case 0: draft.faces = {{at(-1, low, back), at(-1, high, back), at(-1, high, gap), at(-1, low, gap)}}; break;   // a wall behind the source's plane but for its top
-    case 1: draft.faces = {{at(-1, low, 1), at(-1, high, back), at(-1, high, gap)}}, draft.truth = true; break;     // across it
-    case 2:  // a wall, and the source behind it but for its rim
-      draft.source = rectangle(back, gap, -1, 1, 0);
-      draft.faces = {{at(0, low, 0), at(0, high, 0), at(0, high, 2), at(0, low, 2)}};
-      break;
-    case 3: draft.faces = {reversed(rectangle(low, high, low, high, gap))}; break;                                         // parallel, or in one plane
-    case 4: draft.faces = {rectangle(low, high, low, high, Rational(4 + gap))}, draft.truth = false; break;                // turned away
-    default:  // a triangle that is hardly steeper than the source's plane: in front of it is p where gap (2 (x - low) - (high - low) y) > 0
-      draft.faces = {{at(low, -1, Rational(-gap)), at(high, 1, Rational(-gap)), at(low, 1, gap)}};
-      draft.truth = sgn(gap) > 0 || (sgn(gap) < 0 && 2 * (-1 - low) < high - low);
-  }
-  return draft;
-}
-
-/// A lid in the target's plane blocks nothing, just before it everything; also one in the source's.
-inline Draft lids(Random& random, const Rational& gap) {
-  Draft draft = shaft(4);
-  const Rational wide = Rational(1 + ratio(random.between(1, 2), 2));
-  draft.faces.push_back(rectangle(Rational(-wide), wide, -1, wide, Rational(4 + gap)));
-  draft.faces.push_back(rectangle(-1, wide, Rational(-wide), 1, random.chance(1, 2) ? Rational(-gap) : Rational(0)));
-  draft.truth = sgn(gap) >= 0;
-  return draft;
-}
-
-/// Two slopes that start from a line across the source, touching it or coming through it, and cover it like a valley.
-inline Draft valley(Random& random, const Rational& gap) {
-  Draft draft = shaft(4);
-  const Rational middle = ratio(random.between(-3, 3), 4);
-  const std::uint64_t where = random.below(3);  // the gap: on the source, at the far end, at the side
-  const long chosen = random.chance(1, 2) ? 1 : -1;
-  for (const long side : {-1, 1}) {
-    const Rational steepness = ratio(random.between(1, 7), 4), deep = ratio(random.between(0, 2), 4), mine = side == chosen ? gap : Rational(0);
-    const Rational from = where == 0 ? Rational(middle + side * mine) : Rational(middle - side * deep);
-    const Rational to = Rational(side * (where == 1 ? Rational(1 - mine) : Rational(1))), low = -1, high = where == 2 ? Rational(1 - mine) : Rational(1);
-    const auto height = [&](const Rational& x) { return Rational(side * steepness * (x - middle)); };
-    draft.faces.push_back({at(from, low, height(from)), at(to, low, height(to)), at(to, high, height(to)), at(from, high, height(from))});
-  }
-  draft.truth = sgn(gap) > 0;
-  return draft;
-}
-
-// ---- Families: closed bodies, and no truth -----------------------------------------------------------------------------------------------------------
-
-inline Exact_point box_size(Random& random) { return {integer(random, 1, 3), integer(random, 1, 3), integer(random, 1, 3)}; }
-inline void all_are_targets(Draft& draft) {
-  draft.targets.clear();
-  for (std::size_t k = 0; k < draft.faces.size(); ++k) draft.targets.push_back(k);
-}
-
-inline Draft boxes(Random& random, const Rational& gap) {
-  using view_scenes::box;
-  Draft draft;
-  draft.bodies = true;
-  const Exact_point low = lattice(random, 1), high = along(low, 1, box_size(random));
-  switch (random.below(4)) {
-    case 0: {  // one on the other: the upper one's bottom from the lower one's top
-      const Exact_point base{Rational(low[0] + ratio(random.between(-1, 1), 2)), Rational(low[1] + ratio(random.between(-1, 1), 2)), Rational(high[2] + gap)};
-      draft.faces = box(low, high);
-      draft.source = draft.faces[5];
-      view_scenes::add(draft.faces, box(base, along(base, 1, box_size(random))));
-      draft.targets = {10}, draft.truth = sgn(gap) > 0;
-      break;
-    }
-    case 1:  // a square in a box, one of whose walls is a little too small
-      draft.source = rectangle(-3, 3, -3, 3, -1);
-      draft.faces = {reversed(rectangle(-1, 1, -1, 1, 2))};
-      view_scenes::add(draft.faces, box(at(-1, -1, 1), at(1, 1, 3)));
-      shrink_one(draft.faces, 1, gap, random);
-      if (sgn(gap) <= 0) draft.truth = false;
-      break;
-    case 2: {  // a room with a box in it, perhaps at a wall
-      draft.faces = box(at(-3, -3, -3), at(3, 3, 3));
-      for (Points& face : draft.faces) face = reversed(face);
-      draft.source = draft.faces[random.below(6)];
-      view_scenes::add(draft.faces, box(low, along(low, 2, at(1, 1, 1))));
-      all_are_targets(draft);
-      break;
-    }
-    default: {
-      const Exact_point other = lattice(random, 4), third = lattice(random, 4);
-      draft.faces = box(low, high);
-      draft.source = draft.faces[random.below(6)];
-      view_scenes::add(draft.faces, box(other, along(other, 1, box_size(random))));
-      view_scenes::add(draft.faces, box(third, along(third, 1, box_size(random))));
-      all_are_targets(draft);
-      draft.targets.erase(draft.targets.begin(), draft.targets.begin() + 6);
-    }
-  }
-  return draft;
-}
-
-/// One face from that number on is moved by the gap along an axis.
-inline void move_a_face(Draft& draft, std::size_t first, const Rational& gap, Random& random) {
-  Points& face = draft.faces[first + random.below(draft.faces.size() - first)];
-  const std::size_t axis = random.below(3);
-  for (Exact_point& p : face) p[axis] += gap;
-}
-
-/// Anything on the integer lattice: faces cross each other and the source, and share planes, edges and corners.
-inline Draft lattice_faces(Random& random, const Rational& gap) {
-  Draft draft;
-  view_scenes::add_any(draft.faces, 2 + random.below(7), random);
-  const Exact_point corner = lattice(random, 3);
-  const auto [u, v] = view_scenes::directions(random, 3);
-  draft.source = view_scenes::in_plane(corner, u, v, {{0, 0}, {1, 0}, {1, 1}, {0, 1}});
-  if (random.chance(1, 2)) draft.source.pop_back();
-  move_a_face(draft, 0, gap, random);
-  all_are_targets(draft);
-  return draft;
-}
-
-inline Draft triangles(Random& random, const Rational& gap) {
-  Draft draft = shaft(4);
-  const Rational narrow = ratio(1, random.between(1, 6));
-  for (Points* square : {&draft.source, &draft.faces[0]})
-    for (Exact_point& p : *square) p[0] *= narrow, p[1] *= narrow;
-  const std::size_t count = 3 + random.below(10);
-  while (draft.faces.size() < count) {
-    const Exact_point centre{ratio(random.between(-3, 3), 4), ratio(random.between(-3, 3), 4), ratio(random.between(4, 12), 4)};
-    Points corners(3, centre);
-    for (Exact_point& p : corners) p = along(p, ratio(1, 4), Exact_point{integer(random, -12, 12), integer(random, -12, 12), integer(random, -3, 3)});
-    if (!oracle::is_zero(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))) draft.faces.push_back(corners);
-  }
-  move_a_face(draft, 1, gap, random);
-  return draft;
-}
-
-}  // namespace weak_scenes
+}  // namespace sightline::generate::weak_drafts

@@ -1,35 +1,18 @@
 #pragma once
 // A question of weak visibility, and its images under projective maps, which have the same answer.
 
-#include "../point_visibility/scenes.h"
+#include <sightline/algorithms/generate/polygons.h>
+#include <sightline/algorithms/generate/transform.h>
 
-namespace weak_scenes {
+#include <optional>
 
-using oracle::along;
-using oracle::centroid;
-using oracle::cross;
-using oracle::dot;
-using oracle::minus;
-using oracle::Points;
-using sightline::Exact_point;
-using sightline::Face_id;
-using sightline::Integer;
-using sightline::Polygon_soup;
-using sightline::Rational;
-using sightline::generate::Random;
-using view_scenes::at;
-using view_scenes::either_way;
-using view_scenes::Faces;
-using view_scenes::integer;
-using view_scenes::lattice;
-using view_scenes::ratio;
-using view_scenes::rectangle;
-using view_scenes::reversed;
+namespace sightline::generate {
 
+/// A question of weak visibility.
 struct Weak_scene {
   std::string name;                 ///< family, seed
   Polygon_soup soup;                ///< every face has one loop
-  std::vector<Exact_point> source;  ///< strictly convex, counterclockwise seen from the side it looks to
+  Points source;                    ///< strictly convex, counterclockwise seen from the side it looks to
   std::vector<Face_id> targets;
   std::optional<bool> truth;  ///< of every target
 };
@@ -72,16 +55,16 @@ inline Weak_scene project(const Weak_scene& scene, const Projective_map& map) {
   const int turn = sgn(determinant(rows));
   if (turn == 0) throw std::invalid_argument("not a projective map: its determinant is zero");
   Weak_scene result = scene;
-  result.soup = sightline::generate::mapped(scene.soup, [&](sightline::Point_id, const Exact_point& p) { return image(map, p); });
+  result.soup = mapped(scene.soup, [&](Point_id, const Exact_point& p) { return image(map, p); });
   for (Exact_point& p : result.source) p = image(map, p);
   if (turn < 0) {
-    result.soup = sightline::generate::faces_reversed(result.soup);
+    result.soup = faces_reversed(result.soup);
     result.source = reversed(result.source);
   }
   return result;
 }
 
-inline Projective_map affine_map(const sightline::generate::Rational_matrix& matrix, const Exact_point& offset) {
+inline Projective_map affine_map(const Rational_matrix& matrix, const Exact_point& offset) {
   Projective_map map;
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) map[i][j] = matrix[i][j];
@@ -96,19 +79,19 @@ inline Projective_map scaling(const Rational& factor, const Exact_point& offset)
 inline Projective_map random_rotation(Random& random) {
   const auto part = [&] { return static_cast<long>(random.between(-3, 3)); };
   const long a = static_cast<long>(random.between(1, 4)), b = part(), c = part(), d = part();
-  return affine_map(sightline::generate::rotation(a, b, c, d), at(0, 0, 0));
+  return affine_map(rotation(a, b, c, d), at(0, 0, 0));
 }
 /// x, y, z in another order, some with the other sign. Half of these are mirror images.
 inline Projective_map random_axes(Random& random) {
   std::vector<std::size_t> order{0, 1, 2};
   random.shuffle(order);
-  sightline::generate::Rational_matrix matrix{};
+  Rational_matrix matrix{};
   for (std::size_t i = 0; i < 3; ++i) matrix[i][order[i]] = random.chance(1, 2) ? -1 : 1;
   return affine_map(matrix, at(0, 0, 0));
 }
 inline Projective_map random_shear(Random& random) {
   while (true) {
-    sightline::generate::Rational_matrix matrix;
+    Rational_matrix matrix;
     std::vector<std::vector<Rational>> rows;
     for (auto& row : matrix) {
       for (Rational& x : row) x = integer(random, -2, 2);
@@ -124,7 +107,7 @@ inline Projective_map random_projection(const Weak_scene& scene, Random& random)
   map[3][3] = 1;
   Rational least = 1;
   const auto note = [&](const Exact_point& p) { least = std::min(least, image_coordinate(map, 3, p)); };
-  for (std::size_t p = 0; p < scene.soup.point_count(); ++p) note(scene.soup.point(static_cast<sightline::Point_id>(p)));
+  for (std::size_t p = 0; p < scene.soup.point_count(); ++p) note(scene.soup.point(static_cast<Point_id>(p)));
   for (const Exact_point& p : scene.source) note(p);
   if (least < 1) map[3][3] += 1 - least;
   std::vector<std::vector<Rational>> rows;
@@ -132,4 +115,4 @@ inline Projective_map random_projection(const Weak_scene& scene, Random& random)
   return sgn(determinant(rows)) == 0 ? random_rotation(random) : map;
 }
 
-}  // namespace weak_scenes
+}  // namespace sightline::generate

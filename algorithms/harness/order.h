@@ -1,0 +1,138 @@
+#pragma once
+// The subject `order`: back-to-front orders by BSP trees and by priority trees.
+
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/harness/laws.h>
+#include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/verify/covering_of_scene.h>
+#include <sightline/algorithms/verify/order.h>
+#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/point_traits.h>
+
+#include <CGAL/Cartesian.h>
+
+namespace sightline::harness {
+
+namespace order_subject {
+
+using Tree = Bsp_tree<Exact_traits>;
+
+inline Bsp_options serial() {
+  Bsp_options options;
+  options.threads = 1;
+  return options;
+}
+
+/// Polygons farthest first, as a certificate.
+class Order {
+ public:
+  explicit Order(const Scene& scene, const Exact_point& eye) : scene_(scene) {
+    certificate_.eye = eye;
+    add_pieces(certificate_, scene);
+  }
+  template <class Traits>
+  void draw(const Traits& traits, const Convex_polygon<Traits>& polygon) {
+    const Piece& piece = scene_.pieces()[polygon.piece];
+    Order_fragment& fragment = certificate_.fragments.emplace_back();
+    fragment.face = piece.face, fragment.piece = piece.number;
+    for (const Corner<Traits>& corner : polygon) fragment.vertices.push_back(traits.position(*corner.vertex));
+  }
+  /// What the checker finds wrong, or nothing.
+  std::string flaw(const Polygon_soup& soup, bool on_view = false) {
+    certificate_.on_view = on_view;
+    const Verdict verdict = verify_order(soup, certificate_);
+    return verdict.accepted ? std::string() : "the certificate is rejected: " + verdict.why;
+  }
+
+ private:
+  const Scene& scene_;
+  Order_certificate certificate_;
+};
+
+/// By a BSP tree. Labels: 1 where the eye is in front of the face, 2 behind, 4 in its plane.
+template <class Traits>
+Answer by_tree(const Posed_scene& posed, const Scene& scene, const Traits& traits, Bsp_counters* counters = nullptr) {
+  const Bsp_tree<Traits> tree = build_bsp(traits, serial());
+  if (counters != nullptr) *counters = tree.counters;
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  answer.planar = scene.non_planar().empty();
+  Order order(scene, posed.eye);
+  traverse(traits, tree, traits.eye(posed.eye), Direction::back_to_front, [&](const Fragment<Traits>& fragment, Sign node_side) {
+    const Sign side = fragment.same_sense ? node_side : -node_side;
+    std::uint32_t& label = answer.labels[scene.pieces()[fragment.polygon.piece].face];
+    label = (label == Answer::none ? 0u : label) | (side == CGAL::POSITIVE ? 1u : side == CGAL::NEGATIVE ? 2u : 4u);
+    order.draw(traits, fragment.polygon);
+  });
+  answer.flaw = order.flaw(posed.soup);
+  return answer;
+}
+
+/// That another kernel, which is exact too, builds the same tree and sees the same sides.
+template <class Kernel>
+Outcome by_kernel(const Posed_scene& posed, const Answer& answer, const std::string& name) {
+  const Scene scene(posed.soup);
+  Bsp_counters here, there;
+  by_tree(posed, scene, Exact_traits(scene), &here);
+  const Answer other = by_tree(posed, scene, Point_traits<Kernel>(scene), &there);
+  if (!other.flaw.empty()) return Outcome::failed(name + ": " + other.flaw);
+  const auto differ = [&](const char* what, std::uint64_t a, std::uint64_t b) { return Outcome::failed(std::string(what) + ": exact " + std::to_string(a) + ", " + name + ' ' + std::to_string(b)); };
+  if (here.nodes != there.nodes) return differ("nodes", here.nodes, there.nodes);
+  if (here.splits != there.splits) return differ("splits", here.splits, there.splits);
+  if (here.fragments != there.fragments) return differ("fragments", here.fragments, there.fragments);
+  return compared(answer, other, "exact", name);
+}
+
+/// The order by the priority graph: of what is on-view, or of both sides of everything.
+inline Outcome by_graph(const Posed_scene& posed, bool two_sided) {
+  const Scene scene(posed.soup);
+  const Exact_traits traits(scene);
+  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {two_sided, false, {}});
+  const Eye_order<Exact_traits> found = back_to_front(traits, tree, posed.eye);
+  Order order(scene, posed.eye);
+  for (const Convex_polygon<Exact_traits>& polygon : found.polygons) order.draw(traits, polygon);
+  const std::string flaw = order.flaw(posed.soup, !two_sided);
+  return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
+}
+
+/// Labels from corners alone: the eye against the plane of each face's pieces, by Newell's normal in rationals.
+inline Outcome by_definition(const Posed_scene& posed, const Answer& answer) {
+  using namespace generate;
+  const Scene scene(posed.soup);
+  Answer truth;
+  truth.labels.assign(posed.soup.face_count(), Answer::none);
+  for (const Piece& piece : scene.pieces()) {
+    Points corners;
+    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    Exact_point normal{0, 0, 0};
+    for (std::size_t k = 0; k < corners.size(); ++k) normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
+    const Exact_point d = minus(posed.eye, corners[0]);
+    const int side = sgn(Rational(normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]));
+    std::uint32_t& label = truth.labels[piece.face];
+    label = (label == Answer::none ? 0u : label) | (side > 0 ? 1u : side < 0 ? 2u : 4u);
+  }
+  return compared(truth, answer, "the definition", "the tree");
+}
+
+}  // namespace order_subject
+
+/// Every order's certificate is checked by verify_order.
+inline Subject order() {
+  using namespace order_subject;
+  Subject subject;
+  subject.name = "order", subject.what = "back-to-front orders: BSP trees by three exact kernels, priority trees, each order checked by verify";
+  subject.answer = [](const Posed_scene& posed) {
+    const Scene scene(posed.soup);
+    return by_tree(posed, scene, Exact_traits(scene));
+  };
+  subject.checks = {
+      {"definition", "the sides of faces, from their corners", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_definition(posed, answer); }},
+      {"graph", "an order by the priority graph is accepted", [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, false); }},
+      {"graph two-sided", "an order of both sides by the priority graph is accepted", [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, true); }},
+      {"gmpq", "the same tree by Cartesian<Gmpq>", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_kernel<CGAL::Cartesian<CGAL::Gmpq>>(posed, answer, "gmpq"); }}};
+  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  return subject;
+}
+
+}  // namespace sightline::harness

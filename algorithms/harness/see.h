@@ -1,0 +1,89 @@
+#pragma once
+// The subject `see`: the visible parts of faces from an eye, over the whole sphere of directions.
+
+#include <sightline/algorithms/harness/laws.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/number_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/verify/covering_of_scene.h>
+#include <sightline/algorithms/verify/visible.h>
+
+#include <CGAL/Gmpq.h>
+
+namespace sightline::harness {
+
+namespace see_subject {
+
+inline Visible_options serial() {
+  Visible_options options;
+  options.threads = 1;
+  return options;
+}
+
+/// Labels: 1 where an open part of the face is seen from its front, 2 from behind.
+template <class Surface>
+Answer labels_of(const Posed_scene& posed, const Scene& scene, const Surface& surface) {
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  answer.planar = scene.non_planar().empty();
+  for (const Piece& piece : scene.pieces()) answer.labels[piece.face] = 0;
+  for (const Face_id face : surface.visible) answer.labels[face] |= 1;
+  for (const Face_id face : surface.from_behind) answer.labels[face] |= 2;
+  return answer;
+}
+
+/// What `verify` reads: all pieces, and which parts of them are seen.
+inline Visible_certificate certificate_of(const Posed_scene& posed, const Exact_view& view, const Visible_surface<Exact_view>& surface) {
+  using namespace generate;
+  Visible_certificate certificate;
+  certificate.eye = posed.eye;
+  add_all(certificate, view.scene());
+  for (const auto& part : surface.parts) {
+    if (part.piece == surface.nothing) {
+      auto& directions = certificate.empty.emplace_back();
+      for (const auto& ray : surface.of(part)) {
+        const std::array<Integer, 3> d = view.direction(ray);
+        directions.push_back({Rational(d[0]), Rational(d[1]), Rational(d[2])});
+      }
+      continue;
+    }
+    const Points corners = vertices(view, surface, part);
+    certificate.parts.push_back({part.piece, corners, minus(centroid(corners), posed.eye)});
+  }
+  return certificate;
+}
+
+inline Answer exactly(const Posed_scene& posed) {
+  const Scene scene(posed.soup);
+  const Piece_boxes boxes(scene);
+  const Exact_view view(scene, posed.eye);
+  const auto surface = visible_surface(view, boxes, serial());
+  Answer answer = labels_of(posed, scene, surface);
+  const Verdict verdict = verify_visible(posed.soup, certificate_of(posed, view, surface));
+  if (!verdict.accepted) answer.flaw = "the certificate is rejected: " + verdict.why;
+  return answer;
+}
+
+/// The same by another number type, which is exact too.
+template <class FT>
+Outcome by_numbers(const Posed_scene& posed, const Answer& answer, const std::string& name) {
+  const Scene scene(posed.soup);
+  const Piece_boxes boxes(scene);
+  const Number_view<FT> view(scene, posed.eye);
+  return compared(answer, labels_of(posed, scene, visible_surface(view, boxes, serial())), "exact", name);
+}
+
+}  // namespace see_subject
+
+/// Every answer's certificate is checked by verify_visible.
+inline Subject see() {
+  using namespace see_subject;
+  Subject subject;
+  subject.name = "see", subject.what = "visible surfaces from a point by two exact kernels, each checked by verify";
+  subject.answer = exactly;
+  subject.checks = {{"gmpq", "the same faces by Gmpq", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_numbers<CGAL::Gmpq>(posed, answer, "gmpq"); }}};
+  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  return subject;
+}
+
+}  // namespace sightline::harness

@@ -1,0 +1,109 @@
+#pragma once
+// The subject `weak`: faces weakly visible from the source polygon.
+
+#include <sightline/algorithms/harness/laws.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/events.h>
+
+namespace sightline::harness {
+
+namespace weak_subject {
+
+/// Searches end here: rarely, a tangled degenerate scene would take minutes.
+inline constexpr std::size_t most_cells = 3000, most_events = 100000;
+
+/// Labels: 1 visible, 0 hidden.
+template <class Found>
+Answer labels_of(const Polygon_soup& soup, const Scene& scene, const Found& found) {
+  Answer answer;
+  answer.labels.assign(soup.face_count(), Answer::none);
+  answer.planar = scene.non_planar().empty();
+  for (const Face_id face : found.visible) answer.labels[face] = 1;
+  for (const Face_id face : found.hidden) answer.labels[face] = 0;
+  answer.undecided = found.undecided.size();
+  return answer;
+}
+
+inline Answer by_lines(const Posed_scene& posed) {
+  const Scene scene(posed.soup);
+  const Occluders occluders(scene);
+  Weak_options options;
+  options.threads = 1, options.search.cells = most_cells;
+  const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, posed.source)}, options);
+  Answer answer = labels_of(posed.soup, scene, found);
+  const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, false, found));
+  if (!verdict.accepted) answer.flaw = "the certificate is rejected: " + verdict.why;
+  return answer;
+}
+
+inline Outcome by_events(const Posed_scene& posed, const Answer& answer) {
+  constexpr std::size_t most_pieces = 12;  // events are the third power of edges and more
+  const Scene scene(posed.soup);
+  if (scene.pieces().size() > most_pieces) return Outcome::not_applicable();
+  const Occluders occluders(scene);
+  Events_options options;
+  options.threads = 1, options.events = most_events;
+  return compared(answer, labels_of(posed.soup, scene, weakly_visible_by_events(occluders, {weak_source(occluders, posed.source)}, options)), "lines", "events");
+}
+
+inline Outcome as_constructed(const Posed_scene& posed, const Answer& answer) {
+  if (posed.visible.empty() && posed.hidden.empty()) return Outcome::not_applicable();
+  Answer truth = answer;
+  for (const Face_id face : posed.visible)
+    if (truth.labels[face] != Answer::none) truth.labels[face] = 1;
+  for (const Face_id face : posed.hidden)
+    if (truth.labels[face] != Answer::none) truth.labels[face] = 0;
+  return compared(truth, answer, "the construction", "lines");
+}
+
+/// The source about its centroid, three halves as large: visible faces only grow.
+inline Outcome grown(const Posed_scene& posed, const Answer& answer) {
+  using namespace generate;
+  Posed_scene larger = posed;
+  const Exact_point middle = centroid(posed.source);
+  for (Exact_point& p : larger.source) p = along(p, ratio(1, 2), minus(p, middle));
+  const Answer more = by_lines(larger);
+  if (!more.flaw.empty()) return Outcome::failed("from a larger source: " + more.flaw);
+  for (std::size_t f = 0; f < answer.labels.size(); ++f)
+    if (answer.labels[f] == 1 && more.labels[f] == 0) return Outcome::failed(face_name(f) + " is visible from the source, but not from one that holds it");
+  return answer.undecided + more.undecided > 0 ? Outcome::undecided() : Outcome{};
+}
+
+/// A face sees the source, put in as a face, if the source sees it.
+inline Outcome reversed(const Posed_scene& posed, const Answer& answer, Random& random) {
+  std::vector<Face_id> convex;
+  for (Face_id f = 0; f < posed.soup.face_count(); ++f)
+    if (answer.labels[f] != Answer::none && !convex_corners(posed.soup, f).empty()) convex.push_back(f);
+  if (convex.empty()) return Outcome::not_applicable();
+  const Face_id chosen = convex[random.below(convex.size())];
+  Posed_scene back = posed;
+  back.source = convex_corners(posed.soup, chosen);
+  std::vector<Point_id> ids;
+  for (const Exact_point& p : posed.source) ids.push_back(back.soup.add_point(p[0], p[1], p[2]));
+  const Face_id source = back.soup.add_face(ids);
+  const Answer other = by_lines(back);
+  if (!other.flaw.empty()) return Outcome::failed("with source and target in each other's place: " + other.flaw);
+  if (other.labels[source] == Answer::none) return other.undecided > 0 ? Outcome::undecided() : Outcome::not_applicable();  // or it is a duplicate
+  if (other.labels[source] != answer.labels[chosen])
+    return Outcome::failed("the source " + std::string(answer.labels[chosen] ? "sees " : "does not see ") + face_name(chosen) + ", which " + (other.labels[source] ? "sees" : "does not see") + " the source");
+  return {};
+}
+
+}  // namespace weak_subject
+
+/// Every answer's certificate is checked by verify_weak.
+inline Subject weak() {
+  using namespace weak_subject;
+  Subject subject;
+  subject.name = "weak", subject.what = "weak visibility from a polygon by lines and by events, each answer by lines checked by verify";
+  subject.wants_source = true;
+  subject.answer = by_lines;
+  subject.checks = {{"construction", "what the family knows", [](const Posed_scene& posed, const Answer& answer, Random&) { return as_constructed(posed, answer); }},
+                    {"events", "the same faces by events", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer); }},
+                    {"grow", "a larger source sees no less", [](const Posed_scene& posed, const Answer& answer, Random&) { return grown(posed, answer); }},
+                    {"reverse", "source and target in each other's place", weak_subject::reversed}};
+  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
+  return subject;
+}
+
+}  // namespace sightline::harness

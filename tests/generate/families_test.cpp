@@ -1,0 +1,167 @@
+// Families: the same from the same parameters, exactly degenerate where they say so and beside it else, and where the parameters put them.
+
+#include <sightline/algorithms/generate/families.h>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace {
+
+namespace generate = sightline::generate;
+using generate::Family_parameters;
+using generate::Posed_scene;
+using sightline::Exact_point;
+using sightline::Face_id;
+using sightline::Point_id;
+using sightline::Polygon_soup;
+using sightline::Rational;
+using sightline::Scene;
+
+Family_parameters with(std::uint64_t seed, std::int64_t ulps = 0, std::size_t size = 0) {
+  Family_parameters parameters;
+  parameters.seed = seed, parameters.ulps = ulps, parameters.size = size;
+  return parameters;
+}
+std::string text_of(const Posed_scene& scene) {
+  std::string text = scene.name;
+  const auto add = [&](const Exact_point& p) {
+    for (const Rational& x : p) text += ' ' + sightline::to_string(x);
+  };
+  for (Point_id p = 0; p < scene.soup.point_count(); ++p) add(scene.soup.point(p));
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f)
+    for (const Point_id p : scene.soup.loop(f)) text += ' ' + std::to_string(p);
+  add(scene.eye);
+  for (const Exact_point& p : scene.source) add(p);
+  for (const Face_id f : scene.visible) text += " v" + std::to_string(f);
+  for (const Face_id f : scene.hidden) text += " h" + std::to_string(f);
+  return text;
+}
+std::size_t set_aside(const Posed_scene& scene, const std::string& why) {
+  const Scene read(scene.soup);
+  return static_cast<std::size_t>(std::count_if(read.set_aside().begin(), read.set_aside().end(), [&](const sightline::Set_aside& entry) { return entry.why.starts_with(why); }));
+}
+std::size_t planes(const Posed_scene& scene) { return Scene(scene.soup).planes().size(); }
+
+TEST(Families, have_names_of_their_own_and_say_what_they_are) {
+  std::set<std::string> names;
+  for (const generate::Family& family : generate::families()) {
+    EXPECT_TRUE(names.insert(family.name).second) << family.name;
+    EXPECT_GE(family.what.size(), 20u) << family.name;
+  }
+  EXPECT_GE(names.size(), 50u);
+  EXPECT_THROW(generate::family("castle"), std::invalid_argument);
+}
+
+TEST(Families, make_the_same_from_the_same_parameters_and_another_from_another_seed) {
+  for (const generate::Family& family : generate::families()) {
+    if (family.name == "rooms") continue;
+    std::set<std::string> texts;
+    for (std::uint64_t seed = 0; seed < 6; ++seed) {
+      const Posed_scene scene = family.make(with(seed, 0, family.small_size));
+      EXPECT_EQ(text_of(scene), text_of(family.make(with(seed, 0, family.small_size))));
+      EXPECT_GE(scene.soup.face_count(), 1u) << family.name;
+      EXPECT_EQ(scene.distance, generate::Distance::exact);
+      texts.insert(text_of(scene));
+    }
+    EXPECT_EQ(texts.size(), 6u) << family.name;
+  }
+}
+
+TEST(Families, are_where_the_offset_and_the_scale_put_them) {
+  for (const generate::Family& family : generate::families()) {
+    if (family.name == "rooms") continue;
+    for (const int power : {-1000, -1070, 900, 0}) {
+      Family_parameters parameters = with(2, 1, family.small_size);
+      const Posed_scene here = family.make(parameters);
+      parameters.scale = generate::power_of_two(power), parameters.offset = {500000, Rational(-1, 3), 4000000};
+      const Posed_scene there = family.make(parameters);
+      ASSERT_EQ(here.soup.point_count(), there.soup.point_count());
+      const auto place = [&](const Exact_point& p) { return generate::along(parameters.offset, parameters.scale, p); };
+      for (Point_id p = 0; p < here.soup.point_count(); ++p) ASSERT_EQ(place(here.soup.point(p)), there.soup.point(p)) << family.name;
+      EXPECT_EQ(place(here.eye), there.eye);
+      for (std::size_t k = 0; k < here.source.size(); ++k) EXPECT_EQ(place(here.source[k]), there.source[k]);
+      EXPECT_EQ(here.visible, there.visible);
+      EXPECT_EQ(here.hidden, there.hidden);
+    }
+  }
+  Family_parameters nowhere;
+  nowhere.scale = 0;
+  EXPECT_THROW(generate::family("uniform").make(nowhere), std::invalid_argument);
+}
+
+TEST(Families, say_how_far_from_their_degeneracy_they_are) {
+  const generate::Family& leaves = generate::family("leaves");
+  for (const auto& [ulps, distance] : std::map<std::int64_t, generate::Distance>{{0, generate::Distance::exact}, {1, generate::Distance::beside}, {-1, generate::Distance::beside}, {generate::far_ulps - 1, generate::Distance::beside},
+                                                                                 {generate::far_ulps, generate::Distance::far}, {-generate::far_ulps, generate::Distance::far}, {std::numeric_limits<std::int64_t>::min(), generate::Distance::far}})
+    EXPECT_EQ(leaves.make(with(1, ulps)).distance, distance) << ulps;
+}
+
+TEST(Families, are_exactly_degenerate_at_0_ulps_and_not_beside) {
+  std::size_t thin = 0, twice = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    thin += set_aside(generate::family("slender").make(with(seed)), "zero area");
+    twice += set_aside(generate::family("duplicates").make(with(seed)), "duplicate");
+    const std::size_t in_one_plane = planes(generate::family("near_parallel").make(with(seed))), in_one_stack = planes(generate::family("leaves").make(with(seed)));
+    for (const std::int64_t ulps : {1, -1, 1000}) {
+      EXPECT_LE(set_aside(generate::family("slender").make(with(seed, ulps)), "zero area"), 0u) << seed;
+      EXPECT_LE(in_one_plane, planes(generate::family("near_parallel").make(with(seed, ulps)))) << seed;
+      EXPECT_LT(in_one_stack, planes(generate::family("leaves").make(with(seed, ulps)))) << seed;
+    }
+  }
+  EXPECT_GT(thin, 40u);
+  EXPECT_GT(twice, 10u);
+}
+
+TEST(Families, beside_their_degeneracy_move_by_so_many_ulps_of_their_size) {
+  for (const char* name : {"uniform", "coplanar", "aligned", "tangle"}) {
+    bool moved = false;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+      const Posed_scene exact = generate::family(name).make(with(seed)), beside = generate::family(name).make(with(seed, 7));
+      ASSERT_EQ(exact.soup.point_count(), beside.soup.point_count());
+      const Rational step = Rational(7 * generate::power_of_two(3 - 52));
+      for (Point_id p = 0; p < exact.soup.point_count(); ++p)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Rational difference = Rational((beside.soup.point(p)[k] - exact.soup.point(p)[k]) / step);
+          EXPECT_TRUE(difference.get_den() == 1 && difference >= 0 && difference <= 3) << name << ' ' << seed << ": " << difference;
+          moved = moved || difference != 0;
+        }
+    }
+    EXPECT_TRUE(moved) << name;
+  }
+  const Posed_scene exact = generate::family("city").make(with(1, 0, 3)), beside = generate::family("city").make(with(1, -2, 3));
+  const Rational step = Rational(2 * generate::power_of_two(generate::size_bits(exact.soup) - 52));
+  for (Point_id p = 0; p < exact.soup.point_count(); ++p)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(abs(Rational(beside.soup.point(p)[k] - exact.soup.point(p)[k])), step);
+}
+
+TEST(Families, have_doubles_for_coordinates_at_every_scale_where_they_have_them_at_one) {
+  std::size_t all = 0, doubles = 0;
+  for (const generate::Family& family : generate::families()) {
+    if (family.name == "rooms") continue;
+    for (std::uint64_t seed = 0; seed < 4; ++seed)
+      for (const int power : {-1000, 900}) {
+        Family_parameters parameters = with(seed, 0, family.small_size);
+        const Posed_scene here = family.make(parameters);
+        parameters.scale = generate::power_of_two(power);
+        const Posed_scene there = family.make(parameters);
+        const auto is_double = [](const Rational& x) { return sightline::exact(sightline::nearest_double(x)) == x; };
+        for (std::size_t k = 0; k < here.soup.coordinates.size(); ++k, ++all) {
+          EXPECT_EQ(is_double(here.soup.coordinates[k]), is_double(there.soup.coordinates[k])) << family.name << ' ' << seed;
+          doubles += is_double(here.soup.coordinates[k]);
+        }
+      }
+  }
+  EXPECT_GT(2 * doubles, all);
+}
+
+TEST(Families, are_as_large_as_one_wants) {
+  for (const char* name : {"regulus", "t_junctions", "coplanar", "leaves", "tangle"}) {
+    const Posed_scene scene = generate::family(name).make(with(5, 0, 300));
+    EXPECT_GE(scene.soup.face_count(), 300u) << name;
+    EXPECT_LE(scene.soup.face_count(), 310u) << name;
+    EXPECT_THROW(generate::family(name).make(with(5, 0, 10000000)), std::invalid_argument);
+  }
+}
+
+}  // namespace
