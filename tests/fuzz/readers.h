@@ -70,6 +70,7 @@ inline void check_reader(std::string_view bytes, Format format) {
   }
   require(comes_back(*soup, Format::qoff), "QOFF holds any scene that was read");
   if (format == Format::stl ? triangles && soup->face_count() > 0 : format != Format::qoff) require(comes_back(*soup, format), "a format holds what was read from it");
+  if (format == Format::ply) comes_back(*soup, Format::ply_binary);  // where coordinates are doubles
 }
 
 inline void read_obj(std::string_view bytes) { check_reader(bytes, Format::obj); }

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
 
 namespace {
@@ -57,6 +56,6 @@ TEST_P(Fuzz, inputs_near_the_corpus) {
   for (std::size_t k = 0; k < 4000 * times() / share; ++k) ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
 }
 
-INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()), [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()), [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
