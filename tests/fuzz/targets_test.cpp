@@ -53,7 +53,7 @@ TEST_P(Fuzz, the_corpus) {
 TEST_P(Fuzz, inputs_near_the_corpus) {
   const std::vector<fuzz::Seed> seeds = seeds_of(GetParam());
   fuzz::Mutator mutator(7);
-  for (std::size_t k = 0; k < 4000 * times() / share; ++k) ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
+  for (std::size_t k = 0; k < 1500 * times() / share; ++k) ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
 }
 
 INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()), [](const auto& target) { return std::string(target.param.name); });
