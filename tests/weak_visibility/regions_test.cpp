@@ -195,8 +195,8 @@ TEST(Open_cells, hold_each_sightline_that_the_search_stopped_short_of) {
 // ---- Surfaces of events -------------------------------------------------------------------------------------------------------------------------
 
 TEST(Event_surfaces, are_kept_for_faces_that_are_visible_too_and_touch_edges) {
-  // A plate over half of the shaft.
-  const Weak_scene scene{"half", generate::soup_of({reversed(rectangle(-1, 1, -1, 1, 2)), rectangle(0, 3, -3, 3, 1)}), rectangle(-1, 1, -1, 1, 0), {0}, true};
+  // A plate over a part of the shaft.
+  const Weak_scene scene{"half", generate::soup_of({reversed(rectangle(-1, 1, -1, 1, 2)), rectangle(Rational(1, 2), 3, -3, 3, 1)}), rectangle(-1, 1, -1, 1, 0), {0}, true};
   const Scene read(scene.soup);
   const Occluders occluders(read);
   Events_options options;
@@ -218,8 +218,8 @@ TEST(Event_surfaces, are_kept_for_faces_that_are_visible_too_and_touch_edges) {
       std::size_t touched = 0;
       for (const auto& [a, b] : edges) touched += side_of_line(p, q, a, b) == 0;
       EXPECT_GE(touched, 3u);
-      plate = plate && side_of_line(p, q, at(0, -3, 1), at(0, 3, 1)) == 0;
-      EXPECT_LE(p[0] + q[0], 0) << "through the plate's inside";
+      plate = plate && side_of_line(p, q, at(Rational(1, 2), -3, 1), at(Rational(1, 2), 3, 1)) == 0;
+      EXPECT_LE(p[0] + q[0], 1) << "through the plate's inside";
       for (const Exact_point* end : {&p, &q}) EXPECT_TRUE(abs((*end)[0]) <= 1 && abs((*end)[1]) <= 1);
     }
     by_plate += plate;
