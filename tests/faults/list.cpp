@@ -1,0 +1,40 @@
+// The list of planted faults stays true to the sources: each text is found exactly once.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+
+namespace {
+
+std::string content(const std::string& file) {
+  std::ifstream in(std::string(SIGHTLINE_SOURCE_DIR) + "/" + file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+TEST(Faults, each_text_is_found_exactly_once) {
+  const auto faults = nlohmann::json::parse(content("tests/faults/faults.json"));
+  EXPECT_GE(faults.size(), 24u);
+  std::set<std::string> names;
+  std::map<std::string, std::string> files;
+  for (const auto& fault : faults) {
+    const std::string name = fault.at("name"), file = fault.at("file"), expression = fault.at("expression"), faulty = fault.at("faulty");
+    EXPECT_TRUE(names.insert(name).second) << name << " comes twice";
+    EXPECT_NE(expression, faulty) << name;
+    EXPECT_FALSE(fault.at("what").get<std::string>().empty()) << name;
+    EXPECT_FALSE(fault.at("hunt").empty()) << name << ": nothing is to find it";
+    const std::string text = fault.value("before", "") + expression + fault.value("after", "");
+    std::string& source = files.try_emplace(file, content(file)).first->second;
+    const std::size_t at = source.find(text);
+    ASSERT_NE(at, std::string::npos) << name << ": not found in " << file;
+    EXPECT_EQ(source.find(text, at + 1), std::string::npos) << name << ": found again in " << file;
+    source.replace(at, text.size(), std::string(text.size(), ' '));  // as the build does, which cannot replace it twice
+  }
+}
+
+}  // namespace

@@ -1,0 +1,222 @@
+#pragma once
+// What certificates claim, tried at a few points by plain rationals: a claim that a checker accepted and that a sample contradicts is a finding.
+// Samples prove nothing right; they share no code with the checkers.
+
+#include "support.h"
+
+#include <sightline/algorithms/verify/graph.h>
+#include <sightline/algorithms/verify/order.h>
+#include <sightline/algorithms/verify/visible.h>
+#include <sightline/algorithms/verify/weak.h>
+
+namespace fuzz {
+
+using Points = std::vector<Exact_point>;
+
+inline Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+inline Exact_point plus(const Exact_point& a, const Exact_point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
+inline Exact_point times(const Rational& r, const Exact_point& a) { return {r * a[0], r * a[1], r * a[2]}; }
+inline Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline Exact_point cross(const Exact_point& a, const Exact_point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+
+/// Points strictly inside the convex hull, or the cone, of others: positive mixtures. Pre: there are some.
+inline Points mixtures(const Points& of, bool sum_one = true) {
+  Points result;
+  for (std::size_t k = 0; k < 4; ++k) {
+    Exact_point sum{0, 0, 0};
+    Rational all = 0;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const Rational weight = 1 + static_cast<long>((7 * i * i + 5 * k * i + 3 * k) % 11 * k);
+      sum = plus(sum, times(weight, of[i])), all += weight;
+    }
+    result.push_back(sum_one ? times(1 / all, sum) : sum);
+  }
+  return result;
+}
+
+/// A convex polygon. Pre: of area.
+struct Flat {
+  Points corners;
+  Exact_point normal;  // by Newell, towards its front
+
+  explicit Flat(Points of) : corners(std::move(of)), normal{0, 0, 0} {
+    for (std::size_t i = 0; i < corners.size(); ++i) normal = plus(normal, cross(minus(corners[i], corners[0]), minus(corners[(i + 1) % corners.size()], corners[0])));
+  }
+  int side(const Exact_point& p) const { return sgn(dot(normal, minus(p, corners[0]))); }
+  /// Of a point in the plane: 1 inside, 0 on the boundary, -1 outside.
+  int location(const Exact_point& p) const {
+    int least = 1;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Exact_point& from = corners[i];
+      least = std::min(least, sgn(dot(normal, cross(minus(corners[(i + 1) % corners.size()], from), minus(p, from)))));
+    }
+    return least;
+  }
+  /// Where the line p + t (q - p) meets the polygon: t, and the location there. Nothing where it is parallel to the plane or passes the polygon by.
+  std::optional<std::pair<Rational, int>> hit(const Exact_point& p, const Exact_point& q) const {
+    const Rational at_p = dot(normal, minus(p, corners[0])), at_q = dot(normal, minus(q, corners[0]));
+    if (at_p == at_q) return std::nullopt;
+    const Rational t = at_p / (at_p - at_q);
+    const int where = location(plus(p, times(t, minus(q, p))));
+    if (where < 0) return std::nullopt;
+    return std::pair(t, where);
+  }
+};
+
+/// What is known of the one scene that certificates are tried on.
+struct Known_scene {
+  Polygon_soup soup;
+  std::vector<std::vector<Flat>> parts;  // of each face, convex; none where it is not planar
+  std::vector<bool> set_aside;
+};
+
+inline std::vector<Flat> flats(const Covering& covering) {
+  std::vector<Flat> all;
+  for (const Order_fragment& fragment : covering.fragments) all.emplace_back(fragment.vertices);
+  return all;
+}
+
+/// Each fragment is in its face, and each point of a face is in one fragment; faces that the eye is not in front of may have none.
+inline void try_covering(const Known_scene& scene, const Covering& covering, const std::vector<Flat>& fragments, const Exact_point* eye = nullptr) {
+  std::vector<bool> set_aside(scene.parts.size());
+  for (const Covering::Set_aside& entry : covering.set_aside) set_aside[entry.face] = true;
+  require(set_aside == scene.set_aside, "what is set aside has to be");
+  const auto in = [](const std::vector<Flat>& parts, const Exact_point& p) {
+    return std::any_of(parts.begin(), parts.end(), [&](const Flat& part) { return part.side(p) == 0 && part.location(p) >= 0; });
+  };
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const std::vector<Flat>& parts = scene.parts[covering.fragments[i].face];
+    if (parts.empty()) continue;
+    require(dot(fragments[i].normal, parts[0].normal) > 0, "a fragment has its face's front");
+    for (const Exact_point& p : mixtures(fragments[i].corners)) require(in(parts, p), "a fragment is in its face");
+  }
+  for (std::size_t f = 0; f < scene.parts.size(); ++f) {
+    if (set_aside[f]) continue;
+    const auto own = [&](std::size_t i) { return covering.fragments[i].face == f; };
+    bool any = false;
+    for (std::size_t i = 0; i < fragments.size(); ++i) any = any || own(i);
+    if (!any && eye != nullptr && !scene.parts[f].empty() && scene.parts[f][0].side(*eye) <= 0) continue;
+    require(any || (scene.parts[f].empty() && eye != nullptr), "a face has fragments");
+    for (const Flat& part : scene.parts[f])
+      for (const Exact_point& p : mixtures(part.corners)) {
+        std::size_t inside = 0, touching = 0;
+        for (std::size_t i = 0; i < fragments.size(); ++i)
+          if (own(i)) inside += fragments[i].location(p) > 0, touching += fragments[i].location(p) == 0;
+        if (eye == nullptr || scene.parts[f][0].side(*eye) > 0) require(inside == 1 || (inside == 0 && touching >= 2), "a point of a face is in one fragment");
+      }
+  }
+}
+
+inline void try_claims(const Known_scene& scene, const Order_certificate& claim) {
+  const std::vector<Flat> fragments = flats(claim);
+  try_covering(scene, claim, fragments, claim.on_view ? &claim.eye : nullptr);
+  for (std::size_t later = 0; later < fragments.size(); ++later) {
+    if (fragments[later].side(claim.eye) == 0) continue;
+    for (const Exact_point& p : mixtures(fragments[later].corners))
+      for (std::size_t earlier = 0; earlier < later; ++earlier)
+        if (const auto hit = fragments[earlier].hit(claim.eye, p)) require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing that is drawn earlier is nearer");
+  }
+}
+
+inline void try_claims(const Known_scene& scene, const Graph_certificate& claim) {
+  const std::vector<Flat> fragments = flats(claim);
+  try_covering(scene, claim, fragments);
+  const std::size_t n = fragments.size();
+  const auto has_corner = [&](std::size_t of, int side, std::size_t plane) {
+    return std::any_of(fragments[of].corners.begin(), fragments[of].corners.end(), [&](const Exact_point& p) { return fragments[plane].side(p) == side; });
+  };
+  std::vector<std::vector<char>> reaches(n, std::vector<char>(n));
+  std::vector<std::size_t> component;
+  for (std::size_t c = 0; c < claim.sizes.size(); ++c) component.insert(component.end(), claim.sizes[c], c);
+  require(component.size() == n, "components are the fragments");
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) {
+      reaches[i][j] = i == j || (has_corner(i, 1, j) && has_corner(j, -1, i));
+      require(!reaches[i][j] || component[i] <= component[j], "nothing obscures what has higher priority");
+    }
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t j = 0; j < n; ++j) reaches[i][j] = reaches[i][j] || (reaches[i][k] && reaches[k][j]);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j) require(component[i] != component[j] || reaches[i][j], "a component is strongly connected");
+}
+
+/// A convex cone: 1 strictly inside, 0 on the boundary, -1 outside.
+inline int location_in_cone(const Points& rays, const Exact_point& direction) {
+  const Exact_point middle = mixtures(rays, false)[0];
+  int least = 1;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Exact_point plane = cross(rays[i], rays[(i + 1) % rays.size()]);
+    least = std::min(least, sgn(dot(plane, middle)) * sgn(dot(plane, direction)));
+  }
+  return least;
+}
+
+inline void try_claims(const Known_scene& scene, const Visible_certificate& claim) {
+  const std::vector<Flat> fragments = flats(claim);
+  try_covering(scene, claim, fragments);
+  std::vector<Points> tiles = claim.empty;
+  for (const Visible_certificate::Part& part : claim.parts) {
+    Points& rays = tiles.emplace_back();
+    for (const Exact_point& p : part.vertices) rays.push_back(minus(p, claim.eye));
+    for (const Exact_point& p : mixtures(part.vertices)) {
+      require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0, "a part is in its fragment");
+      for (const Flat& other : fragments)
+        if (const auto hit = other.hit(claim.eye, p)) require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing is before a visible part");
+    }
+  }
+  for (const Points& cone : claim.empty)
+    for (const Exact_point& d : mixtures(cone, false))
+      for (const Flat& other : fragments)
+        if (const auto hit = other.hit(claim.eye, plus(claim.eye, d))) require(hit->first <= 0 || hit->second == 0, "nothing is in an empty cone");
+  for (const Points& tile : tiles)
+    for (const Exact_point& d : mixtures(tile, false)) {
+      require(claim.field.empty() || location_in_cone(claim.field, d) >= 0, "what is seen is in the field");
+      require(std::count_if(tiles.begin(), tiles.end(), [&](const Points& other) { return location_in_cone(other, d) > 0; }) == 1, "a direction is in one cone");
+    }
+  for (const Flat& fragment : fragments)
+    for (const Exact_point& p : mixtures(fragment.corners)) {
+      const Exact_point d = minus(p, claim.eye);
+      if (fragment.side(claim.eye) == 0 || (!claim.field.empty() && location_in_cone(claim.field, d) <= 0)) continue;
+      require(std::any_of(tiles.begin(), tiles.end(), [&](const Points& tile) { return location_in_cone(tile, d) >= 0; }), "a direction of the field is in a cone");
+    }
+}
+
+inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) {
+  const std::vector<Flat> fragments = flats(claim);
+  try_covering(scene, claim, fragments);
+  std::vector<Flat> sources;
+  for (const Points& source : claim.sources) sources.emplace_back(source);
+  const auto looks = [&](const Exact_point& p, const Flat& source, const Exact_point& q, const Flat& fragment) {
+    return source.side(q) > 0 && (fragment.side(p) > 0 || (claim.two_sided && fragment.side(p) < 0));
+  };
+  const auto blocked = [&](const Exact_point& p, const Exact_point& q) {
+    return std::any_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
+      const auto hit = other.hit(p, q);
+      return hit && hit->first > 0 && hit->first < 1;
+    });
+  };
+  std::vector<bool> visible(scene.parts.size()), undecided(scene.parts.size());
+  for (const Weak_certificate::Sightline& entry : claim.visible) {
+    const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
+    require(source.side(entry.from) == 0 && source.location(entry.from) > 0, "a sightline begins inside its source");
+    require(fragment.side(entry.to) == 0 && fragment.location(entry.to) > 0, "a sightline ends inside its fragment");
+    require(looks(entry.from, source, entry.to, fragment), "both ends of a sightline look to each other");
+    require(!blocked(entry.from, entry.to), "nothing is on a sightline");
+    visible[claim.fragments[entry.fragment].face] = true;
+  }
+  std::set<std::pair<std::size_t, std::size_t>> hidden;
+  for (const Weak_certificate::Hidden& entry : claim.hidden) {
+    hidden.insert({entry.fragment, entry.source});
+    const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
+    for (const Exact_point& p : mixtures(source.corners))
+      for (const Exact_point& q : mixtures(fragment.corners)) require(!looks(p, source, q, fragment) || blocked(p, q), "what is hidden is not seen");
+  }
+  for (const Face_id face : claim.undecided) undecided[face] = true;
+  for (std::size_t i = 0; i < fragments.size(); ++i) {
+    const Face_id face = claim.fragments[i].face;
+    for (std::size_t s = 0; s < sources.size(); ++s) require(visible[face] || undecided[face] || hidden.count({i, s}) > 0, "a face that is not visible is hidden from each source, with all its fragments");
+  }
+}
+
+}  // namespace fuzz

@@ -1,0 +1,63 @@
+#pragma once
+// All targets by name. A target is a function of bytes that throws where something is wrong; whatever the bytes are, it returns soon.
+
+#include "certificate.h"
+#include "decimal.h"
+#include "fixed_integer.h"
+#include "mutate.h"
+#include "quadratic_roots.h"
+#include "readers.h"
+#include "side.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace fuzz {
+
+struct Target {
+  const char* name;
+  void (*run)(std::string_view bytes);
+  std::vector<std::string> endings;  ///< of the files of the corpus that it begins with; none: of random bytes
+};
+
+inline const std::vector<Target>& targets() {
+  static const std::vector<Target> all{{"read_obj", read_obj, {".obj"}},
+                                       {"read_off", read_off, {".off", ".qoff"}},
+                                       {"read_qoff", read_qoff, {".qoff", ".off"}},
+                                       {"read_ply", read_ply, {".ply"}},
+                                       {"read_stl", read_stl, {".stl"}},
+                                       {"decimal", decimal, {".off", ".qoff", ".obj"}},
+                                       {"certificate", certificate, {".json"}},
+                                       {"fixed_integer", fixed_integer, {}},
+                                       {"side", side, {}},
+                                       {"quadratic_roots", quadratic_roots, {}}};
+  return all;
+}
+
+struct Seed {
+  std::string file, bytes;
+};
+
+/// The files of the corpus that a target begins with, by name.
+inline std::vector<Seed> seeds_of(const Target& target) {
+  std::vector<Seed> seeds;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(SIGHTLINE_SOURCE_DIR) / "tests" / "corpus")) {
+    const std::filesystem::path& file = entry.path();
+    if (std::find(target.endings.begin(), target.endings.end(), file.extension().string()) == target.endings.end()) continue;
+    std::ifstream in(file, std::ios::binary);
+    seeds.push_back({file.string(), std::string(std::istreambuf_iterator<char>(in), {})});
+  }
+  std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) { return a.file < b.file; });
+  return seeds;
+}
+
+/// An input near a seed, or random bytes where there is none. Certificates stay JSON three times out of four.
+inline std::string input_near(const std::vector<Seed>& seeds, Mutator& mutator) {
+  if (seeds.empty()) return mutator.random_bytes(300);
+  const Seed& seed = seeds[mutator.below(seeds.size())];
+  if (seed.file.ends_with(".json") && mutator.below(4) != 0) return mutator.damaged(nlohmann::json::parse(seed.bytes)).dump();
+  return mutator.damaged(seed.bytes);
+}
+
+}  // namespace fuzz

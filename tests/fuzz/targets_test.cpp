@@ -1,0 +1,61 @@
+// Every target on every file of the corpus that it begins with, and on inputs near those.
+// SIGHTLINE_LONG: so many times the inputs, for a long run. (Longer ones: README.md in this folder.)
+
+#include "targets.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace {
+
+using fuzz::Target;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr std::size_t share = 8;  // one in so many inputs under sanitizers
+#else
+constexpr std::size_t share = 1;
+#endif
+
+std::size_t times() {
+  const char* const more = std::getenv("SIGHTLINE_LONG");
+  return more == nullptr ? 1 : std::max(1ul, std::strtoul(more, nullptr, 10));
+}
+
+/// In C's way, so that a finding can be run again.
+std::string escaped(std::string_view bytes) {
+  std::string text;
+  for (const char c : bytes.substr(0, 4000)) {
+    char code[8];
+    std::snprintf(code, sizeof code, c >= 32 && c < 127 && c != '"' && c != '\\' ? "%c" : "\\%03o", static_cast<unsigned char>(c));
+    text += code;
+  }
+  return text;
+}
+
+/// Whether the target has nothing to say against the bytes.
+testing::AssertionResult survives(const Target& target, std::string_view bytes) {
+  try {
+    target.run(bytes);
+  } catch (const std::exception& finding) {
+    return testing::AssertionFailure() << target.name << ": " << finding.what() << "\n\"" << escaped(bytes) << '"';
+  }
+  return testing::AssertionSuccess();
+}
+
+class Fuzz : public testing::TestWithParam<Target> {};
+
+TEST_P(Fuzz, the_corpus) {
+  for (const fuzz::Seed& seed : seeds_of(GetParam())) EXPECT_TRUE(survives(GetParam(), seed.bytes)) << seed.file;
+  EXPECT_TRUE(survives(GetParam(), ""));
+}
+
+TEST_P(Fuzz, inputs_near_the_corpus) {
+  const std::vector<fuzz::Seed> seeds = seeds_of(GetParam());
+  fuzz::Mutator mutator(7);
+  for (std::size_t k = 0; k < 1500 * times() / share; ++k) ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
+}
+
+INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()), [](const auto& target) { return std::string(target.param.name); });
+
+}  // namespace
