@@ -198,7 +198,7 @@ void add_weak(CLI::App& app) {
   auto a = std::make_shared<sightline::app::Weak_arguments>();
   a->common.add_to(*command);
   a->sources.add_to(*command);
-  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, for up to some tens of edges; conservative: quick, visible is all that no single piece hides; "
+  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; conservative: quick, visible is all that no single piece hides; "
                                              "doubles: a search without proofs; sample: random rays, as others do")->check(CLI::IsMember(sightline::app::weak_method_names))->capture_default_str();
   command->add_option("--rays", a->task.rays, "sample: from each source")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")->check(sightline::app::whole_number)->capture_default_str();
