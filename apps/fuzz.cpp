@@ -6,6 +6,7 @@
 
 #include <sightline/algorithms/harness/fuzz.h>
 #include <sightline/algorithms/harness/subjects.h>
+#include <sightline/io/read.h>
 #include <sightline/io/write.h>
 
 #include <unistd.h>

@@ -198,13 +198,15 @@ inline Answer pulled_back(const Image& image, const Answer& of_image, std::size_
 }
 
 /// That the subject's answer to the image of a scene is the image of its answer.
-inline Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& answer) {
-  return {law.name, law.what, [law, answer](const Posed_scene& scene, const Answer& own, Random& random) {
+/// Where there are certificates, that of every fourth image is checked.
+inline Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& answer, const std::function<Answer(const Posed_scene&)>& verified = {}) {
+  return {law.name, law.what, [law, answer, verified](const Posed_scene& scene, const Answer& own, Random& random) {
+            const bool verify = verified && random.chance(1, 4);
             if (law.kind != Law_kind::renamed && !own.planar) return Outcome::not_applicable();
             if (own.is_partition && !own.whole) return Outcome::not_applicable();
             const std::optional<Image> image = law.apply(scene, random);
             if (!image) return Outcome::not_applicable();
-            const Answer other = answer(image->scene);
+            const Answer other = verify ? verified(image->scene) : answer(image->scene);
             if (!other.flaw.empty()) return Outcome::failed("after '" + law.name + "': " + other.flaw);
             return compared(own, pulled_back(*image, other, scene.soup.face_count()), "the scene", "after '" + law.name + "'");
           }};
@@ -213,7 +215,7 @@ inline Check check_of(const Law& law, const std::function<Answer(const Posed_sce
 /// Appends the laws of these names to a subject's checks.
 inline void add_laws(Subject& subject, const std::vector<std::string>& names) {
   for (const Law& law : laws())
-    if (std::find(names.begin(), names.end(), law.name) != names.end()) subject.checks.push_back(check_of(law, subject.answer));
+    if (std::find(names.begin(), names.end(), law.name) != names.end()) subject.checks.push_back(check_of(law, subject.answer, subject.verified));
 }
 
 }  // namespace sightline::harness

@@ -38,7 +38,7 @@ std::string try_it(std::size_t scenes) {
 namespace {
 
 TEST(Harness_example, finds_what_doubles_get_wrong_and_makes_it_small) {
-  EXPECT_EQ(try_it(1000), "translate, 1 face");
+  EXPECT_EQ(try_it(1000), "rotate, 1 face");
 }
 
 }  // namespace

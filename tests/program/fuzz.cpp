@@ -1,0 +1,116 @@
+// fuzz and reduce: what they find, say and write; and queries, which generate writes for them.
+
+#include "program.h"
+
+namespace program {
+
+class Fuzz : public Program {};
+
+TEST_F(Fuzz, each_command_runs_scenes_and_counts_cases) {
+  for (const char* command : {"order", "graph", "cutset", "see", "weak", "io"}) {
+    const Outcome r = run({"fuzz", command, "--scenes", "5", "--seed", "3", "--json", "-", "--out", path("found").string()});
+    ASSERT_EQ(r.code, done) << r;
+    const Json d = r.json();
+    EXPECT_EQ(d["command"], "fuzz");
+    EXPECT_EQ(d["counters"]["scenes"], 5) << command;
+    EXPECT_GE(d["counters"]["cases"], 10) << command;
+    EXPECT_TRUE(d["result"]["finding"].is_null()) << r;
+    EXPECT_FALSE(fs::exists(path("found"))) << "nothing found, nothing written";
+  }
+}
+
+TEST_F(Fuzz, one_seed_is_one_sequence_and_seconds_end_it) {
+  const auto counters = [&](const char* seed) { return run({"fuzz", "io", "--scenes", "40", "--seed", seed, "--json", "-"}).json()["counters"].dump(); };
+  EXPECT_EQ(counters("1"), counters("1"));
+  EXPECT_NE(counters("1"), counters("2"));
+  const Outcome r = run({"fuzz", "io", "--seconds", "0.2"});
+  EXPECT_EQ(r.code, done) << r;
+  for (const char* word : {"qoff", "regulus", "cases", "a second"}) EXPECT_NE(r.out.find(word), std::string::npos) << word << r;
+}
+
+TEST_F(Fuzz, a_case_and_a_scene_with_its_query_run_alone) {
+  const Outcome r = run({"fuzz", "weak", "--case", "hinged:7:0:1:0,0,0:-30"});
+  EXPECT_EQ(r.code, done) << r;
+  EXPECT_NE(r.out.find("construction"), std::string::npos) << r;
+  const std::string scene = path("a.qoff").string(), query = path("a.json").string();
+  ASSERT_EQ(run({"generate", "hinged", "--seed", "7", "--ulps", "1", "--scale", "2^-30", "--offset", "1/3,0,1e6", "--out", scene, "--query", query}).code, done);
+  const Outcome again = run({"fuzz", "weak", "--scene", scene, "--query", query, "--check", "events"});
+  EXPECT_EQ(again.code, done) << again;
+  EXPECT_NE(again.out.find("events"), std::string::npos) << again;
+  EXPECT_EQ(again.out.find("construction"), std::string::npos) << again;
+
+  // A query that claims what is not so: exactly degenerate, nothing is seen.
+  Json claims = Json::parse(read_file(query));
+  EXPECT_EQ(claims["distance"], "beside");
+  ASSERT_EQ(claims["visible"].size(), 1u);
+  std::swap(claims["visible"], claims["hidden"]);
+  std::ofstream(query) << claims.dump();
+  const Outcome wrong = run({"fuzz", "weak", "--scene", scene, "--query", query});
+  EXPECT_EQ(wrong.code, disagreement) << wrong;
+  EXPECT_NE(wrong.out.find("DISAGREEMENT"), std::string::npos) << wrong;
+}
+
+TEST_F(Fuzz, what_makes_no_sense_is_told) {
+  const std::string scene = path("a.off").string();
+  ASSERT_EQ(run({"generate", "bars", "--size", "3", "--out", scene}).code, done);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"fuzz", "everything"}, {"fuzz", "see", "--case", "castle:1"}, {"fuzz", "see", "--case", "bars:1:0:x"}, {"fuzz", "weak", "--case", "bars:1"},
+                                                                                       {"fuzz", "see", "--family", "castle"}, {"fuzz", "weak", "--family", "bars"}, {"fuzz", "see", "--scenes", "1", "--check", "nothing"},
+                                                                                       {"fuzz", "weak", "--scene", scene}, {"fuzz", "see", "--seconds", "0"}, {"generate", "regulus", "--ulps", "some", "--out", scene},
+                                                                                       {"generate", "regulus", "--scale", "0", "--out", scene}, {"generate", "regulus", "--scale", "2^2000", "--out", scene}, {"generate", "regulus", "--offset", "1,2", "--out", scene}}) {
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+  }
+  const std::string query = path("q.json").string();
+  for (const char* text : {"", "{}", "[1]", "{\"format\": \"sightline query 1\"}", "{\"format\": \"sightline query 1\", \"eye\": [1, 2, 3]}", "{\"format\": \"sightline query 1\", \"eye\": [\"1\", \"2\", \"3/0\"]}"}) {
+    std::ofstream(query) << text;
+    const Outcome r = run({"fuzz", "see", "--scene", scene, "--query", query});
+    EXPECT_EQ(r.code, bad_input) << text << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find("q.json"), std::string::npos) << r;
+  }
+}
+
+TEST_F(Fuzz, reduce_makes_a_scene_small_for_any_program) {
+  const std::string scene = path("a.off").string(), small = path("small.off").string();
+  ASSERT_EQ(run({"generate", "stacked", "--size", "9", "--out", scene}).code, done);
+  // Fails with exit code 7 while there are three faces or more.
+  const Outcome r = run({"reduce", scene, "--out", small, "--code", "7", "--", "sh", "-c", "test $(grep -c '^[34] [0-9]* [0-9]* [0-9]*' {}) -lt 3 || exit 7"});
+  ASSERT_EQ(r.code, done) << r;
+  const Outcome info = run({"info", small, "--json", "-"});
+  EXPECT_EQ(info.json()["scene"]["faces_read"], 3) << info;
+  const Outcome other = run({"reduce", scene, "--out", small, "--code", "8", "--", "sh", "-c", "exit 7"});
+  EXPECT_EQ(other.code, disagreement) << other;
+  EXPECT_NE(other.err.find("exit code is 7"), std::string::npos) << other;
+  // A crash counts, and its signal is its code.
+  EXPECT_EQ(run({"reduce", scene, "--out", small, "--", "sh", "-c", "test -s {} && kill -ABRT $$"}).code, done);
+  EXPECT_EQ(run({"reduce", scene, "--out", small, "--code", "134", "--", "sh", "-c", "test -s {} && kill -ABRT $$"}).code, done);
+  // No end in time does not, unless it is asked for.
+  EXPECT_EQ(run({"reduce", scene, "--out", small, "--limit", "0.1", "--", "sh", "-c", "test -s {} && sleep 5"}).code, disagreement);
+}
+
+TEST_F(Fuzz, reduce_keeps_the_query_with_the_scene) {
+  const std::string scene = path("a.qoff").string(), query = path("a.json").string(), small = path("small.qoff").string();
+  ASSERT_EQ(run({"generate", "slats", "--seed", "4", "--out", scene, "--query", query}).code, done);
+  const Outcome r = run({"reduce", scene, "--query", query, "--out", small, "--", "sh", "-c", "test -s {} && test -s {query} && exit 1"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json left = Json::parse(read_file(path("small.json")));
+  EXPECT_EQ(left["source"].size(), 3u) << left;
+  EXPECT_EQ(left["eye"], (Json{"0", "0", "0"})) << left;
+}
+
+TEST_F(Fuzz, reduce_says_what_is_missing) {
+  const std::string scene = path("a.off").string();
+  ASSERT_EQ(run({"generate", "bars", "--size", "3", "--out", scene}).code, done);
+  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"reduce", scene, "--out", "b.off", "--", "false"}, {"reduce", scene, "--out", "b.xyz", "--", "false", "{}"},
+                                                                                       {"reduce", scene, "--out", "b.off", "--", "false", "{}", "{query}"}, {"reduce", scene, "--", "false", "{}"}}) {
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+  }
+  const Outcome r = run({"reduce", scene, "--out", path("b.off").string(), "--", "no-such-program", "{}"});
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_NE(r.err.find("no-such-program"), std::string::npos) << r;
+}
+
+}  // namespace program
