@@ -179,21 +179,17 @@ inline const std::vector<Law>& laws() {
 
 // ---- As checks -------------------------------------------------------------------------------------------------------------------------
 
-/// An answer to an image, as one to the scene: a face's label is the union of the labels of its parts; `none` where one of them has none.
+/// An answer to an image, as one to the scene: a face's label is the union of the labels of its parts; `none` where one of them has none. Pre: each face of the scene is in the image.
 inline Answer pulled_back(const Image& image, const Answer& of_image, std::size_t faces) {
   Answer answer = of_image;
   answer.labels.assign(faces, 0);
-  std::vector<char> seen(faces, 0);
   for (std::size_t k = 0; k < image.face_of.size(); ++k) {
     if (!image.face_of[k]) continue;
     std::uint32_t& label = answer.labels[*image.face_of[k]];
     std::uint32_t own = of_image.labels[k];
     if (own != Answer::none && image.sides_swapped && !answer.is_partition) own = (own & ~3u) | (own & 1) << 1 | (own & 2) >> 1;
-    seen[*image.face_of[k]] = 1;
     label = label == Answer::none || own == Answer::none ? Answer::none : answer.is_partition ? own : label | own;
   }
-  for (std::size_t f = 0; f < faces; ++f)
-    if (!seen[f]) answer.labels[f] = Answer::none;
   return answer;
 }
 
