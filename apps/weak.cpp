@@ -133,7 +133,7 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
 
 // ---- The command ---------------------------------------------------------------------------------------------------------------------
 
-Exit run(const Weak_arguments& arguments) {
+Exit run_weak(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
   const std::string& method = arguments.method;
   if ((method == "sample" || method == "doubles") && !arguments.certificate.empty()) throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
@@ -211,5 +211,5 @@ void add_weak(CLI::App& app) {
   a->view.add_to(*command);
   command->footer("Example: sightline weak room.off --from \"0,0,1 1,0,1 1,0,2 0,0,2\" --svg room.svg --certificate room.json\n"
                   "Exit code 4: some faces are undecided.");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  set_action(*command, [a] { return sightline::app::run_weak(*a); });
 }

@@ -13,6 +13,7 @@
 
 #include <cstdlib>
 
+namespace weak_regions {
 namespace {
 
 using namespace sightline;
@@ -369,3 +370,4 @@ TEST(Volume, that_bounds_nothing_is_refused_with_advice) {
 }
 
 }  // namespace
+}  // namespace weak_regions
