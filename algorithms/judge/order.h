@@ -63,7 +63,7 @@ class Order_truth {
       for (const order_check::Polygon& polygon : pieces) sum += flat(polygon).area();
       return sum;
     }
-    /// A part on the plane, smaller by the tolerance, counterclockwise as seen from the front.
+    /// A part on the plane, smaller by the tolerance, in either sense.
     order_check::Polygon shrunk(const Flat_polygon& part) const {
       const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
       order_check::Polygon points(part.lines().size());
@@ -75,7 +75,6 @@ class Order_truth {
         points[i][x] = at[0] + (middle[0] - at[0]) / (1 << tolerance_bits), points[i][y] = at[1] + (middle[1] - at[1]) / (1 << tolerance_bits);
         points[i][axis] = -(plane[x] * points[i][x] + plane[y] * points[i][y] + plane[3]) / plane[axis];
       }
-      if (sgn(plane[axis]) < 0) std::reverse(points.begin(), points.end());
       return points;
     }
   };

@@ -154,6 +154,10 @@ TEST(Truth, of_a_lamp_above_two_squares) {
   EXPECT_FALSE(graded(soup, lamp, "0\n1\n").wrong());
   std::reverse(lamp.source.begin(), lamp.source.end());
   EXPECT_EQ(graded(soup, lamp, "1\n").wrong_visible, (Faces{1}));
+  lamp.source = {{-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2}};  // looks up at their backs
+  EXPECT_EQ(graded(soup, lamp, "0\n").wrong_visible, (Faces{0}));
+  lamp.two_sided = true;
+  EXPECT_FALSE(graded(soup, lamp, "0\n").wrong());
   lamp.source = {{0, 0, 2}, {1, 0, 2}, {2, 0, 2}};
   EXPECT_NE(truth_of(soup, lamp).not_asked, "");
 }
