@@ -30,3 +30,4 @@ void add_weak(CLI::App& app);
 void add_generate(CLI::App& app);
 void add_fuzz(CLI::App& app);
 void add_reduce(CLI::App& app);
+void add_judge(CLI::App& app);

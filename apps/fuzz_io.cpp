@@ -11,9 +11,6 @@ namespace sightline::app {
 
 namespace {
 
-using harness::Answer;
-using harness::Outcome;
-
 /// What differs between two soups, or nothing: the points of each loop of each face, in order.
 std::string difference(const Polygon_soup& a, const Polygon_soup& b) {
   if (a.face_count() != b.face_count()) return std::to_string(b.face_count()) + " faces, not " + std::to_string(a.face_count());
@@ -29,21 +26,21 @@ std::string difference(const Polygon_soup& a, const Polygon_soup& b) {
   return {};
 }
 
-Outcome round_trip(const Polygon_soup& soup, Format format) {
+harness::Outcome round_trip(const Polygon_soup& soup, Format format) {
   std::stringstream stream;
   try {
     write_scene(soup, stream, format);
   } catch (const Not_representable&) {
-    return Outcome::not_applicable();
+    return harness::Outcome::not_applicable();
   }
   const std::string what = difference(soup, read_scene(stream.str(), format, "round trip"));
-  return what.empty() ? Outcome{} : Outcome::failed(what);
+  return what.empty() ? harness::Outcome{} : harness::Outcome::failed(what);
 }
 
 /// Nothing is asked of faces: formats are compared with the scene itself.
-Answer nothing(const generate::Posed_scene& posed) {
-  Answer answer;
-  answer.labels.assign(posed.soup.face_count(), Answer::none);
+harness::Answer nothing(const generate::Posed_scene& posed) {
+  harness::Answer answer;
+  answer.labels.assign(posed.soup.face_count(), harness::Answer::none);
   return answer;
 }
 
@@ -54,7 +51,7 @@ harness::Subject io_subject() {
   subject.name = "io", subject.what = "scenes written and read again in every format";
   subject.answer = nothing;
   const auto add = [&](const char* name, Format format) {
-    subject.checks.push_back({name, std::string("the same scene from ") + name, [format](const generate::Posed_scene& posed, const Answer&, generate::Random&) { return round_trip(posed.soup, format); }});
+    subject.checks.push_back({name, std::string("the same scene from ") + name, [format](const generate::Posed_scene& posed, const harness::Answer&, generate::Random&) { return round_trip(posed.soup, format); }});
   };
   add("qoff", Format::qoff), add("off", Format::off), add("obj", Format::obj), add("ply", Format::ply), add("binary ply", Format::ply_binary), add("stl", Format::stl);
   return subject;

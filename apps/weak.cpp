@@ -1,13 +1,10 @@
 // sightline weak: the faces that are weakly visible from polygons, a picture of them and their certificate.
 
 #include "picture.h"
+#include "weak_methods.h"
 
-#include <sightline/algorithms/baseline/ray_sampling.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
-#include <sightline/algorithms/weak_visibility/events.h>
-
-#include <sstream>
 
 namespace sightline::app {
 
@@ -16,51 +13,15 @@ namespace {
 struct Weak_arguments {
   Common common;
   View_arguments view;
-  std::vector<Face_id> faces;
-  std::vector<std::string> polygons;
-  std::string method = "lines", certificate, svg, obj, eye;
-  bool two_sided = false;
-  std::size_t rays = Ray_sampling_options{}.rays;
-  std::size_t cells = Weak_search_options{}.cells;
+  Source_arguments sources;
+  std::string method = "lines", certificate, svg, obj, eye, surfaces;
+  Weak_task task;
 };
-
-/// Sources as they were given, and as the search takes them.
-struct Sources {
-  std::vector<std::vector<Exact_point>> points;
-  std::vector<Weak_source> polygons;
-};
-
-Sources sources_of(const Weak_arguments& arguments, const Occluders& occluders) {
-  const Scene& scene = occluders.scene();
-  Sources sources;
-  for (const Face_id face : arguments.faces) {
-    bool found = false;
-    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
-      if (scene.pieces()[i].face != face) continue;
-      found = true;
-      std::vector<Exact_point>& points = sources.points.emplace_back();
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) points.push_back(scene.position(corner.point));
-      sources.polygons.push_back(weak_source(occluders, i));
-    }
-    if (!found) throw Usage_error(fmt::format("--from-face {}: the scene has no such face, or it was set aside (`sightline info` lists them)", face));
-  }
-  for (const std::string& text : arguments.polygons) {
-    std::istringstream words(text);
-    std::vector<Exact_point>& points = sources.points.emplace_back();
-    for (std::string word; words >> word;) points.push_back(parse_point(word, "--from"));
-    try {
-      sources.polygons.push_back(weak_source(occluders, points));
-    } catch (const std::invalid_argument& error) {
-      throw Usage_error(std::string("--from: ") + error.what());
-    }
-  }
-  return sources;
-}
 
 // ---- Pictures ---------------------------------------------------------------------------------------------------------------
 
 /// visible, hidden, undecided or "source", by face; sources are numbered after the faces.
-std::vector<std::string> names_of(const Scene& scene, const Weakly_visible& found, std::size_t sources) {
+std::vector<std::string> names_of(const Scene& scene, const Weak_faces& found, std::size_t sources) {
   std::vector<std::string> names(scene.counters().faces_read + sources, "source");
   const auto set = [&](const std::vector<Face_id>& faces, const char* name) {
     for (const Face_id face : faces) names[face] = name;
@@ -83,9 +44,10 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Sources& sou
   task.eye = eye, task.bsp.threads = arguments.common.threads;
   task.near = near_plane(view, scene);
   std::vector<Drawn> drawn = run_method("exact", scene, task).drawn;
-  for (const Face_id face : arguments.faces)  // a face of the scene that is a source: itself, not its double
-    for (Drawn& item : drawn)
-      if (item.fragment.face == face) item.fragment.face = static_cast<Face_id>(names.size() - 1);
+  for (const std::vector<Face_id>* list : {&arguments.sources.faces, &arguments.sources.solid})  // faces of the scene that are sources: themselves, not their doubles
+    for (const Face_id face : *list)
+      for (Drawn& item : drawn)
+        if (item.fragment.face == face) item.fragment.face = static_cast<Face_id>(names.size() - 1);
   std::erase_if(drawn, [&](const Drawn& item) { return item.side != CGAL::POSITIVE && names[item.fragment.face] != "source"; });
   Svg svg = empty_picture(view);
   paint(svg, view, drawn, true, [&](const Drawn& item, double shade) {
@@ -113,67 +75,116 @@ std::string obj_text(const Scene& scene, const std::vector<std::string>& names) 
   return text;
 }
 
-/// What rays hit, and the rest as hidden: nothing of it is proved.
-Weakly_visible sampled(const Weak_arguments& arguments, const Occluders& occluders, const Sources& sources) {
-  Weakly_visible found;
-  found.visible = visible_by_sampling(occluders, sources.polygons, {arguments.rays, arguments.common.seed, arguments.two_sided});
-  for (const Piece& piece : occluders.scene().pieces())
-    if (piece.number == 0 && !std::binary_search(found.visible.begin(), found.visible.end(), piece.face)) found.hidden.push_back(piece.face);
-  return found;
+// ---- Event surfaces ------------------------------------------------------------------------------------------------------------
+
+const char* name_of(Event_kind kind) { return kind == Event_kind::horizon ? "horizon" : kind == Event_kind::edge_vertex ? "edge and vertex" : "triple"; }
+
+Json surfaces_json(const Scene& scene, const std::vector<Event_surface>& surfaces) {
+  Json all = Json::array();
+  for (const Event_surface& surface : surfaces) {
+    Json rulings = Json::array();
+    for (const auto& [p, q] : surface.rulings) rulings.push_back({point_json(p), point_json(q)});
+    const Piece& piece = scene.pieces()[surface.piece];
+    all.push_back({{"kind", name_of(surface.kind)}, {"face", piece.face}, {"piece", piece.number}, {"source", surface.source}, {"rulings", std::move(rulings)}});
+  }
+  return {{"format", "sightline event surfaces 1"}, {"scene", scene.file()}, {"surfaces", std::move(all)}};
 }
 
-/// The same answers by another method, without proofs of what is hidden.
-Weakly_visible by_events(const Weak_arguments& arguments, const Occluders& occluders, const Sources& sources, const Weak_options& lines) {
-  Events_options options;
-  options.two_sided = arguments.two_sided, options.seed = arguments.common.seed, options.threads = arguments.common.threads;
-  options.out_of_time = lines.search.out_of_time, options.progress = lines.progress;
-  Weakly_visible_by_events events = weakly_visible_by_events(occluders, sources.polygons, options);
-  Weakly_visible found;
-  found.visible = std::move(events.visible), found.hidden = std::move(events.hidden), found.undecided = std::move(events.undecided);
-  return found;
+/// Strips of quadrilaterals between rulings in groups by kind, coordinates rounded.
+std::string surfaces_obj(const std::vector<Event_surface>& surfaces) {
+  std::string text;
+  std::size_t points = 0;
+  for (const Event_surface& surface : surfaces) {
+    const std::string kind = surface.kind == Event_kind::edge_vertex ? "edge_and_vertex" : name_of(surface.kind);
+    text += fmt::format("g {0}\nusemtl {0}\n", kind);
+    for (const auto& ruling : surface.rulings)
+      for (const Exact_point& p : ruling) text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
+    for (std::size_t k = 1; k < surface.rulings.size(); ++k, points += 2) text += fmt::format("f {} {} {} {}\n", points + 1, points + 2, points + 4, points + 3);
+    points += 2;
+  }
+  return text;
 }
+
+// ---- What stays open ---------------------------------------------------------------------------------------------------------------
+
+/// The pairs of undecided faces with the first of their open cells: conditions on segments from a part of a source to a part of a piece.
+Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_visible& found) {
+  constexpr std::size_t most_cells = 4;
+  const std::vector<Piece>& pieces = occluders.scene().pieces();
+  const auto points_json = [](const std::vector<Exact_point>& points) {
+    Json list = Json::array();
+    for (const Exact_point& p : points) list.push_back(point_json(p));
+    return list;
+  };
+  Json all = Json::array();
+  for (const Weakly_visible::Pair& pair : found.open) {
+    Json cells = Json::array();
+    for (const Open_cell& cell : open_cells(occluders, sources.polygons[pair.source], pair, most_cells)) {
+      Json sides = Json::array();
+      for (const Open_cell::Side& side : cell.sides) sides.push_back({{"face", pieces[side.edge.piece].face}, {"piece", pieces[side.edge.piece].number}, {"corner", side.edge.corner}, {"side", side.sign}});
+      cells.push_back({{"source", points_json(cell.source)}, {"target", points_json(cell.target)}, {"sides", std::move(sides)}});
+    }
+    const auto is_open = [](const Weak_step& step) { return step.kind == Weak_step::Kind::open; };
+    const auto count = std::count_if(pair.answer.proof.begin(), pair.answer.proof.end(), is_open);
+    all.push_back({{"face", pieces[pair.piece].face}, {"piece", pieces[pair.piece].number}, {"source", pair.source}, {"open_cells", count}, {"cells", std::move(cells)}});
+  }
+  return all;
+}
+
+// ---- The command ---------------------------------------------------------------------------------------------------------------------
 
 Exit run(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
-  const bool by_lines = arguments.method == "lines";
-  if (!by_lines && !arguments.certificate.empty()) throw Usage_error("--method " + arguments.method + " writes no certificate: leave out --certificate, or take --method lines");
-  if (arguments.faces.empty() && arguments.polygons.empty()) throw Usage_error("say what looks: --from-face ID, or --from \"X,Y,Z X,Y,Z X,Y,Z ...\"");
+  const std::string& method = arguments.method;
+  if ((method == "sample" || method == "doubles") && !arguments.certificate.empty()) throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
+  const bool as_obj = arguments.surfaces.ends_with(".obj");
+  if (!arguments.surfaces.empty() && method != "events") throw Usage_error("--surfaces are those of events: add --method events");
+  if (!arguments.surfaces.empty() && !as_obj && !arguments.surfaces.ends_with(".json")) throw Usage_error("--surfaces wants a file that ends with .json or .obj, not " + arguments.surfaces);
   const Polygon_soup soup = common.read();
   const Scene scene(soup);
   Stopwatch watch;
   const Occluders occluders(scene);
-  const Sources sources = sources_of(arguments, occluders);
+  const Sources sources = sources_of(arguments.sources, common, soup, occluders);
   const double prepare_seconds = watch.seconds();
   Progress progress("searching");
-  Weak_options options;
-  options.threads = common.threads;
-  options.search.two_sided = arguments.two_sided, options.search.seed = common.seed, options.search.cells = arguments.cells;
-  if (common.budget > 0) options.search.out_of_time = [&] { return watch.seconds() > common.budget; };
-  options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
+  Weak_task task = arguments.task;
+  task.two_sided = arguments.sources.two_sided, task.threads = common.threads, task.seed = common.seed, task.surfaces = !arguments.surfaces.empty();
+  if (common.budget > 0) task.out_of_time = [&] { return watch.seconds() > common.budget; };
+  task.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
   watch = {};
-  const Weakly_visible found = by_lines ? weakly_visible(occluders, sources.polygons, options) : arguments.method == "events" ? by_events(arguments, occluders, sources, options) : sampled(arguments, occluders, sources);
+  const Weak_outcome outcome = run_weak_method(method, occluders, sources, task);
+  const Weakly_visible& found = outcome.found;
   const double seconds = watch.seconds();
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(weak_certificate(scene, sources.points, arguments.two_sided, found)).dump() + "\n");
+  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(weak_certificate(scene, sources.points, task.two_sided, found)).dump() + "\n");
+  if (!arguments.surfaces.empty()) write_file(arguments.surfaces, as_obj ? surfaces_obj(outcome.surfaces) : surfaces_json(scene, outcome.surfaces).dump() + "\n");
   const std::vector<std::string> names = names_of(scene, found, sources.points.size());
   if (!arguments.svg.empty()) draw(arguments, soup, sources, names);
   if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(scene, names));
 
   const Exit exit = found.undecided.empty() ? Exit::done : Exit::undecided;
   const Weak_counters& c = found.counters;
+  const Event_counters& e = outcome.events;
   Json counters{{"searches", c.targets}, {"away", c.away}, {"by_rays", c.by_rays}, {"occluders", c.occluders}, {"cells", c.cells}, {"cuts", c.cuts}, {"shaves", c.shaves}, {"bisections", c.bisections},
                 {"blocked", c.blocked}, {"empty", c.empty}, {"learned", c.learned}, {"jumps", c.jumps}, {"programs", c.programs}, {"exact_programs", c.exact_programs}, {"confirmed", c.confirmed},
-                {"refuted", c.refuted}, {"lines", c.lines}, {"open", c.open}, {"deepest", c.deepest}};
-  Json result{{"visible", found.visible}, {"hidden", found.hidden}, {"undecided", found.undecided}, {"certificate", arguments.certificate}};
+                {"refuted", c.refuted}, {"lines", c.lines}, {"open", c.open}, {"deepest", c.deepest},
+                {"events", {{"searches", e.targets}, {"horizon", e.horizon}, {"edge_vertex", e.edge_vertex}, {"triple", e.triple}, {"subranges", e.subranges}, {"cells", e.cells}, {"surfaces", outcome.surfaces.size()}}}};
+  Json result{{"visible", found.visible}, {"hidden", found.hidden}, {"undecided", found.undecided}, {"certificate", arguments.certificate}, {"unproved", found.unproved},
+              {"by_events", outcome.by_events}, {"within", outcome.within}, {"open", open_json(occluders, sources, found)}};
   if (write_json(common, "weak", scene, std::move(result), counters, {{"prepare", prepare_seconds}, {"search", seconds}})) return exit;
   scene_rows(scene);
   row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
   row("visible", fmt::format("{} of {} faces", found.visible.size(), scene.counters().faces));
+  if (!outcome.within.empty()) row("of these, within", fmt::format("{}: parts of them are seen without leaving the volume", outcome.within.size()));
   row("hidden", fmt::format("{}", found.hidden.size()));
-  row("undecided", found.undecided.empty() ? "none" : fmt::format("{}: --cells and --budget set how long each is looked at", found.undecided.size()));
-  if (arguments.method == "sample") row("rays", fmt::format("{} from each source; nothing is proved", arguments.rays));
-  if (by_lines) row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets, c.away, c.by_rays, c.cells));
-  if (by_lines) row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} linear programs, {} of them exact", c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections, c.programs + c.exact_programs, c.exact_programs));
+  row("undecided", found.undecided.empty() ? "none" : fmt::format("{}: --cells and --budget set how long each is looked at, --event-edges whether events are; --json shows the cells that are open", found.undecided.size()));
+  if (!outcome.by_events.empty()) row("by events", fmt::format("{} of them, that lines left open", outcome.by_events.size()));
+  if (!found.unproved.empty()) row("unproved", fmt::format("{}: a certificate leaves these open", found.unproved.size()));
+  if (method == "sample") row("rays", fmt::format("{} from each source; nothing is proved", task.rays));
+  if (method == "lines") row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets, c.away, c.by_rays, c.cells));
+  if (method == "lines") row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} linear programs, {} of them exact", c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections, c.programs + c.exact_programs, c.exact_programs));
+  if (e.targets > 0) row("events", fmt::format("{} searches; {} in planes of edges, {} of a vertex and an edge, {} of three edges; {} cells of lines beside them", e.targets, e.horizon, e.edge_vertex, e.triple, e.cells));
+  if (task.surfaces) row("surfaces", fmt::format("{} in {}", outcome.surfaces.size(), arguments.surfaces));
   row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene", seconds, prepare_seconds));
   return exit;
 }
@@ -183,16 +194,17 @@ Exit run(const Weak_arguments& arguments) {
 }  // namespace sightline::app
 
 void add_weak(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("weak", "The faces that are weakly visible from polygons: seen from some point of them, exactly, with a certificate for both answers");
+  CLI::App* command = app.add_subcommand("weak", "The faces that are weakly visible from polygons or solids: seen from some point of them, exactly, with a certificate for both answers");
   auto a = std::make_shared<sightline::app::Weak_arguments>();
   a->common.add_to(*command);
-  command->add_option("--from-face", a->faces, "a face of the scene that looks to its front; may be repeated");
-  command->add_option("--from", a->polygons, "a convex polygon \"X,Y,Z X,Y,Z X,Y,Z ...\", counterclockwise as seen from the side it looks to; may be repeated for a region of several")->check(sightline::app::not_empty);
-  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, for up to some tens of edges; sample: random rays in doubles, what others do, to compare with")->check(CLI::IsMember({"lines", "events", "sample"}))->capture_default_str();
-  command->add_option("--rays", a->rays, "of --method sample, from each source")->capture_default_str();
-  command->add_flag("--two-sided", a->two_sided, "count faces seen from behind too (they hide what is behind them anyway)");
-  command->add_option("--cells", a->cells, "how many cells a search may take before its face is undecided")->capture_default_str();
-  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  a->sources.add_to(*command);
+  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, for up to some tens of edges; conservative: quick, visible is all that no single piece hides; "
+                                             "doubles: a search without proofs; sample: random rays, as others do")->check(CLI::IsMember(sightline::app::weak_method_names))->capture_default_str();
+  command->add_option("--rays", a->task.rays, "sample: from each source")->check(sightline::app::whole_number)->capture_default_str();
+  command->add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")->check(sightline::app::whole_number)->capture_default_str();
+  command->add_option("--event-edges", a->task.event_edges, "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")->check(sightline::app::whole_number)->capture_default_str();
+  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads: of lines all answers, of events what is visible, of conservative what is hidden");
+  command->add_option("--surfaces", a->surfaces, "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; then no search ends before it has them all");
   command->add_option("--svg", a->svg, "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out");
   command->add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided");
   command->add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")->check(sightline::app::not_empty);

@@ -3,17 +3,19 @@
 // count now and then, so a wrong frame ends the run.
 
 #include "measure.h"
-#include "plot.h"
 
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/cutset/update_1977.h>
 #include <sightline/algorithms/generate/scenes.h>
+#include <sightline/io/plot.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/exact_traits.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
@@ -159,7 +161,7 @@ int main(int argc, char** argv) {
     csv << line << '\n';
   };
   print("scene,nodes,degrees_a_frame,build_seconds,frame_seconds,update_1977_seconds,all_faces_seconds,tests,update_1977_tests,cut_edges,births,first_tests,bytes_a_node,wrong");
-  bench::Plot plot("A frame of an orbit", "faces", "seconds");
+  Log_plot plot("A frame of an orbit", "faces", "seconds");
   bool failed = false;
   const auto measure = [&](const std::string& name, const Polygon_soup& soup, std::uint64_t circle) {
     Run r{};
@@ -193,7 +195,7 @@ int main(int argc, char** argv) {
   }
   if (!folder.empty()) {
     std::ofstream(folder + "/cutset.csv") << csv.str();
-    plot.write(folder + "/cutset.svg");
+    std::ofstream(folder + "/cutset.svg") << plot.text();
   }
   return failed;
 }

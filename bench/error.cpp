@@ -3,9 +3,9 @@
 // in one corner; all moved by `offset` grid units from the origin. CSV on standard output; with --out also error.csv and error.svg.
 
 #include "measure.h"
-#include "plot.h"
 
 #include <sightline/algorithms/generate/random.h>
+#include <sightline/io/plot.h>
 #include <sightline/kernel/exact_traits.h>
 #include <sightline/kernel/point_traits.h>
 
@@ -13,7 +13,9 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 #include <random>
 #include <sstream>
@@ -107,7 +109,7 @@ int main(int argc, char** argv) {
     csv << line << '\n';
   };
   print("kernel,distance,offset,asked,wrong,opposite,nanoseconds");
-  bench::Plot plot("Sides that are wrong, by what they cost (each dot a distance and an offset)", "nanoseconds for a vertex and its side", "share wrong");
+  Log_plot plot("Sides that are wrong, by what they cost (each dot a distance and an offset)", "nanoseconds for a vertex and its side", "share wrong");
   for (const double offset : {0.0, 1e6, 1e9})
     for (const long distance : {0L, 1L, 1000L}) {
       const Scene scene(queries(4000, distance, offset));
@@ -115,8 +117,7 @@ int main(int argc, char** argv) {
       ask_exact(scene, by_gmp, true);
       const auto report = [&](const std::string& kernel, const Result& r) {
         print(fmt::format("{},{},{:g},{},{},{},{:.1f}", kernel, distance, offset, r.asked, r.wrong, r.opposite, r.nanoseconds));
-        // No error at all is drawn at the foot, at a hundred-thousandth.
-        plot.add(kernel, r.nanoseconds, std::max(1e-5, static_cast<double>(r.wrong) / static_cast<double>(r.asked)));
+        plot.add(kernel, r.nanoseconds, static_cast<double>(r.wrong) / static_cast<double>(r.asked));
       };
       Result exact = ask_exact(scene, truth, false);
       for (std::size_t i = 0; i < truth.size(); ++i) exact.wrong += truth[i] != by_gmp[i];
@@ -129,6 +130,6 @@ int main(int argc, char** argv) {
     }
   if (!folder.empty()) {
     std::ofstream(folder + "/error.csv") << csv.str();
-    plot.write(folder + "/error.svg");
+    std::ofstream(folder + "/error.svg") << plot.text();
   }
 }

@@ -2,15 +2,19 @@
 // CSV on standard output, a line a run; growth and ratios on standard error; with --out also priority.csv and priority.svg. Each run is a process of its own.
 
 #include "measure.h"
-#include "plot.h"
 
 #include <sightline/algorithms/generate/scenes.h>
 #include <sightline/algorithms/generate/transform.h>
 #include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/io/plot.h>
 #include <sightline/kernel/exact_traits.h>
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <sstream>
 
 using namespace sightline;
@@ -119,7 +123,7 @@ int main(int argc, char** argv) {
     csv << line << '\n';
   };
   print("scene,faces,method,prepare_seconds,search_seconds,components,largest,index_nodes,pairs,peak_bytes,bytes_per_face");
-  bench::Plot plot("Components of a priority graph", "faces", "seconds");
+  Log_plot plot("Components of a priority graph", "faces", "seconds");
   for (const std::string kind : {"city", "city_rotated", "bodies", "convex_sphere", "soup_constant_density", "rooms", "terrain"}) {
     double first_faces = 0, first_seconds = 0;
     for (const double n : {1e3, 1e4, 1e5, 1e6}) {
@@ -150,6 +154,6 @@ int main(int argc, char** argv) {
   }
   if (!folder.empty()) {
     std::ofstream(folder + "/priority.csv") << csv.str();
-    plot.write(folder + "/priority.svg");
+    std::ofstream(folder + "/priority.svg") << plot.text();
   }
 }

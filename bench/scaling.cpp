@@ -3,21 +3,24 @@
 // Each run is a process of its own; seconds are the best of three where a run is short. Peak memory is what the run added.
 
 #include "measure.h"
-#include "plot.h"
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/algorithms/generate/scenes.h>
 #include <sightline/algorithms/generate/transform.h>
+#include <sightline/io/plot.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/exact_traits.h>
 #include <sightline/kernel/point_traits.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <random>
 #include <sstream>
 
@@ -128,7 +131,7 @@ int main(int argc, char** argv) {
     csv << line << '\n';
   };
   print("scene,faces,kernel,build_seconds,order_seconds,fragments,splits,depth,peak_bytes,bytes_per_fragment,polygon_tests,beyond_doubles");
-  bench::Plot plot("Building a BSP tree", "faces", "seconds");
+  Log_plot plot("Building a BSP tree", "faces", "seconds");
   std::map<std::string, std::map<double, double>> growth;
   for (const Case& c : cases) {
     if (c.faces > max_faces * 1.01) continue;
@@ -158,6 +161,6 @@ int main(int argc, char** argv) {
   }
   if (!folder.empty()) {
     std::ofstream(folder + "/scaling.csv") << csv.str();
-    plot.write(folder + "/scaling.svg");
+    std::ofstream(folder + "/scaling.svg") << plot.text();
   }
 }

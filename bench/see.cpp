@@ -4,22 +4,25 @@
 // but for two threads on the clock. A row whose results differ where they must not ends in FAILED.
 
 #include "measure.h"
-#include "plot.h"
 
 #include <sightline/algorithms/generate/scenes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/io/plot.h>
 
 #include <CGAL/Env_surface_data_traits_3.h>
 #include <CGAL/Env_triangle_traits_3.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/envelope_3.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <iostream>
 #include <iterator>
+#include <map>
 
 using namespace sightline;
 
@@ -174,7 +177,7 @@ bool scaling(double max_faces, const std::string& folder) {
   fmt::print("{:<22} {:<8} {:>7} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>6} {:>8} {:>9} {:>8} {:>6} {:>8}\n", "scene", "eye", "faces", "boxes s", "exact s", "double s", "2 threads",
              "ex/dbl", "1/2 thr", "n^", "visible", "parts", "beyond %", "wrong", "bytes/f");
   std::string csv = "scene,eye,faces,boxes_seconds,exact_seconds,double_seconds,one_thread_clock,two_threads_clock,exact_by_double,growth,visible,parts,predicates,beyond_doubles,wrong_in_doubles,bytes\n";
-  bench::Plot plot("What an eye sees", "faces", "seconds");
+  Log_plot plot("What an eye sees", "faces", "seconds");
   bool ok = true;
   double worst = 0;
   for (const std::string kind : {"city", "city_rotated", "soup_constant_density", "convex_sphere", "rooms", "terrain", "menger_sponge"}) {
@@ -207,7 +210,7 @@ bool scaling(double max_faces, const std::string& folder) {
   fmt::print("exact / double at most {:.2f}\n\n", worst);
   if (!folder.empty()) {
     std::ofstream(folder + "/see.csv") << csv;
-    plot.write(folder + "/see.svg");
+    std::ofstream(folder + "/see.svg") << plot.text();
   }
   return ok;
 }
@@ -248,7 +251,7 @@ bool rooms(double max_faces, const std::string& folder) {
   fmt::print("A room in a large building, milliseconds an eye (mean of up to nine rooms)\n{:>7} {:>8} {:>9} {:>8} {:>8} {:>8} {:>8} {:>9} {:>8}\n", "rooms", "faces", "boxes", "look", "/ first", "visible", "parts", "looked at",
              "opened");
   std::string csv = "rooms,faces,boxes_seconds,look_seconds,visible,parts,looked_at,opened\n";
-  bench::Plot plot("A room in a large building", "faces", "seconds");
+  Log_plot plot("A room in a large building", "faces", "seconds");
   bool ok = true;
   double first = 0;
   for (const double n : {1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6}) {
@@ -271,7 +274,7 @@ bool rooms(double max_faces, const std::string& folder) {
   fmt::print("\n");
   if (!folder.empty()) {
     std::ofstream(folder + "/see_rooms.csv") << csv;
-    plot.write(folder + "/see_rooms.svg");
+    std::ofstream(folder + "/see_rooms.svg") << plot.text();
   }
   return ok;
 }
@@ -375,7 +378,7 @@ bool envelopes(double max_faces, double slow, const std::string& folder) {
   fmt::print("Against lower envelopes in one cone, one thread; ours: boxes, view and surface; ratio: envelope / ours, and with our scene's construction\n{:<22} {:>9} {:>9} {:>9} {:>11} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8} {}\n", "scene",
              "triangles", "scene s", "ours s", "envelope s", "ratio", "in all", "visible", "parts", "faces", "edge-on", "sets");
   std::string csv = "scene,triangles,scene_seconds,seconds,envelope_seconds,visible,parts,envelope_faces,edge_on,outcome\n";
-  bench::Plot plot("Visible surface, and lower envelope", "triangles", "seconds");
+  Log_plot plot("Visible surface, and lower envelope", "triangles", "seconds");
   bool ok = true;
   double least = 1e300;
   for (const std::string kind : {"soup_constant_density", "soup", "soup, edges 1/3", "city", "city_rotated", "terrain", "stacked", "menger_sponge", "grid"}) {
@@ -420,7 +423,7 @@ bool envelopes(double max_faces, double slow, const std::string& folder) {
   fmt::print("envelope / ours at least {:.1f}\n", least);
   if (!folder.empty()) {
     std::ofstream(folder + "/see_envelope.csv") << csv;
-    plot.write(folder + "/see_envelope.svg");
+    std::ofstream(folder + "/see_envelope.svg") << plot.text();
   }
   return ok;
 }

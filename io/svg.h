@@ -44,9 +44,11 @@ class Svg {
     body_ += "<line x1=\"" + number(from[0]) + "\" y1=\"" + number(from[1]) + "\" x2=\"" + number(to[0]) + "\" y2=\"" + number(to[1]) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
              number(stroke_width) + (dashed ? "\" stroke-dasharray=\"3 3" : "") + "\" stroke-linecap=\"round\"/>\n";
   }
-  /// A line of text that begins at a place. Pre: no character that XML reserves.
-  void label(double x, double y, double size, std::string_view words) {
-    body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-family=\"sans-serif\" font-size=\"" + number(size) + "\">" + std::string(words) + "</text>\n";
+  /// A line of text that begins at a place, or has it as its middle or end ("start", "middle", "end"). Pre: no character that XML reserves.
+  void label(double x, double y, double size, std::string_view words, std::string_view anchor = "start") {
+    body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-family=\"sans-serif\" font-size=\"" + number(size) + "\"";
+    if (anchor != "start") body_ += " text-anchor=\"" + std::string(anchor) + '"';
+    body_ += '>' + std::string(words) + "</text>\n";
   }
 
   std::string text() const {

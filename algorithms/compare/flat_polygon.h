@@ -42,6 +42,13 @@ class Flat_polygon {
 
   bool empty() const { return lines_.size() < 3; }
   std::span<const Line> lines() const { return lines_; }
+  /// Where line i - 1 meets line i. Pre: not empty.
+  Point vertex(std::size_t i) const {
+    const std::array<Integer, 3> v = homogeneous(i);
+    Point p{Rational(v[0], v[2]), Rational(v[1], v[2])};
+    p[0].canonicalize(), p[1].canonicalize();
+    return p;
+  }
 
   /// The part where the line is positive. Degenerate: a part without area is empty.
   Flat_polygon clipped(const Line& h) const {
@@ -98,12 +105,6 @@ class Flat_polygon {
   int side_of_vertex(std::size_t i, const Line& h) const {
     const std::array<Integer, 3> v = homogeneous(i);
     return sgn(Integer(h[0] * v[0] + h[1] * v[1] + h[2] * v[2]));
-  }
-  Point vertex(std::size_t i) const {
-    const std::array<Integer, 3> v = homogeneous(i);
-    Point p{Rational(v[0], v[2]), Rational(v[1], v[2])};
-    p[0].canonicalize(), p[1].canonicalize();
-    return p;
   }
 
   std::vector<Line> lines_;

@@ -132,6 +132,8 @@ inline Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Fami
 inline Posed_scene of_a_kind(const Kind& kind, const Family_parameters& parameters, Random& random) {
   Posed_scene scene;
   scene.soup = kind.make(parameters.size == 0 ? kind.example_size : parameters.size, parameters.seed);
+  if (kind.name == "triangles_between_squares")  // its face as it was: once moved, it may not be planar
+    for (const Point_id p : scene.soup.loop(0)) scene.source.push_back(scene.soup.point(p));
   if (parameters.ulps != 0) {
     const Rational gap = ulps_of_size(parameters.ulps, size_bits(scene.soup));
     scene.soup = mapped(scene.soup, [&](Point_id, Exact_point p) {
@@ -139,8 +141,6 @@ inline Posed_scene of_a_kind(const Kind& kind, const Family_parameters& paramete
       return p;
     });
   }
-  if (kind.name == "triangles_between_squares" && scene.soup.face_count() > 0)
-    for (const Point_id p : scene.soup.loop(0)) scene.source.push_back(scene.soup.point(p));
   const std::size_t points = scene.soup.point_count();
   if (points == 0) return scene;
   const auto corner = [&] { return scene.soup.point(static_cast<Point_id>(random.below(points))); };

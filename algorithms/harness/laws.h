@@ -179,32 +179,30 @@ inline const std::vector<Law>& laws() {
 
 // ---- As checks -------------------------------------------------------------------------------------------------------------------------
 
-/// An answer to an image, as one to the scene: a face's label is the union of the labels of its parts; `none` where one of them has none.
+/// An answer to an image, as one to the scene: a face's label is the union of the labels of its parts; `none` where one of them has none. Pre: each face of the scene is in the image.
 inline Answer pulled_back(const Image& image, const Answer& of_image, std::size_t faces) {
   Answer answer = of_image;
   answer.labels.assign(faces, 0);
-  std::vector<char> seen(faces, 0);
   for (std::size_t k = 0; k < image.face_of.size(); ++k) {
     if (!image.face_of[k]) continue;
     std::uint32_t& label = answer.labels[*image.face_of[k]];
     std::uint32_t own = of_image.labels[k];
     if (own != Answer::none && image.sides_swapped && !answer.is_partition) own = (own & ~3u) | (own & 1) << 1 | (own & 2) >> 1;
-    seen[*image.face_of[k]] = 1;
     label = label == Answer::none || own == Answer::none ? Answer::none : answer.is_partition ? own : label | own;
   }
-  for (std::size_t f = 0; f < faces; ++f)
-    if (!seen[f]) answer.labels[f] = Answer::none;
   return answer;
 }
 
 /// That the subject's answer to the image of a scene is the image of its answer.
-inline Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& answer) {
-  return {law.name, law.what, [law, answer](const Posed_scene& scene, const Answer& own, Random& random) {
+/// Where there are certificates, that of every fourth image is checked.
+inline Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& answer, const std::function<Answer(const Posed_scene&)>& verified = {}) {
+  return {law.name, law.what, [law, answer, verified](const Posed_scene& scene, const Answer& own, Random& random) {
+            const bool verify = verified && random.chance(1, 4);
             if (law.kind != Law_kind::renamed && !own.planar) return Outcome::not_applicable();
             if (own.is_partition && !own.whole) return Outcome::not_applicable();
             const std::optional<Image> image = law.apply(scene, random);
             if (!image) return Outcome::not_applicable();
-            const Answer other = answer(image->scene);
+            const Answer other = verify ? verified(image->scene) : answer(image->scene);
             if (!other.flaw.empty()) return Outcome::failed("after '" + law.name + "': " + other.flaw);
             return compared(own, pulled_back(*image, other, scene.soup.face_count()), "the scene", "after '" + law.name + "'");
           }};
@@ -213,7 +211,7 @@ inline Check check_of(const Law& law, const std::function<Answer(const Posed_sce
 /// Appends the laws of these names to a subject's checks.
 inline void add_laws(Subject& subject, const std::vector<std::string>& names) {
   for (const Law& law : laws())
-    if (std::find(names.begin(), names.end(), law.name) != names.end()) subject.checks.push_back(check_of(law, subject.answer));
+    if (std::find(names.begin(), names.end(), law.name) != names.end()) subject.checks.push_back(check_of(law, subject.answer, subject.verified));
 }
 
 }  // namespace sightline::harness

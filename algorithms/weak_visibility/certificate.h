@@ -7,10 +7,12 @@
 
 namespace sightline {
 
-/// What verify_weak() checks, in the file's coordinates. Lines of all proofs are numbered together. Pre: `sources` are the points that the answers are for. Exact: yes
+/// What verify_weak() checks, in the file's coordinates. Lines of all proofs are numbered together. What is unproved counts as undecided there: nothing is claimed about it.
+/// Pre: `sources` are the points that the answers are for. Exact: yes
 inline Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vector<Exact_point>>& sources, bool two_sided, const Weakly_visible& found) {
   Weak_certificate certificate;
-  certificate.sources = sources, certificate.two_sided = two_sided, certificate.undecided = found.undecided;
+  certificate.sources = sources, certificate.two_sided = two_sided;
+  std::set_union(found.undecided.begin(), found.undecided.end(), found.unproved.begin(), found.unproved.end(), std::back_inserter(certificate.undecided));
   add_all(certificate, scene);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
   for (const Weakly_visible::Pair& pair : found.pairs) {

@@ -28,7 +28,7 @@ struct Events_options {
   int rays = 24;                                                       ///< lines that are tried before events
   std::uint64_t seed = 1;
   std::size_t events = 20000000;                                       ///< potential events that a pair may have; then `undecided`
-  bool surfaces = false;                                               ///< whether to keep event surfaces
+  bool surfaces = false;                                               ///< whether to keep event surfaces: then all of them, also where a line is free before
   int threads = 0;                                                     ///< 0: as many as there are processors
   std::function<bool()> out_of_time;                                   ///< asked now and then
   std::function<void(std::size_t done, std::size_t all)> progress;     ///< faces; called by any thread
@@ -383,7 +383,7 @@ class Event_search {
     }
     for (const Active& part : active) {
       if (options_->surfaces) keep_surface(curve, part.range);
-      if (look_beside(curve, part, crossed, grazed)) return true;
+      if (answer_.status != Weak_status::visible && look_beside(curve, part, crossed, grazed) && !options_->surfaces) return true;
     }
     return false;
   }
@@ -506,7 +506,7 @@ class Event_search {
 
   bool out_of_budget() {
     const bool out = ++events_ > options_->events || (options_->out_of_time && events_ % 64 == 0 && options_->out_of_time());
-    if (out) answer_.status = Weak_status::undecided;
+    if (out && answer_.status != Weak_status::visible) answer_.status = Weak_status::undecided;
     return out;
   }
 
@@ -546,7 +546,7 @@ inline Events_answer weakly_visible_by_events(const Occluders& occluders, const 
     const Near_polygon from = clip(occluders.frame(), source.polygon, target_plane, beside > 0);
     if (from.size() < 3 || target.size() < 3) continue;
     ++sides;
-    for (int k = 0; k < options.rays; ++k) {
+    for (int k = 0; k < options.rays && !options.surfaces; ++k) {
       const std::array<Near_point, 2> line{inner_point(from), inner_point(target)};
       if (occluders.blocker(line[0], line[1], source.plane, target_plane)) continue;
       ++counters.by_rays;
@@ -556,16 +556,15 @@ inline Events_answer weakly_visible_by_events(const Occluders& occluders, const 
     Event_search search(occluders, lines, options, counters);
     const Events_answer found = search.run();
     if (keep) std::for_each(search.surfaces().begin(), search.surfaces().end(), keep);
-    if (found.status == Weak_status::visible) return found;
-    if (found.status == Weak_status::undecided) answer = found;
+    if (found.status == Weak_status::visible && !options.surfaces) return found;
+    if (answer.status != Weak_status::visible && found.status != Weak_status::hidden) answer = found;
   }
   if (sides == 0) ++counters.away;
   return answer;
 }
 
-/// What was found. Every kept face is in one of the three lists, which are sorted.
-struct Weakly_visible_by_events {
-  std::vector<Face_id> visible, hidden, undecided;
+/// What was found, and a sightline for what is visible.
+struct Weakly_visible_by_events : Weak_faces {
   struct Pair {
     std::uint32_t piece, source;
     Events_answer answer;
@@ -576,7 +575,7 @@ struct Weakly_visible_by_events {
 };
 
 /// The faces that are weakly visible from at least one of the sources, in the sense of weakly_visible, found by events: another method, slower where there are many
-/// edges, that needs no case left open where edges are parallel, coplanar, concurrent or the same. It stops at the first source and piece that show a face.
+/// edges, that needs no case left open where edges are parallel, coplanar, concurrent or the same. It stops at the first source and piece that show a face, unless surfaces are kept.
 /// Post: the same at any number of threads, unless time runs out; each visible face has a sightline that was tested against all pieces. Cost: one Event_search for
 /// each pair of a source and a piece. Exact: yes, or undecided where the budget ran out. Ref: Plantinga; design.md, section 4. Proof: P-73
 inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources, const Events_options& options = {}) {
@@ -593,14 +592,15 @@ inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occlud
   const auto decide = [&](std::size_t f) {
     Result& result = results[f];
     const std::uint32_t end = f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size());
-    for (std::uint32_t piece = first[f]; piece < end && result.status != Weak_status::visible; ++piece)
-      for (std::uint32_t s = 0; s < sources.size() && result.status != Weak_status::visible; ++s) {
+    const auto is_settled = [&] { return result.status == Weak_status::visible && !options.surfaces; };
+    for (std::uint32_t piece = first[f]; piece < end && !is_settled(); ++piece)
+      for (std::uint32_t s = 0; s < sources.size() && !is_settled(); ++s) {
         const auto keep = [&](const Event_search::Surface& surface) {
           Event_surface& kept = result.surfaces.emplace_back(Event_surface{surface.kind, piece, s, {}});
           for (const auto& [p, q] : surface.rulings) kept.rulings.push_back({occluders.scene().position(p), occluders.scene().position(q)});
         };
         const Events_answer answer = weakly_visible_by_events(occluders, sources[s], piece, options, result.counters, keep);
-        if (answer.status != Weak_status::hidden) result.status = answer.status, result.pair = {piece, s, answer};
+        if (answer.status != Weak_status::hidden && result.status != Weak_status::visible) result.status = answer.status, result.pair = {piece, s, answer};
       }
     if (options.progress) options.progress(++done, first.size());
   };
@@ -609,8 +609,7 @@ inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occlud
   Weakly_visible_by_events all;
   for (std::size_t f = 0; f < first.size(); ++f) {
     Result& result = results[f];
-    auto& list = result.status == Weak_status::visible ? all.visible : result.status == Weak_status::hidden ? all.hidden : all.undecided;
-    list.push_back(pieces[first[f]].face);
+    all.of(result.status).push_back(pieces[first[f]].face);
     if (result.status == Weak_status::visible) all.sightlines.push_back(std::move(result.pair));
     all.counters += result.counters;
     std::move(result.surfaces.begin(), result.surfaces.end(), std::back_inserter(all.surfaces));

@@ -5,6 +5,22 @@
 
 namespace sightline {
 
+/// p / (w 2^exponent) within a relative 2^-52: a quotient of 63 or 64 bits, rounded. Pre: w > 0.
+inline double near_quotient(const Integer& p, const Integer& w, long exponent) {
+  if (sgn(p) == 0) return 0;
+  const long shift = 63 + static_cast<long>(mpz_sizeinbase(w.get_mpz_t(), 2)) - static_cast<long>(mpz_sizeinbase(p.get_mpz_t(), 2));
+  thread_local Integer shifted, quotient;
+  if (shift >= 0) {
+    mpz_mul_2exp(shifted.get_mpz_t(), p.get_mpz_t(), static_cast<mp_bitcnt_t>(shift));
+    mpz_tdiv_q(quotient.get_mpz_t(), shifted.get_mpz_t(), w.get_mpz_t());
+  } else {
+    mpz_mul_2exp(shifted.get_mpz_t(), w.get_mpz_t(), static_cast<mp_bitcnt_t>(-shift));
+    mpz_tdiv_q(quotient.get_mpz_t(), p.get_mpz_t(), shifted.get_mpz_t());
+  }
+  const double size = std::ldexp(static_cast<double>(mpz_getlimbn(quotient.get_mpz_t(), 0)), static_cast<int>(-shift - exponent));
+  return sgn(p) < 0 ? -size : size;
+}
+
 /// Coordinates near [-1, 1] for doubles: the grid divided by a scale of the scene's own.
 class Near_frame {
  public:
@@ -12,13 +28,8 @@ class Near_frame {
     exponent_ = std::max(0, std::ilogb(std::max(1.0, scene.points().range())) + 1);
     shift_ = scene.points().shift() + exponent_;
   }
-  /// A coordinate p / w of the grid, within a relative 2^-53.
-  double near(const Integer& p, const Integer& w) const {
-    Rational value(p, w * divisor_);
-    value.canonicalize();
-    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(shift_));
-    return nearest_double(value);
-  }
+  /// A coordinate p / w of the grid, within a relative 2^-52.
+  double near(const Integer& p, const Integer& w) const { return divisor_ == 1 ? near_quotient(p, w, shift_) : near_quotient(p, Integer(w * divisor_), shift_); }
   double near(const Scene& scene, std::uint32_t point, int axis) const { return std::ldexp(scene.points().approximate(point, axis), -exponent_); }
   /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
   Rational near_cubic(const Integer& p, const Integer& w) const {
@@ -69,8 +80,8 @@ struct Near_plane {
 inline Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact) {
   Near_plane h{exact, {}};
   const Integer size = std::max({Integer(abs(exact[0])), Integer(abs(exact[1])), Integer(abs(exact[2]))});
-  for (std::size_t k = 0; k < 3; ++k) h.near[k] = nearest_double(Rational(exact[k]) / Rational(size));
-  h.near[3] = nearest_double(Rational(Rational(exact[3]) / Rational(size)) / frame.unit());
+  for (std::size_t k = 0; k < 3; ++k) h.near[k] = near_quotient(exact[k], size, 0);
+  h.near[3] = frame.near(exact[3], size);
   return h;
 }
 
@@ -88,6 +99,23 @@ inline int side(const Near_plane& h, const Near_point& p) {
   mpz_mul(sum.get_mpz_t(), h.exact[0].get_mpz_t(), p.exact[0].get_mpz_t());
   for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), h.exact[k].get_mpz_t(), p.exact[k].get_mpz_t());
   return sgn(sum);
+}
+
+/// Whether a polygon has vertices on both sides of a plane. Exact: yes.
+inline bool is_across(const Near_plane& h, const Near_polygon& polygon) {
+  bool front = false, behind = false;
+  for (const Near_point& p : polygon) {
+    const int s = side(h, p);
+    front |= s > 0, behind |= s < 0;
+  }
+  return front && behind;
+}
+/// The side of a polygon that is not across: 0 where all of it is in the plane. Exact: yes.
+inline int side(const Near_plane& h, const Near_polygon& polygon) {
+  int result = 0;
+  for (const Near_point& p : polygon)
+    if (const int s = side(h, p); s != 0) result = s;
+  return result;
 }
 
 inline Integer value(const Near_plane& h, const Near_point& p) { return Integer(h.exact[0] * p.exact[0] + h.exact[1] * p.exact[1] + h.exact[2] * p.exact[2] + h.exact[3] * p.exact[3]); }

@@ -23,20 +23,40 @@ class Matrix_game {
     ++rows_;
     return {entries_.data() + (rows_ - 1) * columns_, columns_};
   }
-  void remove_row() { entries_.resize(--rows_ * columns_); }
   std::span<const Number> row(std::size_t k) const { return {entries_.data() + k * columns_, columns_}; }
 
   /// The value of the game. Pre: a row and a column. Post: column_weights(), row_weights() are optimal mixtures, tight_columns(), tight_rows() the basis.
   Number solve() {
     start();
-    for (int step = 0; step < max_steps; ++step) {
-      const std::size_t entering = entering_row(step);
-      if (entering == rows_) break;
-      const std::size_t leaving = leaving_column(entering);
-      if (leaving == columns_) break;  // by rounding only: entries are positive
-      pivot(leaving, entering);
-    }
+    run();
     return finish();
+  }
+
+  /// What the value would be with one more row: a few steps from where solve() ended. Pre: solve(). Post: nothing has changed.
+  Number value_with(std::span<const Number> row) {
+    const std::vector<Number> before = tableau_;
+    const std::vector<std::size_t> basic = basic_, other = other_;
+    // The new variable's place in the tableau: its column times the inverse of the basis, which stands in the places of slack variables.
+    const std::size_t wide = rows_ + 2;
+    tableau_.assign((columns_ + 1) * wide, Number(0));
+    for (std::size_t line = 0; line <= columns_; ++line) {
+      std::copy_n(&before[line * (rows_ + 1)], rows_, &tableau_[line * wide]);
+      tableau_[line * wide + rows_ + 1] = before[line * (rows_ + 1) + rows_];
+    }
+    const auto added = [&](std::size_t line) -> Number& { return tableau_[line * wide + rows_]; };
+    added(columns_) = -1;
+    for (std::size_t line = 0; line < columns_; ++line)
+      if (basic[line] >= rows_) added(line) = row[basic[line] - rows_] + shift;
+    for (std::size_t k = 0; k < rows_; ++k)
+      if (other[k] >= rows_)
+        for (std::size_t line = 0; line <= columns_; ++line) added(line) += before[line * (rows_ + 1) + k] * (row[other[k] - rows_] + shift);
+    other_.push_back(rows_ + columns_);  // a name of its own
+    ++rows_;
+    run();
+    const Number sum = at(columns_, rows_);
+    --rows_;
+    tableau_ = before, basic_ = basic, other_ = other;
+    return sum > 0 ? 1 / sum - shift : Number(1);
   }
 
   std::span<const Number> column_weights() const { return x_; }  ///< sum 1
@@ -60,6 +80,15 @@ class Matrix_game {
     basic_.resize(columns_), other_.resize(rows_);
     for (std::size_t c = 0; c < columns_; ++c) basic_[c] = rows_ + c;
     for (std::size_t k = 0; k < rows_; ++k) other_[k] = k;
+  }
+  void run() {
+    for (int step = 0; step < max_steps; ++step) {
+      const std::size_t entering = entering_row(step);
+      if (entering == rows_) break;
+      const std::size_t leaving = leaving_column(entering);
+      if (leaving == columns_) break;  // by rounding only: entries are positive
+      pivot(leaving, entering);
+    }
   }
   std::size_t entering_row(int step) {
     std::size_t best = rows_;
@@ -117,5 +146,35 @@ class Matrix_game {
   std::vector<Number> entries_, tableau_, x_, y_;
   std::vector<std::size_t> basic_, other_, tight_columns_, tight_rows_;
 };
+
+/// The mixture of rows of a game's basis that gives all of its columns the same value: a square system in rationals, a(row, column) by `entry`. False where that
+/// has no single solution, or more than 16 rows. (For the mixture of columns: with their roles exchanged.) Exact: yes.
+template <class Entry>
+bool solve_basis(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry, std::vector<Rational>& weights, Rational& value) {
+  const std::size_t n = rows.size() + 1;
+  if (columns.size() != rows.size() || n > 17) return false;
+  std::vector<std::vector<Rational>> a(n, std::vector<Rational>(n + 1));
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    for (std::size_t k = 0; k + 1 < n; ++k) a[i][k] = entry(rows[k], columns[i]);
+    a[i][n - 1] = -1;
+    a[n - 1][i] = 1;
+  }
+  a[n - 1][n] = 1;
+  for (std::size_t k = 0; k < n; ++k) {
+    std::size_t pivot = k;
+    while (pivot < n && sgn(a[pivot][k]) == 0) ++pivot;
+    if (pivot == n) return false;
+    std::swap(a[pivot], a[k]);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (i == k || sgn(a[i][k]) == 0) continue;
+      const Rational factor = a[i][k] / a[k][k];
+      for (std::size_t j = k; j <= n; ++j) a[i][j] -= factor * a[k][j];
+    }
+  }
+  weights.clear();
+  for (std::size_t k = 0; k + 1 < n; ++k) weights.push_back(a[k][n] / a[k][k]);
+  value = a[n - 1][n] / a[n - 1][n - 1];
+  return true;
+}
 
 }  // namespace sightline

@@ -72,15 +72,22 @@ struct Weak_options {
   std::function<void(std::size_t done, std::size_t all)> progress;     ///< faces; called by any thread
 };
 
-/// What was found. Every kept face is in one of the three lists, which are sorted.
-struct Weakly_visible {
+/// Every kept face is in one of the three lists, which are sorted.
+struct Weak_faces {
   std::vector<Face_id> visible, hidden, undecided;
-  /// Of a visible face the one pair with a sightline, of a hidden one all pairs; faces in order, then pieces, then sources.
+
+  std::vector<Face_id>& of(Weak_status status) { return status == Weak_status::visible ? visible : status == Weak_status::hidden ? hidden : undecided; }
+};
+
+/// What was found, and what proves it.
+struct Weakly_visible : Weak_faces {
   struct Pair {
     std::uint32_t piece, source;
     Weak_answer answer;
   };
-  std::vector<Pair> pairs;
+  std::vector<Pair> pairs;        ///< of a visible face the one pair with a sightline, of a hidden one all pairs; faces in order, then pieces, then sources
+  std::vector<Pair> open;         ///< of an undecided face the pairs that are so, in the same order
+  std::vector<Face_id> unproved;  ///< faces among the visible and the hidden ones that no pairs prove, sorted: other methods leave some, weakly_visible() none
   Weak_counters counters;
 };
 
@@ -129,11 +136,12 @@ inline Weakly_visible weakly_visible(const Occluders& occluders, const std::vect
   Weakly_visible all;
   for (std::size_t f = 0; f < first.size(); ++f) {
     Result& result = results[f];
-    auto& list = result.status == Weak_status::visible ? all.visible : result.status == Weak_status::hidden ? all.hidden : all.undecided;
-    list.push_back(pieces[first[f]].face);
+    all.of(result.status).push_back(pieces[first[f]].face);
     all.counters += result.counters;
-    if (result.status == Weak_status::undecided) continue;
-    for (Weakly_visible::Pair& pair : result.pairs) all.pairs.push_back(std::move(pair));
+    for (Weakly_visible::Pair& pair : result.pairs) {
+      if (result.status != Weak_status::undecided) all.pairs.push_back(std::move(pair));
+      else if (pair.answer.status == Weak_status::undecided) all.open.push_back(std::move(pair));
+    }
   }
   return all;
 }

@@ -1,4 +1,4 @@
-// compare: exact kernels make no errors, and inexact ones do on the scenes that were made for it; pixels make fewer the smaller they are. And budgets.
+// compare: exact kernels make no errors, and inexact ones do on the scenes that were made for it; pixels make fewer the smaller they are, rays the more they are. And budgets.
 
 #include "program.h"
 
@@ -136,6 +136,58 @@ TEST_F(Compare_visible, what_no_method_can_do_is_a_usage_error) {
     const Outcome r = run(words);
     EXPECT_EQ(r.code, usage) << r;
   }
+}
+
+class Compare_weak : public Program {
+ protected:
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10";
+};
+
+TEST_F(Compare_weak, lines_make_no_error_and_rays_miss_fewer_faces_the_more_they_are) {
+  const std::string svg = path("weak.svg").string();
+  const Outcome r = run({"compare", rooms, "weak", "--from", lamp, "--rays", "100,10000", "--event-edges", "20", "--svg", svg, "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  EXPECT_EQ(result["question"], "weak");
+  EXPECT_EQ(result["visible"], 89);
+  EXPECT_EQ(result["hidden"], 53);
+  EXPECT_EQ(result["undecided"], 0);
+  std::map<std::string, Json> rows;
+  for (const Json& row : result["rows"]) {
+    const std::string name = row["method"] == "sample" ? row["rays"].dump() : row["method"].get<std::string>();
+    if (name == "events") {
+      EXPECT_EQ(row["status"].get<std::string>().rfind("left out: ", 0), 0u) << row;
+      continue;
+    }
+    EXPECT_EQ(row["status"], "done") << row;
+    EXPECT_TRUE(row["seconds"].is_number() && row["peak_bytes"].is_number()) << row;
+    rows[name] = row["errors"];
+  }
+  ASSERT_EQ(rows.size(), 5u);
+  for (const char* key : {"wrongly_visible", "wrongly_hidden", "undecided", "unjudged"}) EXPECT_EQ(rows.at("lines")[key], 0) << key;
+  EXPECT_EQ(rows.at("conservative")["wrongly_hidden"], 0);
+  EXPECT_GT(rows.at("conservative")["wrongly_visible"], 0);
+  EXPECT_GT(rows.at("100")["wrongly_hidden"], rows.at("10000")["wrongly_hidden"]);
+  EXPECT_EQ(rows.at("100")["wrongly_visible"], 0);
+  const std::string plot = read_file(svg);
+  EXPECT_NE(plot.find(">conservative</text>"), std::string::npos);
+  EXPECT_NE(plot.find(">0</text>"), std::string::npos);  // lines, which have none
+}
+
+TEST_F(Compare_weak, asks_events_of_small_scenes_and_only_the_kernels_given) {
+  const std::string cube = (corpus / "general" / "cube.off").string();
+  const Outcome r = run({"compare", cube, "weak", "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "--kernels", "exact", "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json rows = r.json()["result"]["rows"];
+  ASSERT_EQ(rows.size(), 3u);
+  for (const Json& row : rows) {
+    EXPECT_EQ(row["kernel"], "exact");
+    EXPECT_EQ(row["status"], "done") << row;
+    EXPECT_EQ(row["visible"], 5) << row;
+  }
+  EXPECT_EQ(run({"compare", cube, "weak", "--from-face", "0", "--kernels", "epick"}).code, usage);
+  EXPECT_EQ(run({"compare", cube, "weak"}).code, usage);
+  EXPECT_EQ(run({"compare", cube, "weak", "--from-face", "0", "--rays", "-5"}).code, usage);
 }
 
 class Budget : public Program {};

@@ -50,6 +50,12 @@ TEST_F(Fuzz, a_case_and_a_scene_with_its_query_run_alone) {
   EXPECT_NE(wrong.out.find("DISAGREEMENT"), std::string::npos) << wrong;
 }
 
+TEST_F(Fuzz, what_it_found_is_mended) {
+  const std::string query = file("query.json", R"({"format": "sightline query 1", "eye": ["0", "0", "0"], "source": [["0", "0", "-2"], ["0", "0", "0"], ["1", "0", "0"]]})");
+  const Outcome r = run({"fuzz", "weak", "--scene", (corpus / "robust" / "far_corner.qoff").string(), "--query", query});
+  EXPECT_EQ(r.code, done) << r;
+}
+
 TEST_F(Fuzz, what_makes_no_sense_is_told) {
   const std::string scene = path("a.off").string();
   ASSERT_EQ(run({"generate", "bars", "--size", "3", "--out", scene}).code, done);

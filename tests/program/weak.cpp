@@ -114,7 +114,142 @@ TEST_F(Weak, says_undecided_with_exit_code_4_where_it_may_not_search) {
   arguments.insert(arguments.end(), source.begin(), source.end());
   EXPECT_EQ(weak(arguments)["result"]["hidden"], Json({0, 1, 2}));  // the two are seen from behind
   arguments.insert(arguments.end(), {"--cells", "1"});
+  EXPECT_EQ(weak(arguments)["result"]["by_events"], Json({0}));
+  arguments.insert(arguments.end(), {"--event-edges", "0"});
   EXPECT_EQ(weak(arguments, undecided)["result"]["undecided"], Json({0}));
+}
+
+TEST_F(Weak, from_a_volume_sees_all_around_and_what_reaches_into_it) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("volume.json").string();
+  // A cube of 1 in the first room sees no less than each of its sides.
+  const std::string box = file("box.off", "OFF\n8 6 0\n1 1 1\n2 1 1\n2 2 1\n1 2 1\n1 1 2\n2 1 2\n2 2 2\n1 2 2\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  const Json seen = weak({rooms, "--from-volume", box, "--certificate", to})["result"];
+  const Json top = weak({rooms, "--from", "1,1,2 2,1,2 2,2,2 1,2,2"})["result"];
+  for (const Json& face : top["visible"]) EXPECT_NE(std::find(seen["visible"].begin(), seen["visible"].end(), face), seen["visible"].end()) << face;
+  EXPECT_GT(seen["visible"].size(), top["visible"].size());
+  EXPECT_EQ(run({"verify", rooms, to}).code, done);
+  // A sheet through the cube, and one in it; from outside, in a corner that sees neither, nothing hides them.
+  const std::string sheets = file("sheets.off", "OFF\n8 2 0\n1.25 1.25 1.5\n1.75 1.25 1.5\n1.75 1.75 1.5\n1.25 1.75 1.5\n1.25 1.25 3\n1.75 1.25 3\n1.75 1.75 3\n1.25 1.75 3\n4 0 1 2 3\n4 4 5 6 7\n");
+  const Json within = weak({sheets, "--from-volume", box})["result"];
+  EXPECT_EQ(within["within"], Json({0}));
+  EXPECT_EQ(within["visible"], Json({0}));  // the other one looks up, away from it
+  EXPECT_EQ(within["unproved"], Json({0}));
+  // The sides of a cube of the scene see nothing of it: it is convex. Of two, each sees the other.
+  EXPECT_EQ(weak({cube, "--from-faces", "0,1,2,3,4,5"})["result"]["visible"].size(), 0u);
+}
+
+TEST_F(Weak, conservatively_hides_only_what_lines_hide_and_proves_it) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", to = path("quick.json").string();
+  const Json lines = weak({rooms, "--from", lamp})["result"], quick = weak({rooms, "--from", lamp, "--method", "conservative", "--certificate", to})["result"];
+  EXPECT_GT(quick["hidden"].size(), 0u);
+  for (const Json& face : quick["hidden"]) EXPECT_NE(std::find(lines["hidden"].begin(), lines["hidden"].end(), face), lines["hidden"].end()) << face;
+  EXPECT_EQ(quick["unproved"], quick["visible"]);
+  EXPECT_EQ(run({"verify", rooms, to}).code, done);
+}
+
+TEST_F(Weak, by_doubles_answers_without_proofs) {
+  const Json doubles = weak({cube, "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "--method", "doubles"})["result"];
+  EXPECT_EQ(doubles["visible"].size(), 5u);
+  EXPECT_EQ(doubles["unproved"].size(), 6u);
+  EXPECT_EQ(run({"weak", cube, "--from-face", "0", "--method", "doubles", "--certificate", path("no.json").string()}).code, usage);
+}
+
+/// Three plates whose edges meet one line, and a fourth that is tangent to what they leave: lines alone do not decide it.
+static const char* const tangent =
+    "OFF\n20 5 0\n-1 1 1\n1 1 1\n1 -1 1\n-1 -1 1\n"  // the target looks down
+    "-2 -1/2 1/4\n2 1/2 1/4\n2 -11/2 1/4\n-2 -13/2 1/4\n"
+    "-2 -1 1/2\n2 1 1/2\n2 7 1/2\n-2 5 1/2\n"
+    "-2 -3/2 3/4\n2 3/2 3/4\n2 -9/2 3/4\n-2 -15/2 3/4\n"
+    "-2 -7/4 223/256\n2 7/4 225/256\n2 31/4 225/256\n-2 17/4 223/256\n"
+    "4 0 1 2 3\n4 4 5 6 7\n4 8 9 10 11\n4 12 13 14 15\n4 16 17 18 19\n";
+
+TEST_F(Weak, hands_what_lines_leave_open_to_events_and_says_what_else_is_open) {
+  const std::string scene = file("tangent.qoff", tangent), to = path("tangent.json").string();
+  const std::vector<std::string> words{scene, "--from", "-1,-1,0 1,-1,0 1,1,0 -1,1,0", "--cells", "300"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), words.begin(), words.end());
+    return more;
+  };
+  const Json by_lines = weak(with({"--event-edges", "0", "--certificate", to}), undecided)["result"];
+  ASSERT_EQ(by_lines["undecided"], Json({0}));
+  EXPECT_EQ(run({"verify", scene, to}).code, done);
+  ASSERT_EQ(by_lines["open"].size(), 1u);
+  const Json& open = by_lines["open"][0];
+  EXPECT_EQ(open["face"], 0);
+  EXPECT_EQ(open["source"], 0);
+  EXPECT_GT(open["open_cells"], 0);
+  ASSERT_GT(open["cells"].size(), 0u);
+  EXPECT_LE(open["cells"].size(), 4u);
+  for (const Json& cell : open["cells"]) {
+    EXPECT_GE(cell["source"].size(), 3u);
+    EXPECT_GE(cell["target"].size(), 3u);
+    for (const Json& side : cell["sides"]) {
+      EXPECT_LT(side["face"], 5);
+      EXPECT_EQ(side["piece"], 0);
+      EXPECT_LT(side["corner"], 4);
+      EXPECT_TRUE(side["side"] == 1 || side["side"] == -1);
+    }
+  }
+  const Json both = weak(with({"--certificate", to}))["result"];
+  EXPECT_EQ(both["undecided"].size(), 0u);
+  EXPECT_EQ(both["open"].size(), 0u);
+  EXPECT_EQ(both["by_events"], Json({0}));
+  EXPECT_EQ(both["hidden"], weak({scene, "--from", words[2], "--method", "events"})["result"]["hidden"]);
+  EXPECT_EQ(both["unproved"], Json({0}));
+  const Outcome checked = run({"verify", scene, to, "--json", "-"});
+  EXPECT_EQ(checked.code, done) << checked;
+  EXPECT_NE(checked.json()["result"]["why"].get<std::string>().find("1 undecided"), std::string::npos) << checked;
+  EXPECT_NE(run({"weak", scene, "--from", words[2], "--cells", "300"}).out.find("unproved"), std::string::npos);
+}
+
+TEST_F(Weak, writes_the_surfaces_of_events_exactly_or_as_strips) {
+  const std::string json = path("surfaces.json").string(), obj = path("surfaces.obj").string();
+  const std::vector<std::string> words{"weak", cube, "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "--method", "events", "--surfaces"};
+  const auto with = [&](const std::string& to) {
+    std::vector<std::string> all = words;
+    all.push_back(to);
+    return all;
+  };
+  EXPECT_EQ(run(with(json)).code, done);
+  const Json d = Json::parse(read_file(json));
+  EXPECT_EQ(d["format"], "sightline event surfaces 1");
+  ASSERT_GT(d["surfaces"].size(), 0u);
+  std::size_t rulings = 0;
+  for (const Json& surface : d["surfaces"]) {
+    EXPECT_TRUE(surface["kind"] == "horizon" || surface["kind"] == "edge and vertex" || surface["kind"] == "triple") << surface;
+    EXPECT_LT(surface["face"], 6);
+    EXPECT_GE(surface["rulings"].size(), 2u);
+    rulings += surface["rulings"].size();
+    for (const Json& ruling : surface["rulings"]) EXPECT_EQ(ruling[0][2], "3");  // the source's plane
+  }
+  EXPECT_EQ(run(with(obj)).code, done);
+  const std::string strips = read_file(obj);
+  const auto lines = [&](const std::string& begin) {
+    std::size_t count = strips.starts_with(begin);
+    for (std::size_t at = strips.find("\n" + begin); at != std::string::npos; at = strips.find("\n" + begin, at + 1)) ++count;
+    return count;
+  };
+  EXPECT_EQ(lines("v "), 2 * rulings);
+  EXPECT_EQ(lines("f "), rulings - d["surfaces"].size());
+  EXPECT_EQ(run({"info", obj}).code, done);
+  for (const std::string& to : {path("surfaces.txt").string(), std::string("x")}) EXPECT_EQ(run(with(to)).code, usage);
+  EXPECT_EQ(run({"weak", cube, "--from-face", "0", "--surfaces", json}).code, usage);
+}
+
+TEST_F(Weak, refuses_volumes_that_are_none) {
+  const auto refused = [&](const std::vector<std::string>& arguments, const std::string& why, int code = usage) {
+    std::vector<std::string> all{"weak", cube};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome r = run(all);
+    EXPECT_EQ(r.code, code) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find(why), std::string::npos) << r;
+  };
+  refused({"--from-faces", "0,1,2,3,4"}, "do not close up");
+  refused({"--from-faces", "0,1,77"}, "no such face");
+  refused({"--from-volume", file("open.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")}, "do not close up");
+  refused({"--from-volume", path("nothing.off").string()}, "nothing.off", bad_input);
+  refused({"--from-volume", ""}, "--from-volume");
 }
 
 }  // namespace program

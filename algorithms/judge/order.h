@@ -1,0 +1,188 @@
+#pragma once
+// What a back-to-front order is judged against: which faces must be in it, and for each two which one must come first.
+
+#include <sightline/algorithms/compare/flat_polygon.h>
+#include <sightline/algorithms/judge/grade.h>
+#include <sightline/algorithms/judge/protocol.h>
+#include <sightline/algorithms/verify/order.h>
+#include <sightline/kernel/scene/scene.h>
+
+namespace sightline::judge {
+
+/// A scene and an eye, ready to judge orders. Whole faces are compared exactly, by the code of `verify`. A part has rounded corners as a rule, so it is moved onto its face's exact plane along the dominant
+/// axis, stands for its convex hull there, and a pair with a part in it is wrong only where the earlier one is nearer by more than 2^-20 of the distance.
+/// Pre: all faces are planar. Degenerate: faces in whose plane the eye is may stand anywhere, or be missing; contact is no overlap; equal distance is in order both ways. Exact: yes.
+class Order_truth {
+ public:
+  Order_truth(const Scene& scene, const Exact_point& eye, bool two_sided) : eye_(eye), faces_(scene.counters().faces_read) {
+    for (const Piece& piece : scene.pieces()) {
+      Face& face = faces_[piece.face];
+      if (face.pieces.empty()) face.set_plane(scene.file_coefficients(piece.support));
+      order_check::Polygon& polygon = face.pieces.emplace_back();
+      for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+      const int side = order_check::Plane{order_check::newell_normal(polygon), polygon[0]}.side(eye);
+      face.required = side > 0 || (two_sided && side < 0);
+    }
+    find_cycle();
+  }
+
+  /// Whether some order of the whole faces that must be in it is right; else the scene needs cuts.
+  bool whole_faces_do() const { return !has_cycle_; }
+
+  /// Pre: faces of the answer are below the scene's number of faces. Cost: about O(n log n) and the pairs that overlap.
+  Grade grade(const Answer& answer) const {
+    Grade grade;
+    std::set<Face_id> shown, hidden;
+    judge_pairs(answer, grade, shown, hidden);
+    judge_areas(answer, grade, shown, hidden);
+    grade.wrong_visible.assign(shown.begin(), shown.end()), grade.wrong_hidden.assign(hidden.begin(), hidden.end());
+    return grade;
+  }
+
+ private:
+  static constexpr int tolerance_bits = 20;  // of parts: what a picture does not show
+
+  struct Face {
+    std::vector<order_check::Polygon> pieces;  // none: it is set aside
+    std::array<Rational, 4> plane;
+    std::size_t axis = 0;                      // the dominant one of the normal
+    bool required = false;
+
+    void set_plane(const std::array<Rational, 4>& coefficients) {
+      plane = coefficients;
+      for (std::size_t k = 1; k < 3; ++k)
+        if (abs(plane[axis]) < abs(plane[k])) axis = k;
+    }
+    Flat_polygon flat(const std::vector<Exact_point>& points) const {
+      std::vector<Flat_polygon::Point> corners;
+      for (const Exact_point& p : points) corners.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
+      return Flat_polygon::hull(std::move(corners));
+    }
+    /// Back onto the plane, counterclockwise as seen from the front.
+    order_check::Polygon lifted(const Flat_polygon& polygon) const {
+      const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+      order_check::Polygon points(polygon.lines().size());
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Flat_polygon::Point at = polygon.vertex(i);
+        points[i][x] = at[0], points[i][y] = at[1];
+        points[i][axis] = -(plane[x] * at[0] + plane[y] * at[1] + plane[3]) / plane[axis];
+      }
+      if (sgn(plane[axis]) < 0) std::reverse(points.begin(), points.end());
+      return points;
+    }
+  };
+
+  /// Hands on each two cones of different owners that may overlap, both ways round.
+  template <class Take>
+  static void each_pair(const std::vector<order_check::Cone>& cones, Take take) {
+    std::vector<std::size_t> all(cones.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    order_check::Pairs pairs(cones, std::move(take));
+    pairs.each(all, all);
+  }
+
+  void find_cycle() {
+    std::vector<order_check::Cone> cones;
+    std::vector<Face_id> owner;
+    for (Face_id f = 0; f < faces_.size(); ++f)
+      for (const order_check::Polygon& polygon : faces_[f].pieces)
+        if (faces_[f].required) cones.emplace_back(polygon, eye_), owner.push_back(f);
+    std::vector<std::set<Face_id>> over(faces_.size());  // what each must be drawn before
+    order_check::Pair_check check;
+    each_pair(cones, [&](std::size_t i, std::size_t j) {
+      if (owner[i] != owner[j] && check.nearer_somewhere(cones[i], cones[j])) over[owner[j]].insert(owner[i]);
+    });
+    // Draw what nothing undrawn must come before; where nothing is left to draw but faces are, they are in cycles or over such.
+    std::vector<std::size_t> before(faces_.size());
+    for (const auto& above : over)
+      for (const Face_id f : above) ++before[f];
+    std::vector<Face_id> ready;
+    for (Face_id f = 0; f < faces_.size(); ++f)
+      if (before[f] == 0) ready.push_back(f);
+    std::size_t drawn = 0;
+    for (; !ready.empty(); ++drawn) {
+      const Face_id face = ready.back();
+      ready.pop_back();
+      for (const Face_id f : over[face])
+        if (--before[f] == 0) ready.push_back(f);
+    }
+    has_cycle_ = drawn < faces_.size();
+  }
+
+  void judge_pairs(const Answer& answer, Grade& grade, std::set<Face_id>& shown, std::set<Face_id>& hidden) const {
+    std::vector<order_check::Cone> cones;
+    std::vector<std::size_t> place;  // in the order
+    for (std::size_t i = 0; i < answer.order.size(); ++i) {
+      const Drawn_face& drawn = answer.order[i];
+      const Face& face = faces_[drawn.face];
+      if (face.pieces.empty()) continue;
+      if (drawn.part.empty()) {
+        for (const order_check::Polygon& polygon : face.pieces) cones.emplace_back(polygon, eye_), place.push_back(i);
+      } else if (const Flat_polygon part = face.flat(drawn.part); !part.empty()) {
+        cones.emplace_back(face.lifted(part), eye_), place.push_back(i);
+      }
+    }
+    std::set<std::array<Face_id, 2>> wrong;
+    order_check::Pair_check check;
+    each_pair(cones, [&](std::size_t i, std::size_t j) {
+      if (place[i] >= place[j] || !check.nearer_somewhere(cones[i], cones[j])) return;
+      const Drawn_face &earlier = answer.order[place[i]], &later = answer.order[place[j]];
+      if (!earlier.part.empty() || !later.part.empty()) {
+        order_check::Cone farther = cones[i];  // moved away by a share of its distance, is it nearer still?
+        for (Integer& coefficient : farther.nearness) coefficient <<= tolerance_bits;
+        farther.distance *= (1 << tolerance_bits) + 1;
+        if (!check.nearer_somewhere(farther, cones[j])) return;
+      }
+      wrong.insert({earlier.face, later.face});
+      hidden.insert(earlier.face), shown.insert(later.face);
+    });
+    grade.wrong_pairs.assign(wrong.begin(), wrong.end());
+  }
+
+  /// Faces that are missing, in part or altogether, and parts that reach out of their faces.
+  void judge_areas(const Answer& answer, Grade& grade, std::set<Face_id>& shown, std::set<Face_id>& hidden) const {
+    std::vector<std::vector<Flat_polygon>> parts(faces_.size());
+    std::vector<bool> whole(faces_.size());
+    for (const Drawn_face& drawn : answer.order) {
+      if (drawn.part.empty()) whole[drawn.face] = true;
+      else if (!faces_[drawn.face].pieces.empty()) parts[drawn.face].push_back(faces_[drawn.face].flat(drawn.part));
+    }
+    for (Face_id f = 0; f < faces_.size(); ++f) {
+      const Face& face = faces_[f];
+      if (face.pieces.empty()) continue;
+      if (face.required) ++grade.judged;
+      if (whole[f]) continue;
+      if (face.required && std::binary_search(answer.abstained.begin(), answer.abstained.end(), f)) {
+        grade.abstained.push_back(f);
+        continue;
+      }
+      std::vector<Flat_polygon> missing, outside = parts[f];
+      Rational area = 0;
+      for (const order_check::Polygon& polygon : face.pieces) {
+        const Flat_polygon& piece = missing.emplace_back(face.flat(polygon));
+        area += piece.area();
+        outside = without(outside, piece);
+      }
+      for (const Flat_polygon& part : parts[f]) missing = without(missing, part);
+      const auto beyond_rounding = [&](const std::vector<Flat_polygon>& polygons) {
+        Rational sum = 0;
+        for (const Flat_polygon& polygon : polygons) sum += polygon.area();
+        return Rational(sum * (1 << tolerance_bits)) > area;
+      };
+      if (face.required && beyond_rounding(missing)) hidden.insert(f);
+      if (beyond_rounding(outside)) shown.insert(f);
+    }
+  }
+  static std::vector<Flat_polygon> without(const std::vector<Flat_polygon>& polygons, const Flat_polygon& other) {
+    std::vector<Flat_polygon> rest;
+    for (const Flat_polygon& polygon : polygons)
+      for (Flat_polygon& left : polygon.without(other)) rest.push_back(std::move(left));
+    return rest;
+  }
+
+  Exact_point eye_;
+  std::vector<Face> faces_;
+  bool has_cycle_ = false;
+};
+
+}  // namespace sightline::judge

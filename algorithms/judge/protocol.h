@@ -1,0 +1,227 @@
+#pragma once
+// How a program that is judged is asked, and how it answers: the query is JSON, the answer JSON or plain lines. The format is described on the page of this folder.
+
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace sightline::judge {
+
+using Json = nlohmann::ordered_json;
+
+enum class Question { order, see, weak };
+inline constexpr std::array<std::string_view, 3> question_names{"order", "see", "weak"};
+
+/// What a program is asked about a scene.
+struct Query {
+  Question question = Question::see;
+  Exact_point eye;                  ///< of order and see
+  std::vector<Exact_point> source;  ///< of weak: a convex polygon, counterclockwise as seen from the side it looks to
+  bool two_sided = false;           ///< faces seen from behind count too
+};
+
+/// A face in an order: the whole of it, or the convex hull of some points on it.
+struct Drawn_face {
+  Face_id face = 0;
+  std::vector<Exact_point> part;  ///< none: the whole face
+};
+
+/// What a program answered. A face that is neither visible nor abstained from is hidden.
+struct Answer {
+  std::vector<Face_id> visible;   ///< of see and weak; sorted
+  std::vector<Drawn_face> order;  ///< of order: farthest first
+  std::vector<Face_id> abstained; ///< sorted
+};
+
+namespace protocol_detail {
+
+[[noreturn]] inline void fail(const std::string& what) { throw std::invalid_argument(what); }
+
+inline Json number_json(const Rational& value) {
+  const double near = nearest_double(value);
+  if (std::isfinite(near) && exact(near) == value) return near;
+  return to_string(value);
+}
+
+inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number_json(p[1]), number_json(p[2])}; }
+
+inline Rational number(const nlohmann::json& value, const std::string& at) {
+  if (value.is_number_unsigned()) return Rational(value.get<std::uint64_t>());
+  if (value.is_number_integer()) return Rational(value.get<std::int64_t>());
+  if (value.is_number() && std::isfinite(value.get<double>())) return exact(value.get<double>());
+  if (!value.is_string()) fail(at + " is no number; write 0.5, or \"1/3\" where it is no double");
+  try {
+    return rational_from_string(value.get_ref<const std::string&>());
+  } catch (const std::invalid_argument& error) {
+    fail(at + ": " + error.what());
+  }
+}
+
+inline Exact_point point(const nlohmann::json& value, const std::string& at) {
+  if (!value.is_array() || value.size() != 3) fail(at + " is no point; write [x, y, z]");
+  return {number(value[0], at), number(value[1], at), number(value[2], at)};
+}
+
+inline std::vector<Exact_point> points(const nlohmann::json& value, const std::string& at) {
+  if (!value.is_array()) fail(at + " is no list of points; write [[x, y, z], ...]");
+  std::vector<Exact_point> all;
+  for (const nlohmann::json& p : value) all.push_back(point(p, at + '[' + std::to_string(all.size()) + ']'));
+  return all;
+}
+
+/// Collects an answer and says what is wrong with it.
+class Answer_reader {
+ public:
+  Answer_reader(Question question, std::size_t faces) : question_(question), faces_(faces) {}
+
+  Answer from_json(const std::string& text) {
+    const nlohmann::json value = nlohmann::json::parse(text, nullptr, false);
+    if (value.is_discarded()) fail("begins with { but is not JSON");
+    const std::string key = question_ == Question::order ? "order" : "visible";
+    const auto abstained = value.find("abstained");
+    const bool from_all = abstained != value.end() && *abstained == "all";
+    if (from_all) abstain_from_all();
+    if (abstained != value.end() && !from_all) {
+      if (!abstained->is_array()) fail("\"abstained\" is neither a list of faces nor \"all\"");
+      for (std::size_t i = 0; i < abstained->size(); ++i) answer_.abstained.push_back(face((*abstained)[i], "abstained[" + std::to_string(i) + ']'));
+    }
+    if (const auto list = value.find(key); list != value.end()) {
+      if (!list->is_array()) fail('"' + key + "\" is no list");
+      for (std::size_t i = 0; i < list->size(); ++i) take((*list)[i], key + '[' + std::to_string(i) + ']');
+    } else if (!from_all) {
+      fail("has no \"" + key + "\": write {\"" + key + "\": [0, 4, 7]}");
+    }
+    return finished();
+  }
+
+  /// A face a line, or "abstained FACE", or "abstained all".
+  Answer from_lines(std::string_view text) {
+    for (std::size_t line = 1; !text.empty(); ++line) {
+      std::string_view rest = text.substr(0, text.find('\n'));
+      text.remove_prefix(std::min(text.size(), rest.size() + 1));
+      const std::string at = "line " + std::to_string(line);
+      const auto next_word = [&rest] {
+        rest.remove_prefix(std::min(rest.size(), rest.find_first_not_of(" \t\r")));
+        const std::string_view word = rest.substr(0, rest.find_first_of(" \t\r"));
+        rest.remove_prefix(word.size());
+        return word;
+      };
+      std::string_view word = next_word();
+      if (word.empty()) continue;
+      const bool abstains = word == "abstained";
+      if (abstains) word = next_word();
+      if (!next_word().empty()) fail(at + " holds more than one face; write one a line");
+      if (abstains && word == "all") {
+        abstain_from_all();
+        continue;
+      }
+      std::uint64_t number = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
+      if (error != std::errc() || end != word.data() + word.size()) fail(at + ": '" + std::string(word.substr(0, 40)) + "' is no face; write its number, from 0");
+      const Face_id id = face(number, at);
+      if (abstains) answer_.abstained.push_back(id);
+      else take_whole(id);
+    }
+    return finished();
+  }
+
+ private:
+  Face_id face(std::uint64_t number, const std::string& at) const {
+    if (number >= faces_) fail(at + " names face " + std::to_string(number) + "; the scene has faces 0 to " + std::to_string(static_cast<std::int64_t>(faces_) - 1));
+    return static_cast<Face_id>(number);
+  }
+  Face_id face(const nlohmann::json& value, const std::string& at) const {
+    if (!value.is_number_unsigned()) fail(at + " is no face; write its number, from 0");
+    return face(value.get<std::uint64_t>(), at);
+  }
+  void take(const nlohmann::json& value, const std::string& at) {
+    if (question_ != Question::order || !value.is_object()) return take_whole(face(value, at));
+    if (!value.contains("face") || !value.contains("vertices")) fail(at + " is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
+    Drawn_face part{face(value["face"], at + ".face"), points(value["vertices"], at + ".vertices")};
+    if (part.part.size() < 3) fail(at + " has fewer than three vertices; give the corners of a convex part of the face");
+    in_parts_.insert(part.face);
+    answer_.order.push_back(std::move(part));
+  }
+  void take_whole(Face_id id) {
+    if (question_ != Question::order) {
+      answer_.visible.push_back(id);
+      return;
+    }
+    if (!whole_.insert(id).second) fail("face " + std::to_string(id) + " is in the order twice");
+    answer_.order.push_back({id, {}});
+  }
+  void abstain_from_all() {
+    for (std::size_t f = 0; f < faces_; ++f) answer_.abstained.push_back(static_cast<Face_id>(f));
+  }
+
+  Answer finished() {
+    for (const Face_id id : whole_)
+      if (in_parts_.contains(id)) fail("face " + std::to_string(id) + " is in the order as a whole and in parts");
+    for (std::vector<Face_id>* list : {&answer_.visible, &answer_.abstained}) {
+      std::sort(list->begin(), list->end());
+      list->erase(std::unique(list->begin(), list->end()), list->end());
+    }
+    const auto claimed = [&](Face_id id) { return std::binary_search(answer_.visible.begin(), answer_.visible.end(), id) || whole_.contains(id) || in_parts_.contains(id); };
+    for (const Face_id id : answer_.abstained)
+      if (claimed(id)) fail("face " + std::to_string(id) + " is both answered and abstained from");
+    return std::move(answer_);
+  }
+
+  Question question_;
+  std::size_t faces_;
+  Answer answer_;
+  std::set<Face_id> whole_, in_parts_;
+};
+
+}  // namespace protocol_detail
+
+/// The query as a program gets it: {"query": "see", "eye": [0.5, 2, 1], "two_sided": false}, or "source" with a list of points for weak.
+/// Coordinates are JSON numbers where they are doubles, in which case they read as those doubles, else strings "p/q". Exact: yes.
+inline Json to_json(const Query& query) {
+  Json value{{"query", question_names[static_cast<std::size_t>(query.question)]}};
+  if (query.question == Question::weak) {
+    value["source"] = Json::array();
+    for (const Exact_point& p : query.source) value["source"].push_back(protocol_detail::point_json(p));
+  } else {
+    value["eye"] = protocol_detail::point_json(query.eye);
+  }
+  value["two_sided"] = query.two_sided;
+  return value;
+}
+
+/// A query as to_json() writes it. Errors: std::invalid_argument that says what is wrong. Exact: yes.
+inline Query query_from_json(const nlohmann::json& value) {
+  const auto member = [&](const char* key) -> const nlohmann::json& {
+    const auto found = value.is_object() ? value.find(key) : value.end();
+    if (found == value.end()) protocol_detail::fail(std::string("query: no \"") + key + '"');
+    return *found;
+  };
+  Query query;
+  const nlohmann::json& name = member("query");
+  const auto known = std::find_if(question_names.begin(), question_names.end(), [&](std::string_view question) { return name == question; });
+  if (known == question_names.end()) protocol_detail::fail("query: \"query\" is neither \"order\" nor \"see\" nor \"weak\"");
+  query.question = static_cast<Question>(known - question_names.begin());
+  if (query.question == Question::weak) query.source = protocol_detail::points(member("source"), "source");
+  else query.eye = protocol_detail::point(member("eye"), "eye");
+  if (!member("two_sided").is_boolean()) protocol_detail::fail("query: \"two_sided\" is neither true nor false");
+  query.two_sided = member("two_sided").get<bool>();
+  return query;
+}
+
+/// What a program wrote, about a scene of so many faces. Text that begins with { is JSON, all other text has a face a line; an empty one sees nothing.
+/// Errors: std::invalid_argument that says in one line what is wrong: unknown faces, a face twice in an order, one both answered and abstained from. Exact: yes.
+inline Answer read_answer(const std::string& text, Question question, std::size_t faces) {
+  protocol_detail::Answer_reader reader(question, faces);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  return first != std::string::npos && text[first] == '{' ? reader.from_json(text) : reader.from_lines(text);
+}
+
+}  // namespace sightline::judge

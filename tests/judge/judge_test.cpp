@@ -1,0 +1,370 @@
+// Judging: the protocol, the truth, grades and contracts.
+
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/generate/shapes.h>
+#include <sightline/algorithms/generate/soups.h>
+#include <sightline/algorithms/generate/transform.h>
+#include <sightline/algorithms/judge/truth.h>
+#include <sightline/kernel/exact_traits.h>
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+// ---- algorithms/judge/README.md
+
+#include <sightline/algorithms/judge/truth.h>
+
+/// text: what a program answered to the query.
+void grade_text(const sightline::Polygon_soup& soup, const sightline::judge::Query& query, const std::string& text, std::ostream& out) {
+  const sightline::judge::Truth truth = sightline::judge::truth_of(soup, query);
+  const sightline::judge::Answer answer = sightline::judge::read_answer(text, query.question, soup.face_count());
+  const sightline::judge::Grade grade = sightline::judge::grade(truth, answer);
+  for (const sightline::Face_id face : grade.wrong_visible) out << "face " << face << " is shown but hidden\n";
+  for (const sightline::Face_id face : grade.wrong_hidden) out << "face " << face << " is missing but visible\n";
+}
+
+namespace {
+
+using namespace sightline;
+using namespace sightline::judge;
+
+#if defined(__SANITIZE_ADDRESS__)
+constexpr std::uint64_t rounds = 10;
+#else
+constexpr std::uint64_t rounds = 40;
+#endif
+
+/// A square of side 2 around the axis of z that looks up.
+void add_square(Polygon_soup& soup, const Rational& x, const Rational& z, const Rational& half = 1) {
+  std::vector<Point_id> loop;
+  for (const auto& [dx, dy] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) loop.push_back(soup.add_point(x + half * dx, half * dy, z));
+  soup.add_face(loop);
+}
+/// Squares at these heights, one above the other.
+Polygon_soup tower(std::initializer_list<int> heights) {
+  Polygon_soup soup;
+  for (const int z : heights) add_square(soup, 0, z);
+  return soup;
+}
+Query question(Question kind, const Exact_point& eye, bool two_sided = false) {
+  Query query;
+  query.question = kind, query.eye = eye, query.two_sided = two_sided;
+  return query;
+}
+Grade graded(const Polygon_soup& soup, const Query& query, const std::string& text, bool cycles = false) {
+  Truth_options options;
+  options.cycles = cycles;
+  const Truth truth = truth_of(soup, query, options);
+  EXPECT_EQ(truth.not_asked, "");
+  return grade(truth, read_answer(text, query.question, soup.face_count()));
+}
+using Faces = std::vector<Face_id>;
+
+// ---- The protocol -----------------------------------------------------------------------------------------------------------
+
+TEST(Protocol, writes_doubles_as_numbers_and_others_as_fractions) {
+  EXPECT_EQ(to_json(question(Question::see, {Rational(1, 2), Rational(1, 3), -3}, true)).dump(), R"({"query":"see","eye":[0.5,"1/3",-3.0],"two_sided":true})");
+  Query weak = question(Question::weak, {0, 0, 0});
+  weak.source = {{0, 0, 1}, {exact(0x1p-1074), 0, 1}, {0, 1, 1}};
+  for (const Query& query : {weak, question(Question::order, {exact(0.1), Rational(1, 10), exact(1e300)}, true)}) {
+    const Query again = query_from_json(nlohmann::json::parse(to_json(query).dump()));
+    EXPECT_EQ(again.question, query.question);
+    EXPECT_EQ(again.eye == query.eye, true);
+    EXPECT_EQ(again.source == query.source, true);
+    EXPECT_EQ(again.two_sided, query.two_sided);
+  }
+  for (const char* bad : {"[]", R"({"eye":[0,0,0],"two_sided":false})", R"({"query":"look","eye":[0,0,0],"two_sided":false})", R"({"query":"see","eye":[0,0],"two_sided":false})", R"({"query":"see","eye":[0,0,0],"two_sided":1})",
+                          R"({"query":"weak","source":[[0,0,"a"]],"two_sided":false})"})
+    EXPECT_THROW(query_from_json(nlohmann::json::parse(bad)), std::invalid_argument) << bad;
+}
+
+TEST(Protocol, reads_answers_as_json_and_as_lines) {
+  for (const char* text : {R"({"visible": [3, 1, 3], "abstained": [2]})", "3\n1\r\n\n  3 \nabstained 2"}) {
+    const Answer answer = read_answer(text, Question::see, 4);
+    EXPECT_EQ(answer.visible, (Faces{1, 3})) << text;
+    EXPECT_EQ(answer.abstained, (Faces{2})) << text;
+  }
+  EXPECT_TRUE(read_answer("", Question::weak, 4).visible.empty());
+  for (const char* text : {R"({"abstained": "all"})", "abstained all\n"}) EXPECT_EQ(read_answer(text, Question::see, 3).abstained, (Faces{0, 1, 2})) << text;
+  const Answer order = read_answer(R"({"order": [2, {"face": 0, "vertices": [[0, 0.5, "1/3"], [1, 0, 0], [0, 1, 0]]}, 1]})", Question::order, 3);
+  ASSERT_EQ(order.order.size(), 3u);
+  EXPECT_EQ(order.order[0].face, 2u);
+  EXPECT_TRUE(order.order[0].part.empty());
+  EXPECT_EQ((order.order[1].part.at(0) == Exact_point{0, Rational(1, 2), Rational(1, 3)}), true);
+}
+
+TEST(Protocol, says_what_is_wrong_with_an_answer) {
+  const auto what = [](const char* text, Question question = Question::see) {
+    try {
+      read_answer(text, question, 3);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(what("{\"visible\": [0"), "begins with { but is not JSON");
+  EXPECT_EQ(what("{\"visble\": [0]}"), "has no \"visible\": write {\"visible\": [0, 4, 7]}");
+  EXPECT_EQ(what("{\"visible\": 0}"), "\"visible\" is no list");
+  EXPECT_EQ(what("{\"visible\": [0, -1]}"), "visible[1] is no face; write its number, from 0");
+  EXPECT_EQ(what("{\"visible\": [3]}"), "visible[0] names face 3; the scene has faces 0 to 2");
+  EXPECT_EQ(what("{\"visible\": [1], \"abstained\": [1]}"), "face 1 is both answered and abstained from");
+  EXPECT_EQ(what("{\"visible\": [1], \"abstained\": \"some\"}"), "\"abstained\" is neither a list of faces nor \"all\"");
+  EXPECT_EQ(what("0\nface 1\n"), "line 2 holds more than one face; write one a line");
+  EXPECT_EQ(what("0\n1.0\n"), "line 2: '1.0' is no face; write its number, from 0");
+  EXPECT_EQ(what("abstained\n"), "line 1: '' is no face; write its number, from 0");
+  EXPECT_EQ(what("0\n7\n"), "line 2 names face 7; the scene has faces 0 to 2");
+  EXPECT_EQ(what("99999999999999999999\n"), "line 1: '99999999999999999999' is no face; write its number, from 0");
+  EXPECT_EQ(what("0\n1\n0\n", Question::order), "face 0 is in the order twice");
+  EXPECT_EQ(what("0\nabstained 0\n", Question::order), "face 0 is both answered and abstained from");
+  EXPECT_EQ(what("{\"order\": [{\"face\": 0}]}", Question::order), "order[0] is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
+  EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0]]}]}", Question::order), "order[0] has fewer than three vertices; give the corners of a convex part of the face");
+  EXPECT_EQ(what("{\"order\": [0, {\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}]}", Question::order), "face 0 is in the order as a whole and in parts");
+  EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, null], [0, 1, 0]]}]}", Question::order), "order[0].vertices[1] is no number; write 0.5, or \"1/3\" where it is no double");
+}
+
+// ---- See and weak -----------------------------------------------------------------------------------------------------------
+
+TEST(Truth, of_an_eye_above_two_squares) {
+  const Polygon_soup soup = tower({0, 1});
+  const Query above = question(Question::see, {0, 0, 5});
+  EXPECT_FALSE(graded(soup, above, "1\n").wrong());
+  EXPECT_EQ(graded(soup, above, "1\n").judged, 2u);
+  EXPECT_EQ(graded(soup, above, "0\n1\n").wrong_visible, (Faces{0}));
+  EXPECT_EQ(graded(soup, above, "").wrong_hidden, (Faces{1}));
+  const Grade open = graded(soup, above, "abstained 1\n0\n");
+  EXPECT_EQ(open.abstained, (Faces{1}));
+  EXPECT_EQ(open.wrong_visible, (Faces{0}));
+  EXPECT_TRUE(open.wrong_hidden.empty());
+  // From below they are seen from behind.
+  EXPECT_FALSE(graded(soup, question(Question::see, {0, 0, -5}), "").wrong());
+  EXPECT_EQ(graded(soup, question(Question::see, {0, 0, -5}, true), "1\n").wrong_hidden, (Faces{0}));
+  EXPECT_EQ(graded(soup, question(Question::see, {0, 0, -5}, true), "1\n").wrong_visible, (Faces{1}));
+}
+
+TEST(Truth, of_a_lamp_above_two_squares) {
+  const Polygon_soup soup = tower({0, 1});
+  Query lamp = question(Question::weak, {0, 0, 0});
+  lamp.source = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}};  // looks down, as large as they are
+  EXPECT_EQ(graded(soup, lamp, "0\n1\n").wrong_visible, (Faces{0}));
+  EXPECT_FALSE(graded(soup, lamp, "1\n").wrong());
+  lamp.source = {{-3, -3, 2}, {-3, 3, 2}, {3, 3, 2}, {3, -3, 2}};  // larger
+  EXPECT_EQ(graded(soup, lamp, "1\n").wrong_hidden, (Faces{0}));
+  EXPECT_FALSE(graded(soup, lamp, "0\n1\n").wrong());
+  std::reverse(lamp.source.begin(), lamp.source.end());
+  EXPECT_EQ(graded(soup, lamp, "1\n").wrong_visible, (Faces{1}));
+  lamp.source = {{0, 0, 2}, {1, 0, 2}, {2, 0, 2}};
+  EXPECT_NE(truth_of(soup, lamp).not_asked, "");
+}
+
+TEST(Truth, leaves_out_faces_that_are_none) {
+  Polygon_soup soup = tower({0, 1});
+  soup.add_face({0, 1, 1});                                   // 2: no area
+  soup.add_face({soup.loop(1)[2], soup.loop(1)[3], 4, 5});    // 3: face 1 once more
+  const Query above = question(Question::see, {0, 0, 5});
+  EXPECT_EQ(graded(soup, above, "1\n").judged, 2u);
+  EXPECT_FALSE(graded(soup, above, "1\n2\n3\n").wrong());
+  EXPECT_FALSE(graded(soup, question(Question::order, {0, 0, 5}), "2\n0\n1\n").wrong());
+  Polygon_soup bow;
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 1), std::pair(1, 0), std::pair(0, 1)}) bow.add_point(Rational(x), Rational(y), Rational(0));
+  bow.add_face({0, 1, 2, 3});
+  bow.add_face({0, 1, 2});
+  EXPECT_NE(truth_of(bow, above).not_asked, "");
+  EXPECT_NE(truth_of(Polygon_soup(), above).not_asked, "");
+}
+
+TEST(Truth, is_about_planar_faces_on_doubles) {
+  Polygon_soup soup = tower({0});
+  soup.add_point(Rational(1, 3), Rational(1, 7), Rational(1, 10));
+  soup.add_face({0, 1, 2, 4});  // not planar
+  add_square(soup, 0, 2);
+  const Polygon_soup planar = with_planar_faces(soup);
+  EXPECT_EQ(planar.face_count(), 4u);
+  EXPECT_EQ(planar.point_count(), soup.point_count());
+  EXPECT_TRUE(Scene(planar).non_planar().empty());
+  EXPECT_EQ(planar.loop(3).size(), 4u);
+  EXPECT_EQ(with_planar_faces(planar).face_count(), 4u);
+
+  const Polygon_soup doubles = rounded_to_doubles(soup);
+  for (std::size_t k = 0; k < doubles.coordinates.size(); ++k) EXPECT_EQ(exact(nearest_double(soup.coordinates[k])), doubles.coordinates[k]);
+  EXPECT_NE(doubles.coordinates[12], soup.coordinates[12]);
+  Query query = question(Question::weak, {0, 0, Rational(1, 3)});
+  query.source = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  EXPECT_EQ(rounded_to_doubles(query).source.size(), 4u);
+  EXPECT_EQ(rounded_to_doubles(query).eye[2], exact(1.0 / 3));
+  // 0.1 and 0.2 are not 0.3: three of four corners stay in one plane.
+  query.source = {{0, 0, 0}, {1, 0, Rational(1, 10)}, {1, 1, Rational(3, 10)}, {0, 1, Rational(1, 5)}};
+  EXPECT_EQ(rounded_to_doubles(query).source.size(), 3u);
+  EXPECT_THROW(rounded_to_doubles(Exact_point{exact_decimal(1, 400), 0, 0}), std::domain_error);
+}
+
+// ---- Orders -----------------------------------------------------------------------------------------------------------------
+
+TEST(Orders, of_a_tower) {
+  const Polygon_soup soup = tower({0, 1, 2});
+  const Query above = question(Question::order, {0, 0, 5});
+  EXPECT_FALSE(graded(soup, above, "0\n1\n2\n").wrong());
+  EXPECT_EQ(graded(soup, above, "0\n1\n2\n").judged, 3u);
+  const Grade swapped = graded(soup, above, "0\n2\n1\n");
+  ASSERT_EQ(swapped.wrong_pairs.size(), 1u);
+  EXPECT_EQ(swapped.wrong_pairs[0], (std::array<Face_id, 2>{2, 1}));
+  EXPECT_EQ(swapped.wrong_hidden, (Faces{2}));
+  EXPECT_EQ(swapped.wrong_visible, (Faces{1}));
+  EXPECT_EQ(graded(soup, above, "0\n2\n").wrong_hidden, (Faces{1}));
+  const Grade open = graded(soup, above, "0\n2\nabstained 1\n");
+  EXPECT_FALSE(open.wrong());
+  EXPECT_EQ(open.abstained, (Faces{1}));
+  // From below none is on-view: they may be missing, but not in the wrong order.
+  EXPECT_FALSE(graded(soup, question(Question::order, {0, 0, -5}), "").wrong());
+  EXPECT_EQ(graded(soup, question(Question::order, {0, 0, -5}), "0\n1\n").wrong_pairs.size(), 1u);
+  EXPECT_EQ(graded(soup, question(Question::order, {0, 0, -5}, true), "").wrong_hidden.size(), 3u);
+  // In the plane of one of them: it may stand anywhere.
+  for (const char* order : {"0\n1\n2\n", "1\n0\n2\n", "0\n2\n"}) EXPECT_FALSE(graded(soup, question(Question::order, {0, 0, 1}, true), order).wrong()) << order;
+}
+
+TEST(Orders, of_squares_a_hair_apart_are_judged_exactly) {
+  Polygon_soup soup;
+  add_square(soup, 0, 1), add_square(soup, 0, 1 + exact(0x1p-52));
+  const Query above = question(Question::order, {0, 0, 5});
+  EXPECT_FALSE(graded(soup, above, "0\n1\n").wrong());
+  EXPECT_TRUE(graded(soup, above, "1\n0\n").wrong());
+}
+
+std::string part(int face, double x0, double x1, double z) {
+  Json corners = Json::array();
+  for (const auto& [x, y] : {std::pair(x0, -1), std::pair(x1, -1), std::pair(x1, 1), std::pair(x0, 1)}) corners.push_back({x, y, z});
+  return Json{{"face", face}, {"vertices", corners}}.dump();
+}
+
+TEST(Orders, may_hold_parts_with_rounded_corners) {
+  const Polygon_soup soup = tower({0, 1});
+  const Query above = question(Question::order, {0, 0, 5});
+  const auto order = [](const std::string& entries) { return "{\"order\": [" + entries + "]}"; };
+  EXPECT_FALSE(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.25, 1, 0) + ", 1")).wrong());
+  EXPECT_FALSE(graded(soup, above, order(part(0, -1, 0.25, 1e-9) + "," + part(0, 0.2500001, 1, 0) + ", 1")).wrong());  // beside the plane; a gap that nobody sees
+  EXPECT_EQ(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.3, 1, 0) + ", 1")).wrong_hidden, (Faces{0}));
+  EXPECT_EQ(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.25, 1.5, 0) + ", 1")).wrong_visible, (Faces{0}));
+  const Grade over = graded(soup, above, order(part(0, -1, 0.25, 0) + ", 1, " + part(0, 0.25, 1, 0)));
+  EXPECT_EQ(over.wrong_pairs.size(), 1u);
+  EXPECT_EQ(over.wrong_hidden, (Faces{1}));
+  EXPECT_EQ(graded(soup, above, order(part(0, 0.25, 0.25, 0) + ", 1")).wrong_hidden, (Faces{0}));  // without area
+}
+
+TEST(Orders, in_a_cycle_are_asked_only_where_parts_are) {
+  const Query above = question(Question::order, {0, 0, 1000});
+  const Polygon_soup soup = generate::bars(3);
+  EXPECT_NE(truth_of(soup, above).not_asked, "");
+  std::vector<Face_id> order{0, 1, 2};
+  do {
+    std::string text;
+    for (const Face_id face : order) text += std::to_string(face) + "\n";
+    EXPECT_TRUE(graded(soup, above, text, true).wrong());
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+/// Random triangles, some of them parallel to the axes, with an eye above.
+struct Heap {
+  Polygon_soup soup;
+  Exact_point eye;
+};
+Heap heap(std::uint64_t seed, std::size_t faces) {
+  generate::Random random(seed);
+  Heap made;
+  made.soup = generate::soup(faces, 0.6, seed, 6);
+  for (std::size_t k = 0; k < 3; ++k) made.eye[k] = Rational(static_cast<long>(random.between(-8, 16))) / 8;
+  return made;
+}
+
+TEST(Orders, of_whole_faces_are_graded_as_verify_accepts_them) {
+  std::size_t accepted = 0, rejected = 0, cycles = 0;
+  for (std::uint64_t seed = 0; seed < rounds; ++seed) {
+    const Heap made = heap(seed, 4);
+    const Scene scene(made.soup);
+    const Truth truth = truth_of(made.soup, question(Question::order, made.eye, true), {1, 20, true});
+    std::vector<Face_id> order{0, 1, 2, 3};
+    bool some = false;
+    do {
+      Order_certificate certificate;
+      certificate.eye = made.eye;
+      add_pieces(certificate, scene);
+      Answer answer;
+      for (const Face_id face : order) {
+        Order_fragment& fragment = certificate.fragments.emplace_back();
+        fragment.face = face;
+        for (const Point_id p : made.soup.loop(face)) fragment.vertices.push_back(made.soup.point(p));
+        answer.order.push_back({face, {}});
+      }
+      const bool right = verify_order(made.soup, certificate).accepted;
+      EXPECT_EQ(!grade(truth, answer).wrong(), right) << "seed " << seed;
+      some = some || right, ++(right ? accepted : rejected);
+    } while (std::next_permutation(order.begin(), order.end()));
+    EXPECT_EQ(truth.order->whole_faces_do(), some) << "seed " << seed;
+    cycles += !some;
+  }
+  EXPECT_GT(accepted, rounds / 4);
+  EXPECT_GT(rejected, rounds);
+  EXPECT_GT(cycles, rounds / 20);
+}
+
+TEST(Orders, by_exact_trees_are_right_with_rounded_corners_and_wrong_when_reversed) {
+  std::size_t cut = 0, wrong = 0;
+  for (std::uint64_t seed = 0; seed < rounds; ++seed) {
+    const Heap made = heap(seed, 12);
+    const Scene scene(made.soup);
+    const Exact_traits traits(scene);
+    const auto tree = build_bsp(traits, {});
+    std::vector<std::size_t> fragments(scene.counters().faces_read);
+    for (const auto& fragment : tree.fragments) ++fragments[scene.pieces()[fragment.polygon.piece].face];
+    Answer answer;
+    traverse(traits, tree, traits.eye(made.eye), Direction::back_to_front, [&](const auto& fragment, Sign) {
+      Drawn_face& drawn = answer.order.emplace_back();
+      drawn.face = scene.pieces()[fragment.polygon.piece].face;
+      if (fragments[drawn.face] == 1) return;
+      ++cut;
+      for (const auto& corner : fragment.polygon) drawn.part.push_back(rounded_to_doubles(traits.position(*corner.vertex)));
+    });
+    const Truth truth = truth_of(made.soup, question(Question::order, made.eye, true), {1, 20, true});
+    EXPECT_FALSE(grade(truth, answer).wrong()) << "seed " << seed;
+    std::reverse(answer.order.begin(), answer.order.end());
+    wrong += grade(truth, answer).wrong();
+  }
+  EXPECT_GT(cut, rounds);
+  EXPECT_GT(wrong, rounds / 2);
+}
+
+// ---- Contracts --------------------------------------------------------------------------------------------------------------
+
+TEST(Contracts, are_broken_by_what_they_forbid) {
+  Grade shows, hides, open;
+  shows.wrong_visible = {1}, hides.wrong_hidden = {2}, open.abstained = {3};
+  struct Case {
+    Mark mark;
+    Grade grade;
+    std::array<bool, 3> broken;  // exact, conservative, aggressive
+  };
+  const std::array<Case, 8> cases{{{Mark::right, {}, {false, false, false}},
+                                   {Mark::abstained, open, {false, false, false}},
+                                   {Mark::wrong, shows, {true, false, true}},
+                                   {Mark::wrong, hides, {true, true, false}},
+                                   {Mark::invalid, {}, {true, true, true}},
+                                   {Mark::crashed, {}, {true, true, true}},
+                                   {Mark::timed_out, {}, {false, false, false}},
+                                   {Mark::out_of_memory, {}, {false, false, false}}}};
+  for (const Case& c : cases)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(breaks(static_cast<Contract>(k), c.mark, c.grade), c.broken[k]) << mark_names[static_cast<std::size_t>(c.mark)] << ", " << contract_names[k];
+  EXPECT_EQ(mark_of({}), Mark::right);
+  EXPECT_EQ(mark_of(open), Mark::abstained);
+  EXPECT_EQ(mark_of(shows), Mark::wrong);
+  EXPECT_EQ(mark_of(hides), Mark::wrong);
+  open.wrong_hidden = {0};
+  EXPECT_EQ(mark_of(open), Mark::wrong);
+}
+
+TEST(Example, of_the_page_grades_a_text) {
+  std::ostringstream out;
+  grade_text(tower({0, 1, 2}), question(Question::see, {0, 0, 5}), "0\n", out);
+  EXPECT_EQ(out.str(), "face 0 is shown but hidden\nface 2 is missing but visible\n");
+}
+
+}  // namespace

@@ -1,0 +1,123 @@
+// sightline judge: every mark by a tiny program, contracts, limits, what is written, usage errors.
+
+#include "program.h"
+
+namespace program {
+
+class Judge : public Program {
+ protected:
+  /// Two squares of a tower seen from above: the upper one is visible.
+  std::string tower() const { return file("tower.off", "OFF\n8 2 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n4 0 1 2 3\n4 4 5 6 7\n"); }
+
+  /// A shell program: $1 is the scene, $2 the query, $3 the answer.
+  static std::string shell(const std::string& script) { return "sh -c '" + script + "' sh {scene} {query} {answer}"; }
+
+  Json judge(const std::string& program, std::vector<std::string> options, int code) {
+    std::vector<std::string> arguments{"judge", "--program", program, "--json", "-"};
+    arguments.insert(arguments.end(), options.begin(), options.end());
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, code) << r;
+    return r.json();
+  }
+  /// The one mark of a program that is asked one case.
+  std::string mark(const std::string& script, const std::string& contract, int code, std::vector<std::string> options = {}) {
+    options.insert(options.end(), {"--query", "order", "--contract", contract, "--families", "stacked", "--ulps", "0", "--cases", "1", "--two-sided"});
+    const Json j = judge(shell(script), options, code);
+    std::string found;
+    for (const auto& [name, count] : j["result"]["total"]["cases"].items())
+      if (count != 0) found += (found.empty() ? "" : " ") + name;
+    EXPECT_EQ(j["result"]["holds"], code == done);
+    EXPECT_EQ(j["result"]["failures"].size(), code == done ? 0u : 1u);
+    return found;
+  }
+};
+
+TEST_F(Judge, marks_what_became_of_a_program) {
+  EXPECT_EQ(mark("exit 3", "exact", disagreement), "crashed");
+  EXPECT_EQ(mark("kill -SEGV $$", "aggressive", disagreement), "crashed");
+  EXPECT_EQ(mark("true", "exact", disagreement), "invalid");
+  EXPECT_EQ(mark("mkdir $3; true", "exact", disagreement), "invalid");
+  EXPECT_EQ(mark("echo 1000000 > $3", "conservative", disagreement), "invalid");
+  EXPECT_EQ(mark("echo abstained all > $3", "exact", done), "abstained");
+  EXPECT_EQ(mark("echo 0 > $3", "exact", disagreement), "wrong");       // the others are missing
+  EXPECT_EQ(mark("echo 0 > $3", "conservative", disagreement), "wrong");
+  EXPECT_EQ(mark("echo 0 > $3", "aggressive", done), "wrong");
+  EXPECT_EQ(mark("sleep 100", "exact", done, {"--time", "0.3"}), "timed out");
+  EXPECT_EQ(mark("sleep 100 & wait", "exact", done, {"--time", "0.3"}), "timed out");
+  if (!sanitized) {
+    EXPECT_EQ(mark("x=0123456789012345; while true; do x=$x$x; done", "exact", done, {"--memory", "40"}), "out of memory");
+  }
+}
+
+TEST_F(Judge, grades_orders_of_a_stack) {
+  // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
+  const std::vector<std::string> options{"--query", "order", "--contract", "exact", "--families", "stacked", "--size", "5", "--ulps", "0", "--cases", "4", "--two-sided"};
+  const Json up = judge(shell("printf \"0\\n1\\n2\\n3\\n4\\n\" > $3"), options, disagreement), down = judge(shell("printf \"4\\n3\\n2\\n1\\n0\\n\" > $3"), options, disagreement);
+  std::size_t right = 0;
+  for (const Json* j : {&up, &down}) right += (*j)["result"]["total"]["cases"]["right"].get<std::size_t>();
+  EXPECT_EQ(up["result"]["total"]["asked"], 4);
+  EXPECT_GE(right, 4u);
+  const Json& smallest = (up["result"]["smallest"].is_null() ? down : up)["result"]["smallest"];
+  EXPECT_NE(smallest["why"].get<std::string>().find("is drawn before face"), std::string::npos) << smallest;
+}
+
+TEST_F(Judge, asks_about_scenes_and_keeps_what_went_wrong) {
+  const std::vector<std::string> options{"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "6", "--two-sided", "--keep", path("kept").string(), "--html", path("page.html").string()};
+  const Json j = judge(shell("echo 0 > $3"), options, disagreement);
+  EXPECT_EQ(j["result"]["total"]["asked"], 6);
+  EXPECT_GT(j["result"]["total"]["faces"]["wrong_visible"].get<int>() + j["result"]["total"]["faces"]["wrong_hidden"].get<int>(), 0);
+  // What is kept is what was asked: the scene as it was, a query, the answer.
+  EXPECT_EQ(read_file(path("kept") / "smallest.answer"), "0\n");
+  EXPECT_EQ(Json::parse(read_file(path("kept") / "smallest.json"))["query"], "see");
+  EXPECT_EQ(read_file(path("kept") / "smallest.off"), read_file(tower()));
+  const std::string page = read_file(path("page.html"));
+  EXPECT_NE(page.find("is broken in"), std::string::npos);
+  EXPECT_NE(page.find("tower.off"), std::string::npos);
+  EXPECT_EQ(page.find("http"), std::string::npos);
+  // The command that is printed asks that case again: one case, which fails in the same way.
+  const Json &s = j["result"]["smallest"], again = judge(shell("echo 0 > $3"), {"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--two-sided", "--seed", s["seed"].dump()}, disagreement);
+  EXPECT_EQ(again["result"]["smallest"]["why"], s["why"]);
+  EXPECT_NE(s["again"].get<std::string>().find("--cases 1 --seed " + s["seed"].dump() + " --two-sided"), std::string::npos) << s;
+}
+
+TEST_F(Judge, gives_the_scene_in_the_format_that_is_asked_for) {
+  for (const std::string format : {"off", "obj", "ply", "qoff"}) {
+    const Json j = judge(shell("test -s $1 && case $1 in *." + format + ") echo abstained all > $3;; esac"), {"--query", "weak", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--format", format}, done);
+    EXPECT_EQ(j["result"]["total"]["cases"]["abstained"], 1) << format;
+  }
+  const Json j = judge(shell("true"), {"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--format", "stl"}, done);
+  EXPECT_EQ(j["result"]["total"]["not_asked"], 1);
+}
+
+TEST_F(Judge, prints_a_table_and_a_verdict) {
+  const Outcome holds = run({"judge", "--program", shell("echo abstained all > $3"), "--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "2"});
+  EXPECT_EQ(holds.code, done) << holds;
+  EXPECT_NE(holds.out.find("the contract `exact` holds in all 2 cases"), std::string::npos) << holds;
+  const Outcome broken = run({"judge", "--program", shell("exit 1"), "--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "2"});
+  EXPECT_EQ(broken.code, disagreement) << broken;
+  EXPECT_NE(broken.out.find("the contract `exact` is BROKEN in 2 of 2 cases"), std::string::npos) << broken;
+  EXPECT_NE(broken.out.find("  again: sightline judge --program "), std::string::npos) << broken;
+}
+
+TEST_F(Judge, says_what_is_wrong_with_a_command_line) {
+  const auto complains = [&](std::vector<std::string> options, const std::string& about) {
+    options.insert(options.begin(), "judge");
+    const Outcome r = run(options);
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find(about), std::string::npos) << r;
+  };
+  const std::string good = shell("true");
+  complains({"--query", "see", "--contract", "exact"}, "--program");
+  complains({"--program", good, "--query", "look", "--contract", "exact"}, "--query");
+  complains({"--program", good, "--query", "see", "--contract", "kind"}, "--contract");
+  complains({"--program", "mine {scene} {answer}", "--query", "see", "--contract", "exact"}, "{query}");
+  complains({"--program", "mine '{scene} {query} {answer}", "--query", "see", "--contract", "exact"}, "quote");
+  complains({"--program", "/nowhere/mine {scene} {query} {answer}", "--query", "see", "--contract", "exact", "--scenes", tower()}, "cannot be started");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "none_such"}, "--families");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--ulps", "1.5"}, "--ulps");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", path("nowhere").string()}, "--scenes");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--families", "stacked"}, "exclude each other");
+}
+
+}  // namespace program
