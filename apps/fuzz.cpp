@@ -167,7 +167,7 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
   return finding ? Exit::disagreement : Exit::done;
 }
 
-Exit run(const Fuzz_arguments& arguments) {
+Exit run_fuzz(const Fuzz_arguments& arguments) {
   harness::Subject subject;
   for (harness::Subject& one : all_subjects())
     if (one.name == arguments.command) subject = std::move(one);
@@ -234,5 +234,5 @@ void add_fuzz(CLI::App& app) {
   command->footer("Commands and their checks; each answer is also checked by itself ('certificate'):" + sightline::app::list_of_checks() +
                   "\nExit codes: 0 nothing found, 1 something disagrees, 2 usage, 3 bad input."
                   "\nExample: sightline fuzz see --seconds 600 --seed 7 --out found");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  set_action(*command, [a] { return sightline::app::run_fuzz(*a); });
 }
