@@ -20,7 +20,7 @@ struct Colour {
 constexpr Colour colours[] = {{"right", "#3a923a"}, {"abstained", "#9ecae1"}, {"timed out", "#c7b299"}, {"out of memory", "#8c6d31"}, {"wrong", "#e6872d"}, {"invalid", "#b05ab0"}, {"crashed", "#c22f2f"}};
 
 constexpr const char* style = R"(
-body { font: 14px/1.4 sans-serif; margin: 24px auto; max-width: 1180px; color: #222 }
+body { font: 14px/1.4 sans-serif; margin: 24px auto; max-width: 1500px; color: #222 }
 h1 { font-size: 22px; margin-bottom: 4px } h2 { font-size: 17px; margin-top: 28px }
 code { background: #f2f2f2; padding: 1px 4px; font-size: 13px; overflow-wrap: anywhere }
 .verdict { font-size: 17px; font-weight: bold; padding: 8px 12px; border-radius: 4px; display: inline-block }
@@ -80,7 +80,7 @@ std::string judge_page(const Json& document) {
   html += "<h2>Cases</h2>\n<p class=\"key\">";
   for (const auto& [mark, colour] : colours) html += fmt::format("<span style=\"background:{}\"></span>{}", colour, mark);
   html += "</p>\n<table><tr><th class=\"name\">family</th><th class=\"name\">distance</th><th></th>";
-  for (const char* head : {"asked", "right", "abstained", "timed out", "memory", "wrong", "invalid", "crashed", "faces judged", "wrong visible", "wrong hidden", "abstained", "p50 s", "p95 s", "max s", "max MB"}) html += fmt::format("<th>{}</th>", head);
+  for (const char* head : {"asked", "right", "abstained", "timed out", "memory", "wrong", "invalid", "crashed", "faces judged", "wrong visible", "wrong hidden", "left open", "p50 s", "p95 s", "max s", "max MB"}) html += fmt::format("<th>{}</th>", head);
   html += "</tr>\n";
   for (const Json& row : result["rows"]) html += table_row(row, false);
   html += table_row(total, true) + "</table>\n";

@@ -133,7 +133,7 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
 
 // ---- The command ---------------------------------------------------------------------------------------------------------------------
 
-Exit run(const Weak_arguments& arguments) {
+Exit run_weak(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
   const std::string& method = arguments.method;
   if ((method == "sample" || method == "doubles") && !arguments.certificate.empty()) throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
@@ -198,7 +198,7 @@ void add_weak(CLI::App& app) {
   auto a = std::make_shared<sightline::app::Weak_arguments>();
   a->common.add_to(*command);
   a->sources.add_to(*command);
-  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, for up to some tens of edges; conservative: quick, visible is all that no single piece hides; "
+  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; conservative: quick, visible is all that no single piece hides; "
                                              "doubles: a search without proofs; sample: random rays, as others do")->check(CLI::IsMember(sightline::app::weak_method_names))->capture_default_str();
   command->add_option("--rays", a->task.rays, "sample: from each source")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")->check(sightline::app::whole_number)->capture_default_str();
@@ -211,5 +211,5 @@ void add_weak(CLI::App& app) {
   a->view.add_to(*command);
   command->footer("Example: sightline weak room.off --from \"0,0,1 1,0,1 1,0,2 0,0,2\" --svg room.svg --certificate room.json\n"
                   "Exit code 4: some faces are undecided.");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  set_action(*command, [a] { return sightline::app::run_weak(*a); });
 }

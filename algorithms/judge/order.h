@@ -10,7 +10,7 @@
 namespace sightline::judge {
 
 /// A scene and an eye, ready to judge orders. Whole faces are compared exactly, by the code of `verify`. A part has rounded corners as a rule, so it is moved onto its face's exact plane along the dominant
-/// axis, stands for its convex hull there, and a pair with a part in it is wrong only where the earlier one is nearer by more than 2^-20 of the distance.
+/// axis, stands for its convex hull there, and is compared smaller by 2^-20 about its middle, or not at all where it has less than 2^-20 of its face's area.
 /// Pre: all faces are planar. Degenerate: faces in whose plane the eye is may stand anywhere, or be missing; contact is no overlap; equal distance is in order both ways. Exact: yes.
 class Order_truth {
  public:
@@ -58,16 +58,23 @@ class Order_truth {
       for (const Exact_point& p : points) corners.push_back({p[(axis + 1) % 3], p[(axis + 2) % 3]});
       return Flat_polygon::hull(std::move(corners));
     }
-    /// Back onto the plane, counterclockwise as seen from the front.
-    order_check::Polygon lifted(const Flat_polygon& polygon) const {
+    Rational area() const {
+      Rational sum = 0;
+      for (const order_check::Polygon& polygon : pieces) sum += flat(polygon).area();
+      return sum;
+    }
+    /// A part on the plane, smaller by the tolerance, in either sense.
+    order_check::Polygon shrunk(const Flat_polygon& part) const {
       const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-      order_check::Polygon points(polygon.lines().size());
+      order_check::Polygon points(part.lines().size());
+      Flat_polygon::Point middle{0, 0};
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (std::size_t k = 0; k < 2; ++k) middle[k] += part.vertex(i)[k] / static_cast<long>(points.size());
       for (std::size_t i = 0; i < points.size(); ++i) {
-        const Flat_polygon::Point at = polygon.vertex(i);
-        points[i][x] = at[0], points[i][y] = at[1];
-        points[i][axis] = -(plane[x] * at[0] + plane[y] * at[1] + plane[3]) / plane[axis];
+        const Flat_polygon::Point at = part.vertex(i);
+        points[i][x] = at[0] + (middle[0] - at[0]) / (1 << tolerance_bits), points[i][y] = at[1] + (middle[1] - at[1]) / (1 << tolerance_bits);
+        points[i][axis] = -(plane[x] * points[i][x] + plane[y] * points[i][y] + plane[3]) / plane[axis];
       }
-      if (sgn(plane[axis]) < 0) std::reverse(points.begin(), points.end());
       return points;
     }
   };
@@ -118,23 +125,17 @@ class Order_truth {
       if (face.pieces.empty()) continue;
       if (drawn.part.empty()) {
         for (const order_check::Polygon& polygon : face.pieces) cones.emplace_back(polygon, eye_), place.push_back(i);
-      } else if (const Flat_polygon part = face.flat(drawn.part); !part.empty()) {
-        cones.emplace_back(face.lifted(part), eye_), place.push_back(i);
+      } else if (const Flat_polygon part = face.flat(drawn.part); Rational(part.area() * (1 << tolerance_bits)) > face.area()) {
+        cones.emplace_back(face.shrunk(part), eye_), place.push_back(i);
       }
     }
     std::set<std::array<Face_id, 2>> wrong;
     order_check::Pair_check check;
     each_pair(cones, [&](std::size_t i, std::size_t j) {
       if (place[i] >= place[j] || !check.nearer_somewhere(cones[i], cones[j])) return;
-      const Drawn_face &earlier = answer.order[place[i]], &later = answer.order[place[j]];
-      if (!earlier.part.empty() || !later.part.empty()) {
-        order_check::Cone farther = cones[i];  // moved away by a share of its distance, is it nearer still?
-        for (Integer& coefficient : farther.nearness) coefficient <<= tolerance_bits;
-        farther.distance *= (1 << tolerance_bits) + 1;
-        if (!check.nearer_somewhere(farther, cones[j])) return;
-      }
-      wrong.insert({earlier.face, later.face});
-      hidden.insert(earlier.face), shown.insert(later.face);
+      const Face_id earlier = answer.order[place[i]].face, later = answer.order[place[j]].face;
+      wrong.insert({earlier, later});
+      hidden.insert(earlier), shown.insert(later);
     });
     grade.wrong_pairs.assign(wrong.begin(), wrong.end());
   }
@@ -157,17 +158,12 @@ class Order_truth {
         continue;
       }
       std::vector<Flat_polygon> missing, outside = parts[f];
-      Rational area = 0;
-      for (const order_check::Polygon& polygon : face.pieces) {
-        const Flat_polygon& piece = missing.emplace_back(face.flat(polygon));
-        area += piece.area();
-        outside = without(outside, piece);
-      }
+      for (const order_check::Polygon& polygon : face.pieces) outside = without(outside, missing.emplace_back(face.flat(polygon)));
       for (const Flat_polygon& part : parts[f]) missing = without(missing, part);
       const auto beyond_rounding = [&](const std::vector<Flat_polygon>& polygons) {
         Rational sum = 0;
         for (const Flat_polygon& polygon : polygons) sum += polygon.area();
-        return Rational(sum * (1 << tolerance_bits)) > area;
+        return Rational(sum * (1 << tolerance_bits)) > face.area();
       };
       if (face.required && beyond_rounding(missing)) hidden.insert(f);
       if (beyond_rounding(outside)) shown.insert(f);

@@ -18,7 +18,7 @@ inline const Known_scene& known_scene() {
       Points corners;
       for (const Point_id p : known.soup.loop(f)) corners.push_back(known.soup.point(p));
       std::vector<Flat>& parts = known.parts.emplace_back();
-      known.set_aside.push_back(f == 6 || f == 7);  // a duplicate, and one without area
+      known.set_aside.push_back(f == 6 || f == 7 || f == 10);  // a duplicate, one without area, one that winds twice
       if (f < 5 || f == 9) parts.emplace_back(corners);
       if (f == 5) parts = {Flat({corners[0], corners[1], corners[2], corners[3]}), Flat({corners[0], corners[3], corners[4], corners[5]})};  // an L
     }

@@ -43,10 +43,8 @@ class Mutator {
   /// Some damage to a JSON value, at one to three places, that leaves it JSON.
   Json damaged(Json value) {
     for (std::size_t k = 1 + below(3); k > 0; --k) {
-      std::vector<Json*> all;
-      collect(value, all);
-      const Json other = *all[below(all.size())];  // a copy: it may be a part of what is changed
-      damage(*all[below(all.size())], other);
+      const Json other = somewhere(value);  // a copy: it may be a part of what is changed
+      damage(somewhere(value), other);
     }
     return value;
   }
@@ -90,10 +88,11 @@ class Mutator {
     text.replace(begin, size, word);
   }
 
-  static void collect(Json& value, std::vector<Json*>& all) {
-    all.push_back(&value);
-    if (value.is_structured())
-      for (Json& part : value) collect(part, all);
+  /// A value within another one, however many there are beside it: at each level one is as likely as the next.
+  Json& somewhere(Json& value) {
+    Json* at = &value;
+    while (at->is_structured() && !at->empty() && (at == &value || below(4) != 0)) at = &*std::next(at->begin(), static_cast<std::ptrdiff_t>(below(at->size())));
+    return *at;
   }
 
   void damage(Json& value, const Json& other) {

@@ -56,6 +56,20 @@ TEST_P(Fuzz, inputs_near_the_corpus) {
   for (std::size_t k = 0; k < 1500 * times() / share; ++k) ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
 }
 
+TEST(Fuzz_certificates, of_the_corpus_are_accepted_but_for_those_that_are_wrong) {
+  std::size_t accepted = 0, rejected = 0;
+  for (const fuzz::Seed& seed : fuzz::seeds_of({"certificate", fuzz::certificate, {".json"}})) {
+    const std::optional<sightline::Verdict> verdict = fuzz::checked_certificate(seed.bytes);
+    ASSERT_TRUE(verdict) << seed.file;
+    const bool wrong = seed.file.find("/wrong_") != std::string::npos;
+    EXPECT_EQ(verdict->accepted, !wrong) << seed.file << ": " << verdict->why;
+    ++(wrong ? rejected : accepted);
+    if (wrong) RecordProperty(std::filesystem::path(seed.file).stem().string(), verdict->why);
+  }
+  EXPECT_GE(accepted, 10u);
+  EXPECT_GE(rejected, 16u);
+}
+
 INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()), [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

@@ -154,6 +154,10 @@ TEST(Truth, of_a_lamp_above_two_squares) {
   EXPECT_FALSE(graded(soup, lamp, "0\n1\n").wrong());
   std::reverse(lamp.source.begin(), lamp.source.end());
   EXPECT_EQ(graded(soup, lamp, "1\n").wrong_visible, (Faces{1}));
+  lamp.source = {{-1, -1, -2}, {1, -1, -2}, {1, 1, -2}, {-1, 1, -2}};  // looks up at their backs
+  EXPECT_EQ(graded(soup, lamp, "0\n").wrong_visible, (Faces{0}));
+  lamp.two_sided = true;
+  EXPECT_FALSE(graded(soup, lamp, "0\n").wrong());
   lamp.source = {{0, 0, 2}, {1, 0, 2}, {2, 0, 2}};
   EXPECT_NE(truth_of(soup, lamp).not_asked, "");
 }
@@ -310,7 +314,11 @@ TEST(Orders, of_whole_faces_are_graded_as_verify_accepts_them) {
 TEST(Orders, by_exact_trees_are_right_with_rounded_corners_and_wrong_when_reversed) {
   std::size_t cut = 0, wrong = 0;
   for (std::uint64_t seed = 0; seed < rounds; ++seed) {
-    const Heap made = heap(seed, 12);
+    Heap made = heap(seed, 12);
+    if (seed % 2 == 0) {  // in the plane of a face: what is on different sides of it is beside each other, however far apart
+      const std::array<Exact_point, 3> p{made.soup.point(0), made.soup.point(1), made.soup.point(2)};
+      for (std::size_t k = 0; k < 3; ++k) made.eye[k] = p[0][k] + 2 * (p[1][k] - p[0][k]) - 3 * (p[2][k] - p[0][k]);
+    }
     const Scene scene(made.soup);
     const Exact_traits traits(scene);
     const auto tree = build_bsp(traits, {});
