@@ -14,10 +14,10 @@ std::string escaped(const std::string& text) {
 std::string text_of(const Json& value) { return escaped(value.get<std::string>()); }
 
 /// What may become of a case, in the order of the bars, with its colour.
-struct Colour {
+struct Mark_colour {
   const char *mark, *colour;
 };
-constexpr Colour colours[] = {{"right", "#3a923a"}, {"abstained", "#9ecae1"}, {"timed out", "#c7b299"}, {"out of memory", "#8c6d31"}, {"wrong", "#e6872d"}, {"invalid", "#b05ab0"}, {"crashed", "#c22f2f"}};
+constexpr Mark_colour colours[] = {{"right", "#3a923a"}, {"abstained", "#9ecae1"}, {"timed out", "#c7b299"}, {"out of memory", "#8c6d31"}, {"wrong", "#e6872d"}, {"invalid", "#b05ab0"}, {"crashed", "#c22f2f"}};
 
 constexpr const char* style = R"(
 body { font: 14px/1.4 sans-serif; margin: 24px auto; max-width: 1500px; color: #222 }
