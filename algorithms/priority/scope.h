@@ -257,23 +257,23 @@ class Region_relation {
   /// Whether the region holds an eye from which the inside of a may obscure that of b: are there alpha, beta >= 1 and gamma >= 0 with
   ///   sum alpha (a_k, 1) - sum beta (b_l, 1) = sum gamma (p_m, 1),  sum alpha height_b(a_k) >= 1,  sum beta height_a(b_l) <= -1?
   bool meets(const Grid_face& a, const Grid_face& b) const {
-    using Number = CGAL::Gmpz;
-    const auto number = [](const Integer& x) { return Number(x.get_mpz_t()); };
-    CGAL::Quadratic_program<Number> program(CGAL::EQUAL, true, Number(1), false, Number(0));
+    using Wide = CGAL::Gmpz;
+    const auto number = [](const Integer& x) { return Wide(x.get_mpz_t()); };
+    CGAL::Quadratic_program<Wide> program(CGAL::EQUAL, true, Wide(1), false, Wide(0));
     int column = 0;
     const Grid_point& origin = a.corners[0];
     const auto add = [&](const Grid_point& p, int sign) {
       const Grid_point from = priority_detail::difference(p, origin);
       for (int k = 0; k < 3; ++k) program.set_a(column, k, number(Integer(sign * from[static_cast<std::size_t>(k)])));
-      program.set_a(column, 3, Number(sign));
+      program.set_a(column, 3, Wide(sign));
     };
     for (const Grid_point& p : a.corners) add(p, 1), program.set_a(column++, 4, number(b.height(p)));
     for (const Grid_point& p : b.corners) add(p, -1), program.set_a(column++, 5, number(a.height(p)));
-    for (const Grid_point& p : grid_.points) add(p, -1), program.set_l(column++, true, Number(0));
-    for (int k = 0; k < 4; ++k) program.set_b(k, Number(0));
-    program.set_b(4, Number(1)), program.set_r(4, CGAL::LARGER);
-    program.set_b(5, Number(-1)), program.set_r(5, CGAL::SMALLER);
-    return !CGAL::solve_linear_program(program, Number()).is_infeasible();
+    for (const Grid_point& p : grid_.points) add(p, -1), program.set_l(column++, true, Wide(0));
+    for (int k = 0; k < 4; ++k) program.set_b(k, Wide(0));
+    program.set_b(4, Wide(1)), program.set_r(4, CGAL::LARGER);
+    program.set_b(5, Wide(-1)), program.set_r(5, CGAL::SMALLER);
+    return !CGAL::solve_linear_program(program, Wide()).is_infeasible();
   }
 
   const Priority_relation<Traits>* faces_;
