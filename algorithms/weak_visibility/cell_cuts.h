@@ -59,6 +59,16 @@ inline Triple inward_of(const Near_polygon& polygon, std::size_t e) {
   return inward;
 }
 
+/// The plane on which a normal of few bits takes a height, rounded down to a few thousandths of an extent, so that it and what it cuts keep few bits.
+inline Near_plane plane_at(const Near_frame& frame, const Triple& normal, double height, double extent) {
+  const int step = std::ilogb(extent) - 10;
+  const Rational offset = exact(std::ldexp(std::floor(std::ldexp(height, -step)), step)) * frame.unit();
+  std::array<Integer, 4> h;
+  for (std::size_t k = 0; k < 3; ++k) h[k] = Integer(normal[k]) * offset.get_den();
+  h[3] = -offset.get_num();
+  return near_plane(frame, h);
+}
+
 /// Planes parallel to edges, each with none of the cell's lines behind it, by doubles; none where together they leave four fifths of the polygons.
 /// Pre: `game` is the cell's relaxation, solved.
 inline std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, const Near_frame& frame, Weak_counters& counters) {
@@ -85,13 +95,7 @@ inline std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& 
       }
       if (empty == 0) continue;
       kept *= 1 - empty;
-      // In grid coordinates: the normal has few bits already, the height gets few.
-      const double height = low + empty * (high - low);
-      const Rational offset = exact(std::ldexp(std::floor(std::ldexp(height, 30)), -30)) * frame.unit();
-      std::array<Integer, 4> h;
-      for (std::size_t k = 0; k < 3; ++k) h[k] = Integer(inward[k]) * offset.get_den();
-      h[3] = -offset.get_num();
-      cuts.push_back({source, near_plane(frame, h)});
+      cuts.push_back({source, plane_at(frame, inward, low + empty * (high - low), high - low)});
     }
   }
   if (!(kept < 0.8)) cuts.clear();
@@ -113,15 +117,14 @@ inline std::optional<Cell_cut> bisector(const Line_domain& domain, const Near_fr
   std::array<std::size_t, 2> s{}, t{};
   const bool source = longest(domain.source, s) >= longest(domain.target, t);
   const Near_point &a = source ? domain.source[s[0]] : domain.target[t[0]], &b = source ? domain.source[s[1]] : domain.target[t[1]];
-  const Triple direction{b.near[0] - a.near[0], b.near[1] - a.near[1], b.near[2] - a.near[2]};
-  const double scale = size(direction);
+  Triple normal{b.near[0] - a.near[0], b.near[1] - a.near[1], b.near[2] - a.near[2]};
+  const double scale = size(normal);
   if (!(scale > 0)) return {};
-  std::array<Integer, 4> h;  // its normal has few bits
-  for (std::size_t k = 0; k < 3; ++k) h[k] = static_cast<long>(std::lround(direction[k] / scale * 16));
-  for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * (a.exact[k] * b.exact[3] + b.exact[k] * a.exact[3]);
-  const Integer weight = 2 * a.exact[3] * b.exact[3];
-  for (std::size_t k = 0; k < 3; ++k) h[k] *= weight;
-  const Near_plane plane = near_plane(frame, h);
+  for (double& x : normal) x = std::round(x / scale * 16);
+  double low = 0, high = 0;
+  for (std::size_t k = 0; k < 3; ++k) low += normal[k] * a.near[k], high += normal[k] * b.near[k];
+  if (!(high - low > 0x1p-900)) return {};
+  const Near_plane plane = plane_at(frame, normal, (low + high) / 2, high - low);
   if (!is_across(plane, source ? domain.source : domain.target)) return {};
   return Cell_cut{source, plane};
 }

@@ -152,7 +152,7 @@ class Line_search {
 
   Refutation refute(std::uint32_t d, std::size_t depth) {
     counters_->deepest = std::max(counters_->deepest, depth);
-    if (++cells_ > options_->cells || depth > deepest || (cells_ % 64 == 0 && options_->out_of_time && options_->out_of_time())) return open();
+    if (++cells_ > options_->cells || depth > deepest || (options_->out_of_time && options_->out_of_time())) return open();
     ++counters_->cells;
     Line_weights line;
     Refutation ended;

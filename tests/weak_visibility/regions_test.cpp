@@ -123,7 +123,7 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
       const Occluders occluders(read);
       const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
       Weak_options lines;
-      lines.search.cells = seed % 2 == 0 ? 1000 : 1, lines.search.rays = 0;  // so few cells that there is something to do, also where faces are visible
+      lines.search.cells = seed % 2 == 0 ? 100 : 1, lines.search.rays = 0;  // so few cells that there is something to do, also where faces are visible
       Weakly_visible found = weakly_visible(occluders, sources, lines);
       const Weakly_visible before = found;
       settle_by_events(occluders, sources, 0, {}, found);  // no edges allowed: as it was
