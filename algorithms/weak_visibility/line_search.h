@@ -121,18 +121,19 @@ class Line_search {
     return false;
   }
 
-  /// Notes how much each candidate blocks, by samples.
+  /// Notes how much each candidate blocks, by samples; the fewer there are, the fewer samples.
   void weigh_candidates(std::uint32_t d) {
+    const std::size_t samples = std::min<std::size_t>(32, domains_[d]->candidates.size() / 8);
+    if (samples == 0) return;
     std::unordered_map<std::uint32_t, int> hits;
     std::vector<Candidate> blockers;
-    for (int k = 0; k < samples; ++k) {
+    for (std::size_t k = 0; k < samples; ++k) {
       find_blockers(d, random_line(*domains_[d]), blockers, false);
       for (const Candidate& blocker : blockers) ++hits[blocker.piece];
     }
     for (Candidate& candidate : domains_[d]->candidates)
-      if (const auto found = hits.find(candidate.piece); found != hits.end()) candidate.share = static_cast<float>(found->second) / samples;
+      if (const auto found = hits.find(candidate.piece); found != hits.end()) candidate.share = static_cast<float>(found->second) / static_cast<float>(samples);
   }
-  static constexpr int samples = 32;
   Line_weights random_line(const Line_domain& domain) {
     std::uniform_real_distribution<double> unit(0.05, 1);
     Line_weights line = Line_weights::middle(domain);
