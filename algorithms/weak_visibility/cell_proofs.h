@@ -219,9 +219,10 @@ class Cell_proofs {
       if (sgn(h[0]) == 0 && sgn(h[1]) == 0 && sgn(h[2]) == 0) return false;
       const Near_plane plane = near_plane(occluders_->frame(), h);
       const Near_polygon& polygon = source ? cell.domain->source : cell.domain->target;
-      if (is_across(plane, polygon)) return false;
+      const int position = side(plane, polygon);
+      if (position == both_sides) return false;
       const Line_cell::Row& row = cell.rows[rows[k]];
-      const int sign = side(plane, polygon) * row.literal.sign;
+      const int sign = position * row.literal.sign;
       if (sign == 0) continue;
       if (all == 0) all = sign;
       if (sign != all) return false;

@@ -13,21 +13,11 @@ struct Conservative_options {
 
 namespace conservative_detail {
 
-/// 1 or -1: a polygon is on that closed side of a plane, and not all in it; 0: it is in the plane; 2: it is on both sides.
-inline int side_of(const Near_plane& plane, const Near_polygon& polygon) {
-  bool front = false, behind = false;
-  for (const Near_point& p : polygon) {
-    const int s = side(plane, p);
-    front |= s > 0, behind |= s < 0;
-  }
-  return front && behind ? 2 : front ? 1 : behind ? -1 : 0;
-}
-
 /// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between them, and on no pair of corners does a line pass an
 /// edge outside. Exact: yes. Proof: P-70
 inline bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target, std::span<const Six> pairs) {
-  const int front = side_of(occluders.plane(piece), source);
-  if (front == 0 || front == 2 || side_of(occluders.plane(piece), target) != -front) return false;
+  const int front = side(occluders.plane(piece), source);
+  if (front == 0 || front == both_sides || side(occluders.plane(piece), target) != -front) return false;
   const std::span<const Triple> corners = occluders.corners(piece);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const double a = size(corners[i]), b = size(corners[(i + 1) % corners.size()]);
@@ -55,7 +45,7 @@ inline std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders
   Near_polygon target = occluders.polygon(piece);
   std::vector<Weak_step> proof;
   const auto leaf = [&](const Near_polygon& from) -> std::optional<Weak_step> {
-    const int towards = side_of(source.plane, target), back = side_of(plane, from);
+    const int towards = side(source.plane, target), back = side(plane, from);
     if (towards <= 0 || (back < 0 && !two_sided)) return Weak_step{Kind::away, 0, {}, {}};
     std::vector<Six> pairs;
     for (const Near_point& p : from)
@@ -64,12 +54,12 @@ inline std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders
       if (blocks_all(occluders, near, from, target, pairs)) return Weak_step{Kind::blocked, near, {}, {}};
     return {};
   };
-  const bool cut_target = side_of(source.plane, target) == 2;
+  const bool cut_target = is_across(source.plane, target);
   if (cut_target) {
     proof.push_back({Kind::cut_target, 0, source.plane.exact, {}});
     target = clip(occluders.frame(), target, source.plane, true);
   }
-  const bool cut_source = side_of(plane, source.polygon) == 2;
+  const bool cut_source = is_across(plane, source.polygon);
   if (cut_source) proof.push_back({Kind::cut_source, 0, plane.exact, {}});
   for (const bool front : {true, false}) {
     if (!cut_source && !front) break;

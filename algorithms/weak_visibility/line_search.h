@@ -99,10 +99,9 @@ class Line_search {
       int sense = candidate.sense;
       if (sense == 0) {
         const Near_plane& h = occluders_->plane(candidate.piece);
-        const bool s_across = is_across(h, domain.source), t_across = is_across(h, domain.target);
-        const int s = s_across ? 2 : side(h, domain.source), t = t_across ? 2 : side(h, domain.target);
-        if (s == 0 || t == 0 || (s == t && s != 2)) continue;
-        if (s != 2 && t != 2) sense = s;
+        const int s = side(h, domain.source), t = side(h, domain.target);
+        if (s == 0 || t == 0 || (s == t && s != both_sides)) continue;
+        if (s != both_sides && t != both_sides) sense = s;
       }
       domain.candidates[kept++] = {candidate.piece, sense, candidate.share};
     }

@@ -101,22 +101,17 @@ inline int side(const Near_plane& h, const Near_point& p) {
   return sgn(sum);
 }
 
-/// Whether a polygon has vertices on both sides of a plane. Exact: yes.
-inline bool is_across(const Near_plane& h, const Near_polygon& polygon) {
+inline constexpr int both_sides = 2;
+/// 1 or -1: a polygon is on that closed side of a plane, and not all in it; 0: it is in the plane; `both_sides`: it has vertices on both sides. Exact: yes.
+inline int side(const Near_plane& h, const Near_polygon& polygon) {
   bool front = false, behind = false;
   for (const Near_point& p : polygon) {
     const int s = side(h, p);
     front |= s > 0, behind |= s < 0;
   }
-  return front && behind;
+  return front && behind ? both_sides : front ? 1 : behind ? -1 : 0;
 }
-/// The side of a polygon that is not across: 0 where all of it is in the plane. Exact: yes.
-inline int side(const Near_plane& h, const Near_polygon& polygon) {
-  int result = 0;
-  for (const Near_point& p : polygon)
-    if (const int s = side(h, p); s != 0) result = s;
-  return result;
-}
+inline bool is_across(const Near_plane& h, const Near_polygon& polygon) { return side(h, polygon) == both_sides; }
 
 inline Integer value(const Near_plane& h, const Near_point& p) { return Integer(h.exact[0] * p.exact[0] + h.exact[1] * p.exact[1] + h.exact[2] * p.exact[2] + h.exact[3] * p.exact[3]); }
 
