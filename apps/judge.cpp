@@ -37,14 +37,29 @@ std::string command_again(const Judge_arguments& arguments, const std::string& w
                      arguments.two_sided ? " --two-sided" : "", arguments.cycles ? " --cycles" : "");
 }
 
-/// A case made smaller as long as the program breaks the contract in the same way: how far, and the files that are kept. Faces stay planar, and coordinates doubles where these are wanted.
+/// Whether a face has a corner twice.
+bool repeats_a_corner(const Polygon_soup& soup) {
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const auto loop = soup.loop(f);
+    std::set<Exact_point> corners;
+    for (const Point_id p : loop) corners.insert(soup.point(p));
+    if (corners.size() < loop.size()) return true;
+  }
+  return false;
+}
+
+/// Whether a case is broken as another one is: the same mark, and faces wrong in no way that is new.
+bool broken_alike(const Judged& judged, const Judged& broken) {
+  return judged.breaks && judged.mark == broken.mark && (judged.grade.wrong_visible.empty() || !broken.grade.wrong_visible.empty()) && (judged.grade.wrong_hidden.empty() || !broken.grade.wrong_hidden.empty());
+}
+
+/// A case made smaller as long as the program breaks the contract in the same way: how far, and the files that are kept. Faces stay planar, their corners apart, and coordinates doubles where these are wanted.
 Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
   const auto case_of_smaller = [&](const generate::Posed_scene& smaller) { return case_of(smaller.soup, {asked.query.question, smaller.eye, smaller.source, asked.query.two_sided}, arguments.case_options()); };
+  const bool repeats = repeats_a_corner(asked.soup);
   const auto fails = [&](const generate::Posed_scene& smaller) {
     const Judge_case other = case_of_smaller(smaller);
-    if (!other.as_given) return false;
-    const Judged judged = court.judge(other, broken.seed);
-    return judged.breaks && judged.mark == broken.mark;
+    return other.as_given && (repeats || !repeats_a_corner(other.soup)) && broken_alike(court.judge(other, broken.seed), broken);
   };
   const Stopwatch watch;
   Progress progress("reducing");

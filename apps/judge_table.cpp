@@ -60,7 +60,7 @@ void print_verdict(const Json& document) {
     std::cout << fmt::format("  again: {}\n", s["again"].get<std::string>());
     if (s.contains("reduced")) {
       const Json& r = s["reduced"];
-      std::cout << fmt::format("made smaller, to {} faces in {} runs{}: {}: {}\n", r["faces"].get<std::size_t>(), r["runs"].get<std::size_t>(), r["finished"] == true ? "" : ", not to the end", r["mark"].get<std::string>(), r["why"].get<std::string>());
+      std::cout << fmt::format("made smaller, to {} of {} faces in {} runs{}: {}: {}\n", r["faces"].get<std::size_t>(), s["faces"].get<std::size_t>(), r["runs"].get<std::size_t>(), r["finished"] == true ? "" : ", not to the end", r["mark"].get<std::string>(), r["why"].get<std::string>());
       for (const Json& file : r["files"]) std::cout << fmt::format("  kept: {}\n", file.get<std::string>());
       std::cout << fmt::format("  again: {}\n", r["again"].get<std::string>());
     }

@@ -105,14 +105,26 @@ TEST_F(Judge, makes_the_smallest_smaller_and_asks_it_again) {
 }
 
 TEST_F(Judge, makes_scenes_smaller_that_break_the_contract_in_the_same_way) {
-  // It crashes where there is a quad, and is wrong of triangles too: what is left is a quad.
+  // It crashes where there is a quad, and is wrong of triangles too: what is left is a quad, its corners apart.
   const Json j = judge(shell("grep -q \"^4 \" $1 && exit 3; echo 0 > $3"), {"--query", "weak", "--contract", "exact", "--families", "stacked", "--size", "3", "--ulps", "0", "--cases", "1", "--keep", path("kept").string(), "--reduce", "60"},
                        disagreement);
   const Json& r = j["result"]["smallest"]["reduced"];
   EXPECT_EQ(r["mark"], "crashed") << r;
   EXPECT_EQ(r["faces"], 1) << r;
   const std::string left = read_file(path("kept") / "reduced.off");
-  EXPECT_EQ(left.substr(left.rfind('\n', left.size() - 2) + 1, 2), "4 ") << left;
+  EXPECT_EQ(left.substr(left.rfind('\n', left.size() - 2) + 1), "4 0 1 2 3\n") << left;
+}
+
+TEST_F(Judge, makes_scenes_smaller_that_have_the_same_kind_of_wrong_face) {
+  // Face 1, which is hidden, is shown as long as there are three faces; nothing is shown of fewer, where the first is missing then.
+  const std::string three = "OFF\n12 3 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 8 9 10 11\n4 4 5 6 7\n4 0 1 2 3\n";
+  const std::string query = file("query.json", R"({"query": "see", "eye": [0, 0, 9], "two_sided": false})");
+  const Json j = judge(shell("test $(grep -c \"^[34] [0-9]* [0-9]* [0-9]*\" $1) -lt 3 || printf \"0\\n1\\n\" > $3; touch $3"),
+                       {"--query", "see", "--contract", "exact", "--scenes", file("three.off", three), "--ask", query, "--keep", path("kept").string(), "--reduce", "60"}, disagreement);
+  EXPECT_EQ(j["result"]["smallest"]["why"], "face 1 is shown but hidden");
+  const Json& r = j["result"]["smallest"]["reduced"];
+  EXPECT_EQ(r["faces"], 3) << r;
+  EXPECT_EQ(r["why"].get<std::string>().find("missing"), std::string::npos) << r;
 }
 
 TEST_F(Judge, gives_the_scene_in_the_format_that_is_asked_for) {
