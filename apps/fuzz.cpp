@@ -2,6 +2,7 @@
 
 #include "fuzz.h"
 
+#include "case_watch.h"
 #include "query.h"
 
 #include <sightline/algorithms/harness/fuzz.h>
@@ -9,15 +10,7 @@
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 
-#include <unistd.h>
-
-#include <csignal>
-#include <cstring>
 #include <iostream>
-
-#if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/common_interface_defs.h>
-#endif
 
 namespace sightline::app {
 
@@ -25,7 +18,7 @@ namespace {
 
 struct Fuzz_arguments {
   std::string command, family, only, check, scene, query, out = "sightline-fuzz", json;
-  double seconds = 60;
+  double seconds = 60, case_seconds = 120;
   std::size_t scenes = 0, most_faces = harness::Fuzz_options{}.most_faces;
   std::uint64_t seed = 1;
 };
@@ -39,34 +32,6 @@ std::vector<std::string> subject_names() {
   std::vector<std::string> names;
   for (const harness::Subject& subject : all_subjects()) names.push_back(subject.name);
   return names;
-}
-
-// ---- What a crash leaves behind ----------------------------------------------------------------------------------------------------
-
-/// The command that replays the case that is being run, for signal handlers.
-char current_case[1024];
-
-void tell_current_case() {
-  if (current_case[0] == 0) return;
-  const char* const before = "sightline fuzz: ended in the case that this replays: ";
-  [[maybe_unused]] const ssize_t first = write(2, before, std::strlen(before));
-  [[maybe_unused]] const ssize_t second = write(2, current_case, std::strlen(current_case));
-}
-extern "C" void end_by_signal(int number) {
-  tell_current_case();
-  std::signal(number, SIG_DFL);
-  std::raise(number);
-}
-void watch_for_crashes() {
-  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGTERM, SIGINT}) std::signal(number, end_by_signal);
-#if defined(__SANITIZE_ADDRESS__)
-  __sanitizer_set_death_callback(tell_current_case);
-#endif
-}
-void set_current_case(const std::string& command) {
-  const std::size_t length = std::min(command.size(), sizeof current_case - 2);
-  std::memcpy(current_case, command.data(), length);
-  current_case[length] = '\n', current_case[length + 1] = 0;
 }
 
 // ---- Reports -------------------------------------------------------------------------------------------------------------------------
@@ -95,6 +60,8 @@ std::string write_failing(const Fuzz_arguments& arguments, const generate::Posed
   return fmt::format("sightline fuzz {} --scene {} --query {} --check '{}'", arguments.command, stem + ending, stem + ".json", check);
 }
 
+std::string replay_of(const Fuzz_arguments& arguments, const harness::Fuzz_case& which) { return fmt::format("sightline fuzz {} --case {}", arguments.command, to_string(which)); }
+
 /// One scene, be it of a case or of a file: all checks, or the named one.
 Exit run_one(const harness::Subject& subject, const generate::Posed_scene& scene, std::uint64_t seed, const std::string& where, const std::string& check) {
   std::size_t cases = 0, undecided = 0;
@@ -121,7 +88,7 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
     progress(static_cast<std::size_t>(1000 * watch.seconds()), static_cast<std::size_t>(1000 * arguments.seconds));
     return arguments.scenes == 0 && watch.seconds() >= arguments.seconds;
   };
-  options.begin = [&](const harness::Fuzz_case& which) { set_current_case(fmt::format("sightline fuzz {} --case {}", arguments.command, to_string(which))); };
+  options.begin = [&](const harness::Fuzz_case& which) { begin_case(replay_of(arguments, which), arguments.case_seconds); };
   harness::Fuzz_summary summary;
   std::optional<harness::Finding> finding;
   try {
@@ -130,15 +97,20 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
     throw Usage_error(error.what());
   }
   const double seconds = watch.seconds();
+  end_case();
 
   std::string replay, smaller;
   harness::Reduced reduced;
   if (finding) {
-    replay = fmt::format("sightline fuzz {} --case {}", arguments.command, to_string(finding->which));
+    replay = replay_of(arguments, finding->which);
     harness::Reduce_options limits;
     const Stopwatch since;
-    limits.out_of_time = [&] { return since.seconds() > 120; };
+    limits.out_of_time = [&] {
+      begin_case(replay, arguments.case_seconds, "making the case small that this replays");
+      return since.seconds() > 120;
+    };
     reduced = harness::reduce(subject, finding->scene, finding->which.parameters.seed, finding->disagreement, limits);
+    end_case();
     smaller = write_failing(arguments, reduced.scene, finding->which.parameters.seed, finding->disagreement.check);
   }
 
@@ -177,6 +149,7 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
     throw Usage_error(fmt::format("--check '{}': {} has {}", arguments.check, subject.name, names));
   }
   watch_for_crashes();
+  const std::string checks = arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
   if (!arguments.scene.empty()) {
     generate::Posed_scene scene;
     std::uint64_t seed = 1;
@@ -186,6 +159,7 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
     }
     scene.soup = read_scene(std::filesystem::path(arguments.scene));
     if (subject.wants_source && scene.source.empty()) throw Usage_error("'" + subject.name + "' wants a --query with a source polygon");
+    begin_case(fmt::format("sightline fuzz {} --scene {}{}{}", arguments.command, arguments.scene, arguments.query.empty() ? "" : " --query " + arguments.query, checks), arguments.case_seconds);
     return run_one(subject, scene, seed, arguments.scene, arguments.check);
   }
   if (!arguments.only.empty()) {
@@ -198,6 +172,7 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
       throw Usage_error(std::string("--case: ") + error.what());
     }
     if (subject.wants_source && scene.source.empty()) throw Usage_error(fmt::format("--case: '{}' wants a source polygon, and '{}' has none", subject.name, which.family));
+    begin_case(replay_of(arguments, which) + checks, arguments.case_seconds);
     return run_one(subject, scene, which.parameters.seed, "case " + to_string(which), arguments.check);
   }
   return run_many(arguments, subject);
@@ -221,6 +196,7 @@ void add_fuzz(CLI::App& app) {
   auto a = std::make_shared<sightline::app::Fuzz_arguments>();
   command->add_option("COMMAND", a->command, "what to run, see below")->required()->check(CLI::IsMember(sightline::app::subject_names()));
   command->add_option("--seconds", a->seconds, "how long to draw scenes")->check(CLI::PositiveNumber & sightline::app::finite_number)->capture_default_str();
+  command->add_option("--case-seconds", a->case_seconds, "a case that takes longer ends the run: a finding, named on standard error")->check(CLI::PositiveNumber & sightline::app::finite_number)->capture_default_str();
   command->add_option("--scenes", a->scenes, "draw so many scenes instead, however long that takes")->check(sightline::app::whole_number);
   command->add_option("--seed", a->seed, "one seed is one sequence of cases")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");
@@ -232,7 +208,7 @@ void add_fuzz(CLI::App& app) {
   command->add_option("--out", a->out, "the folder for the smallest failing scene")->capture_default_str();
   command->add_option("--json", a->json, "write the summary as JSON to this file, - for standard output");
   command->footer("Commands and their checks; each answer is also checked by itself ('certificate'):" + sightline::app::list_of_checks() +
-                  "\nExit codes: 0 nothing found, 1 something disagrees, 2 usage, 3 bad input."
+                  "\nExit codes: 0 nothing found, 1 something disagrees or a case does not end, 2 usage, 3 bad input."
                   "\nExample: sightline fuzz see --seconds 600 --seed 7 --out found");
   set_action(*command, [a] { return sightline::app::run_fuzz(*a); });
 }

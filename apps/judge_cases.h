@@ -4,6 +4,7 @@
 #include <sightline/algorithms/generate/families.h>
 #include <sightline/algorithms/judge/truth.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,36 @@ struct Case_options {
 struct Judge_case {
   Polygon_soup soup;
   judge::Query query;
-  std::vector<Face_id> visible, hidden;  ///< what construction knows of a weak query, where nothing was rounded
+  std::vector<Face_id> visible, hidden;  ///< what construction knows of a weak query, where it is as given
+  bool as_given = true;                  ///< nothing was rounded, no face cut
   std::string not_asked;
 };
 
 /// A case of a family. Where weak visibility is asked and the family names no source, a face of the scene looks. The same arguments give the same case.
 Judge_case case_of(const generate::Family& family, const generate::Family_parameters& parameters, const Case_options& options);
 
+/// A query about a scene.
+Judge_case case_of(const Polygon_soup& scene, const judge::Query& query, const Case_options& options);
+
 /// A case of a scene of somebody's: an eye in or about its box, or a small square there that looks along an axis.
 Judge_case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_options& options);
+
+/// Which cases are wanted.
+struct Case_choice {
+  std::vector<std::string> families;  ///< none: all
+  std::vector<std::string> ulps;      ///< whole numbers, or `far`
+  std::size_t size = 0;               ///< of families' scenes; 0: small
+  std::string scenes, ask;            ///< instead of families, a folder or a file; and a file with the one query about it, instead of queries of our own
+};
+
+/// What all cases of a family have in common at one distance, or all of a scene, and how to make them.
+struct Case_group {
+  std::string family, distance;
+  std::string again;  ///< the options that ask one of these cases again, but for its seed
+  std::function<Judge_case(std::uint64_t seed)> make;
+};
+
+/// Errors: Usage_error naming the option.
+std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options);
 
 }  // namespace sightline::app

@@ -74,6 +74,8 @@ std::string judge_page(const Json& document) {
     const Json& s = result["smallest"];
     html += fmt::format("<p>The smallest that breaks it: {} ({}), seed {}, {} faces: {}: {}.<br>Again: <code>{}</code></p>\n", text_of(s["family"]), text_of(s["distance"]), s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(), text_of(s["mark"]),
                         text_of(s["why"]), text_of(s["again"]));
+    if (s.contains("reduced"))
+      html += fmt::format("<p>Made smaller, it has {} faces: {}: {}.<br>Again: <code>{}</code></p>\n", s["reduced"]["faces"].get<std::size_t>(), text_of(s["reduced"]["mark"]), text_of(s["reduced"]["why"]), text_of(s["reduced"]["again"]));
   }
 
   // 2. The table.

@@ -112,6 +112,13 @@ std::vector<std::string> split_words(const std::string& command) {
   return words;
 }
 
+std::string shell_word(const std::string& text) {
+  if (!text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%{}") == std::string::npos && text.find("{}") == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
 Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits, const std::string& output_file) {
   std::vector<char*> argv;
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));

@@ -26,6 +26,9 @@ struct Process_end {
 /// Words as a shell would split them: blanks between, '...' and "..." hold a word together. Errors: std::invalid_argument where a quote is open.
 std::vector<std::string> split_words(const std::string& command);
 
+/// Text as one word of a shell's command line.
+std::string shell_word(const std::string& text);
+
 /// Runs a program (found along PATH) without input, what it prints into a file, and waits for its end, or ends it and all that it started. It cannot write files beyond 256 MiB, nor leave a core.
 /// Errors: std::runtime_error where it cannot be started, saying why.
 Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits, const std::string& output);

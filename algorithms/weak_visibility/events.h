@@ -397,13 +397,8 @@ class Event_search {
         left.push_back(whole);
         continue;
       }
-      bool joined = false;  // to the part before
-      for (const Parameter_range& part : divided(whole.range, polynomials(curve, blocker.literals))) {
-        const bool blocked = common_sign(curve, blocker.literals, inner_rational(part)) == whole.turn;
-        if (!blocked && joined) left.back().range.high = part.high;
-        else if (!blocked) left.push_back({part, whole.turn});
-        joined = !blocked;
-      }
+      const auto is_blocked = [&](const Rational& s) { return common_sign(curve, blocker.literals, s) == whole.turn; };
+      for (const Parameter_range& part : parts_without(whole.range, polynomials(curve, blocker.literals), is_blocked)) left.push_back({part, whole.turn});
     }
     active = std::move(left);
   }

@@ -118,4 +118,19 @@ inline std::vector<Parameter_range> divided(const Parameter_range& range, std::s
   return parts;
 }
 
+/// What is left of a range where something does not hold that changes at roots of polynomials only: parts in order, neighbours joined, with the root between them. `holds(s)` is asked once
+/// in each part. Degenerate: what holds just at a root takes nothing away. Exact: if `holds` is
+template <class Holds>
+std::vector<Parameter_range> parts_without(const Parameter_range& range, std::span<const Quadratic> polynomials, Holds holds) {
+  std::vector<Parameter_range> left;
+  bool joined = false;  // to the part before
+  for (const Parameter_range& part : divided(range, polynomials)) {
+    const bool is_left = !holds(inner_rational(part));
+    if (is_left && joined) left.back().high = part.high;
+    else if (is_left) left.push_back(part);
+    joined = is_left;
+  }
+  return left;
+}
+
 }  // namespace sightline

@@ -63,7 +63,7 @@ ${switches}
 ")
 file(WRITE "${PROJECT_BINARY_DIR}/faults.txt" "${hunts}")  # for tests/faults/hunt: a name, and what is to find it
 
-add_executable(sightline_faulty EXCLUDE_FROM_ALL tests/faults/program/main.cpp apps/fuzz.cpp apps/fuzz_io.cpp apps/query.cpp apps/common.cpp)
+add_executable(sightline_faulty EXCLUDE_FROM_ALL tests/faults/program/main.cpp apps/fuzz.cpp apps/case_watch.cpp apps/fuzz_io.cpp apps/query.cpp apps/common.cpp)
 target_link_libraries(sightline_faulty PRIVATE program_settings)
 add_executable(fuzz_targets_faulty EXCLUDE_FROM_ALL tests/fuzz/program/main.cpp)
 target_link_libraries(fuzz_targets_faulty PRIVATE test_settings)

@@ -91,6 +91,21 @@ inline void quadratic_roots(std::string_view bytes) {
     const Rational s = inner_rational(part), t = inner_rational(part, 1);
     for (const Quadratic& q : f) require(q.is_zero() || (q.sign(s) == q.sign(t) && q.sign(s) != 0), "no root is within a part");
   }
+
+  // What some signs leave of the range.
+  const std::array signs{from.below(2) == 0 ? 1 : -1, from.below(2) == 0 ? 1 : -1};
+  const auto holds = [&](const Rational& s) { return f[0].sign(s) == signs[0] && f[1].sign(s) == signs[1]; };
+  const std::vector<Parameter_range> left = parts_without(whole, f, holds);
+  bool before = false;
+  std::size_t runs = 0;
+  for (const Parameter_range& part : parts) {
+    const Rational s = inner_rational(part);
+    const Quadratic_root at(s.get_num(), 0, Integer(0), s.get_den());
+    const bool is_left = std::any_of(left.begin(), left.end(), [&](const Parameter_range& range) { return range.low < at && at < range.high; });
+    require(is_left == !holds(s), "what is left is where it does not hold");
+    runs += is_left && !before, before = is_left;
+  }
+  require(left.size() == runs, "neighbours are joined");
 }
 
 }  // namespace fuzz

@@ -3,6 +3,7 @@
 
 #include "certificate.h"
 #include "decimal.h"
+#include "event_cells.h"
 #include "fixed_integer.h"
 #include "mutate.h"
 #include "quadratic_roots.h"
@@ -31,7 +32,8 @@ inline const std::vector<Target>& targets() {
                                        {"certificate", certificate, {".json"}},
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
-                                       {"quadratic_roots", quadratic_roots, {}}};
+                                       {"quadratic_roots", quadratic_roots, {}},
+                                       {"event_cells", event_cells, {}}};
   return all;
 }
 

@@ -50,6 +50,21 @@ TEST_F(Fuzz, a_case_and_a_scene_with_its_query_run_alone) {
   EXPECT_NE(wrong.out.find("DISAGREEMENT"), std::string::npos) << wrong;
 }
 
+TEST_F(Fuzz, a_case_that_does_not_end_in_time_ends_the_run_and_is_named) {
+  const Outcome r = run({"fuzz", "weak", "--family", "triangles", "--case-seconds", "0.001"});
+  EXPECT_EQ(r.code, disagreement) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+  const std::string before = "sightline fuzz: no end within 0.001 s in the case that this replays: sightline fuzz weak --case ";
+  ASSERT_TRUE(r.err.starts_with(before)) << r;
+  const std::string name = r.err.substr(before.size(), r.err.size() - before.size() - 1);
+  const Outcome again = run({"fuzz", "weak", "--case", name, "--case-seconds", "0.001"});
+  EXPECT_EQ(again.code, disagreement) << again;
+  EXPECT_NE(again.err.find(name), std::string::npos) << again;
+  EXPECT_EQ(run({"fuzz", "weak", "--case", name}).code, done) << "with time enough it ends";
+  // Each case has its own time.
+  EXPECT_EQ(run({"fuzz", "io", "--seconds", "1", "--case-seconds", "0.5"}).code, done);
+}
+
 TEST_F(Fuzz, what_it_found_is_mended) {
   const std::string query = file("query.json", R"({"format": "sightline query 1", "eye": ["0", "0", "0"], "source": [["0", "0", "-2"], ["0", "0", "0"], ["1", "0", "0"]]})");
   const Outcome r = run({"fuzz", "weak", "--scene", (corpus / "robust" / "far_corner.qoff").string(), "--query", query});
@@ -61,7 +76,7 @@ TEST_F(Fuzz, what_makes_no_sense_is_told) {
   ASSERT_EQ(run({"generate", "bars", "--size", "3", "--out", scene}).code, done);
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"fuzz", "everything"}, {"fuzz", "see", "--case", "castle:1"}, {"fuzz", "see", "--case", "bars:1:0:x"}, {"fuzz", "weak", "--case", "bars:1"},
                                                                                        {"fuzz", "see", "--family", "castle"}, {"fuzz", "weak", "--family", "bars"}, {"fuzz", "see", "--scenes", "1", "--check", "nothing"},
-                                                                                       {"fuzz", "weak", "--scene", scene}, {"fuzz", "see", "--seconds", "0"}, {"generate", "regulus", "--ulps", "some", "--out", scene},
+                                                                                       {"fuzz", "weak", "--scene", scene}, {"fuzz", "see", "--seconds", "0"}, {"fuzz", "see", "--case-seconds", "0"}, {"generate", "regulus", "--ulps", "some", "--out", scene},
                                                                                        {"generate", "regulus", "--scale", "0", "--out", scene}, {"generate", "regulus", "--scale", "2^2000", "--out", scene}, {"generate", "regulus", "--offset", "1,2", "--out", scene}}) {
     const Outcome r = run(words);
     EXPECT_EQ(r.code, usage) << r;

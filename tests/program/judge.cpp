@@ -80,6 +80,53 @@ TEST_F(Judge, asks_about_scenes_and_keeps_what_went_wrong) {
   EXPECT_NE(s["again"].get<std::string>().find("--cases 1 --seed " + s["seed"].dump() + " --two-sided"), std::string::npos) << s;
 }
 
+TEST_F(Judge, makes_the_smallest_smaller_and_asks_it_again) {
+  // Face 0 is shown always: what is left is one triangle that looks away.
+  const std::string program = shell("echo 0 > $3");
+  const Json j = judge(program, {"--query", "see", "--contract", "aggressive", "--families", "stacked", "--size", "6", "--ulps", "0", "--cases", "4", "--keep", path("kept").string(), "--reduce", "60"}, disagreement);
+  const Json& r = j["result"]["smallest"]["reduced"];
+  EXPECT_EQ(r["faces"], 1) << r;
+  EXPECT_EQ(r["finished"], true) << r;
+  EXPECT_EQ(r["why"], "face 0 is shown but hidden");
+  std::istringstream off(read_file(path("kept") / "reduced.off"));
+  std::string header;
+  std::size_t points = 0, faces = 0;
+  off >> header >> points >> faces;
+  EXPECT_EQ(points, 3u);
+  EXPECT_EQ(faces, 1u);
+  const std::string with = " --scenes " + path("kept/reduced.off").string() + " --ask " + path("kept/reduced.json").string();
+  EXPECT_NE(r["again"].get<std::string>().find(with), std::string::npos) << r;
+  const std::vector<std::string> options{"--query", "see", "--contract", "aggressive", "--scenes", path("kept/reduced.off").string(), "--ask", path("kept/reduced.json").string()};
+  const Json again = judge(program, options, disagreement);
+  EXPECT_EQ(again["result"]["total"]["asked"], 1);
+  EXPECT_EQ(again["result"]["smallest"]["why"], r["why"]);
+  EXPECT_EQ(judge(shell("true > $3"), options, done)["result"]["holds"], true);
+  EXPECT_EQ(Json::parse(read_file(path("kept") / "reduced.json"))["query"], "see");
+}
+
+TEST_F(Judge, makes_scenes_smaller_that_break_the_contract_in_the_same_way) {
+  // It crashes where there is a quad, and is wrong of triangles too: what is left is a quad, its corners apart.
+  const Json j = judge(shell("grep -q \"^4 \" $1 && exit 3; echo 0 > $3"), {"--query", "weak", "--contract", "exact", "--families", "stacked", "--size", "3", "--ulps", "0", "--cases", "1", "--keep", path("kept").string(), "--reduce", "60"},
+                       disagreement);
+  const Json& r = j["result"]["smallest"]["reduced"];
+  EXPECT_EQ(r["mark"], "crashed") << r;
+  EXPECT_EQ(r["faces"], 1) << r;
+  const std::string left = read_file(path("kept") / "reduced.off");
+  EXPECT_EQ(left.substr(left.rfind('\n', left.size() - 2) + 1), "4 0 1 2 3\n") << left;
+}
+
+TEST_F(Judge, makes_scenes_smaller_that_have_the_same_kind_of_wrong_face) {
+  // Face 1, which is hidden, is shown as long as there are three faces; nothing is shown of fewer, where the first is missing then.
+  const std::string three = "OFF\n12 3 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 8 9 10 11\n4 4 5 6 7\n4 0 1 2 3\n";
+  const std::string query = file("query.json", R"({"query": "see", "eye": [0, 0, 9], "two_sided": false})");
+  const Json j = judge(shell("test $(grep -c \"^[34] [0-9]* [0-9]* [0-9]*\" $1) -lt 3 || printf \"0\\n1\\n\" > $3; touch $3"),
+                       {"--query", "see", "--contract", "exact", "--scenes", file("three.off", three), "--ask", query, "--keep", path("kept").string(), "--reduce", "60"}, disagreement);
+  EXPECT_EQ(j["result"]["smallest"]["why"], "face 1 is shown but hidden");
+  const Json& r = j["result"]["smallest"]["reduced"];
+  EXPECT_EQ(r["faces"], 3) << r;
+  EXPECT_EQ(r["why"].get<std::string>().find("missing"), std::string::npos) << r;
+}
+
 TEST_F(Judge, gives_the_scene_in_the_format_that_is_asked_for) {
   for (const std::string format : {"off", "obj", "ply", "qoff"}) {
     const Json j = judge(shell("test -s $1 && case $1 in *." + format + ") echo abstained all > $3;; esac"), {"--query", "weak", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--format", format}, done);
@@ -118,6 +165,11 @@ TEST_F(Judge, says_what_is_wrong_with_a_command_line) {
   complains({"--program", good, "--query", "see", "--contract", "exact", "--ulps", "1.5"}, "--ulps");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", path("nowhere").string()}, "--scenes");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--families", "stacked"}, "exclude each other");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--reduce", "5"}, "--keep");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--ask", tower()}, "--scenes");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", tower()}, "--ask");
+  const std::string other = file("query.json", R"({"query": "order", "eye": [0, 0, 1], "two_sided": false})");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", other}, "another question");
 }
 
 }  // namespace program
