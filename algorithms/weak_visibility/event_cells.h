@@ -50,41 +50,72 @@ inline std::vector<Rational> numbers_between(std::vector<Rational> at) {
   return between;
 }
 
-using Form = std::array<Rational, 3>;
+using Form = std::array<Integer, 3>;
 inline Form cross(const Form& a, const Form& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-inline Rational dot(const Form& a, const Form& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
+inline Integer dot(const Form& a, const Form& b) { return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
+
+/// Divided by a power of two and rounded, so that the largest entry has so many bits. Pre: not zero.
+inline Form rounded(const Form& a, long bits) {
+  long cut = -bits;
+  for (const Integer& x : a) cut = std::max(cut, static_cast<long>(bit_length(x)) - bits);
+  Form result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = cut > 0 ? Integer(a[k] >> static_cast<unsigned long>(cut)) : Integer(a[k] << static_cast<unsigned long>(-cut));
+  return result;
+}
+
+/// A point at which forms have given signs, near the ray and a little to a side of it: of few bits, and of size one at most, whatever the sizes of the forms.
+/// Pre: the signs are those on the ray, and where that is on a plane those beside it.
+inline std::array<Rational, 3> inner_point(const std::vector<Form>& forms, const std::vector<int>& signs, const Form& ray, const Form& beside) {
+  for (long bits = 16;; bits *= 2) {  // rounding moves the point by 2^-bits, the side by 2^(-bits / 2)
+    const Form far = rounded(ray, bits), aside = rounded(beside, bits);
+    Form point;
+    for (std::size_t k = 0; k < 3; ++k) point[k] = (far[k] << static_cast<unsigned long>(bits / 2)) + aside[k];
+    bool inside = true;
+    for (std::size_t k = 0; k < forms.size() && inside; ++k) inside = sgn(dot(forms[k], point)) == signs[k];
+    if (!inside) continue;
+    std::array<Rational, 3> scaled;
+    for (std::size_t k = 0; k < 3; ++k) {
+      scaled[k] = Rational(point[k], Integer(1) << static_cast<unsigned long>(bits + bits / 2 + 1));
+      scaled[k].canonicalize();
+    }
+    return scaled;
+  }
+}
 
 /// Visits a point in each cell of planes through the origin of space, until a visit returns true. Each cell has an edge, in which two planes meet; around
-/// it, planes that hold it make sectors. Pre: three of the forms are independent. Cost: O(n^5). Exact: yes
+/// it, planes that hold it make sectors. Pre: three of the forms are independent. Cost: O(n^5), O(n^3) where no three planes meet in a line. Exact: yes
 template <class Visit>
 bool visit_cells(const std::vector<Form>& forms, Visit visit) {
   std::set<std::vector<int>> seen;
+  std::vector<int> on(forms.size()), signs(forms.size());
   for (std::size_t i = 0; i < forms.size(); ++i)
     for (std::size_t j = i + 1; j < forms.size(); ++j) {
       const Form ray = cross(forms[i], forms[j]);
       if (sgn(ray[0]) == 0 && sgn(ray[1]) == 0 && sgn(ray[2]) == 0) continue;
-      std::vector<Form> around;
-      for (const Form& form : forms)
-        if (sgn(dot(form, ray)) == 0) around.push_back(cross(form, ray));
+      std::vector<Form> around;  // half-planes, in the planes that hold the ray
+      std::size_t first = forms.size();
+      for (std::size_t k = 0; k < forms.size(); ++k) {
+        on[k] = sgn(dot(forms[k], ray));
+        if (on[k] != 0) continue;
+        first = std::min(first, k);
+        around.push_back(cross(forms[k], ray));
+      }
+      if (first < i) continue;  // that ray has been seen
+      std::vector<std::vector<Integer>> heights;  // of half-planes, over each plane that holds the ray
+      for (const Form& half : around) {
+        std::vector<Integer>& own = heights.emplace_back(forms.size());
+        for (std::size_t k = 0; k < forms.size(); ++k)
+          if (on[k] == 0) own[k] = dot(forms[k], half);
+      }
       for (std::size_t a = 0; a < around.size(); ++a)
         for (std::size_t b = a + 1; b < around.size(); ++b)
           for (const int turn : {0, 1, 2, 3, 4, 5, 6, 7}) {
-            Form beside;
-            for (std::size_t k = 0; k < 3; ++k) beside[k] = (turn & 1 ? -1 : 1) * around[a][k] + (turn & 2 ? -1 : 1) * around[b][k];
-            std::vector<int> signs;
-            for (const Form& form : forms) {
-              const int on = sgn(dot(form, ray)) * (turn & 4 ? -1 : 1);
-              signs.push_back(on != 0 ? on : sgn(dot(form, beside)));
-            }
+            const int of_a = turn & 1 ? -1 : 1, of_b = turn & 2 ? -1 : 1, of_ray = turn & 4 ? -1 : 1;
+            for (std::size_t k = 0; k < forms.size(); ++k) signs[k] = on[k] != 0 ? of_ray * on[k] : sgn(Integer(of_a * heights[a][k] + of_b * heights[b][k]));
             if (std::find(signs.begin(), signs.end(), 0) != signs.end() || !seen.insert(signs).second) continue;
-            Form point;
-            for (Rational part = 1;; part /= 2) {
-              bool inside = true;
-              for (std::size_t k = 0; k < 3; ++k) point[k] = (turn & 4 ? -1 : 1) * ray[k] + part * beside[k];
-              for (std::size_t k = 0; k < forms.size() && inside; ++k) inside = sgn(dot(forms[k], point)) == signs[k];
-              if (inside) break;
-            }
-            if (visit(signs, point)) return true;
+            Form forward, beside;
+            for (std::size_t k = 0; k < 3; ++k) forward[k] = of_ray * ray[k], beside[k] = of_a * around[a][k] + of_b * around[b][k];
+            if (visit(signs, inner_point(forms, signs, forward, beside))) return true;
           }
     }
   return false;
@@ -106,9 +137,9 @@ bool visit_cells_at_regulus(const Event_chart& chart, const std::vector<const Ex
     std::array<std::size_t, 3> kept{};
     for (std::size_t k = 0, next = 0; k < 4; ++k)
       if (k != dropped) kept[next++] = k;
-    for (const auto& slope : slopes) forms.push_back({Rational(slope[kept[0]]), Rational(slope[kept[1]]), Rational(slope[kept[2]])});
+    for (const auto& slope : slopes) forms.push_back({slope[kept[0]], slope[kept[1]], slope[kept[2]]});
     if (sgn(dot(cross(forms[0], forms[1]), forms[2])) == 0) continue;
-    return visit_cells(forms, [&](const std::vector<int>& signs, const Form& point) {
+    return visit_cells(forms, [&](const std::vector<int>& signs, const std::array<Rational, 3>& point) {
       Event_move move;
       for (std::size_t k = 0; k < 3; ++k) move.first[kept[k]] = point[k];
       return visit(signs, move);

@@ -152,7 +152,7 @@ class Line_search {
 
   Refutation refute(std::uint32_t d, std::size_t depth) {
     counters_->deepest = std::max(counters_->deepest, depth);
-    if (++cells_ > options_->cells || depth > deepest || (options_->out_of_time && options_->out_of_time())) return open();
+    if (++cells_ > options_->cells || open_ >= options_->open || depth > deepest || (options_->out_of_time && options_->out_of_time())) return open();
     ++counters_->cells;
     Line_weights line;
     Refutation ended;
@@ -185,7 +185,7 @@ class Line_search {
   }
 
   Refutation open() {
-    ++counters_->open;
+    ++counters_->open, ++open_;
     Refutation r = leaf({Weak_step::Kind::open, 0, {}, {}}, {});
     r.status = Weak_status::undecided;
     return r;
@@ -591,7 +591,7 @@ class Line_search {
   std::vector<std::vector<std::uint32_t>> lemmas_of_;
   std::vector<Node> nodes_;
   std::array<Near_point, 2> sightline_;
-  std::size_t cells_ = 0;
+  std::size_t cells_ = 0, open_ = 0;
 };
 
 }  // namespace sightline

@@ -175,6 +175,19 @@ TEST(Events, keep_surfaces_from_source_to_target) {
   }
 }
 
+TEST(Events, find_cells_that_are_ulps_wide) {
+  // Beside lines that nearly touch a regulus twice: planes of cells have thousands of bits there, and the first ways into them were longer than any step was short.
+  constexpr std::size_t tangent = 8;
+  for (const std::uint64_t seed : {22u, 35u, 38u}) {
+    generate::Random random(64 * seed + tangent);
+    const weak_scenes::Draft draft = weak_scenes::drafters[tangent].draft(random, Rational(Integer(1), Integer(1) << 49));
+    Weak_scene scene = weak_scenes::finished(draft, random);
+    scene.name = "tangent " + std::to_string(seed);
+    Event_counters counters;
+    for (Face_id face = 0; face < scene.soup.face_count(); ++face) EXPECT_NE(by_events(scene, face, {}, counters), Weak_status::undecided) << scene.name << ", face " << face;
+  }
+}
+
 TEST(Events, beyond_the_budget_are_undecided) {
   const Weak_scene scene = weak_scenes::families()[0].make(0);
   Event_counters counters;
@@ -222,6 +235,17 @@ TEST(Event_cells, around_three_skew_lines_are_all_eight) {
   EXPECT_EQ(three, 8u);
   EXPECT_EQ(four, 14u);  // four planes through a point in general position
   expect_all_cells(chart, {&lines[0], &lines[1], &lines[2], &lines[3]}, visit);
+  // The same event line by coordinates of thousands of bits: ways into cells stay as short.
+  Event_chart large = chart;
+  for (Homogeneous* point : {&large.v, &large.w, &large.r, &large.n})
+    for (Integer& coordinate : *point) coordinate <<= 3000;
+  visit_cells_at_regulus(large, {&lines[0], &lines[1], &lines[2], &lines[3]}, [&](const auto&, const Event_move& move) {
+    for (const Rational& by : move.first) {
+      EXPECT_LE(abs(by), 1);
+      EXPECT_LE(bit_length(by.get_den()), 64u);
+    }
+    return false;
+  });
 }
 
 TEST(Event_cells, around_a_pencil_reach_between_its_own_lines) {

@@ -72,4 +72,34 @@ TEST(Matrix_game, of_doubles_agrees_with_that_of_rationals_and_both_prove_their_
   }
 }
 
+TEST(Basis, has_its_value_to_hundreds_of_bits_and_exactly_where_that_may_be_zero) {
+  // Of {{1, -1}, {-1, 1 + e}} it is e / (4 + e), with weights (2 + e, 2) / (4 + e).
+  const auto solved_for = [](const Rational& e, std::vector<Rational>& weights) {
+    const Rational a[2][2] = {{1, -1}, {-1, 1 + e}};
+    Rational value;
+    EXPECT_TRUE(sightline::solve_basis({0, 1}, {0, 1}, [&](std::size_t row, std::size_t column) { return a[row][column]; }, weights, value));
+    return value;
+  };
+  std::vector<Rational> weights;
+  for (const unsigned bits : {1u, 100u, 200u, 300u, 1000u})
+    for (const long sign : {1, -1}) {
+      Rational e(sign);
+      mpq_div_2exp(e.get_mpq_t(), e.get_mpq_t(), bits);
+      const Rational truth = e / (4 + e), value = solved_for(e, weights), error = abs(Rational(value - truth));
+      if (bits > 256) {
+        EXPECT_EQ(value, truth) << bits;  // that small it may be zero
+      }
+      EXPECT_LT(error * (sightline::Integer(1) << 200), Rational(abs(truth))) << bits;
+      EXPECT_LT(abs(Rational(weights[0] - (2 + e) / (4 + e))) * (sightline::Integer(1) << 400), 1) << bits;
+    }
+  EXPECT_EQ(solved_for(0, weights), 0);
+  EXPECT_EQ(weights[0], over(1, 2));
+  // A weight that is zero stays so, where others are rounded.
+  const Rational wide[2][2] = {{over(1, 3), over(1, 3)}, {1, 0}};
+  Rational value;
+  ASSERT_TRUE(sightline::solve_basis({0, 1}, {0, 1}, [&](std::size_t row, std::size_t column) { return wide[row][column]; }, weights, value));
+  EXPECT_EQ(weights[1], 0);
+  EXPECT_FALSE(sightline::solve_basis({0, 1}, {0, 1}, [&](std::size_t, std::size_t) { return Rational(1); }, weights, value));
+}
+
 }  // namespace
