@@ -133,6 +133,7 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
       EXPECT_TRUE(found.undecided.empty() && found.open.empty()) << scene.name;
       EXPECT_EQ(found.visible.size() + found.hidden.size(), read.counters().faces) << scene.name;
       EXPECT_GE(counters.targets, before.undecided.size());
+      EXPECT_TRUE(std::is_sorted(found.pairs.begin(), found.pairs.end(), [](const auto& a, const auto& b) { return a.piece < b.piece; })) << scene.name;
       for (const Face_id target : scene.targets) EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << scene.name;
       for (const Face_id face : before.undecided) {
         EXPECT_EQ(contains(found.hidden, face), contains(found.unproved, face)) << scene.name;
@@ -145,6 +146,32 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
     }
   EXPECT_GT(settled, 2u);
   EXPECT_GT(visible, 2u);
+}
+
+TEST(Settled_by_events, are_pairs_with_as_many_edges_as_allowed_and_one_that_is_visible_is_all_that_a_face_needs) {
+  // Two plates hide the target from what is below them; a source beside them sees it.
+  const Points target = reversed(rectangle(-2, 2, -2, 2, 4));
+  const Scene read(generate::soup_of({target, rectangle(-4, 0, -2, 2, 2), rectangle(0, 4, -2, 2, 2)}));
+  const Occluders occluders(read);
+  const std::vector<Weak_source> sources{weak_source(occluders, rectangle(-1, 1, -1, 1, 0)), weak_source(occluders, rectangle(20, 21, -1, 1, 3))};
+  Weak_options lines;
+  lines.search.cells = 0, lines.search.rays = 0;  // all is left open
+  const Weakly_visible open = weakly_visible(occluders, sources, lines);
+  const std::size_t below = edges_between(occluders, sources[0], 0), beside = edges_between(occluders, sources[1], 0);
+  ASSERT_GT(below, beside);
+  const auto settled = [&](std::size_t edges) {
+    Weakly_visible found = open;
+    settle_by_events(occluders, sources, edges, {}, found);
+    return found;
+  };
+  const Weakly_visible none = settled(beside - 1), one = settled(beside);
+  EXPECT_TRUE(contains(none.undecided, 0));
+  EXPECT_EQ(std::count_if(none.open.begin(), none.open.end(), [](const auto& pair) { return pair.piece == 0; }), 2);
+  EXPECT_TRUE(contains(one.visible, 0));
+  std::vector<std::uint32_t> by;
+  for (const Weakly_visible::Pair& pair : one.pairs)
+    if (pair.piece == 0) by.push_back(pair.source);
+  EXPECT_EQ(by, (std::vector<std::uint32_t>{1}));
 }
 
 /// The sign of det[p, q, a, b] in homogeneous coordinates.
