@@ -100,5 +100,25 @@ TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
   EXPECT_GT(forms, 1000u);
 }
 
+TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane_it_is_in_beside_them) {
+  using weak_scenes::at;
+  // A triangle in the plane x = 0, where z <= y.
+  const Scene scene(weak_scenes::soup_of({weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 2)), {at(0, -5, -5), at(0, 5, -5), at(0, 5, 5)}}));
+  const Occluders occluders(scene);
+  const Weak_source source = weak_source(occluders, weak_scenes::rectangle(-1, 1, -1, 1, 0));
+  const auto point = [&](const Rational& x, const Rational& y, const Rational& z) {
+    const Located_point p = scene.locate({x, y, z});
+    return near_point(occluders.frame(), {p.x, p.y, p.z, p.w});
+  };
+  const Rational half(1, 2);
+  const auto blocker = [&](const Rational& y, const Rational& x) { return occluders.blocker(point(0, y, 0), point(x, y, 2), source.plane, occluders.plane(0)); };
+  EXPECT_FALSE(blocker(-half, half));
+  EXPECT_FALSE(blocker(-half, Rational(-half)));
+  EXPECT_EQ(blocker(half, half), 1u);
+  EXPECT_EQ(blocker(half, Rational(-half)), 1u);
+  EXPECT_EQ(blocker(0, half), 1u);  // on its edge
+  EXPECT_EQ(blocker(-half, 0), 1u);  // within its plane: not looked at further
+}
+
 }  // namespace
 }  // namespace weak_cells

@@ -90,6 +90,10 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
     EXPECT_TRUE(contains(quick.hidden, 0)) << turned;
     EXPECT_TRUE(verify_weak(soup, weak_certificate(scene, {source}, turned, quick)).accepted);
   }
+  // A face in the source's plane has nothing in front of it.
+  const Scene floor(generate::soup_of({rectangle(2, 3, -1, 1, 0)}));
+  const Occluders in_plane(floor);
+  EXPECT_TRUE(contains(possibly_visible(in_plane, {weak_source(in_plane, source)}).hidden, 0));
   // The source crosses the target's plane: one of its parts looks at the back. The cover leaves room below the roof; the screen is in the way of both parts.
   const Points across{at(0, 1, -1), at(0, 1, 5), at(0, -1, 5), at(0, -1, -1)}, roof = reversed(rectangle(1, 3, -1, 1, 4));
   const Points cover = rectangle(Rational(1, 2), 4, -4, 4, 3), upright{at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 9), at(Rational(1, 2), 4, 9), at(Rational(1, 2), 4, -2)};
@@ -104,6 +108,14 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
       EXPECT_EQ(contains(quick.visible, 0), before == cover) << two_sided;
       EXPECT_TRUE(verify_weak(soup, weak_certificate(scene, {across}, two_sided, quick)).accepted);
     }
+  // A screen up to the roof's plane is in the way of the part below it, not of the other one.
+  const Scene low(generate::soup_of({roof, {at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 4), at(Rational(1, 2), 4, 4), at(Rational(1, 2), 4, -2)}}));
+  const Occluders below(low);
+  for (const bool two_sided : {false, true}) {
+    Conservative_options options;
+    options.two_sided = two_sided;
+    EXPECT_EQ(contains(possibly_visible(below, {weak_source(below, across)}, options).visible, 0), two_sided);
+  }
 }
 
 // ---- What the search leaves open --------------------------------------------------------------------------------------------------------------
@@ -296,7 +308,10 @@ TEST(Volume, in_a_room_sees_its_walls_whichever_way_its_own_fronts_look) {
     const Seen seen = seen_from(faces, room);
     EXPECT_EQ(seen.answer.visible.size(), 6u);
     EXPECT_TRUE(seen.within.empty());
-    EXPECT_EQ(Weak_volume(generate::soup_of(faces)).surface().size(), 6u);
+    const Weak_volume volume(generate::soup_of(faces));
+    EXPECT_EQ(volume.surface().size(), 6u);
+    for (const Points& part : volume.surface()) EXPECT_LT(weak_oracle::plane_of(part).height(at(Rational(3, 2), Rational(3, 2), Rational(3, 2))), 0) << "looks inwards";
+    EXPECT_TRUE(volume.sees_from_within(rectangle(Rational(5, 4), 3, Rational(5, 4), Rational(7, 4), Rational(3, 2)), false)) << "a part of it is in the solid";
   }
   EXPECT_TRUE(seen_from(solid, box(0, 4, 0, 4, 0, 4)).answer.visible.empty());  // their fronts look away
   EXPECT_EQ(seen_from(solid, box(0, 4, 0, 4, 0, 4), true).answer.visible.size(), 6u);
@@ -375,6 +390,21 @@ TEST(Volume, sees_exactly_what_random_points_of_its_inside_see_or_sightlines_fro
   EXPECT_GT(by_points, 100u);
   EXPECT_GT(by_sightlines, 30u);
   EXPECT_GT(within, 3u);
+}
+
+TEST(Volume, settles_what_it_sees_from_within_and_leaves_no_pairs_of_it_open) {
+  const Weak_volume volume(generate::soup_of(box(0, 3, 0, 3, 0, 3)));
+  const Scene scene(generate::soup_of({{at(1, 1, 1), at(2, 1, 1), at(2, 1, 9), at(1, 1, 9)}, reversed(rectangle(1, 2, 1, 2, 9))}));  // the first one stands in it
+  const Occluders occluders(scene);
+  std::vector<Weak_source> sources;
+  for (const Points& part : volume.surface()) sources.push_back(weak_source(occluders, part));
+  Weak_options options;
+  options.search.cells = 0, options.search.rays = 0, options.search.two_sided = true;  // all is left open
+  Weakly_visible found = weakly_visible(occluders, sources, options);
+  ASSERT_EQ(found.undecided, (Ids{0, 1}));
+  EXPECT_EQ(add_seen_from_within(scene, volume, true, found), (Ids{0}));
+  EXPECT_EQ(found.undecided, (Ids{1}));
+  for (const Weakly_visible::Pair& pair : found.open) EXPECT_EQ(pair.piece, 1u);
 }
 
 TEST(Volume, that_bounds_nothing_is_refused_with_advice) {
