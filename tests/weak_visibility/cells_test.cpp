@@ -100,6 +100,37 @@ TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
   EXPECT_GT(forms, 1000u);
 }
 
+TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_pairs_of_corners) {
+  using weak_scenes::at;
+  // Lines from x = p >= 0 to x = q pass x = 0 at half the height where p + q > 0, and at a quarter where 3 p + q > 0: none passes the first one to the right and the second one to the left.
+  const auto plate = [](const Rational& z) { return weak_scenes::Points{at(0, -9, z), at(0, 9, z), at(9, 0, z)}; };
+  const Scene scene(weak_scenes::soup_of({weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 1)), plate(Rational(1, 2)), plate(Rational(1, 4))}));
+  const Occluders occluders(scene);
+  const Weak_source source = weak_source(occluders, weak_scenes::rectangle(0, 1, -1, 1, 0));
+  Edge_lines lines(occluders);
+  Cell_proofs proofs(occluders, lines, source.plane, occluders.plane(0));
+  const std::array<std::uint32_t, 2> edges{lines.of(1)[0].line, lines.of(2)[0].line};
+  Line_domain domain(std::make_shared<const Near_polygon>(source.polygon), std::make_shared<const Near_polygon>(occluders.polygon(0)));
+  const auto located = [&](const Exact_point& p) {
+    const Located_point grid = scene.locate(p);
+    return std::array<Integer, 4>{grid.x, grid.y, grid.z, grid.w};
+  };
+  const Exact_six right = exact_pair(located({Rational(1, 2), 0, 0}), located({Rational(1, 2), 0, 1}));
+  Line_cell cell{&domain, &lines, &occluders.frame(), {}};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Side_row& row = domain.row(lines, edges[k], occluders.frame());
+    ASSERT_EQ(row.decided, 0);
+    cell.rows.push_back({k, {edges[k], (k == 0 ? 1 : -1) * sgn(dot(right, lines[edges[k]].exact))}, &row});
+  }
+  Weak_counters counters;
+  std::vector<Multiplier> by_basis, by_game;
+  proofs.relax(cell, counters);
+  EXPECT_EQ(proofs.by_relaxation(cell, by_basis, counters), Cell_proofs::Relaxation::empty);
+  EXPECT_TRUE(proofs.by_exact_relaxation(cell, by_game, counters));
+  EXPECT_EQ(by_basis.size(), 2u);
+  EXPECT_EQ(by_game.size(), 2u);
+}
+
 TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane_it_is_in_beside_them) {
   using weak_scenes::at;
   // A triangle in the plane x = 0, where z <= y.
