@@ -90,6 +90,10 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
     EXPECT_TRUE(contains(quick.hidden, 0)) << turned;
     EXPECT_TRUE(verify_weak(soup, weak_certificate(scene, {source}, turned, quick)).accepted);
   }
+  // A face in the source's plane has nothing in front of it.
+  const Scene floor(generate::soup_of({rectangle(2, 3, -1, 1, 0)}));
+  const Occluders in_plane(floor);
+  EXPECT_TRUE(contains(possibly_visible(in_plane, {weak_source(in_plane, source)}).hidden, 0));
   // The source crosses the target's plane: one of its parts looks at the back. The cover leaves room below the roof; the screen is in the way of both parts.
   const Points across{at(0, 1, -1), at(0, 1, 5), at(0, -1, 5), at(0, -1, -1)}, roof = reversed(rectangle(1, 3, -1, 1, 4));
   const Points cover = rectangle(Rational(1, 2), 4, -4, 4, 3), upright{at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 9), at(Rational(1, 2), 4, 9), at(Rational(1, 2), 4, -2)};
@@ -104,6 +108,14 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
       EXPECT_EQ(contains(quick.visible, 0), before == cover) << two_sided;
       EXPECT_TRUE(verify_weak(soup, weak_certificate(scene, {across}, two_sided, quick)).accepted);
     }
+  // A screen up to the roof's plane is in the way of the part below it, not of the other one.
+  const Scene low(generate::soup_of({roof, {at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 4), at(Rational(1, 2), 4, 4), at(Rational(1, 2), 4, -2)}}));
+  const Occluders below(low);
+  for (const bool two_sided : {false, true}) {
+    Conservative_options options;
+    options.two_sided = two_sided;
+    EXPECT_EQ(contains(possibly_visible(below, {weak_source(below, across)}, options).visible, 0), two_sided);
+  }
 }
 
 // ---- What the search leaves open --------------------------------------------------------------------------------------------------------------
@@ -133,6 +145,7 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
       EXPECT_TRUE(found.undecided.empty() && found.open.empty()) << scene.name;
       EXPECT_EQ(found.visible.size() + found.hidden.size(), read.counters().faces) << scene.name;
       EXPECT_GE(counters.targets, before.undecided.size());
+      EXPECT_TRUE(std::is_sorted(found.pairs.begin(), found.pairs.end(), [](const auto& a, const auto& b) { return a.piece < b.piece; })) << scene.name;
       for (const Face_id target : scene.targets) EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << scene.name;
       for (const Face_id face : before.undecided) {
         EXPECT_EQ(contains(found.hidden, face), contains(found.unproved, face)) << scene.name;
@@ -167,6 +180,32 @@ TEST(Settled_by_events, come_soon_where_edges_are_ulps_beside_a_degeneracy) {
       for (const Face_id target : scene.targets) EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << name;
     }
   EXPECT_GE(settled, 2u);
+}
+
+TEST(Settled_by_events, are_pairs_with_as_many_edges_as_allowed_and_one_that_is_visible_is_all_that_a_face_needs) {
+  // Two plates hide the target from what is below them; a source beside them sees it.
+  const Points target = reversed(rectangle(-2, 2, -2, 2, 4));
+  const Scene read(generate::soup_of({target, rectangle(-4, 0, -2, 2, 2), rectangle(0, 4, -2, 2, 2)}));
+  const Occluders occluders(read);
+  const std::vector<Weak_source> sources{weak_source(occluders, rectangle(-1, 1, -1, 1, 0)), weak_source(occluders, rectangle(20, 21, -1, 1, 3))};
+  Weak_options lines;
+  lines.search.cells = 0, lines.search.rays = 0;  // all is left open
+  const Weakly_visible open = weakly_visible(occluders, sources, lines);
+  const std::size_t below = edges_between(occluders, sources[0], 0), beside = edges_between(occluders, sources[1], 0);
+  ASSERT_GT(below, beside);
+  const auto settled = [&](std::size_t edges) {
+    Weakly_visible found = open;
+    settle_by_events(occluders, sources, edges, {}, found);
+    return found;
+  };
+  const Weakly_visible none = settled(beside - 1), one = settled(beside);
+  EXPECT_TRUE(contains(none.undecided, 0));
+  EXPECT_EQ(std::count_if(none.open.begin(), none.open.end(), [](const auto& pair) { return pair.piece == 0; }), 2);
+  EXPECT_TRUE(contains(one.visible, 0));
+  std::vector<std::uint32_t> by;
+  for (const Weakly_visible::Pair& pair : one.pairs)
+    if (pair.piece == 0) by.push_back(pair.source);
+  EXPECT_EQ(by, (std::vector<std::uint32_t>{1}));
 }
 
 /// The sign of det[p, q, a, b] in homogeneous coordinates.
@@ -291,7 +330,10 @@ TEST(Volume, in_a_room_sees_its_walls_whichever_way_its_own_fronts_look) {
     const Seen seen = seen_from(faces, room);
     EXPECT_EQ(seen.answer.visible.size(), 6u);
     EXPECT_TRUE(seen.within.empty());
-    EXPECT_EQ(Weak_volume(generate::soup_of(faces)).surface().size(), 6u);
+    const Weak_volume volume(generate::soup_of(faces));
+    EXPECT_EQ(volume.surface().size(), 6u);
+    for (const Points& part : volume.surface()) EXPECT_LT(weak_oracle::plane_of(part).height(at(Rational(3, 2), Rational(3, 2), Rational(3, 2))), 0) << "looks inwards";
+    EXPECT_TRUE(volume.sees_from_within(rectangle(Rational(5, 4), 3, Rational(5, 4), Rational(7, 4), Rational(3, 2)), false)) << "a part of it is in the solid";
   }
   EXPECT_TRUE(seen_from(solid, box(0, 4, 0, 4, 0, 4)).answer.visible.empty());  // their fronts look away
   EXPECT_EQ(seen_from(solid, box(0, 4, 0, 4, 0, 4), true).answer.visible.size(), 6u);
@@ -370,6 +412,21 @@ TEST(Volume, sees_exactly_what_random_points_of_its_inside_see_or_sightlines_fro
   EXPECT_GT(by_points, 100u);
   EXPECT_GT(by_sightlines, 30u);
   EXPECT_GT(within, 3u);
+}
+
+TEST(Volume, settles_what_it_sees_from_within_and_leaves_no_pairs_of_it_open) {
+  const Weak_volume volume(generate::soup_of(box(0, 3, 0, 3, 0, 3)));
+  const Scene scene(generate::soup_of({{at(1, 1, 1), at(2, 1, 1), at(2, 1, 9), at(1, 1, 9)}, reversed(rectangle(1, 2, 1, 2, 9))}));  // the first one stands in it
+  const Occluders occluders(scene);
+  std::vector<Weak_source> sources;
+  for (const Points& part : volume.surface()) sources.push_back(weak_source(occluders, part));
+  Weak_options options;
+  options.search.cells = 0, options.search.rays = 0, options.search.two_sided = true;  // all is left open
+  Weakly_visible found = weakly_visible(occluders, sources, options);
+  ASSERT_EQ(found.undecided, (Ids{0, 1}));
+  EXPECT_EQ(add_seen_from_within(scene, volume, true, found), (Ids{0}));
+  EXPECT_EQ(found.undecided, (Ids{1}));
+  for (const Weakly_visible::Pair& pair : found.open) EXPECT_EQ(pair.piece, 1u);
 }
 
 TEST(Volume, that_bounds_nothing_is_refused_with_advice) {

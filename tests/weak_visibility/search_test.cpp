@@ -78,6 +78,14 @@ TEST_P(Families, have_the_answers_they_were_built_for_and_certificates) {
 }
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::Range(std::size_t{0}, weak_scenes::families().size()), [](const auto& of) { return weak_scenes::families()[of.param].name; });
 
+TEST(Weak_visibility, of_boxes_in_which_doubles_end_with_a_wrong_basis_is_proved) {
+  for (const std::uint64_t seed : {41, 44}) {  // the sums of what that basis says are positive for some pairs of corners
+    const Weak_scene scene = weak_scenes::families()[15].make(seed);
+    ASSERT_EQ(scene.name, "boxes " + std::to_string(seed));
+    EXPECT_TRUE(found_and_verified(scene.soup, {scene.source}, small_search(), scene.name).answer.undecided.empty());
+  }
+}
+
 TEST(Parallel_planes, have_the_answers_of_exact_polytopes_closed_and_reopened_by_a_part_in_two_to_the_forty) {
   std::size_t visible = 0, hidden = 0;
   for (std::uint64_t seed = 0; seed < seeds(60); ++seed) {
@@ -176,6 +184,10 @@ TEST(Weak_visibility, is_undecided_and_never_a_guess_where_the_search_may_take_o
   Weak_options options;
   options.search.cells = 1;
   EXPECT_EQ(found_and_verified(soup, {square(0, 0, 0, 1, true)}, options, "one cell").of(0), Weak_status::undecided);
+  options.search.rays = 0;  // one cell is enough, and needed, where nothing is between
+  EXPECT_EQ(found_and_verified(soup, {square(0, 0, 3, 1, true)}, options, "above them, one cell").of(0), Weak_status::visible);
+  options.search.cells = 0;
+  EXPECT_EQ(found_and_verified(soup, {square(0, 0, 3, 1, true)}, options, "above them, no cell").of(0), Weak_status::undecided);
   options.search.cells = 1000;
   std::size_t asked = 0;
   options.search.out_of_time = [&] { return ++asked, true; };

@@ -1,0 +1,155 @@
+// Proofs that a cell holds no line, asked for directly: there is none where a line is, however little room it has.
+// SIGHTLINE_LONG: so many times the scenes, for a long run.
+
+#include "scenes.h"
+
+#include <sightline/algorithms/weak_visibility/cell_proofs.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace weak_cells {
+namespace {
+
+using namespace sightline;
+using weak_scenes::Random;
+using weak_scenes::Weak_scene;
+
+std::uint64_t cell_seeds(std::uint64_t usual) {
+  const char* more = std::getenv("SIGHTLINE_LONG");
+  return more != nullptr ? usual * static_cast<std::uint64_t>(std::max(1L, std::atol(more))) : usual;
+}
+
+/// A point inside a polygon, by weights that are often of very different sizes.
+std::array<Integer, 4> inner(const Near_polygon& polygon, Random& random) {
+  const std::uint64_t unequal = random.chance(1, 2) ? 1 : 40;
+  std::array<Integer, 4> sum{0, 0, 0, 0};
+  Integer common = 1;
+  for (const Near_point& p : polygon) common *= p.exact[3];
+  for (const Near_point& p : polygon) {
+    const Integer weight = (Integer(static_cast<unsigned long>(1 + random.below(1000))) << random.below(unequal)) * (common / p.exact[3]);
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * p.exact[k];
+  }
+  return sum;
+}
+
+/// A cell of the lines between a source and a target that pass the given lines as one of them does, and all ways to prove that there is none.
+class Cell_of_a_line {
+ public:
+  Cell_of_a_line(const Occluders& occluders, const Weak_source& source, std::uint32_t target)
+      : occluders_(&occluders), lines_(occluders), proofs_(occluders, lines_, source.plane, occluders.plane(target)),
+        domain_(std::make_shared<const Near_polygon>(source.polygon), std::make_shared<const Near_polygon>(occluders.polygon(target))) {
+    for (std::uint32_t piece = 0; piece < occluders.scene().pieces().size(); ++piece) lines_.of(piece);
+  }
+
+  /// How many of the ways say that there is no line on the sides that the line (p, q) is on, among some of the edges that it does not meet.
+  std::size_t wrong_proofs(Random& random) {
+    const Exact_six pair = exact_pair(inner(domain_.source, random), inner(domain_.target, random));
+    cell_ = {&domain_, &lines_, &occluders_->frame(), {}};
+    std::size_t wrong = 0, place = 0;
+    for (std::uint32_t line = 0; line < lines_.size(); ++line) {
+      const int sign = sgn(dot(pair, lines_[line].exact));
+      if (sign == 0 || random.chance(1, 3)) continue;
+      const Side_row& row = domain_.row(lines_, line, occluders_->frame());
+      wrong += row.decided == -sign;
+      if (row.decided == 0) cell_.rows.push_back({place, {line, sign}, &row});
+      ++place;
+    }
+    if (cell_.rows.empty()) return wrong;
+    ++asked;
+    std::vector<Multiplier> proof;
+    proofs_.relax(cell_, counters);
+    wrong += proofs_.by_relaxation(cell_, proof, counters) == Cell_proofs::Relaxation::empty;
+    wrong += proofs_.by_exact_relaxation(cell_, proof, counters);
+    wrong += proofs_.at_corner(cell_, proof, counters);
+    for (const bool of_source : {true, false}) wrong += proofs_.by_forms(cell_, of_source, proof, counters);
+    return wrong;
+  }
+
+  Weak_counters counters;
+  std::size_t asked = 0;
+
+ private:
+  const Occluders* occluders_;
+  Edge_lines lines_;
+  Cell_proofs proofs_;
+  Line_domain domain_;
+  Line_cell cell_;
+};
+
+TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
+  std::size_t asked = 0, exact = 0, forms = 0;
+  for (const weak_scenes::Family& family : weak_scenes::families())
+    for (std::uint64_t seed = 0; seed < cell_seeds(6); ++seed) {
+      const Weak_scene scene = family.make(seed);
+      const Scene read(scene.soup);
+      const Occluders occluders(read);
+      Random random(seed);
+      const Weak_source source = weak_source(occluders, scene.source);
+      for (const Face_id face : scene.targets) {
+        const auto piece = std::find_if(read.pieces().begin(), read.pieces().end(), [&](const Piece& p) { return p.face == face; });
+        Cell_of_a_line cell(occluders, source, static_cast<std::uint32_t>(piece - read.pieces().begin()));
+        for (int k = 0; k < 12; ++k) EXPECT_EQ(cell.wrong_proofs(random), 0u) << scene.name << ", face " << face;
+        asked += cell.asked, exact += cell.counters.exact_programs, forms += cell.counters.form_programs;
+      }
+    }
+  EXPECT_GT(asked, 1000u);
+  EXPECT_GT(exact, 1000u);
+  EXPECT_GT(forms, 1000u);
+}
+
+TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_pairs_of_corners) {
+  using weak_scenes::at;
+  // Lines from x = p >= 0 to x = q pass x = 0 at half the height where p + q > 0, and at a quarter where 3 p + q > 0: none passes the first one to the right and the second one to the left.
+  const auto plate = [](const Rational& z) { return weak_scenes::Points{at(0, -9, z), at(0, 9, z), at(9, 0, z)}; };
+  const Scene scene(weak_scenes::soup_of({weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 1)), plate(Rational(1, 2)), plate(Rational(1, 4))}));
+  const Occluders occluders(scene);
+  const Weak_source source = weak_source(occluders, weak_scenes::rectangle(0, 1, -1, 1, 0));
+  Edge_lines lines(occluders);
+  Cell_proofs proofs(occluders, lines, source.plane, occluders.plane(0));
+  const std::array<std::uint32_t, 2> edges{lines.of(1)[0].line, lines.of(2)[0].line};
+  Line_domain domain(std::make_shared<const Near_polygon>(source.polygon), std::make_shared<const Near_polygon>(occluders.polygon(0)));
+  const auto located = [&](const Exact_point& p) {
+    const Located_point grid = scene.locate(p);
+    return std::array<Integer, 4>{grid.x, grid.y, grid.z, grid.w};
+  };
+  const Exact_six right = exact_pair(located({Rational(1, 2), 0, 0}), located({Rational(1, 2), 0, 1}));
+  Line_cell cell{&domain, &lines, &occluders.frame(), {}};
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Side_row& row = domain.row(lines, edges[k], occluders.frame());
+    ASSERT_EQ(row.decided, 0);
+    cell.rows.push_back({k, {edges[k], (k == 0 ? 1 : -1) * sgn(dot(right, lines[edges[k]].exact))}, &row});
+  }
+  Weak_counters counters;
+  std::vector<Multiplier> by_basis, by_game;
+  proofs.relax(cell, counters);
+  EXPECT_EQ(proofs.by_relaxation(cell, by_basis, counters), Cell_proofs::Relaxation::empty);
+  EXPECT_TRUE(proofs.by_exact_relaxation(cell, by_game, counters));
+  EXPECT_EQ(by_basis.size(), 2u);
+  EXPECT_EQ(by_game.size(), 2u);
+}
+
+TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane_it_is_in_beside_them) {
+  using weak_scenes::at;
+  // A triangle in the plane x = 0, where z <= y.
+  const Scene scene(weak_scenes::soup_of({weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 2)), {at(0, -5, -5), at(0, 5, -5), at(0, 5, 5)}}));
+  const Occluders occluders(scene);
+  const Weak_source source = weak_source(occluders, weak_scenes::rectangle(-1, 1, -1, 1, 0));
+  const auto point = [&](const Rational& x, const Rational& y, const Rational& z) {
+    const Located_point p = scene.locate({x, y, z});
+    return near_point(occluders.frame(), {p.x, p.y, p.z, p.w});
+  };
+  const Rational half(1, 2);
+  const auto blocker = [&](const Rational& y, const Rational& x) { return occluders.blocker(point(0, y, 0), point(x, y, 2), source.plane, occluders.plane(0)); };
+  EXPECT_FALSE(blocker(-half, half));
+  EXPECT_FALSE(blocker(-half, Rational(-half)));
+  EXPECT_EQ(blocker(half, half), 1u);
+  EXPECT_EQ(blocker(half, Rational(-half)), 1u);
+  EXPECT_EQ(blocker(0, half), 1u);  // on its edge
+  EXPECT_EQ(blocker(-half, 0), 1u);  // within its plane: not looked at further
+}
+
+}  // namespace
+}  // namespace weak_cells
