@@ -2,6 +2,7 @@
 
 #include "pixels.h"
 
+#include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/verify/certificate_json.h>
@@ -82,28 +83,6 @@ std::vector<Exact_point> parse_points(const std::vector<std::string>& texts, con
     for (std::string word; words >> word;) points.push_back(parse_point(word, option));
   }
   return points;
-}
-
-/// What `verify` needs: the pieces in order of priority, and arcs that hold each component together.
-Graph_certificate certificate_of(const Faces& faces, const Scene& scene, const Found& found) {
-  Graph_certificate certificate;
-  std::vector<std::size_t> place(faces.size());
-  for (std::size_t c = 0; c < found.components.size(); ++c) {
-    certificate.sizes.push_back(found.components[c].size());
-    for (const std::uint32_t i : found.components[c]) {
-      place[i] = certificate.fragments.size();
-      Order_fragment& fragment = certificate.fragments.emplace_back();
-      fragment.face = scene.pieces()[i].face, fragment.piece = scene.pieces()[i].number;
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) fragment.vertices.push_back(scene.position(corner.point));
-    }
-  }
-  Predicate_counts counts;
-  const auto add = [&](std::uint32_t from, std::uint32_t to) {
-    if (from != to) certificate.arcs.push_back({place[from], place[to], faces.find_corner(from, CGAL::POSITIVE, to, counts), faces.find_corner(to, CGAL::NEGATIVE, from, counts)});
-  };
-  for (std::uint32_t i = 0; i < faces.size(); ++i) add(found.trees.from[i], i), add(i, found.trees.to[i]);
-  add_pieces(certificate, scene);
-  return certificate;
 }
 
 /// The graph for Graphviz: components of more than one face are boxes, each face is named, arcs within a component are red.
@@ -269,7 +248,7 @@ static Exit run(const Graph_arguments& arguments) {
     return find(faces, arguments);
   }();
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(faces, scene, found)).dump() + "\n");
+  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(graph_certificate(scene, faces, found.components, found.trees)).dump() + "\n");
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
   std::optional<Clusters> clusters;
   if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments);

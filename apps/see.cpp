@@ -2,11 +2,15 @@
 
 #include "picture.h"
 
+#include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+
 #include <iostream>
+#include <optional>
 
 namespace sightline::app {
 
@@ -32,37 +36,32 @@ struct Seen {
   std::vector<Line> lines;
   std::vector<Drawn> parts;                      ///< fragment.piece: the convex piece; no vertices where nobody asks for them
   std::vector<Face_id> visible;
-  std::vector<std::vector<Exact_point>> empty;   ///< directions around where nothing is seen
+  std::optional<Visible_certificate> certificate;  ///< where it is asked for; exact only
   Visible_counters counters;
   std::size_t edge_on = 0, not_finite = 0;       ///< pieces in the eye's plane; parts of an inexact kernel that are no numbers
   double seconds = 0, line_seconds = 0;
 };
 
+/// What a run is asked for.
+struct Wanted {
+  bool two_sided = false, corners = false, certificate = false, lines = false;  ///< certificate and lines: exact only
+};
+
 template <sightline::View V>
-Seen seen_by(const V& view, const Visible_surface<V>& surface, bool two_sided, bool corners) {
+Seen seen_by(const V& view, const Visible_surface<V>& surface, const Wanted& wanted) {
   Seen seen;
   for (std::uint32_t i = 0; i < view.scene().pieces().size(); ++i) seen.edge_on += view.eye_side(i) == CGAL::ZERO;
   seen.visible = surface.visible, seen.counters = surface.counters;
-  if (two_sided) {
+  if (wanted.two_sided) {
     seen.visible.clear();
     std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(), surface.from_behind.end(), std::back_inserter(seen.visible));
   }
   for (const auto& part : surface.parts) {
-    if (part.piece == surface.nothing) {
-      if constexpr (std::is_same_v<V, Exact_view>) {
-        if (!corners) continue;
-        auto& directions = seen.empty.emplace_back();
-        for (const auto& ray : surface.of(part)) {
-          const std::array<Integer, 3> d = view.direction(ray);
-          directions.push_back({Rational(d[0]), Rational(d[1]), Rational(d[2])});
-        }
-      }
-      continue;
-    }
+    if (part.piece == surface.nothing) continue;
     const Piece& piece = view.scene().pieces()[part.piece];
     try {
       std::vector<Exact_point> at;
-      if (corners || !V::is_exact) at = vertices(view, surface, part);
+      if (wanted.corners || !V::is_exact) at = vertices(view, surface, part);
       seen.parts.push_back({{piece.face, piece.number, std::move(at)}, piece.number, view.eye_side(part.piece)});
     } catch (const std::domain_error&) {
       ++seen.not_finite;
@@ -121,23 +120,24 @@ void draw(Svg& svg, const View& view, const std::vector<Line>& lines) {
 }
 
 /// The whole sphere, or the given field of view.
-Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, bool two_sided, bool corners, bool lines, const Visible_options& options) {
+Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, const Wanted& wanted, const Visible_options& options) {
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
   Seen seen;
   const auto with = [&](const auto& view) {
     const auto surface = visible_surface(view, boxes, options);
     const double seconds = watch.seconds();
-    seen = seen_by(view, surface, two_sided, corners);
+    seen = seen_by(view, surface, wanted);
     seen.seconds = seconds;
   };
   if (kernel == "exact") {
     const Exact_view view(scene, eye, field.empty() ? std::vector<std::array<Integer, 3>>() : field_of(field));
     const auto surface = visible_surface(view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), options);
     const double seconds = watch.seconds();
-    seen = seen_by(view, surface, two_sided, corners);
+    seen = seen_by(view, surface, wanted);
     seen.seconds = seconds;
-    if (lines) {
+    if (wanted.certificate) seen.certificate = visible_certificate(view, surface, eye, field);
+    if (wanted.lines) {
       const Stopwatch more;
       seen.lines = lines_of(view, surface, options.threads);
       seen.line_seconds = more.seconds();
@@ -152,27 +152,6 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
     with(Number_view<CGAL::Exact_predicates_exact_constructions_kernel::FT>(scene, eye));
   }
   return seen;
-}
-
-/// What `verify` reads: all pieces, and which parts of them are seen.
-Visible_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Exact_point>& field, Seen& seen) {
-  Visible_certificate certificate;
-  certificate.eye = eye, certificate.field = field, certificate.empty = std::move(seen.empty);
-  std::map<std::pair<Face_id, std::uint32_t>, std::size_t> place;
-  for (const Piece& piece : scene.pieces()) {
-    place[{piece.face, piece.number}] = certificate.fragments.size();
-    Order_fragment& fragment = certificate.fragments.emplace_back();
-    fragment.face = piece.face, fragment.piece = piece.number;
-    for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
-  }
-  add_pieces(certificate, scene);
-  for (const Drawn& drawn : seen.parts) {
-    Exact_point ray{0, 0, 0};  // to the mean of the corners
-    for (const Exact_point& p : drawn.fragment.vertices)
-      for (std::size_t k = 0; k < 3; ++k) ray[k] += (p[k] - eye[k]) / static_cast<long>(drawn.fragment.vertices.size());
-    certificate.parts.push_back({place.at({drawn.fragment.face, drawn.fragment.piece}), drawn.fragment.vertices, ray});
-  }
-  return certificate;
 }
 
 }  // namespace
@@ -190,13 +169,13 @@ static Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  Seen seen = see(scene, eye, arguments.kernel, field, arguments.two_sided, !common.json.empty() || !arguments.certificate.empty(), arguments.lines, options);
+  const Seen seen = see(scene, eye, arguments.kernel, field, {arguments.two_sided, !common.json.empty(), !arguments.certificate.empty(), arguments.lines}, options);
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, field, seen)).dump() + "\n");
+  if (seen.certificate) write_file(arguments.certificate, to_json(*seen.certificate).dump() + "\n");
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
     if (!empty) {
-      const Seen picture = see(scene, eye, "exact", corner_rays(view), true, true, arguments.lines, options);
+      const Seen picture = see(scene, eye, "exact", corner_rays(view), {true, true, false, arguments.lines}, options);
       paint(svg, view, picture.parts, false);
       draw(svg, view, picture.lines);
     }

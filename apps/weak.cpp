@@ -175,6 +175,7 @@ Exit run_weak(const Weak_arguments& arguments) {
   scene_rows(scene);
   row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
   row("visible", fmt::format("{} of {} faces", found.visible.size(), scene.counters().faces));
+  if (method == "conservative") row("of these, too many", "those that several pieces hide together: `sightline compare SCENE weak` with the same sources says how many");
   if (!outcome.within.empty()) row("of these, within", fmt::format("{}: parts of them are seen without leaving the volume", outcome.within.size()));
   row("hidden", fmt::format("{}", found.hidden.size()));
   row("undecided", found.undecided.empty() ? "none" : fmt::format("{}: --cells and --budget set how long each is looked at, --event-edges whether events are; --json shows the cells that are open", found.undecided.size()));
@@ -198,12 +199,13 @@ void add_weak(CLI::App& app) {
   auto a = std::make_shared<sightline::app::Weak_arguments>();
   a->common.add_to(*command);
   a->sources.add_to(*command);
-  command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; conservative: quick, visible is all that no single piece hides; "
-                                             "doubles: a search without proofs; sample: random rays, as others do")->check(CLI::IsMember(sightline::app::weak_method_names))->capture_default_str();
+  CLI::Option* method = command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; "
+                                                                   "doubles: a search without proofs; sample: random rays, as others do")->check(CLI::IsMember({"lines", "events", "doubles", "sample"}))->capture_default_str();
+  command->add_flag("--conservative{conservative}", a->method, "instead of a method: quick, visible is all that no single piece hides, so some faces too many; `sightline compare SCENE weak` says how many")->disable_flag_override()->excludes(method);
   command->add_option("--rays", a->task.rays, "sample: from each source")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--event-edges", a->task.event_edges, "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads: of lines all answers, of events what is visible, of conservative what is hidden");
+  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads: of lines all answers, of events what is visible, with --conservative what is hidden");
   command->add_option("--surfaces", a->surfaces, "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; then no search ends before it has them all");
   command->add_option("--svg", a->svg, "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out");
   command->add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided");

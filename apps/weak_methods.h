@@ -29,9 +29,6 @@ struct Sources {
 /// Errors: Usage_error where there are none, or that name what is none.
 Sources sources_of(const Source_arguments& arguments, const Common& common, const Polygon_soup& soup, const Occluders& occluders);
 
-/// `lines` ends with events where that helps.
-inline const std::vector<std::string> weak_method_names{"lines", "events", "conservative", "doubles", "sample"};
-
 struct Weak_task {
   bool two_sided = false;
   int threads = 0;
@@ -52,6 +49,7 @@ struct Weak_outcome {
   std::vector<Face_id> within;     ///< faces that volumes see from within
 };
 
+/// `method`: lines, which ends with events where that helps; events, conservative, doubles, sample.
 Weak_outcome run_weak_method(const std::string& method, const Occluders& occluders, const Sources& sources, const Weak_task& task);
 
 }  // namespace sightline::app

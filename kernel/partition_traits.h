@@ -3,6 +3,7 @@
 
 #include <sightline/kernel/predicates.h>
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -72,6 +73,17 @@ concept Partition_traits = requires(const T t, typename T::Vertex v, typename T:
   { t.axis_plane(axis, v) } -> std::same_as<std::optional<Plane>>;
   { t.coordinate(v, axis) } -> std::same_as<double>;
 };
+
+/// Asks for the memory that a test of the polygon will read, without waiting for it: first where its corners are, and then, once those are there, its vertices.
+/// Polygons of a large cell lie far apart, and a processor waits longer for two of these in a row than a test takes.
+template <class Traits>
+void fetch_corners(const Convex_polygon<Traits>& polygon) {
+  __builtin_prefetch(polygon.corners);
+}
+template <class Traits>
+void fetch_vertices(const Convex_polygon<Traits>& polygon) {
+  for (std::uint32_t k = 0; k < std::min(polygon.size, 3u); ++k) __builtin_prefetch(polygon.corners[k].vertex);
+}
 
 /// Bounded_traits: Partition_traits that also say where things are in doubles, and how wrong those may be: what a spatial index needs.
 ///

@@ -110,6 +110,7 @@ class Builder {
   };
 
   static constexpr std::size_t worth_a_task = 1024;  // polygons; below, starting a task costs more than it gives
+  static constexpr std::size_t ahead = 4;            // polygons whose memory is asked for before they are tested
   static constexpr std::size_t worth_balance = 24;   // polygons; below, a chain of face planes is no deeper than free planes would be
 
   Polygons input() {
@@ -224,7 +225,9 @@ class Builder {
     for (std::size_t k = 0; k < options_.sample; ++k) {
       const std::size_t begin = k * n / options_.sample, end = (k + 1) * n / options_.sample;
       mine.sample.push_back(polygons[begin + random.below(end - begin)]);
+      fetch_corners(mine.sample.back());
     }
+    for (const Polygon& polygon : mine.sample) fetch_vertices(polygon);
     return mine.sample;
   }
 
@@ -292,6 +295,7 @@ class Builder {
       return polygon.size >= 3;
     };
     for (std::size_t i = begin; i < polygons.size(); ++i) {
+      if (i + 2 * ahead < polygons.size()) fetch_corners(polygons[i + 2 * ahead]), fetch_vertices(polygons[i + ahead]);
       switch (position_at(i)) {
         case Position::on: add_fragment(polygons[i], choice.plane, part); break;
         case Position::behind: polygons[behind++] = polygons[i]; break;

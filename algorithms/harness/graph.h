@@ -2,37 +2,12 @@
 // The subject `graph`: the strongly connected components of the priority graph and their order.
 
 #include <sightline/algorithms/harness/laws.h>
+#include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/explicit_graph.h>
-#include <sightline/algorithms/priority/implicit_graph.h>
-#include <sightline/algorithms/verify/covering_of_scene.h>
-#include <sightline/algorithms/verify/graph.h>
-#include <sightline/kernel/exact_traits.h>
 
 namespace sightline::harness {
 
 namespace graph_subject {
-
-/// Pieces by component, highest priority first, and arcs that hold each component together.
-inline Graph_certificate certificate_of(const Scene& scene, const Priority_relation<Exact_traits>& faces, const Priority_components& found, const Component_trees& trees) {
-  Graph_certificate certificate;
-  std::vector<std::size_t> place(faces.size());
-  for (std::size_t c = 0; c < found.size(); ++c) {
-    certificate.sizes.push_back(found[c].size());
-    for (const std::uint32_t i : found[c]) {
-      place[i] = certificate.fragments.size();
-      Order_fragment& fragment = certificate.fragments.emplace_back();
-      fragment.face = scene.pieces()[i].face, fragment.piece = scene.pieces()[i].number;
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) fragment.vertices.push_back(scene.position(corner.point));
-    }
-  }
-  Predicate_counts counts;
-  const auto add = [&](std::uint32_t from, std::uint32_t to) {
-    if (from != to) certificate.arcs.push_back({place[from], place[to], faces.find_corner(from, CGAL::POSITIVE, to, counts), faces.find_corner(to, CGAL::NEGATIVE, from, counts)});
-  };
-  for (std::uint32_t i = 0; i < faces.size(); ++i) add(trees.from[i], i), add(i, trees.to[i]);
-  add_pieces(certificate, scene);
-  return certificate;
-}
 
 /// Labels: the component of a face's last piece. Faces of one piece are the rule.
 inline Answer answer_of(const Polygon_soup& soup, const Scene& scene, const Priority_components& found) {
@@ -56,7 +31,7 @@ inline Answer by_implicit(const Posed_scene& posed, bool verify) {
   const Priority_components found = graph.find_components(&trees);
   Answer answer = answer_of(posed.soup, scene, found);
   if (!verify) return answer;
-  const Verdict verdict = verify_graph(posed.soup, certificate_of(scene, faces, found, trees));
+  const Verdict verdict = verify_graph(posed.soup, graph_certificate(scene, faces, found, trees));
   if (!verdict.accepted) answer.flaw = "the certificate is rejected: " + verdict.why;
   return answer;
 }

@@ -2,11 +2,8 @@
 // The subject `see`: the visible parts of faces from an eye, over the whole sphere of directions.
 
 #include <sightline/algorithms/harness/laws.h>
-#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
-#include <sightline/algorithms/point_visibility/visible.h>
-#include <sightline/algorithms/verify/covering_of_scene.h>
-#include <sightline/algorithms/verify/visible.h>
 
 #include <CGAL/Gmpq.h>
 
@@ -32,27 +29,6 @@ Answer labels_of(const Posed_scene& posed, const Scene& scene, const Surface& su
   return answer;
 }
 
-/// What `verify` reads: all pieces, and which parts of them are seen.
-inline Visible_certificate certificate_of(const Posed_scene& posed, const Exact_view& view, const Visible_surface<Exact_view>& surface) {
-  using namespace generate;
-  Visible_certificate certificate;
-  certificate.eye = posed.eye;
-  add_all(certificate, view.scene());
-  for (const auto& part : surface.parts) {
-    if (part.piece == surface.nothing) {
-      auto& directions = certificate.empty.emplace_back();
-      for (const auto& ray : surface.of(part)) {
-        const std::array<Integer, 3> d = view.direction(ray);
-        directions.push_back({Rational(d[0]), Rational(d[1]), Rational(d[2])});
-      }
-      continue;
-    }
-    const Points corners = vertices(view, surface, part);
-    certificate.parts.push_back({part.piece, corners, minus(centroid(corners), posed.eye)});
-  }
-  return certificate;
-}
-
 inline Answer exactly(const Posed_scene& posed, bool verify) {
   const Scene scene(posed.soup);
   const Piece_boxes boxes(scene);
@@ -60,7 +36,7 @@ inline Answer exactly(const Posed_scene& posed, bool verify) {
   const auto surface = visible_surface(view, boxes, serial());
   Answer answer = labels_of(posed, scene, surface);
   if (!verify) return answer;
-  const Verdict verdict = verify_visible(posed.soup, certificate_of(posed, view, surface));
+  const Verdict verdict = verify_visible(posed.soup, visible_certificate(view, surface, posed.eye));
   if (!verdict.accepted) answer.flaw = "the certificate is rejected: " + verdict.why;
   return answer;
 }

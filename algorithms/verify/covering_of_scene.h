@@ -6,6 +6,14 @@
 
 namespace sightline {
 
+/// A piece as one fragment.
+inline Order_fragment whole_piece(const Scene& scene, const Piece& piece) {
+  Order_fragment fragment;
+  fragment.face = piece.face, fragment.piece = piece.number;
+  for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
+  return fragment;
+}
+
 /// What a certificate needs beside its fragments: the pieces of faces that were cut, and what is set aside.
 inline void add_pieces(Covering& covering, const Scene& scene) {
   std::vector<bool> cut(scene.counters().faces_read);
@@ -23,11 +31,7 @@ inline void add_pieces(Covering& covering, const Scene& scene) {
 
 /// The same, with the scene's convex pieces as fragments, in their order.
 inline void add_all(Covering& covering, const Scene& scene) {
-  for (const Piece& piece : scene.pieces()) {
-    Order_fragment& fragment = covering.fragments.emplace_back();
-    fragment.face = piece.face, fragment.piece = piece.number;
-    for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
-  }
+  for (const Piece& piece : scene.pieces()) covering.fragments.push_back(whole_piece(scene, piece));
   add_pieces(covering, scene);
 }
 

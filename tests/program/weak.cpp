@@ -140,11 +140,18 @@ TEST_F(Weak, from_a_volume_sees_all_around_and_what_reaches_into_it) {
 
 TEST_F(Weak, conservatively_hides_only_what_lines_hide_and_proves_it) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", to = path("quick.json").string();
-  const Json lines = weak({rooms, "--from", lamp})["result"], quick = weak({rooms, "--from", lamp, "--method", "conservative", "--certificate", to})["result"];
+  const Json lines = weak({rooms, "--from", lamp})["result"], quick = weak({rooms, "--from", lamp, "--conservative", "--certificate", to})["result"];
   EXPECT_GT(quick["hidden"].size(), 0u);
   for (const Json& face : quick["hidden"]) EXPECT_NE(std::find(lines["hidden"].begin(), lines["hidden"].end(), face), lines["hidden"].end()) << face;
   EXPECT_EQ(quick["unproved"], quick["visible"]);
   EXPECT_EQ(run({"verify", rooms, to}).code, done);
+  EXPECT_NE(run({"weak", rooms, "--from", lamp, "--conservative"}).out.find("compare SCENE weak"), std::string::npos);  // where to learn how many it has too many
+  // It is said in one way, and not together with another answer.
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--method", "conservative"}, {"--conservative", "--method", "lines"}, {"--conservative=lines"}}) {
+    std::vector<std::string> arguments{"weak", rooms, "--from", lamp};
+    arguments.insert(arguments.end(), words.begin(), words.end());
+    EXPECT_EQ(run(arguments).code, usage) << words[0];
+  }
 }
 
 TEST_F(Weak, by_doubles_answers_without_proofs) {

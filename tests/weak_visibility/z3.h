@@ -130,11 +130,11 @@ inline bool has_z3() {
 }
 
 /// What z3 prints when it reads this. `effort` is the most of its own steps that it may take for a question, so that it gives up at the same place everywhere;
-/// a million are about a second. Pre: has_z3()
+/// a million are about a second. A few steps of algebra take minutes: twenty seconds end these. Pre: has_z3()
 inline std::string z3_output(const std::string& text, unsigned effort) {
   const std::filesystem::path file = std::filesystem::temp_directory_path() / ("sightline_" + std::to_string(::getpid()) + ".smt2");
   std::ofstream(file) << text;
-  const std::string command = "z3 -smt2 -memory:2000 -T:120 rlimit=" + std::to_string(effort) + ' ' + file.string() + " 2>&1";
+  const std::string command = "z3 -smt2 -memory:2000 -T:20 rlimit=" + std::to_string(effort) + ' ' + file.string() + " 2>&1";
   FILE* const pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("z3 cannot be started");
   std::string output;
