@@ -196,7 +196,7 @@ void add_fuzz(CLI::App& app) {
   auto a = std::make_shared<sightline::app::Fuzz_arguments>();
   command->add_option("COMMAND", a->command, "what to run, see below")->required()->check(CLI::IsMember(sightline::app::subject_names()));
   command->add_option("--seconds", a->seconds, "how long to draw scenes")->check(CLI::PositiveNumber & sightline::app::finite_number)->capture_default_str();
-  command->add_option("--case-seconds", a->case_seconds, "a case that takes longer ends the run: a finding, named on standard error")->check(CLI::PositiveNumber & sightline::app::finite_number)->capture_default_str();
+  command->add_option("--case-seconds", a->case_seconds, "of processor time; a case that takes longer ends the run: a finding, named on standard error")->check(CLI::PositiveNumber & sightline::app::finite_number)->capture_default_str();
   command->add_option("--scenes", a->scenes, "draw so many scenes instead, however long that takes")->check(sightline::app::whole_number);
   command->add_option("--seed", a->seed, "one seed is one sequence of cases")->check(sightline::app::whole_number)->capture_default_str();
   command->add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");

@@ -11,7 +11,6 @@
 namespace sightline::app {
 
 namespace fs = std::filesystem;
-using namespace judge;
 
 Temporary_folder::Temporary_folder() {
   std::string pattern = (fs::temp_directory_path() / "sightline-judge-XXXXXX").string();
@@ -23,7 +22,7 @@ Temporary_folder::~Temporary_folder() {
   fs::remove_all(path_, ignored);
 }
 
-static std::string in_words(const Grade& grade) {
+static std::string in_words(const judge::Grade& grade) {
   std::vector<std::string> all;
   for (const auto& [earlier, later] : grade.wrong_pairs) all.push_back(fmt::format("face {} is drawn before face {} but is nearer somewhere", earlier, later));
   if (grade.wrong_pairs.empty()) {
@@ -49,7 +48,7 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
   Judged judged;
   judged.seed = seed, judged.faces = asked.soup.face_count(), judged.not_asked = asked.not_asked;
   if (!judged.not_asked.empty()) return judged;
-  const Truth truth = truth_of(asked.soup, asked.query, options_.truth);
+  const judge::Truth truth = judge::truth_of(asked.soup, asked.query, options_.truth);
   judged.not_asked = truth.not_asked;
   if (!judged.not_asked.empty()) return judged;
   for (const auto& [known, found] : {std::pair(&asked.visible, &truth.hidden), std::pair(&asked.hidden, &truth.visible)})
@@ -61,13 +60,13 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
     judged.not_asked = "the format cannot hold the scene";
     return judged;
   }
-  write_file(query(), to_json(asked.query).dump() + "\n");
+  write_file(query(), judge::to_json(asked.query).dump() + "\n");
   fs::remove_all(answer());
   run(asked, truth, judged);
   return judged;
 }
 
-void Court::run(const Judge_case& asked, const Truth& truth, Judged& judged) const {
+void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   std::vector<std::string> words = words_;
   for (std::string& word : words)
     for (const auto& [place, file] : {std::pair("{scene}", scene()), std::pair("{query}", query()), std::pair("{answer}", answer())})
@@ -80,10 +79,10 @@ void Court::run(const Judge_case& asked, const Truth& truth, Judged& judged) con
   }
   judged.seconds = end.seconds, judged.bytes = end.bytes;
   const std::string said = end.said.empty() ? "" : "; it said: " + end.said.substr(end.said.find_last_of('\n') + 1);
-  const auto crashed = [&](const std::string& how) { judged.mark = Mark::crashed, judged.why = how + said; };
+  const auto crashed = [&](const std::string& how) { judged.mark = judge::Mark::crashed, judged.why = how + said; };
   switch (end.kind) {
-    case Process_end::timed_out: judged.mark = Mark::timed_out, judged.why = fmt::format("no end within {} s", options_.limits.seconds); break;
-    case Process_end::out_of_memory: judged.mark = Mark::out_of_memory, judged.why = fmt::format("more than {} MB", options_.limits.bytes >> 20); break;
+    case Process_end::timed_out: judged.mark = judge::Mark::timed_out, judged.why = fmt::format("no end within {} s", options_.limits.seconds); break;
+    case Process_end::out_of_memory: judged.mark = judge::Mark::out_of_memory, judged.why = fmt::format("more than {} MB", options_.limits.bytes >> 20); break;
     case Process_end::signalled: crashed(fmt::format("signal {} ({})", end.number, strsignal(end.number))); break;
     case Process_end::exited:
       if (end.number != 0) crashed(fmt::format("exit code {}", end.number));
@@ -92,18 +91,18 @@ void Court::run(const Judge_case& asked, const Truth& truth, Judged& judged) con
   judged.breaks = judge::breaks(options_.contract, judged.mark, judged.grade);
 }
 
-void Court::grade_answer(const Judge_case& asked, const Truth& truth, Judged& judged) const {
+void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
     if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
-    judged.grade = grade(truth, read_answer(detail::read_bytes(answer()), asked.query.question, asked.soup.face_count()));
+    judged.grade = judge::grade(truth, judge::read_answer(detail::read_bytes(answer()), asked.query.question, asked.soup.face_count()));
   } catch (const std::runtime_error& error) {  // no file that can be read
-    judged.mark = Mark::invalid, judged.why = error.what();
+    judged.mark = judge::Mark::invalid, judged.why = error.what();
     return;
   } catch (const std::invalid_argument& error) {
-    judged.mark = Mark::invalid, judged.why = std::string("the answer: ") + error.what();
+    judged.mark = judge::Mark::invalid, judged.why = std::string("the answer: ") + error.what();
     return;
   }
-  judged.mark = mark_of(judged.grade);
+  judged.mark = judge::mark_of(judged.grade);
   judged.why = in_words(judged.grade);
 }
 

@@ -6,11 +6,9 @@
 
 namespace sightline::app {
 
-using namespace judge;
-
 Json sums_of(const std::vector<const Judged*>& cases) {
   Json row;
-  std::array<std::size_t, mark_names.size()> marks{};
+  std::array<std::size_t, judge::mark_names.size()> marks{};
   std::size_t not_asked = 0, judged = 0, wrong_visible = 0, wrong_hidden = 0, abstained = 0, breaches = 0;
   std::vector<double> seconds;
   std::uint64_t bytes = 0;
@@ -24,7 +22,7 @@ Json sums_of(const std::vector<const Judged*>& cases) {
     seconds.push_back(c->seconds), bytes = std::max(bytes, c->bytes);
   }
   row["asked"] = cases.size() - not_asked, row["not_asked"] = not_asked;
-  for (std::size_t k = 0; k < mark_names.size(); ++k) row["cases"][std::string(mark_names[k])] = marks[k];
+  for (std::size_t k = 0; k < judge::mark_names.size(); ++k) row["cases"][std::string(judge::mark_names[k])] = marks[k];
   row["breaches"] = breaches;
   row["faces"] = {{"judged", judged}, {"wrong_visible", wrong_visible}, {"wrong_hidden", wrong_hidden}, {"abstained", abstained}};
   std::sort(seconds.begin(), seconds.end());

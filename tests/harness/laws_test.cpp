@@ -108,6 +108,49 @@ TEST(Laws, what_one_answer_leaves_out_is_not_compared) {
   EXPECT_EQ(harness::compared(a, b, "a", "b").state, Outcome::State::undecided);
   b.labels[0] = 0;
   EXPECT_EQ(harness::compared(a, b, "a", "b").state, Outcome::State::failed);
+  a.labels = {1}, b.labels = {1, 1};
+  EXPECT_EQ(harness::compared(a, b, "a", "b").state, Outcome::State::failed) << "answers about different scenes";
+}
+
+TEST(Laws, are_not_for_what_depends_on_the_place_or_on_pieces) {
+  const Posed_scene posed = generate::family("touching_faces").make({1});
+  const auto state = [&](const char* name, bool planar, bool is_partition, bool whole) {
+    const auto answer = [=](const Posed_scene& scene) {
+      Answer other = labels(side_of_eye)(scene);
+      other.planar = planar, other.is_partition = is_partition, other.whole = whole;
+      return other;
+    };
+    generate::Random random(1);
+    return harness::check_of(law(name), answer).run(posed, answer(posed), random).state;
+  };
+  for (const char* name : {"translate", "scale", "rotate", "mirror"}) {
+    EXPECT_EQ(state(name, true, false, true), Outcome::State::passed) << name;
+    EXPECT_EQ(state(name, false, false, true), Outcome::State::not_applicable) << name;
+  }
+  EXPECT_EQ(state("permute", false, false, false), Outcome::State::passed);
+  EXPECT_EQ(state("permute", true, true, true), Outcome::State::passed);
+  EXPECT_EQ(state("permute", true, true, false), Outcome::State::not_applicable);
+}
+
+TEST(Laws, move_the_source_with_the_scene) {
+  const auto side_of_source = labels([](const Posed_scene& posed, Face_id, const Points& c) { return static_cast<std::uint32_t>(1 + sgn(dot(normal_of(c), generate::minus(posed.source[0], c[0])))); });
+  for (const char* name : {"translate", "scale", "rotate", "mirror"})
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      const Posed_scene posed = generate::family("slats").make({seed});
+      generate::Random random(seed);
+      EXPECT_EQ(harness::check_of(law(name), side_of_source).run(posed, side_of_source(posed), random).state, Outcome::State::passed) << name << ' ' << seed;
+    }
+}
+
+TEST(Laws, know_nothing_of_a_face_of_which_a_part_is_left_out) {
+  harness::Image image;
+  image.face_of = {0, 0, std::nullopt};
+  Answer of_parts;
+  for (const bool is_partition : {false, true})
+    for (const auto& parts : {std::pair(Answer::none, 1u), std::pair(1u, Answer::none)}) {
+      of_parts.is_partition = is_partition, of_parts.labels = {parts.first, parts.second, 7};
+      EXPECT_EQ(harness::pulled_back(image, of_parts, 1).labels, (std::vector<std::uint32_t>{Answer::none}));
+    }
 }
 
 TEST(Laws, a_cut_keeps_a_face_and_a_bystander_is_out_of_sight) {

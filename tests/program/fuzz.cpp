@@ -54,7 +54,7 @@ TEST_F(Fuzz, a_case_that_does_not_end_in_time_ends_the_run_and_is_named) {
   const Outcome r = run({"fuzz", "weak", "--family", "triangles", "--case-seconds", "0.001"});
   EXPECT_EQ(r.code, disagreement) << r;
   EXPECT_TRUE(r.one_line_of_error()) << r;
-  const std::string before = "sightline fuzz: no end within 0.001 s in the case that this replays: sightline fuzz weak --case ";
+  const std::string before = "sightline fuzz: no end within 0.001 s of processor time in the case that this replays: sightline fuzz weak --case ";
   ASSERT_TRUE(r.err.starts_with(before)) << r;
   const std::string name = r.err.substr(before.size(), r.err.size() - before.size() - 1);
   const Outcome again = run({"fuzz", "weak", "--case", name, "--case-seconds", "0.001"});
