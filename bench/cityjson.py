@@ -4,7 +4,7 @@
 cityjson.py FILE... --out FOLDER    writes FOLDER/NAME.qoff for each
 
 A coordinate is integer * scale + translate, in rational numbers. Of each object the surfaces of its highest level of detail become faces, their fronts as they are; equal points
-become one. What .qoff cannot say is left out and counted: surfaces with holes, so that what these closed is open. So are objects without surfaces of their own: points, lines, instances of templates.
+become one. What .qoff cannot say is left out and counted: surfaces with holes, so that what these closed is open. Objects without surfaces of their own are counted too: points, lines, instances of templates.
 """
 import argparse, json, pathlib, sys
 from fractions import Fraction
