@@ -159,7 +159,8 @@ inline Draft regulus(Random& random, const Rational& gap) {
     if (k++ == drawn_back) on[1] -= free * gap;
     draft.faces.push_back(plate(on, at(2, Rational(2 * slope), 0), at(0, -6 * free, ratio(random.between(-1, 1), 4))));
   }
-  draft.truth = changes < 3 || sgn(gap) > 0;
+  if (changes == 3) draft.truth = sgn(gap) > 0;
+  else if (sgn(gap) >= 0) draft.truth = true;  // a wide overlap may close what is free
   return draft;
 }
 
@@ -167,7 +168,7 @@ inline Draft regulus(Random& random, const Rational& gap) {
 /// four and is a double root. Lines are x = a + alpha z, y = b + beta z; f(z) = y - x z on them is b + (beta - a) z - alpha z^2, and must be > 0, < 0, > 0 at the first
 /// three, f(c_4) < v (alpha b - beta a) at the fourth. By interpolation f(c_4) = sum |L_k f(c_k)| > 0, and alpha b - beta a <= discriminant(f) / 4 <= 5/4 |f|^2
 /// for the largest coefficient |f| <= 3, itself at most max 2 / |(c_k - c_i) (c_k - c_j)| times sum |f(c_k)|. So it is hidden for small v > 0;
-/// for v < 0 lines near x = 1/2, y = z / 2 are free.
+/// for v < 0 lines near x = 1/2, y = z / 2 are free, which pass the fourth edge by gap - v / 4.
 inline Draft tangent(Random& random, const Rational& gap) {
   Draft draft = shaft(1);
   const std::vector<Rational> cuts = subdivided(0, 1, 4, random);
@@ -184,7 +185,8 @@ inline Draft tangent(Random& random, const Rational& gap) {
   if (turned) v = -v;
   for (std::size_t k = 0; k < 3; ++k) draft.faces.push_back(plate(at(0, 0, c[k]), at(2, Rational(2 * c[k]), 0), at(0, k % 2 == 0 ? -6 : 6, 0)));
   draft.faces.push_back(plate(at(0, gap, c[3]), at(2, Rational(2 * c[3]), Rational(2 * v)), at(0, 6, 0)));
-  draft.truth = turned || sgn(gap) > 0;
+  if (!turned) draft.truth = sgn(gap) > 0;
+  else if (gap > v / 4) draft.truth = true;
   return draft;
 }
 
@@ -218,7 +220,8 @@ inline Draft five_edges(Random& random, const Rational& gap) {
     const Exact_point n = at(normals[k][0], normals[k][1], 0), on = along(from, heights[k + 1] / 4, minus(to, from));
     draft.faces.push_back(plate(along(on, k == drawn_back ? Rational(-gap) : Rational(0), n), at(Rational(-3 * n[1]), Rational(3 * n[0]), 0), scaled(-3, n)));
   }
-  draft.truth = !wants_hidden || sgn(gap) > 0;
+  if (wants_hidden) draft.truth = sgn(gap) > 0;
+  else if (sgn(gap) >= 0) draft.truth = true;  // a wide overlap may close what is free
   return draft;
 }
 

@@ -69,6 +69,9 @@ TEST_F(Fuzz, what_it_found_is_mended) {
   const std::string query = file("query.json", R"({"format": "sightline query 1", "eye": ["0", "0", "0"], "source": [["0", "0", "-2"], ["0", "0", "0"], ["1", "0", "0"]]})");
   const Outcome r = run({"fuzz", "weak", "--scene", (corpus / "robust" / "far_corner.qoff").string(), "--query", query});
   EXPECT_EQ(r.code, done) << r;
+  // A family that claimed to see past an overlap, however wide.
+  const Outcome wide = run({"fuzz", "weak", "--case", "tangent:684701:0:-17592186044416", "--check", "construction"});
+  EXPECT_EQ(wide.code, done) << wide;
 }
 
 TEST_F(Fuzz, what_makes_no_sense_is_told) {
