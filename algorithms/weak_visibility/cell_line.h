@@ -52,9 +52,10 @@ class Line_finder {
         for (std::size_t i = 0; i < m; ++i)
           for (std::size_t j = 0; j < n; ++j) rows[k][source ? i : j] += (source ? line.exact_target[j] : line.exact_source[i]) * cell.exact_value(k, i * n + j);
         for (const Rational& v : rows[k]) most = std::max(most, Rational(abs(v)));
+        const long scale = static_cast<long>(bit_length(most.get_den())) - static_cast<long>(bit_length(most.get_num())) - 1;
         const std::span<double> values = game_.add_row();
         for (std::size_t c = 0; c < own; ++c) {
-          if (sgn(most) != 0) rows[k][c] /= most;
+          rows[k][c] = times_power(std::move(rows[k][c]), scale);  // within [-1, 1]
           values[c] = nearest_double(rows[k][c]);
         }
       }

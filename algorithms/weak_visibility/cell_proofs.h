@@ -60,9 +60,13 @@ class Cell_proofs {
     return conclude(cell, kept, proof) ? Relaxation::empty : Relaxation::unclear;
   }
 
-  /// The relaxation in rationals: a proof where its value is not positive.
+  /// The relaxation in rationals: a proof where its value is not positive. It is not tried where entries are many or long.
   bool by_exact_relaxation(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters) {
     if (cell.rows.size() * cell.pairs() > 1500) return false;
+    std::size_t bits = 0;
+    for (const Line_cell::Row& row : cell.rows)
+      for (const Rational& side : cell.domain->exact_sides(*cell.lines, row.literal.line, *cell.frame)) bits += bit_length(side.get_num());
+    if (bits > 150000) return false;
     ++counters.exact_programs;
     exact_game_.restart(cell.pairs());
     for (std::size_t k = 0; k < cell.rows.size(); ++k) {

@@ -13,6 +13,7 @@ struct Side_row {
   double error;
   int exponent;  ///< of that scale
   int decided;   ///< 1: nowhere negative, -1: nowhere positive, 0: neither
+  std::vector<Rational> exact = {};  ///< unscaled, once they are asked for
 };
 
 /// A piece that may come between the polygons.
@@ -43,12 +44,14 @@ struct Line_domain {
   Rational exact_side(const Edge_lines::Line& line, std::size_t c, const Near_frame& frame) {
     return frame.near_cubic(dot(exact_pair_of(c), line.exact), Integer(source[c / target.size()].exact[3] * target[c % target.size()].exact[3]));
   }
-  /// The line's row, made when it is first asked for. Its signs are exact where it is decided.
-  const Side_row& row(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame) {
-    if (rows.size() <= id) rows.resize(lines.size());
-    if (!rows[id]) rows[id] = std::make_unique<Side_row>(row_of(lines[id], frame));
-    return *rows[id];
+  /// All of them, made when they are first asked for. Exact: yes.
+  const std::vector<Rational>& exact_sides(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame) {
+    std::vector<Rational>& exact = row_at(lines, id, frame).exact;
+    for (std::size_t c = exact.size(); c < pairs.size(); ++c) exact.push_back(exact_side(lines[id], c, frame));
+    return exact;
   }
+  /// The line's row, made when it is first asked for. Its signs are exact where it is decided.
+  const Side_row& row(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame) { return row_at(lines, id, frame); }
 
   Shared_polygon shared_source, shared_target;
   const Near_polygon &source, &target;
@@ -61,6 +64,11 @@ struct Line_domain {
   int bisections = 0, narrowed = 0;
 
  private:
+  Side_row& row_at(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame) {
+    if (rows.size() <= id) rows.resize(lines.size());
+    if (!rows[id]) rows[id] = std::make_unique<Side_row>(row_of(lines[id], frame));
+    return *rows[id];
+  }
   Side_row row_of(const Edge_lines::Line& line, const Near_frame& frame) {
     Side_row r;
     r.values.reserve(pairs.size());
@@ -96,6 +104,13 @@ struct Line_domain {
   }
 };
 
+/// x 2^exponent. Exact: yes.
+inline Rational times_power(Rational x, long exponent) {
+  if (exponent >= 0) mpq_mul_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  else mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  return x;
+}
+
 /// A line that is passed on the side `sign`.
 struct Literal {
   std::uint32_t line;
@@ -118,16 +133,11 @@ struct Line_cell {
   double value(std::size_t row, std::size_t c) const { return rows[row].literal.sign * rows[row].sides->values[c]; }
   /// What value() is a rounded one of. Exact: yes.
   Rational exact_value(std::size_t row, std::size_t c) const {
-    const Rational v = domain->exact_side((*lines)[rows[row].literal.line], c, *frame);
+    const Rational& v = domain->exact_sides(*lines, rows[row].literal.line, *frame)[c];
     return factor_of(row, rows[row].literal.sign > 0 ? v : Rational(-v));
   }
   /// A weight of a scaled row as a factor of the unscaled one.
-  Rational factor_of(std::size_t row, Rational weight) const {
-    const int exponent = rows[row].sides->exponent;
-    if (exponent >= 0) mpq_mul_2exp(weight.get_mpq_t(), weight.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-    else mpq_div_2exp(weight.get_mpq_t(), weight.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-    return weight;
-  }
+  Rational factor_of(std::size_t row, Rational weight) const { return times_power(std::move(weight), rows[row].sides->exponent); }
 };
 
 }  // namespace sightline
