@@ -78,12 +78,15 @@ inline std::size_t edges_between(const Occluders& occluders, const Weak_source& 
 
 /// What events say of a pair that a search left open: of the whole, or, where more than so many edges are near that, of the parts of source and target that open cells have: each free
 /// line is in a cell that is open. Post: undecided where too many edges are near a part too. Cost: at most one Event_search for each part. Exact: yes
-inline Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source& source, const Weakly_visible::Pair& pair, std::size_t most_edges, const Events_options& options, Event_counters& counters) {
+inline Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source& source, const Weakly_visible::Pair& pair, std::size_t most_edges, const Events_options& options,
+                                         Event_counters& counters) {
   if (edges_between(occluders, source, pair.piece) <= most_edges) return weakly_visible_by_events(occluders, source, pair.piece, options, counters);
   struct Parts {
     Near_polygon source, target;
   };
-  const auto same = [](const Near_polygon& a, const Near_polygon& b) { return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Near_point& p, const Near_point& q) { return p.exact == q.exact; }); };
+  const auto same = [](const Near_polygon& a, const Near_polygon& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Near_point& p, const Near_point& q) { return p.exact == q.exact; });
+  };
   std::vector<Parts> all;
   for (settle_detail::Cell& cell : settle_detail::open_cells(occluders, source, pair, pair.answer.proof.size())) {
     if (cell.source.size() < 3 || cell.target.size() < 3) continue;  // no line
