@@ -517,13 +517,13 @@ class Event_search {
   std::size_t events_ = 0;
 };
 
-/// Whether a piece is weakly visible from a source: the parts that they have in front of each other, some lines at random, then events. Post and exactness as of
-/// weakly_visible_by_events.
-inline Events_answer weakly_visible_by_events(const Occluders& occluders, const Weak_source& source, std::uint32_t piece, const Events_options& options, Event_counters& counters,
-                                              const std::function<void(const Event_search::Surface&)>& keep = {}) {
+/// Whether a part of a piece is weakly visible from a source: what they have in front of each other, some lines at random, then events. Post and exactness as of
+/// weakly_visible_by_events. Pre: a strictly convex part, with the piece's orientation.
+inline Events_answer part_visible_by_events(const Occluders& occluders, const Weak_source& source, const Near_polygon& part, std::uint32_t piece, const Events_options& options, Event_counters& counters,
+                                            const std::function<void(const Event_search::Surface&)>& keep = {}) {
   ++counters.targets;
   const Near_plane& target_plane = occluders.plane(piece);
-  const Near_polygon target = clip(occluders.frame(), occluders.polygon(piece), source.plane, true);
+  const Near_polygon target = clip(occluders.frame(), part, source.plane, true);
   std::mt19937_64 dice(options.seed * 0x9e3779b97f4a7c15u + piece);
   const auto inner_point = [&](const Near_polygon& polygon) {
     Homogeneous sum{0, 0, 0, 0};
@@ -556,6 +556,10 @@ inline Events_answer weakly_visible_by_events(const Occluders& occluders, const 
   }
   if (sides == 0) ++counters.away;
   return answer;
+}
+inline Events_answer weakly_visible_by_events(const Occluders& occluders, const Weak_source& source, std::uint32_t piece, const Events_options& options, Event_counters& counters,
+                                              const std::function<void(const Event_search::Surface&)>& keep = {}) {
+  return part_visible_by_events(occluders, source, occluders.polygon(piece), piece, options, counters, keep);
 }
 
 /// What was found, and a sightline for what is visible.

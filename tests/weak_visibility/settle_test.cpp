@@ -1,0 +1,53 @@
+// Open cells by events, where too many edges are near the whole of source and target.
+
+#include "scenes.h"
+
+#include <sightline/algorithms/weak_visibility/settle.h>
+
+#include <gtest/gtest.h>
+
+namespace weak_settle {
+namespace {
+
+using namespace sightline;
+
+TEST(Settled_by_events, also_between_the_open_parts_alone) {
+  constexpr std::size_t tangent = 8;
+  std::size_t by_parts = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    generate::Random random(seed);
+    weak_scenes::Weak_scene scene = weak_scenes::finished(weak_scenes::drafters[tangent].draft(random, Rational(0)), random);
+    // Specks all over the shaft: most of them are not near what stays open.
+    weak_scenes::Points goal;
+    for (const Point_id id : scene.soup.loop(scene.targets[0])) goal.push_back(scene.soup.point(id));
+    for (const Exact_point& p : scene.source)
+      for (const Exact_point& q : goal) {
+        std::vector<Point_id> speck;
+        for (const std::size_t axis : {0u, 1u, 2u}) {
+          Exact_point x;
+          for (std::size_t k = 0; k < 3; ++k) x[k] = Rational((p[k] + q[k]) / 2);
+          x[axis] += Rational(1, 1000);
+          speck.push_back(scene.soup.add_point(x[0], x[1], x[2]));
+        }
+        scene.soup.add_face(speck);
+      }
+    const Scene read(scene.soup);
+    const Occluders occluders(read);
+    const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
+    const Weakly_visible before = weakly_visible(occluders, sources);
+    for (const Weakly_visible::Pair& pair : before.open) {
+      Event_counters counters;
+      const std::size_t edges = edges_between(occluders, sources[0], pair.piece);
+      const Weak_status whole = open_pair_by_events(occluders, sources[0], pair, edges, {}, counters).status;
+      const Weak_status parts = open_pair_by_events(occluders, sources[0], pair, edges - 1, {}, counters).status;
+      EXPECT_NE(whole, Weak_status::undecided) << seed;
+      if (parts == Weak_status::undecided) continue;
+      EXPECT_EQ(parts, whole) << seed << ", piece " << pair.piece;
+      ++by_parts;
+    }
+  }
+  EXPECT_GT(by_parts, 2u);
+}
+
+}  // namespace
+}  // namespace weak_settle
