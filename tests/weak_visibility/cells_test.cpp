@@ -8,19 +8,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 namespace weak_cells {
 namespace {
 
 using namespace sightline;
 using weak_scenes::Random;
 using weak_scenes::Weak_scene;
-
-std::uint64_t cell_seeds(std::uint64_t usual) {
-  const char* more = std::getenv("SIGHTLINE_LONG");
-  return more != nullptr ? usual * static_cast<std::uint64_t>(std::max(1L, std::atol(more))) : usual;
-}
 
 /// A point inside a polygon, by weights that are often of very different sizes.
 std::array<Integer, 4> inner(const Near_polygon& polygon, Random& random) {
@@ -82,7 +75,7 @@ class Cell_of_a_line {
 TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
   std::size_t asked = 0, exact = 0, forms = 0;
   for (const weak_scenes::Family& family : weak_scenes::families())
-    for (std::uint64_t seed = 0; seed < cell_seeds(6); ++seed) {
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(6); ++seed) {
       const Weak_scene scene = family.make(seed);
       const Scene read(scene.soup);
       const Occluders occluders(read);

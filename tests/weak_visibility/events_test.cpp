@@ -8,18 +8,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 namespace {
 
 using namespace sightline;
 using weak_scenes::Family;
 using weak_scenes::Weak_scene;
-
-std::uint64_t event_seeds(std::uint64_t usual) {
-  const char* more = std::getenv("SIGHTLINE_LONG");
-  return more != nullptr ? usual * static_cast<std::uint64_t>(std::max(1L, std::atol(more))) : usual;
-}
 
 const std::vector<Family>& event_families() {
   static const std::vector<Family> all = [] {
@@ -57,7 +50,7 @@ TEST_P(Event_families, are_all_decided_as_they_were_built) {
   Event_counters counters;
   Events_options options;
   options.rays = 0;
-  for (std::uint64_t seed = 0; seed < event_seeds(12); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
     const Weak_scene scene = family.make(seed);
     for (const Face_id face : scene.targets) {
       const Weak_status status = by_events(scene, face, options, counters);
@@ -80,7 +73,7 @@ TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
   Event_counters counters;
   Weak_counters others;
   std::size_t scenes = 0, visible = 0, hidden = 0, left = 0;
-  for (std::uint64_t seed = 0; seed < event_seeds(3); ++seed, ++scenes) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(3); ++seed, ++scenes) {
     const Weak_scene scene = family.make(seed);
     const Scene read(scene.soup);
     const Occluders occluders(read);
@@ -118,7 +111,7 @@ TEST(Events, see_the_same_from_source_to_target_as_back) {
   std::size_t visible = 0, hidden = 0;
   for (const Family& family : event_families()) {
     if (family.name == "boxes" || family.name == "nudged") continue;  // several targets; targets that are not planar
-    for (std::uint64_t seed = 0; seed < event_seeds(3); ++seed) {
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(3); ++seed) {
       Weak_scene scene = family.make(seed);
       if (scene.targets.size() != 1) continue;
       // Both as faces, then each in turn as the source.

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <sstream>
 
 namespace weak_oracle {
@@ -19,10 +18,6 @@ using weak_scenes::reversed;
 /// Of z3 for one sentence: what it can say it nearly always says sooner.
 constexpr unsigned effort = 300000;
 
-std::uint64_t times() {
-  const char* const text = std::getenv("SIGHTLINE_LONG");
-  return text == nullptr ? 1 : std::max<std::uint64_t>(1, std::strtoull(text, nullptr, 10));
-}
 Rational tiny() { return weak_scenes::tiny_gap(); }
 Flats flats_of_scene(const Weak_scene& scene) { return oracle::flats_of(sightline::Scene(scene.soup)); }
 
@@ -250,7 +245,7 @@ TEST(Weak_oracle_z3, says_of_single_pairs_what_exact_segments_say) {
   Random random(11);
   std::size_t free = 0, blocked = 0, degenerate = 0;
   const auto coordinate = [&] { return ratio(random.between(-1, 8), 16); };
-  for (std::uint64_t seed = 0; seed < 40 * times(); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(40); ++seed) {
     const Weak_scene scene = weak_scenes::families()[16 + seed % 2].make(seed);
     const Flats flats = flats_of_scene(scene);
     const Face_id target = scene.targets[random.below(scene.targets.size())];
@@ -283,15 +278,15 @@ TEST(Weak_oracle_z3, says_of_single_pairs_what_exact_segments_say) {
       ++(proof ? free : blocked), degenerate += in_a_plane;
     }
   }
-  EXPECT_GT(free, 50 * times());
-  EXPECT_GT(blocked, 50 * times());
+  EXPECT_GT(free, weak_scenes::seeds(50));
+  EXPECT_GT(blocked, weak_scenes::seeds(50));
   EXPECT_GT(blocked + free, 2 * degenerate);
 }
 
 // ---- Against each other ------------------------------------------------------------------------------------------------------------------------
 
 TEST(Weak_oracle_parallel_planes, decides_pairs_that_touch_and_are_2_to_the_minus_40_apart) {
-  for (std::uint64_t seed = 0; seed < 60 * times(); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(60); ++seed) {
     const Closed_and_reopened pair = closed_and_reopened(seed);
     EXPECT_FALSE(decide(pair.closed)) << seed;
     const std::optional<Sightline> line = decide(pair.reopened);
@@ -332,7 +327,7 @@ TEST(Weak_oracle_parallel_planes, splits_what_is_free_into_disjoint_cells_of_fre
 
 TEST(Weak_oracles, agree_on_parallel_planes) {
   Tally level, projected;
-  for (std::uint64_t seed = 0; seed < 300 * times(); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(300); ++seed) {
     const Weak_scene scene = parallel_planes_scene(seed);
     const bool is_level = std::all_of(scene.source.begin(), scene.source.end(), [](const Exact_point& p) { return sgn(p[2]) == 0; });
     ask(scene, 0, 20, is_level ? level : projected);
@@ -352,7 +347,7 @@ class Weak_families : public testing::TestWithParam<std::size_t> {};
 TEST_P(Weak_families, have_the_truth_that_z3_and_rays_find) {
   const weak_scenes::Family& family = weak_scenes::families()[GetParam()];
   Tally tally;
-  for (std::uint64_t seed = 0; seed < 12 * times(); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
     const Weak_scene scene = family.make(seed);
     ASSERT_FALSE(scene.targets.empty()) << scene.name;
     for (std::size_t k = 0; k < std::min<std::size_t>(scene.targets.size(), 2); ++k) {

@@ -11,8 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 namespace weak_regions {
 namespace {
 
@@ -25,10 +23,6 @@ using weak_scenes::rectangle;
 using weak_scenes::reversed;
 using weak_scenes::Weak_scene;
 
-std::uint64_t region_seeds(std::uint64_t usual) {
-  const char* more = std::getenv("SIGHTLINE_LONG");
-  return more != nullptr ? usual * static_cast<std::uint64_t>(std::max(1L, std::atol(more))) : usual;
-}
 bool contains(const std::vector<Face_id>& faces, Face_id face) { return std::binary_search(faces.begin(), faces.end(), face); }
 
 // ---- Conservative ---------------------------------------------------------------------------------------------------------------------------
@@ -36,7 +30,7 @@ bool contains(const std::vector<Face_id>& faces, Face_id face) { return std::bin
 TEST(Conservative, leaves_out_nothing_that_is_visible_and_proves_what_it_hides) {
   std::size_t hidden = 0, too_many = 0;
   for (const weak_scenes::Family& family : weak_scenes::families())
-    for (std::uint64_t seed = 0; seed < region_seeds(6); ++seed) {
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(6); ++seed) {
       const Weak_scene scene = family.make(seed);
       const Scene read(scene.soup);
       const Occluders occluders(read);
@@ -129,7 +123,7 @@ const weak_scenes::Family& family_called(const std::string& name) {
 TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_only_what_is_proved) {
   std::size_t settled = 0, visible = 0;
   for (const char* name : {"tangent", "nudged", "five_edges"})
-    for (std::uint64_t seed = 0; seed < region_seeds(12); ++seed) {
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
       const Weak_scene scene = family_called(name).make(seed);
       const Scene read(scene.soup);
       const Occluders occluders(read);
@@ -164,7 +158,7 @@ TEST(Settled_by_events, come_soon_where_edges_are_ulps_beside_a_degeneracy) {
   // Exactly concurrent, or on one regulus, they have short proofs; so close to that no proof is found, and each cell that stays open would be one of thousands.
   std::size_t settled = 0;
   for (const std::size_t which : {5u, 6u, 7u, 10u})
-    for (std::uint64_t seed = 0; seed < region_seeds(12); ++seed) {
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
       Random random(seed);
       const weak_scenes::Draft draft = weak_scenes::drafters[which].draft(random, Rational(Integer(3), Integer(1) << 49));
       const Weak_scene scene = weak_scenes::finished(draft, random);
@@ -218,7 +212,7 @@ int side_of_line(const Exact_point& p, const Exact_point& q, const Exact_point& 
 TEST(Open_cells, hold_each_sightline_that_the_search_stopped_short_of) {
   std::size_t held = 0, with_cuts = 0;
   for (const weak_scenes::Family& family : weak_scenes::families())
-    for (std::uint64_t seed = 0; seed < region_seeds(12); ++seed) {
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
       const Weak_scene scene = family.make(seed);
       const Scene read(scene.soup);
       const Occluders occluders(read);
@@ -374,7 +368,7 @@ TEST(Volume, that_is_concave_or_hollow_has_its_inside_where_its_faces_wind_aroun
 
 TEST(Volume, sees_exactly_what_random_points_of_its_inside_see_or_sightlines_from_its_surface_go_on_into_it) {
   std::size_t by_points = 0, by_sightlines = 0, within = 0;
-  for (std::uint64_t seed = 0; seed < region_seeds(12); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
     Random random(seed);
     Faces faces;
     generate::add_any(faces, 12, random);

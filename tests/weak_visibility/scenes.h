@@ -6,6 +6,7 @@
 
 #include <sightline/algorithms/generate/weak_scenes.h>
 
+#include <cstdlib>
 #include <functional>
 
 namespace weak_scenes {
@@ -38,6 +39,12 @@ using sightline::generate::reversed;
 using sightline::generate::scaling;
 using sightline::generate::soup_of;
 using sightline::generate::Weak_scene;
+
+/// How many seeds to take where so many are usual: SIGHTLINE_LONG=N times as many.
+inline std::uint64_t seeds(std::uint64_t usual) {
+  const char* more = std::getenv("SIGHTLINE_LONG");
+  return more != nullptr ? usual * static_cast<std::uint64_t>(std::max(1L, std::atol(more))) : usual;
+}
 
 inline const Rational& tiny_gap() {
   static const Rational gap(1, 1ul << 40);

@@ -16,12 +16,6 @@ namespace {
 using namespace sightline;
 using weak_scenes::Weak_scene;
 
-/// How many seeds of each family: more with SIGHTLINE_LONG=N.
-std::uint64_t seeds(std::uint64_t usual) {
-  const char* more = std::getenv("SIGHTLINE_LONG");
-  return more != nullptr ? usual * static_cast<std::uint64_t>(std::max(1L, std::atol(more))) : usual;
-}
-
 struct Found {
   Weakly_visible answer;
   Weak_status of(Face_id face) const {
@@ -56,7 +50,7 @@ class Families : public testing::TestWithParam<std::size_t> {};
 TEST_P(Families, have_the_answers_they_were_built_for_and_certificates) {
   const weak_scenes::Family& family = weak_scenes::families()[GetParam()];
   std::size_t decided = 0, undecided = 0;
-  for (std::uint64_t seed = 0; seed < seeds(6); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(6); ++seed) {
     const Weak_scene scene = family.make(seed);
     const Found found = found_and_verified(scene.soup, {scene.source}, small_search(), scene.name);
     for (const Face_id target : scene.targets) {
@@ -71,10 +65,11 @@ TEST_P(Families, have_the_answers_they_were_built_for_and_certificates) {
     }
   }
   EXPECT_GT(decided, 0u);
-  // Three occluders that touch one line from three sides leave a double root, which multipliers of low degree do not exclude: a known limit, on the page. Of 150 seeds of each other
-  // family the most that is left open are 15, of `shared_edges`.
+  // Three occluders that touch one line from three sides leave a double root, which multipliers of low degree do not exclude: a known limit, on the page. Of 150 seeds 15 of
+  // `shared_edges` are left open, of others fewer than one in twenty; none of the first six, but of two more families one among the first eighteen.
+  const bool leaves_some = weak_scenes::seeds(6) > 6 && (family.name == "shared_edges" || family.name == "concurrent_edges" || family.name == "regulus");
   if (family.name != "tangent" && family.name != "tiny" && family.name != "nudged") {
-    EXPECT_LE(undecided * 7, decided) << family.name;
+    EXPECT_LE(undecided * (leaves_some ? 5 : 20), decided) << family.name;
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::Range(std::size_t{0}, weak_scenes::families().size()), [](const auto& of) { return weak_scenes::families()[of.param].name; });
@@ -89,7 +84,7 @@ TEST(Weak_visibility, of_boxes_in_which_doubles_end_with_a_wrong_basis_is_proved
 
 TEST(Parallel_planes, have_the_answers_of_exact_polytopes_closed_and_reopened_by_a_part_in_two_to_the_forty) {
   std::size_t visible = 0, hidden = 0;
-  for (std::uint64_t seed = 0; seed < seeds(60); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(60); ++seed) {
     const Weak_scene scene = weak_oracle::parallel_planes_scene(seed);
     const Found found = found_and_verified(scene.soup, {scene.source}, small_search(), scene.name);
     for (const Face_id target : scene.targets) {
@@ -103,7 +98,7 @@ TEST(Parallel_planes, have_the_answers_of_exact_polytopes_closed_and_reopened_by
 
 TEST(Weak_visibility, of_two_faces_is_mutual) {
   std::size_t visible = 0, hidden = 0;
-  for (std::uint64_t seed = 0; seed < seeds(12); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
     const Weak_scene scene = weak_scenes::families()[seed % weak_scenes::families().size()].make(seed);
     const Scene model(scene.soup);
     const Occluders occluders(model);
@@ -125,7 +120,7 @@ TEST(Weak_visibility, of_two_faces_is_mutual) {
 }
 
 TEST(Weak_visibility, grows_with_the_source_and_is_the_union_over_its_parts) {
-  for (std::uint64_t seed = 0; seed < seeds(10); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(10); ++seed) {
     const Weak_scene scene = weak_scenes::families()[(seed * 7) % weak_scenes::families().size()].make(seed);
     const std::vector<Exact_point>& s = scene.source;
     std::vector<Exact_point> first{s[0], s[1], s[2]}, rest{s[0]};

@@ -24,11 +24,6 @@ constexpr unsigned z3_effort = 300000;
 /// Larger scenes are not asked about: z3 says little of them.
 constexpr std::size_t most_faces = 20;
 
-std::uint64_t opinion_seeds() {
-  const char* const more = std::getenv("SIGHTLINE_LONG");
-  return more == nullptr ? 1 : std::max<std::uint64_t>(1, std::strtoull(more, nullptr, 10));
-}
-
 struct Opinions {
   std::size_t scenes = 0, agreed = 0;         ///< `agreed`: of each face both say the same
   std::size_t visible = 0, hidden = 0;        ///< faces, by both
@@ -72,7 +67,7 @@ TEST(Engine_and_z3, say_the_same_of_scenes_with_a_source) {
   families.push_back({"parallel_planes", weak_oracle::parallel_planes_scene});
   Opinions sum;
   for (std::size_t k = 0; k < families.size(); ++k)
-    for (std::uint64_t seed = k; seed < k + opinion_seeds(); ++seed) ask_both(families[k].make(seed), sum);
+    for (std::uint64_t seed = k; seed < k + weak_scenes::seeds(1); ++seed) ask_both(families[k].make(seed), sum);
   std::cout << sum << '\n';
   EXPECT_GT(2 * sum.agreed, sum.scenes);
   EXPECT_GT(10 * sum.visible, sum.scenes);
@@ -85,7 +80,7 @@ TEST(Engine_and_z3, say_the_same_of_scenes_that_a_face_of_their_own_looks_at) {
   if (!weak_oracle::has_z3()) GTEST_SKIP() << "needs z3 (Debian: z3)";
   Opinions sum;
   for (std::size_t k = 0; k < generate::families().size(); ++k)
-    for (std::uint64_t seed = 0; seed < opinion_seeds(); ++seed) {
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(1); ++seed) {
       if ((k + seed) % 4 != 2) continue;  // a quarter of the families for each seed: all of them take a minute
       const generate::Family& family = generate::families()[k];
       generate::Family_parameters parameters;
