@@ -1,6 +1,6 @@
 #include "common.h"
 
-#include <sightline/io/decimal.h>
+#include <sightline/io/number_lines.h>
 #include <sightline/io/read.h>
 
 #include <unistd.h>
@@ -35,24 +35,11 @@ Polygon_soup Common::read() const {
 }
 
 std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted) {
-  std::vector<Rational> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string token = text.substr(begin, end - begin);
-    try {
-      if (token.find('/') != std::string::npos) {
-        numbers.push_back(rational_from_string(token));
-      } else {
-        const Input input{wanted, token};
-        const Text_reader reader(input, Text_reader::Comments::hash);
-        numbers.push_back(value_of(parse_decimal(reader, input.bytes)));
-      }
-    } catch (const std::exception&) {
-      throw Usage_error(wanted + " (decimals or p/q); " + sightline::quoted(token) + " is none");
-    }
-    begin = end + 1;
+  try {
+    return numbers_in(text, wanted);
+  } catch (const std::invalid_argument& error) {
+    throw Usage_error(error.what());
   }
-  return numbers;
 }
 
 Exact_point parse_point(const std::string& text, const std::string& option) {

@@ -77,6 +77,22 @@ class Progress {
   std::atomic<int> shown_{-1};
 };
 
+/// So many seconds from now, and a bar that shows how many of them are over.
+class Countdown {
+ public:
+  Countdown(std::string what, double seconds) : progress_(std::move(what)), limit_(seconds) {}
+  bool over() {
+    progress_(static_cast<std::size_t>(1000 * watch_.seconds()), static_cast<std::size_t>(1000 * limit_));
+    return watch_.seconds() >= limit_;
+  }
+  double seconds() const { return watch_.seconds(); }  ///< since the beginning
+
+ private:
+  Progress progress_;
+  Stopwatch watch_;
+  double limit_;
+};
+
 /// The "scene" object of every command's JSON.
 Json scene_json(const Scene& scene);
 Json predicates_json(const Predicate_counts& counts);

@@ -56,7 +56,7 @@ std::string write_failing(const Fuzz_arguments& arguments, const generate::Posed
   for (Face_id f = 0; f < scene.soup.face_count(); ++f)
     if (scene.soup.loop_count(f) > 1) format = Format::ply, ending = ".ply";  // .qoff has no holes
   write_scene(scene.soup, stem + ending, format);
-  write_file(stem + ".json", query_json(scene, seed).dump(1) + "\n");
+  write_file(stem + ".json", harness::query_json(scene, seed).dump(1) + "\n");
   return fmt::format("sightline fuzz {} --scene {} --query {} --check '{}'", arguments.command, stem + ending, stem + ".json", check);
 }
 
@@ -80,14 +80,10 @@ Exit run_one(const harness::Subject& subject, const generate::Posed_scene& scene
 }
 
 Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) {
-  const Stopwatch watch;
-  Progress progress("fuzzing");
+  Countdown time("fuzzing", arguments.seconds);
   harness::Fuzz_options options;
   options.seed = arguments.seed, options.scenes = arguments.scenes, options.family = arguments.family, options.most_faces = arguments.most_faces;
-  options.out_of_time = [&] {
-    progress(static_cast<std::size_t>(1000 * watch.seconds()), static_cast<std::size_t>(1000 * arguments.seconds));
-    return arguments.scenes == 0 && watch.seconds() >= arguments.seconds;
-  };
+  options.out_of_time = [&] { return time.over() && arguments.scenes == 0; };
   options.begin = [&](const harness::Fuzz_case& which) { begin_case(replay_of(arguments, which), arguments.case_seconds); };
   harness::Fuzz_summary summary;
   std::optional<harness::Finding> finding;
@@ -96,7 +92,7 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
   } catch (const std::invalid_argument& error) {
     throw Usage_error(error.what());
   }
-  const double seconds = watch.seconds();
+  const double seconds = time.seconds();
   end_case();
 
   std::string replay, smaller;
@@ -139,6 +135,17 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
   return finding ? Exit::disagreement : Exit::done;
 }
 
+/// Errors: Usage_error where the source is no convex polygon.
+void check_source(const generate::Posed_scene& posed, const std::string& wanted) {
+  if (posed.source.empty()) throw Usage_error(wanted);
+  try {
+    const Scene scene(posed.soup);
+    weak_source(Occluders(scene), posed.source);
+  } catch (const std::invalid_argument& error) {
+    throw Usage_error(wanted + ": " + error.what());
+  }
+}
+
 Exit run_fuzz(const Fuzz_arguments& arguments) {
   harness::Subject subject;
   for (harness::Subject& one : all_subjects())
@@ -151,16 +158,14 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
   watch_for_crashes();
   const std::string checks = arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
   if (!arguments.scene.empty()) {
-    generate::Posed_scene scene;
-    std::uint64_t seed = 1;
-    if (!arguments.query.empty()) {
-      Query query = read_query(arguments.query);
-      scene = std::move(query.scene), seed = query.seed;
-    }
-    scene.soup = read_scene(std::filesystem::path(arguments.scene));
-    if (subject.wants_source && scene.source.empty()) throw Usage_error("'" + subject.name + "' wants a --query with a source polygon");
+    Polygon_soup soup = read_scene(std::filesystem::path(arguments.scene));
+    harness::Posed_query query;
+    if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
+    generate::Posed_scene& scene = query.scene;
+    scene.soup = std::move(soup);
+    if (subject.wants_source) check_source(scene, "'" + subject.name + "' wants a --query with a source polygon");
     begin_case(fmt::format("sightline fuzz {} --scene {}{}{}", arguments.command, arguments.scene, arguments.query.empty() ? "" : " --query " + arguments.query, checks), arguments.case_seconds);
-    return run_one(subject, scene, seed, arguments.scene, arguments.check);
+    return run_one(subject, scene, query.seed, arguments.scene, arguments.check);
   }
   if (!arguments.only.empty()) {
     harness::Fuzz_case which;

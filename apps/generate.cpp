@@ -1,7 +1,8 @@
 // sightline generate: scenes from a seed, degenerate as much as one wants, and what may be asked of them.
 
-#include "query.h"
+#include "common.h"
 
+#include <sightline/algorithms/harness/query_json.h>
 #include <sightline/io/write.h>
 
 #include <charconv>
@@ -26,12 +27,26 @@ std::int64_t parse_ulps(const std::string& text) {
   return ulps;
 }
 
+/// 2^K, or an exact number > 0.
+Rational parse_scale(const std::string& text) {
+  const std::string wanted = "--scale wants a number > 0, or 2^K with K from -1100 to 1100";
+  if (text.starts_with("2^")) {
+    int power = 0;
+    const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), power);
+    if (error != std::errc() || end != text.data() + text.size() || power < -1100 || power > 1100) throw Usage_error(wanted + ", not '" + text + "'");
+    return generate::power_of_two(power);
+  }
+  const std::vector<Rational> numbers = parse_numbers(text, wanted);
+  if (numbers.size() != 1 || sgn(numbers[0]) <= 0) throw Usage_error(wanted + ", not '" + text + "'");
+  return numbers[0];
+}
+
 Exit run(const Generate_arguments& arguments) {
   generate::Family_parameters parameters;
   parameters.seed = arguments.seed, parameters.size = arguments.size;
   parameters.ulps = parse_ulps(arguments.ulps);
   parameters.offset = parse_point(arguments.offset, "--offset");
-  parameters.scale = parse_scale(arguments.scale, "--scale");
+  parameters.scale = parse_scale(arguments.scale);
   generate::Posed_scene scene;
   try {
     scene = generate::family(arguments.family).make(parameters);
@@ -39,7 +54,7 @@ Exit run(const Generate_arguments& arguments) {
     throw Usage_error(error.what());
   }
   write_scene(scene.soup, arguments.out);
-  if (!arguments.query.empty()) write_file(arguments.query, query_json(scene, arguments.seed).dump(1) + "\n");
+  if (!arguments.query.empty()) write_file(arguments.query, harness::query_json(scene, arguments.seed).dump(1) + "\n");
   return Exit::done;
 }
 

@@ -61,14 +61,10 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
     const Judge_case other = case_of_smaller(smaller);
     return other.as_given && (repeats || !repeats_a_corner(other.soup)) && broken_alike(court.judge(other, broken.seed), broken);
   };
-  const Stopwatch watch;
-  Progress progress("reducing");
+  Countdown time("reducing", arguments.reduce);
   harness::Reduce_options options;
   options.most_tests = 1000000;
-  options.out_of_time = [&] {
-    progress(static_cast<std::size_t>(1000 * watch.seconds()), static_cast<std::size_t>(1000 * arguments.reduce));
-    return watch.seconds() > arguments.reduce;
-  };
+  options.out_of_time = [&] { return time.over(); };
   generate::Posed_scene scene;
   scene.soup = asked.soup, scene.eye = asked.query.eye, scene.source = asked.query.source;
   const harness::Reduced reduced = harness::reduce(scene, fails, options);

@@ -124,7 +124,7 @@ judge::Query query_of(const std::string& file, judge::Question question) {
     std::ifstream in(file);
     query = judge::query_from_json(nlohmann::json::parse(in));
   } catch (const std::exception& error) {
-    throw Usage_error("--ask " + file + ": no query: " + error.what());
+    throw Usage_error("--ask " + file + ": no query: " + printable(error.what(), 400, true));
   }
   if (query.question != question) throw Usage_error("--ask " + file + ": another question than --query");
   return query;

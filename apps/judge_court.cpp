@@ -12,16 +12,6 @@ namespace sightline::app {
 
 namespace fs = std::filesystem;
 
-Temporary_folder::Temporary_folder() {
-  std::string pattern = (fs::temp_directory_path() / "sightline-judge-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + ": no folder can be made there; check TMPDIR");
-  path_ = pattern;
-}
-Temporary_folder::~Temporary_folder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
-}
-
 static std::string in_words(const judge::Grade& grade) {
   std::vector<std::string> all;
   for (const auto& [earlier, later] : grade.wrong_pairs) all.push_back(fmt::format("face {} is drawn before face {} but is nearer somewhere", earlier, later));

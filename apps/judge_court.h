@@ -29,18 +29,6 @@ struct Judged {
   std::uint64_t bytes = 0;
 };
 
-/// A folder that is gone at the end.
-class Temporary_folder {
- public:
-  Temporary_folder();
-  Temporary_folder(const Temporary_folder&) = delete;
-  ~Temporary_folder();
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Asks the program one query after another, in a folder of its own.
 class Court {
  public:

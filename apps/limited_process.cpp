@@ -130,7 +130,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
 
   // 1. Start it. The pipe closes by itself once the program runs, so that nothing of this process is measured.
   const std::uint64_t own = status_bytes("self", "VmHWM");
-  const auto processor_seconds = static_cast<rlim_t>(limits.seconds * std::max(1u, std::thread::hardware_concurrency())) + 2;  // ends what escapes from the group
+  const auto processor_seconds = static_cast<rlim_t>(std::min(1e9, limits.seconds * std::max(1u, std::thread::hardware_concurrency()))) + 2;  // ends what escapes from the group
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error(std::string("no process: ") + std::strerror(errno));
   if (child == 0) become(argv, input.number, output.number, to.number, processor_seconds);
@@ -174,6 +174,16 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   }
   end.said = tail_of(output_file);
   return end;
+}
+
+Temporary_folder::Temporary_folder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "sightline-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + ": no folder can be made there; check TMPDIR");
+  path_ = pattern;
+}
+Temporary_folder::~Temporary_folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace sightline::app

@@ -1,7 +1,8 @@
 #pragma once
-// Somebody else's program, run in a process group of its own with limits on time and memory.
+// Somebody else's program, run in a process group of its own with limits on time and memory; and a folder for its files.
 
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -32,5 +33,17 @@ std::string shell_word(const std::string& text);
 /// Runs a program (found along PATH) without input, what it prints into a file, and waits for its end, or ends it and all that it started. It cannot write files beyond 256 MiB, nor leave a core.
 /// Errors: std::runtime_error where it cannot be started, saying why.
 Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits, const std::string& output);
+
+/// A folder that is gone at the end.
+class Temporary_folder {
+ public:
+  Temporary_folder();
+  Temporary_folder(const Temporary_folder&) = delete;
+  ~Temporary_folder();
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace sightline::app

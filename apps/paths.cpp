@@ -1,8 +1,8 @@
 #include "paths.h"
 
 #include <sightline/algorithms/generate/shapes.h>
+#include <sightline/io/number_lines.h>
 #include <sightline/io/svg.h>
-#include <sightline/io/text.h>
 
 #include <fstream>
 
@@ -29,24 +29,7 @@ void read_lines(const std::string& file, const std::string& wanted, const std::f
   std::ifstream in(file, std::ios::binary);
   if (!in) throw Input_error::of_file(file, "cannot be opened; check its name");
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  const Input input{file, bytes};
-  Text_reader reader(input, Text_reader::Comments::hash);
-  bool any = false, first = true;
-  while (reader.next_line()) {
-    const std::string_view begin = reader.next_token();
-    std::string line(begin);
-    for (std::string_view token = reader.next_token(); !token.empty(); token = reader.next_token()) line += token;
-    const bool header = first && std::isalpha(static_cast<unsigned char>(line[0])) != 0;
-    first = false;
-    if (header) continue;
-    try {
-      if (!take(parse_numbers(line, "a line wants " + wanted))) reader.fail(begin, "expected " + wanted + ", found " + sightline::quoted(line));
-    } catch (const Usage_error& error) {
-      reader.fail(begin, error.what());
-    }
-    any = true;
-  }
-  if (!any) throw Input_error::of_file(file, "has no line; write " + wanted + " a line");
+  read_number_lines({file, bytes}, wanted, take);
 }
 
 static std::vector<Viewpoint> round_scene(const Path_arguments& arguments, const Scene& scene) {

@@ -1,21 +1,14 @@
 // sightline reduce: the smallest scene for which somebody's program still fails.
 
+#include "limited_process.h"
 #include "query.h"
 
 #include <sightline/algorithms/harness/reduce.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <csignal>
 #include <iostream>
-#include <thread>
-
-extern char** environ;
+#include <limits>
 
 namespace sightline::app {
 
@@ -32,45 +25,9 @@ constexpr int timed_out = 124;  // as timeout(1) has it
 
 /// Runs a program with its output thrown away. Returns its exit code, 128 + S where signal S ended it, 124 where it did not end in time. Errors: std::runtime_error where it cannot be started.
 int exit_code_of(const std::vector<std::string>& words, double limit) {
-  std::vector<char*> argv;
-  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
-  argv.push_back(nullptr);
-  posix_spawn_file_actions_t files;
-  posix_spawn_file_actions_init(&files);
-  posix_spawn_file_actions_addopen(&files, 0, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&files, 1, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_addopen(&files, 2, "/dev/null", O_WRONLY, 0);
-  pid_t child = 0;
-  const int error = posix_spawnp(&child, argv[0], &files, nullptr, argv.data(), environ);
-  posix_spawn_file_actions_destroy(&files);
-  if (error != 0) throw std::runtime_error(words[0] + ": cannot be started; check the name and its permissions");
-  const Stopwatch watch;
-  int status = 0;
-  for (auto pause = std::chrono::microseconds(200); waitpid(child, &status, WNOHANG) == 0; pause = std::min(2 * pause, std::chrono::microseconds(20000))) {
-    if (watch.seconds() > limit) {
-      kill(child, SIGKILL);
-      waitpid(child, &status, 0);
-      return timed_out;
-    }
-    std::this_thread::sleep_for(pause);
-  }
-  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+  const Process_end end = run_limited(words, {limit, std::numeric_limits<std::uint64_t>::max()}, "/dev/null");
+  return end.kind == Process_end::timed_out ? timed_out : end.kind == Process_end::exited ? end.number : 128 + end.number;
 }
-
-/// A folder of our own that is gone in the end.
-struct Folder {
-  std::filesystem::path path;
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "sightline-reduce-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no folder can be made in " + std::filesystem::temp_directory_path().string());
-    path = name;
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-};
 
 Exit run(const Reduce_arguments& arguments) {
   const auto names = [&](const char* what) { return std::any_of(arguments.program.begin(), arguments.program.end(), [&](const std::string& word) { return word.find(what) != std::string::npos; }); };
@@ -78,14 +35,15 @@ Exit run(const Reduce_arguments& arguments) {
   if (names("{query}") && arguments.query.empty()) throw Usage_error("the program's words hold {query}; give --query");
   const std::optional<Format> format = format_of_ending(arguments.out);
   if (!format) throw Usage_error("--out " + arguments.out + ": no format has this ending; give one of " + supported_formats);
-  Query query;
-  if (!arguments.query.empty()) query = read_query(arguments.query);
-  generate::Posed_scene scene = query.scene;
-  scene.soup = read_scene(std::filesystem::path(arguments.scene));
+  Polygon_soup soup = read_scene(std::filesystem::path(arguments.scene));
+  harness::Posed_query query;
+  if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
+  generate::Posed_scene& scene = query.scene;
+  scene.soup = std::move(soup);
   scene.name = scene.soup.file;
 
-  const Folder folder;
-  const std::string scene_file = (folder.path / ("scene" + std::filesystem::path(arguments.out).extension().string())).string(), query_file = (folder.path / "query.json").string();
+  const Temporary_folder folder;
+  const std::string scene_file = (folder / ("scene" + std::filesystem::path(arguments.out).extension().string())).string(), query_file = (folder / "query.json").string();
   std::vector<std::string> words = arguments.program;
   for (std::string& word : words)
     for (const auto& [mark, file] : {std::pair<std::string, std::string>{"{}", scene_file}, {"{query}", query_file}})
@@ -96,7 +54,7 @@ Exit run(const Reduce_arguments& arguments) {
     } catch (const Not_representable&) {
       return 0;  // not a scene that can be handed over
     }
-    if (!arguments.query.empty()) write_file(query_file, query_json(smaller, query.seed).dump(1) + "\n");
+    if (!arguments.query.empty()) write_file(query_file, harness::query_json(smaller, query.seed).dump(1) + "\n");
     return exit_code_of(words, arguments.limit);
   };
   const auto fails = [&](const generate::Posed_scene& smaller) {
@@ -108,20 +66,16 @@ Exit run(const Reduce_arguments& arguments) {
     std::cerr << fmt::format("sightline: the program does not fail on {}: its exit code is {}, {} is wanted\n", arguments.scene, code_for(scene), arguments.code < 0 ? "any but 0" : std::to_string(arguments.code));
     return Exit::disagreement;
   }
-  const Stopwatch watch;
-  Progress progress("reducing");
+  Countdown time("reducing", arguments.seconds);
   harness::Reduce_options options;
   options.most_tests = 1000000;
-  options.out_of_time = [&] {
-    progress(static_cast<std::size_t>(1000 * watch.seconds()), static_cast<std::size_t>(1000 * arguments.seconds));
-    return watch.seconds() > arguments.seconds;
-  };
+  options.out_of_time = [&] { return time.over(); };
   const harness::Reduced reduced = harness::reduce(scene, fails, options);
   write_scene(reduced.scene.soup, arguments.out, *format);
-  if (!arguments.query.empty()) write_file(std::filesystem::path(arguments.out).replace_extension(".json").string(), query_json(reduced.scene, query.seed).dump(1) + "\n");
+  if (!arguments.query.empty()) write_file(std::filesystem::path(arguments.out).replace_extension(".json").string(), harness::query_json(reduced.scene, query.seed).dump(1) + "\n");
   row("faces", fmt::format("{} of {}", reduced.scene.soup.face_count(), scene.soup.face_count()));
   row("points", fmt::format("{} of {}", reduced.scene.soup.point_count(), scene.soup.point_count()));
-  row("runs", fmt::format("{}, {} steps kept, {:.1f} seconds{}", reduced.tests, reduced.kept, watch.seconds(), reduced.finished ? "" : "; not to the end"));
+  row("runs", fmt::format("{}, {} steps kept, {:.1f} seconds{}", reduced.tests, reduced.kept, time.seconds(), reduced.finished ? "" : "; not to the end"));
   return Exit::done;
 }
 
@@ -139,6 +93,7 @@ void add_reduce(CLI::App& app) {
   command->add_option("--code", a->code, "the exit code that counts as failing; 128 + S for signal S, 124 for no end in time. By default any but 0 and 124")->check(CLI::Range(0, 255));
   command->add_option("--limit", a->limit, "seconds for a run of the program")->check(CLI::PositiveNumber & sightline::app::finite_number)->capture_default_str();
   command->add_option("--seconds", a->seconds, "seconds for all")->check(CLI::PositiveNumber & sightline::app::finite_number)->capture_default_str();
-  command->footer("Exit codes: 0 done, 1 the program does not fail on SCENE, 2 usage, 3 bad input.\nExample: sightline reduce room.off --out small.off -- ./mine --order {}");
+  command->footer("The program and all that it starts end with its limit; it reads nothing, and cannot write a file beyond 256 MiB.\n"
+                  "Exit codes: 0 done, 1 the program does not fail on SCENE, 2 usage, 3 bad input.\nExample: sightline reduce room.off --out small.off -- ./mine --order {}");
   set_action(*command, [a] { return sightline::app::run(*a); });
 }

@@ -1,6 +1,8 @@
 #pragma once
 // Exact numbers: what the file says, and how it is written down again.
 
+#include <sightline/kernel/quoted.h>
+
 #include <gmpxx.h>
 
 #include <cmath>
@@ -90,9 +92,9 @@ inline Rational rational_from_string(std::string_view text) {
   const std::size_t slash = text.find('/');
   const std::string_view top = text.substr(0, slash);
   const std::string_view bottom = slash == std::string_view::npos ? std::string_view("1") : text.substr(slash + 1);
-  if (!all_digits(top) || !all_digits(bottom)) throw std::invalid_argument("not a number p or p/q: '" + std::string(text.substr(0, 40)) + "'");
+  if (!all_digits(top) || !all_digits(bottom)) throw std::invalid_argument("not a number p or p/q: " + quoted(text));
   const Integer denominator = integer(bottom);
-  if (sgn(denominator) == 0) throw std::invalid_argument("zero denominator in '" + std::string(text.substr(0, 40)) + "'");
+  if (sgn(denominator) == 0) throw std::invalid_argument("zero denominator in " + quoted(text));
   Rational value(integer(top), denominator);
   value.canonicalize();
   return value;

@@ -12,6 +12,8 @@ namespace sightline::generate {
 
 /// How far from its degeneracy a scene is.
 enum class Distance { exact, beside, far };
+inline constexpr std::array<Distance, 3> distances{Distance::exact, Distance::beside, Distance::far};
+inline const char* name_of(Distance distance) { return distance == Distance::exact ? "exact" : distance == Distance::beside ? "beside" : "far"; }
 
 /// So many ulps count as far: a gap of 1/256 of the scene's size.
 inline constexpr std::int64_t far_ulps = std::int64_t{1} << 44;

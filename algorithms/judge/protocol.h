@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -53,29 +54,36 @@ inline Json number_json(const Rational& value) {
 
 inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number_json(p[1]), number_json(p[2])}; }
 
-inline Rational number(const nlohmann::json& value, const std::string& at) {
+}  // namespace protocol_detail
+
+/// A number of JSON, as the double that it reads as, or a string "p/q". Errors of this and the next two: std::invalid_argument that says what is wrong, in one line that begins with `at`. Exact: yes.
+inline Rational number_from_json(const nlohmann::json& value, const std::string& at) {
   if (value.is_number_unsigned()) return Rational(value.get<std::uint64_t>());
   if (value.is_number_integer()) return Rational(value.get<std::int64_t>());
   if (value.is_number() && std::isfinite(value.get<double>())) return exact(value.get<double>());
-  if (!value.is_string()) fail(at + " is no number; write 0.5, or \"1/3\" where it is no double");
+  if (!value.is_string()) protocol_detail::fail(at + " is no number; write 0.5, or \"1/3\" where it is no double");
   try {
     return rational_from_string(value.get_ref<const std::string&>());
   } catch (const std::invalid_argument& error) {
-    fail(at + ": " + error.what());
+    protocol_detail::fail(at + ": " + error.what());
   }
 }
 
-inline Exact_point point(const nlohmann::json& value, const std::string& at) {
-  if (!value.is_array() || value.size() != 3) fail(at + " is no point; write [x, y, z]");
-  return {number(value[0], at), number(value[1], at), number(value[2], at)};
+/// A point [x, y, z].
+inline Exact_point point_from_json(const nlohmann::json& value, const std::string& at) {
+  if (!value.is_array() || value.size() != 3) protocol_detail::fail(at + " is no point; write [x, y, z]");
+  return {number_from_json(value[0], at), number_from_json(value[1], at), number_from_json(value[2], at)};
 }
 
-inline std::vector<Exact_point> points(const nlohmann::json& value, const std::string& at) {
-  if (!value.is_array()) fail(at + " is no list of points; write [[x, y, z], ...]");
+/// A list of points.
+inline std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std::string& at) {
+  if (!value.is_array()) protocol_detail::fail(at + " is no list of points; write [[x, y, z], ...]");
   std::vector<Exact_point> all;
-  for (const nlohmann::json& p : value) all.push_back(point(p, at + '[' + std::to_string(all.size()) + ']'));
+  for (const nlohmann::json& p : value) all.push_back(point_from_json(p, at + '[' + std::to_string(all.size()) + ']'));
   return all;
 }
+
+namespace protocol_detail {
 
 /// Collects an answer and says what is wrong with it.
 class Answer_reader {
@@ -88,7 +96,7 @@ class Answer_reader {
     const std::string key = question_ == Question::order ? "order" : "visible";
     const auto abstained = value.find("abstained");
     const bool from_all = abstained != value.end() && *abstained == "all";
-    if (from_all) abstain_from_all();
+    abstains_from_all_ = from_all;
     if (abstained != value.end() && !from_all) {
       if (!abstained->is_array()) fail("\"abstained\" is neither a list of faces nor \"all\"");
       for (std::size_t i = 0; i < abstained->size(); ++i) answer_.abstained.push_back(face((*abstained)[i], "abstained[" + std::to_string(i) + ']'));
@@ -120,12 +128,12 @@ class Answer_reader {
       if (abstains) word = next_word();
       if (!next_word().empty()) fail(at + " holds more than one face; write one a line");
       if (abstains && word == "all") {
-        abstain_from_all();
+        abstains_from_all_ = true;
         continue;
       }
       std::uint64_t number = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-      if (error != std::errc() || end != word.data() + word.size()) fail(at + ": '" + std::string(word.substr(0, 40)) + "' is no face; write its number, from 0");
+      if (error != std::errc() || end != word.data() + word.size()) fail(at + ": " + quoted(word) + " is no face; write its number, from 0");
       const Face_id id = face(number, at);
       if (abstains) answer_.abstained.push_back(id);
       else take_whole(id);
@@ -145,7 +153,7 @@ class Answer_reader {
   void take(const nlohmann::json& value, const std::string& at) {
     if (question_ != Question::order || !value.is_object()) return take_whole(face(value, at));
     if (!value.contains("face") || !value.contains("vertices")) fail(at + " is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
-    Drawn_face part{face(value["face"], at + ".face"), points(value["vertices"], at + ".vertices")};
+    Drawn_face part{face(value["face"], at + ".face"), points_from_json(value["vertices"], at + ".vertices")};
     if (part.part.size() < 3) fail(at + " has fewer than three vertices; give the corners of a convex part of the face");
     in_parts_.insert(part.face);
     answer_.order.push_back(std::move(part));
@@ -158,11 +166,11 @@ class Answer_reader {
     if (!whole_.insert(id).second) fail("face " + std::to_string(id) + " is in the order twice");
     answer_.order.push_back({id, {}});
   }
-  void abstain_from_all() {
-    for (std::size_t f = 0; f < faces_; ++f) answer_.abstained.push_back(static_cast<Face_id>(f));
-  }
-
   Answer finished() {
+    if (abstains_from_all_) {
+      answer_.abstained.resize(faces_);
+      std::iota(answer_.abstained.begin(), answer_.abstained.end(), Face_id{0});
+    }
     for (const Face_id id : whole_)
       if (in_parts_.contains(id)) fail("face " + std::to_string(id) + " is in the order as a whole and in parts");
     for (std::vector<Face_id>* list : {&answer_.visible, &answer_.abstained}) {
@@ -178,6 +186,7 @@ class Answer_reader {
   Question question_;
   std::size_t faces_;
   Answer answer_;
+  bool abstains_from_all_ = false;
   std::set<Face_id> whole_, in_parts_;
 };
 
@@ -209,8 +218,8 @@ inline Query query_from_json(const nlohmann::json& value) {
   const auto known = std::find_if(question_names.begin(), question_names.end(), [&](std::string_view question) { return name == question; });
   if (known == question_names.end()) protocol_detail::fail("query: \"query\" is neither \"order\" nor \"see\" nor \"weak\"");
   query.question = static_cast<Question>(known - question_names.begin());
-  if (query.question == Question::weak) query.source = protocol_detail::points(member("source"), "source");
-  else query.eye = protocol_detail::point(member("eye"), "eye");
+  if (query.question == Question::weak) query.source = points_from_json(member("source"), "source");
+  else query.eye = point_from_json(member("eye"), "eye");
   if (!member("two_sided").is_boolean()) protocol_detail::fail("query: \"two_sided\" is neither true nor false");
   query.two_sided = member("two_sided").get<bool>();
   return query;

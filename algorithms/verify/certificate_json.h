@@ -141,7 +141,7 @@ inline nlohmann::json parse(std::istream& in) {
   try {
     return nlohmann::json::parse(in);
   } catch (const nlohmann::json::exception& error) {
-    throw std::invalid_argument(std::string("certificate: ") + error.what());
+    throw std::invalid_argument("certificate: " + printable(error.what(), 400, true));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "event_cells.h"
 #include "fixed_integer.h"
 #include "mutate.h"
+#include "other_readers.h"
 #include "quadratic_roots.h"
 #include "readers.h"
 #include "side.h"
@@ -19,7 +20,7 @@ namespace fuzz {
 struct Target {
   const char* name;
   void (*run)(std::string_view bytes);
-  std::vector<std::string> endings;  ///< of the files of the corpus that it begins with; none: of random bytes
+  std::vector<std::string> seeds;  ///< endings, or folders, of the files of the corpus that it begins with; none: it begins with random bytes
 };
 
 inline const std::vector<Target>& targets() {
@@ -29,7 +30,11 @@ inline const std::vector<Target>& targets() {
                                        {"read_ply", read_ply, {".ply"}},
                                        {"read_stl", read_stl, {".stl"}},
                                        {"decimal", decimal, {".off", ".qoff", ".obj"}},
-                                       {"certificate", certificate, {".json"}},
+                                       {"read_certificate", read_certificate, {"certificates/"}},
+                                       {"query", query, {"queries/"}},
+                                       {"answer", answer, {"answers/"}},
+                                       {"number_lines", number_lines, {"paths/"}},
+                                       {"certificate", certificate, {"certificates/"}},
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
                                        {"quadratic_roots", quadratic_roots, {}},
@@ -44,9 +49,12 @@ struct Seed {
 /// The files of the corpus that a target begins with, by name.
 inline std::vector<Seed> seeds_of(const Target& target) {
   std::vector<Seed> seeds;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(std::filesystem::path(SIGHTLINE_SOURCE_DIR) / "tests" / "corpus")) {
+  const std::filesystem::path corpus = std::filesystem::path(SIGHTLINE_SOURCE_DIR) / "tests" / "corpus";
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
     const std::filesystem::path& file = entry.path();
-    if (std::find(target.endings.begin(), target.endings.end(), file.extension().string()) == target.endings.end()) continue;
+    const std::string name = file.lexically_relative(corpus).string();
+    const auto is_meant = [&](const std::string& seed) { return seed.ends_with('/') ? name.starts_with(seed) : file.extension() == seed; };
+    if (std::none_of(target.seeds.begin(), target.seeds.end(), is_meant)) continue;
     std::ifstream in(file, std::ios::binary);
     seeds.push_back({file.string(), std::string(std::istreambuf_iterator<char>(in), {})});
   }

@@ -112,16 +112,25 @@ TEST(Protocol, says_what_is_wrong_with_an_answer) {
   EXPECT_EQ(what("{\"visible\": [1], \"abstained\": [1]}"), "face 1 is both answered and abstained from");
   EXPECT_EQ(what("{\"visible\": [1], \"abstained\": \"some\"}"), "\"abstained\" is neither a list of faces nor \"all\"");
   EXPECT_EQ(what("0\nface 1\n"), "line 2 holds more than one face; write one a line");
-  EXPECT_EQ(what("0\n1.0\n"), "line 2: '1.0' is no face; write its number, from 0");
-  EXPECT_EQ(what("abstained\n"), "line 1: '' is no face; write its number, from 0");
+  EXPECT_EQ(what("0\n1.0\n"), "line 2: \"1.0\" is no face; write its number, from 0");
+  EXPECT_EQ(what("abstained\n"), "line 1: \"\" is no face; write its number, from 0");
   EXPECT_EQ(what("0\n7\n"), "line 2 names face 7; the scene has faces 0 to 2");
-  EXPECT_EQ(what("99999999999999999999\n"), "line 1: '99999999999999999999' is no face; write its number, from 0");
+  EXPECT_EQ(what("99999999999999999999\n"), "line 1: \"99999999999999999999\" is no face; write its number, from 0");
   EXPECT_EQ(what("0\n1\n0\n", Question::order), "face 0 is in the order twice");
   EXPECT_EQ(what("0\nabstained 0\n", Question::order), "face 0 is both answered and abstained from");
   EXPECT_EQ(what("{\"order\": [{\"face\": 0}]}", Question::order), "order[0] is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
   EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0]]}]}", Question::order), "order[0] has fewer than three vertices; give the corners of a convex part of the face");
   EXPECT_EQ(what("{\"order\": [0, {\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}]}", Question::order), "face 0 is in the order as a whole and in parts");
   EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, null], [0, 1, 0]]}]}", Question::order), "order[0].vertices[1] is no number; write 0.5, or \"1/3\" where it is no double");
+}
+
+TEST(Protocol, takes_memory_in_proportion_to_an_answer_and_its_scene) {
+  constexpr std::size_t faces = 100000;
+  std::string text;
+  for (int k = 0; k < 1000; ++k) text += "abstained all\n";
+  const Answer answer = read_answer(text, Question::see, faces);
+  EXPECT_EQ(answer.abstained.size(), faces);
+  EXPECT_LE(answer.abstained.capacity(), 2 * faces);
 }
 
 // ---- See and weak -----------------------------------------------------------------------------------------------------------

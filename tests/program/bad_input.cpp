@@ -83,6 +83,25 @@ TEST_F(Bad_input, announced_multitudes_take_no_memory) {
   }
 }
 
+TEST_F(Bad_input, a_query_of_another_scene_or_of_a_million_brackets_is_refused) {
+  const std::string cube = (corpus / "general" / "cube.off").string();
+  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']'), begin = R"({"format": "sightline query 1", "eye": )", eye = R"(["0", "0", "9"], )";
+  const std::vector<std::pair<std::string, std::string>> queries{{(corpus / "queries" / "face_out_of_range.json").string(), "\"visible\" names a face that is not one of the scene's 6"},
+                                                                 {file("eye.json", begin + deep + '}'), "eye is no point"},
+                                                                 {file("eyes.json", begin + "[0, 0, " + deep + "]}"), "eye is no number"},
+                                                                 {file("source.json", begin + eye + "\"source\": " + deep + '}'), "source[0] is no point"},
+                                                                 {file("hidden.json", begin + eye + "\"hidden\": " + deep + '}'), "\"hidden\" names a face that is not one"},
+                                                                 {file("bytes.json", begin + "\x7f\n\xff"), "parse error"}};
+  for (const auto& [query, why] : queries)
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"fuzz", "see", "--scene", cube, "--query", query}, {"reduce", cube, "--out", path("small.off").string(), "--query", query, "--", "false", "{}"}}) {
+      const Outcome r = run(words, {20, 1024});
+      EXPECT_EQ(r.code, bad_input) << r;
+      EXPECT_TRUE(r.one_line_of_error()) << r;
+      EXPECT_NE(r.err.find(query + ": "), std::string::npos) << r;
+      EXPECT_NE(r.err.find(why), std::string::npos) << r;
+    }
+}
+
 TEST_F(Bad_input, a_common_denominator_that_explodes_is_refused) {
   // Each point has another denominator of 61 bits with few common factors: those of 143 points have a multiple of 8192 bits.
   std::string text = "OFF\n600 1 0\n";

@@ -86,7 +86,12 @@ TEST_F(Fuzz, what_makes_no_sense_is_told) {
     EXPECT_TRUE(r.one_line_of_error()) << r;
   }
   const std::string query = path("q.json").string();
-  for (const char* text : {"", "{}", "[1]", "{\"format\": \"sightline query 1\"}", "{\"format\": \"sightline query 1\", \"eye\": [1, 2, 3]}", "{\"format\": \"sightline query 1\", \"eye\": [\"1\", \"2\", \"3/0\"]}"}) {
+  std::ofstream(query) << R"({"format": "sightline query 1", "eye": [1, 2, 3], "source": [[0, 0, 9], [1, 0, 9], ["1/3", 0, 9]]})";
+  const Outcome flat = run({"fuzz", "weak", "--scene", scene, "--query", query});
+  EXPECT_EQ(flat.code, usage) << flat;
+  EXPECT_NE(flat.err.find("a source has no area"), std::string::npos) << flat;
+  EXPECT_EQ(run({"fuzz", "see", "--scene", scene, "--query", query}).code, done) << "a source is not asked about";
+  for (const char* text : {"", "{}", "[1]", "{\"format\": \"sightline query 1\"}", "{\"format\": \"sightline query 1\", \"eye\": [1, 2]}", "{\"format\": \"sightline query 1\", \"eye\": [\"1\", \"2\", \"3/0\"]}"}) {
     std::ofstream(query) << text;
     const Outcome r = run({"fuzz", "see", "--scene", scene, "--query", query});
     EXPECT_EQ(r.code, bad_input) << text << r;
