@@ -30,7 +30,7 @@ inline const std::vector<Target>& targets() {
                                        {"read_ply", read_ply, {".ply"}},
                                        {"read_stl", read_stl, {".stl"}},
                                        {"decimal", decimal, {".off", ".qoff", ".obj"}},
-                                       {"read_certificate", read_certificate, {"certificates/"}},
+                                       {"read_certificate", read_certificate, {"certificates/", "forms/"}},
                                        {"query", query, {"queries/"}},
                                        {"answer", answer, {"answers/"}},
                                        {"number_lines", number_lines, {"paths/"}},
