@@ -23,6 +23,7 @@ struct Cutset_arguments {
 
 /// What one viewpoint gave.
 struct Frame {
+  std::size_t number;  // from 1
   Viewpoint view;
   Cut_set_counters counters;
   std::size_t cut_edges, on_view;  // on_view: faces
@@ -64,26 +65,40 @@ std::size_t disagreements(const Exact_traits& traits, const Face_graph& graph, c
   return wrong;
 }
 
-/// All frames of a path, by whatever tracker: move(view) says what it took.
+/// What a path gave: all frames for JSON, otherwise the first ones and those of a picture.
+struct Followed {
+  std::vector<Frame> frames;
+  Cut_set_counters total;
+  std::size_t count = 0, wrong = 0, cut_edges = 0;  // frames, those that brute force contradicts, edges in all of them
+  double seconds = 0;
+};
+
+constexpr std::size_t frames_shown = 20;
+
+/// A path, by whatever tracker: move(view) says what it took.
 template <class Tracker, class Move>
-std::vector<Frame> follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph, const std::vector<Viewpoint>& path, const Tracker& tracker, Move move, double& seconds) {
+Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph, const Path& path, const Tracker& tracker, Move move) {
   Progress progress("moving");
   const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const std::size_t every = (path.size() + pictures_in_a_strip - 1) / pictures_in_a_strip;
-  std::vector<Frame> frames;
-  for (const Viewpoint& view : path) {
-    report(frames.size(), path.size());
+  const std::size_t every = (path.size + pictures_in_a_strip - 1) / pictures_in_a_strip;
+  Followed followed;
+  for (std::size_t k = 0; k < path.size; ++k) {
+    report(k, path.size);
+    const Viewpoint view = path.at(k);
     const Stopwatch watch;
     const Cut_set_counters counters = move(view);
-    seconds += watch.seconds();
+    followed.seconds += watch.seconds();
+    const std::size_t cut_edges = tracker.cut_edges().size(), wrong = arguments.check ? disagreements(traits, graph, tracker, view) : 0;
+    followed.total += counters, ++followed.count, followed.wrong += wrong > 0, followed.cut_edges += cut_edges;
+    const bool pictured = !arguments.svg.empty() && k % every == 0;
+    if (k >= frames_shown && !pictured && arguments.common.json.empty()) continue;
     std::vector<Face_id> faces = faces_on_view(graph, tracker);
-    Frame& frame = frames.emplace_back(Frame{view, counters, tracker.cut_edges().size(), faces.size(), {}, {}});
+    Frame& frame = followed.frames.emplace_back(Frame{k + 1, view, counters, cut_edges, faces.size(), {}, {}, wrong});
     if (arguments.faces) frame.faces = std::move(faces);
-    if (!arguments.svg.empty() && (frames.size() - 1) % every == 0)
+    if (pictured)
       for (std::uint32_t node = 0; node < graph.size(); ++node) frame.nodes.push_back(tracker.on_view(node));
-    if (arguments.check) frame.wrong = disagreements(traits, graph, tracker, view);
   }
-  return frames;
+  return followed;
 }
 
 Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& arguments) {
@@ -97,16 +112,15 @@ Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& argum
   return list;
 }
 
-void print_frames(const std::vector<Frame>& frames, bool check) {
-  constexpr std::size_t shown = 20;
+void print_frames(const Followed& followed, bool check) {
   std::cout << "frame  on-view  cut edges    tests  births  viewpoint\n";
-  for (std::size_t k = 0; k < std::min(shown, frames.size()); ++k) {
-    const Frame& frame = frames[k];
+  for (const Frame& frame : followed.frames) {
+    if (frame.number > frames_shown) break;
     const Exact_point& at = frame.view.at;
-    std::cout << fmt::format("{:>5}  {:>7}  {:>9}  {:>7}  {:>6}  {}({:g}, {:g}, {:g}){}\n", k + 1, frame.on_view, frame.cut_edges, frame.counters.tests, frame.counters.births,
+    std::cout << fmt::format("{:>5}  {:>7}  {:>9}  {:>7}  {:>6}  {}({:g}, {:g}, {:g}){}\n", frame.number, frame.on_view, frame.cut_edges, frame.counters.tests, frame.counters.births,
                              frame.view.at_infinity ? "at infinity, " : "", nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2]), check && frame.wrong > 0 ? "  WRONG" : "");
   }
-  if (frames.size() > shown) std::cout << fmt::format("  ... {} more: --json - prints them all\n", frames.size() - shown);
+  if (followed.count > frames_shown) std::cout << fmt::format("  ... {} more: --json - prints them all\n", followed.count - frames_shown);
 }
 
 Exit run_decisions(const Cutset_arguments& arguments) {
@@ -130,21 +144,18 @@ static Exit run(const Cutset_arguments& arguments) {
   if (!arguments.decisions.wanted && (arguments.decisions.inside || !arguments.decisions.likelihood.empty())) throw Usage_error("--inside and --likelihood go with --decision-tree");
   if (arguments.decisions.wanted) return run_decisions(arguments);
   const Scene scene(common.read());
-  const std::vector<Viewpoint> path = path_of(arguments.path, scene);
+  const Path path = path_of(arguments.path, scene);
   const Stopwatch watch;
   const Face_graph graph(scene);
   const Exact_traits traits(scene);
   const double graph_seconds = watch.seconds();
 
-  double seconds = 0;
-  std::vector<Frame> frames;
-  Cut_set_counters total;
+  Followed followed;
   if (arguments.method == "tracker") {
     Cut_set_tracker tracker(traits, graph);
-    frames = follow(arguments, traits, graph, path, tracker, [&](const Viewpoint& view) { return tracker.move_to(view); }, seconds);
-    total = tracker.counters();
+    followed = follow(arguments, traits, graph, path, tracker, [&](const Viewpoint& view) { return tracker.move_to(view); });
   } else {
-    Cut_set_1977<Exact_traits> update(traits, graph, path.front(), arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
+    Cut_set_1977<Exact_traits> update(traits, graph, path.at(0), arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
     bool started = false;
     const auto move = [&](const Viewpoint& view) {
       Cut_set_counters counters;
@@ -152,33 +163,33 @@ static Exit run(const Cutset_arguments& arguments) {
       started = true;
       return counters;
     };
-    frames = follow(arguments, traits, graph, path, update, move, seconds);
-    for (const Frame& frame : frames) total += frame.counters;
+    followed = follow(arguments, traits, graph, path, update, move);
   }
 
-  std::size_t convex = 0, wrong = 0, cut_edges = 0;
+  const auto& [frames, total, count, wrong, cut_edges, seconds] = followed;
+  std::size_t convex = 0;
   for (const Face_graph::Component& component : graph.components()) convex += component.inside.has_value();
-  for (const Frame& frame : frames) wrong += frame.wrong > 0, cut_edges += frame.cut_edges;
   if (!arguments.svg.empty()) {
     std::vector<Outline> outlines;
     for (const Frame& frame : frames)
-      if (!frame.nodes.empty()) outlines.push_back({frame.view, frame.nodes, fmt::format("{}: {} on-view, {} tests", &frame - frames.data() + 1, frame.on_view, frame.counters.tests)});
+      if (!frame.nodes.empty()) outlines.push_back({frame.view, frame.nodes, fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
     write_file(arguments.svg, painted(graph, outlines));
   }
 
-  const std::size_t later = frames.size() - 1;
+  const std::size_t later = count - 1;
   const std::uint64_t later_tests = total.tests - frames.front().counters.tests;
   const auto share = [&](std::uint64_t part) { return later == 0 || graph.size() == 0 ? 0 : static_cast<double>(part) / static_cast<double>(later * graph.size()); };
   const Json counters{{"nodes", graph.size()}, {"edges", graph.edges().size()}, {"components", graph.components().size()}, {"convex", convex}, {"refused", graph.refused()}, {"tests", total.tests},
                       {"tests_away", total.away}, {"first_tests", frames.front().counters.tests}, {"exact_tests", total.exact}, {"changed", total.changed}, {"births", total.births}, {"searches", total.searches}, {"compared", total.compared}};
-  Json result{{"frames", frames_json(frames, arguments)}};
+  Json result;
+  if (!common.json.empty()) result["frames"] = frames_json(frames, arguments);
   if (arguments.check) result["wrong_frames"] = wrong;
   const Exit exit = wrong > 0 ? Exit::disagreement : Exit::done;
   if (write_json(common, "cutset", scene, std::move(result), counters, {{"graph", graph_seconds}, {"frames", seconds}})) return exit;
   scene_rows(scene);
   row("face graph", fmt::format("{} nodes (faces joined across coplanar edges), {} edges, {} components, {} of them convex bodies", graph.size(), graph.edges().size(), graph.components().size(), convex));
   if (graph.refused() > 0) row("not manifold", fmt::format("{} pieces stand apart in the graph: births, not the cut-set, find their changes", graph.refused()));
-  print_frames(frames, arguments.check);
+  print_frames(followed, arguments.check);
   row("tests", fmt::format("{} for the first frame; then {:.4g} a frame: {:.3g}% of testing all faces, {:.3g} for each edge of the cut-set", frames.front().counters.tests,
                            later == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(later), 100 * share(later_tests),
                            cut_edges == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(cut_edges)));
@@ -186,8 +197,8 @@ static Exit run(const Cutset_arguments& arguments) {
     row("tests split", fmt::format("{:.4g} a frame at the cut-set, {:.4g} away from it, where births are looked for", static_cast<double>(later_tests - (total.away - frames.front().counters.away)) / static_cast<double>(later), static_cast<double>(total.away - frames.front().counters.away) / static_cast<double>(later)));
   row("beyond doubles", fmt::format("{} of {} tests", total.exact, total.tests));
   if (arguments.method == "tracker") row("changes", fmt::format("{} of nodes, {} clusters born away from the cut-set, {} searches of convex bodies that showed no face", total.changed, total.births, total.searches));
-  if (arguments.check) row("check", wrong == 0 ? fmt::format("all {} frames equal brute force", frames.size()) : fmt::format("{} of {} frames are WRONG", wrong, frames.size()));
-  row("seconds", fmt::format("{:.3f} for the graph, {:.4f} for {} frames", graph_seconds, seconds, frames.size()));
+  if (arguments.check) row("check", wrong == 0 ? fmt::format("all {} frames equal brute force", count) : fmt::format("{} of {} frames are WRONG", wrong, count));
+  row("seconds", fmt::format("{:.3f} for the graph, {:.4f} for {} frames", graph_seconds, seconds, count));
   return exit;
 }
 

@@ -32,7 +32,7 @@ void read_lines(const std::string& file, const std::string& wanted, const std::f
   read_number_lines({file, bytes}, wanted, take);
 }
 
-static std::vector<Viewpoint> round_scene(const Path_arguments& arguments, const Scene& scene) {
+static Path round_scene(const Path_arguments& arguments, const Scene& scene) {
   Exact_point centre{0, 0, 0};
   Rational half = 1;
   if (scene.points().size() > 0) {
@@ -45,15 +45,18 @@ static std::vector<Viewpoint> round_scene(const Path_arguments& arguments, const
   }
   constexpr std::int64_t grid = std::int64_t{1} << 30;
   const Rational radius = half * exact(arguments.radius) / Rational(static_cast<long>(grid)), height = half * exact(arguments.height);
-  std::vector<Viewpoint> path;
-  for (std::size_t k = 0; k < arguments.orbit; ++k) {
-    const auto [x, y] = generate::circle_point(k, arguments.orbit, grid);
-    path.push_back({{Rational(centre[0] + radius * static_cast<long>(x)), Rational(centre[1] + radius * static_cast<long>(y)), Rational(centre[2] + height)}, false});
-  }
-  return path;
+  return {arguments.orbit, [centre, radius, height, orbit = arguments.orbit](std::size_t k) {
+            const auto [x, y] = generate::circle_point(k, orbit, grid);
+            return Viewpoint{{Rational(centre[0] + radius * static_cast<long>(x)), Rational(centre[1] + radius * static_cast<long>(y)), Rational(centre[2] + height)}, false};
+          }};
 }
 
-std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& scene) {
+static Path path_through(std::vector<Viewpoint> viewpoints) {
+  const std::size_t size = viewpoints.size();
+  return {size, [viewpoints = std::move(viewpoints)](std::size_t k) { return viewpoints[k]; }};
+}
+
+Path path_of(const Path_arguments& arguments, const Scene& scene) {
   if (arguments.orbit > 0) return round_scene(arguments, scene);
   std::vector<Viewpoint> path;
   if (!arguments.path.empty()) {
@@ -63,7 +66,7 @@ std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& sce
       path.push_back({{n[0], n[1], n[2]}, direction});
       return true;
     });
-    return path;
+    return path_through(std::move(path));
   }
   const Viewpoint eye{eye_of(arguments.eye, scene), false};
   read_lines(arguments.motion, "a motion W,X,Y,Z,TX,TY,TZ with a quaternion that is not zero", [&](const std::vector<Rational>& n) {
@@ -71,7 +74,7 @@ std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& sce
     path.push_back(Rigid_motion{{n[0], n[1], n[2], n[3]}, {n[4], n[5], n[6]}}.seen_from(eye));
     return true;
   });
-  return path;
+  return path_through(std::move(path));
 }
 
 // ---- Pictures ----------------------------------------------------------------------------------------------------------------

@@ -21,8 +21,14 @@ void check_usage(const Path_arguments& arguments);
 /// Calls `take` with the numbers of each line; '#' begins a comment, a first line that begins with a letter is a header. Errors: Input_error with line and column, saying what is `wanted`, for what is
 /// no number, where `take` says no, and for a file without a line.
 void read_lines(const std::string& file, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take);
+
+/// Viewpoints, each made when it is asked for: an orbit of any length takes no memory.
+struct Path {
+  std::size_t size;
+  std::function<Viewpoint(std::size_t)> at;
+};
 /// At least one viewpoint. Errors: Input_error with line and column.
-std::vector<Viewpoint> path_of(const Path_arguments& arguments, const Scene& scene);
+Path path_of(const Path_arguments& arguments, const Scene& scene);
 
 /// A frame's picture: the on-view nodes from a viewpoint.
 struct Outline {

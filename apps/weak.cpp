@@ -149,8 +149,10 @@ Exit run_weak(const Weak_arguments& arguments) {
   Progress progress("searching");
   Weak_task task = arguments.task;
   task.two_sided = arguments.sources.two_sided, task.threads = common.threads, task.seed = common.seed, task.surfaces = !arguments.surfaces.empty();
-  if (common.budget > 0) task.out_of_time = [&] { return watch.seconds() > common.budget; };
-  task.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
+  const bool leaves_open = method == "lines" || method == "events";
+  const std::function<void(std::size_t, std::size_t)> report = [&](std::size_t done, std::size_t all) { progress(done, all); };
+  if (leaves_open && common.budget > 0) task.out_of_time = [&] { return watch.seconds() > common.budget; };
+  task.progress = leaves_open ? report : common.within_budget(report);
   watch = {};
   const Weak_outcome outcome = run_weak_method(method, occluders, sources, task);
   const Weakly_visible& found = outcome.found;

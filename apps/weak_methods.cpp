@@ -109,7 +109,7 @@ static Weak_outcome unproved(Weak_faces faces) {
 
 static Weak_faces by_samples(const Occluders& occluders, const Sources& sources, const Weak_task& task) {
   Weak_faces faces;
-  faces.visible = visible_by_sampling(occluders, sources.polygons, {task.rays, task.seed, task.two_sided});
+  faces.visible = visible_by_sampling(occluders, sources.polygons, {task.rays, task.seed, task.two_sided, task.progress});
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   for (const std::uint32_t first : first_pieces(pieces))
     if (!std::binary_search(faces.visible.begin(), faces.visible.end(), pieces[first].face)) faces.hidden.push_back(pieces[first].face);
@@ -125,7 +125,7 @@ Weak_outcome run_weak_method(const std::string& method, const Occluders& occlude
   else if (method == "sample") outcome = unproved(by_samples(occluders, sources, task));
   else if (method == "doubles") {
     Doubles_search_options options;
-    options.two_sided = task.two_sided, options.threads = task.threads;
+    options.two_sided = task.two_sided, options.threads = task.threads, options.progress = task.progress;
     outcome = unproved(visible_by_doubles(occluders, sources.polygons, options));
   } else {
     events.progress = task.progress;

@@ -37,7 +37,7 @@ struct Weak_task {
   std::size_t event_edges = 300;          ///< lines: what stays undecided goes to events where no more edges are near
   std::size_t rays = 100000;              ///< sample
   bool surfaces = false;                  ///< events: whether to keep them
-  std::function<bool()> out_of_time;      ///< lines, events
+  std::function<bool()> out_of_time;      ///< lines, events: what they have no time for stays open
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 

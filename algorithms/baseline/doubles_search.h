@@ -11,6 +11,7 @@ struct Doubles_search_options {
   std::size_t cells = 5000;  ///< for a source and a piece; then `undecided`
   int halvings = 6;          ///< of source or target, one in another, where a cell may have a line and none is found
   int threads = 0;           ///< 0: as many as there are processors
+  std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
 
 /// One search in doubles: takes a line of the cell, and a piece that blocks it; cuts source or target by that piece's plane; goes on, edge by edge, to lines that pass it outside. A cell ends where
@@ -241,7 +242,9 @@ inline Weak_faces visible_by_doubles(const Occluders& occluders, const std::vect
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Weak_status> results(first.size(), Weak_status::hidden);
+  std::atomic<std::size_t> done = 0;
   const auto decide = [&](std::size_t f) {
+    if (options.progress) options.progress(done++, first.size());
     const std::uint32_t end = f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size());
     for (std::uint32_t piece = first[f]; piece < end; ++piece)
       for (const Weak_source& source : sources) {

@@ -9,6 +9,7 @@ struct Ray_sampling_options {
   std::size_t rays = 100000;  ///< from each source
   std::uint64_t seed = 1;
   bool two_sided = false;
+  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< rays; called now and then
 };
 
 /// The faces that at least one of the rays hits first, from their front (or from behind too). Rays start at points spread evenly over each source and go to all sides in
@@ -22,6 +23,7 @@ inline std::vector<Face_id> visible_by_sampling(const Occluders& occluders, cons
   const auto length = [](const Triple& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); };
   const auto scaled = [](const Triple& a, double by) { return Triple{a[0] * by, a[1] * by, a[2] * by}; };
   std::vector<bool> seen(occluders.scene().counters().faces_read);
+  std::size_t done = 0;
   for (const Weak_source& source : sources) {
     // 1. A frame on the source, and its triangles by area.
     const Triple& origin = source.polygon[0].near;
@@ -36,6 +38,7 @@ inline std::vector<Face_id> visible_by_sampling(const Occluders& occluders, cons
     }
     const Triple n = scaled(normal, 1 / length(normal)), v = cross(n, u);
     for (std::size_t ray = 0; ray < options.rays; ++ray) {
+      if (options.progress && done++ % 4096 == 0) options.progress(done, sources.size() * options.rays);
       // 2. A point, and a direction.
       const double share = unit(dice) * total;
       const std::size_t i = std::min(areas.size() - 1, static_cast<std::size_t>(std::upper_bound(areas.begin(), areas.end(), share) - areas.begin())) + 1;

@@ -120,6 +120,14 @@ TEST_F(Cutset, bad_files_name_line_and_column) {
   refused({"cutset", cube, "--decision-tree", "--likelihood", file("m.csv", "1,2\n1,0,1\n")}, bad_input, "m.csv:2:1");  // opposite faces
 }
 
+TEST_F(Cutset, a_long_orbit_takes_no_memory_for_its_frames) {
+  const std::size_t frames = sanitized ? 4000 : 400'000;
+  const Outcome r = run({"cutset", cube, "--orbit", std::to_string(frames)}, {120, 512});
+  EXPECT_EQ(r.code, done) << r;
+  EXPECT_NE(r.out.find("for " + std::to_string(frames) + " frames"), std::string::npos) << r;
+  EXPECT_NE(r.out.find("... " + std::to_string(frames - 20) + " more"), std::string::npos) << r;
+}
+
 TEST_F(Cutset, too_many_planes_for_a_decision_tree_are_said) {
   const std::string sphere = path("sphere.off").string();
   run({"generate", "convex_sphere", "--size", "48", "--out", sphere});

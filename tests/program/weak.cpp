@@ -107,6 +107,14 @@ TEST_F(Weak, refuses_sources_that_are_none) {
   refused({"--from", "0,0,3 1,0 1,1,3"}, "--from");
 }
 
+TEST_F(Weak, ends_with_its_budget_also_by_methods_that_leave_nothing_undecided) {
+  const Outcome r = run({"weak", cube, "--from", "0,0,3 0,1,3 1,1,3 1,0,3", "--method", "sample", "--rays", "1000000000000", "--budget", "0.2"}, {20, 1024});
+  EXPECT_EQ(r.code, undecided) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+  EXPECT_NE(r.err.find("the budget of 0.2 s ran out"), std::string::npos) << r;
+  EXPECT_EQ(r.out, "") << r;
+}
+
 TEST_F(Weak, says_undecided_with_exit_code_4_where_it_may_not_search) {
   const std::string scene = file("two.off", "OFF\n12 3 0\n-2 -2 4\n-2 2 4\n2 2 4\n2 -2 4\n-4 -2 2\n0 -2 2\n0 2 2\n-4 2 2\n0 -2 2\n4 -2 2\n4 2 2\n0 2 2\n4 0 1 2 3\n4 4 5 6 7\n4 8 9 10 11\n");
   const std::vector<std::string> source{"--from", "-1,-1,0 1,-1,0 1,1,0 -1,1,0"};
