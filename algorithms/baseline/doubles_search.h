@@ -242,18 +242,15 @@ inline Weak_faces visible_by_doubles(const Occluders& occluders, const std::vect
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Weak_status> results(first.size(), Weak_status::hidden);
-  std::atomic<std::size_t> done = 0;
-  const auto decide = [&](std::size_t f) {
-    if (options.progress) options.progress(done++, first.size());
-    const std::uint32_t end = f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size());
-    for (std::uint32_t piece = first[f]; piece < end; ++piece)
+  const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t piece = begin; piece < end; ++piece)
       for (const Weak_source& source : sources) {
         const Weak_status found = Doubles_search(occluders, options).run(source, piece);
         if (found != Weak_status::hidden) results[f] = found;
         if (found == Weak_status::visible) return;
       }
   };
-  run_with_threads(options.threads, [&] { oneapi::tbb::parallel_for(std::size_t{0}, first.size(), decide); });
+  for_each_face(pieces, first, options.threads, options.progress, decide);
   Weak_faces all;
   for (std::size_t f = 0; f < first.size(); ++f) all.of(results[f]).push_back(pieces[first[f]].face);
   return all;

@@ -82,11 +82,9 @@ inline Weakly_visible possibly_visible(const Occluders& occluders, const std::ve
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Result> results(first.size());
-  std::atomic<std::size_t> done = 0;
-  const auto decide = [&](std::size_t f) {
+  const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
     auto& [hidden, proofs] = results[f];
-    const std::uint32_t end = f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size());
-    for (std::uint32_t piece = first[f]; piece < end && hidden; ++piece)
+    for (std::uint32_t piece = begin; piece < end && hidden; ++piece)
       for (std::uint32_t s = 0; s < sources.size() && hidden; ++s) {
         std::optional<std::vector<Weak_step>> proof = hidden_by_one_piece(occluders, sources[s], piece, options.two_sided);
         hidden = proof.has_value();
@@ -94,9 +92,8 @@ inline Weakly_visible possibly_visible(const Occluders& occluders, const std::ve
         Weak_answer& answer = proofs.emplace_back(Weakly_visible::Pair{piece, s, {}}).answer;
         answer.status = Weak_status::hidden, answer.proof = std::move(*proof);
       }
-    if (options.progress) options.progress(++done, first.size());
   };
-  run_with_threads(options.threads, [&] { oneapi::tbb::parallel_for(std::size_t{0}, first.size(), decide); });
+  for_each_face(pieces, first, options.threads, options.progress, decide);
 
   Weakly_visible all;
   for (std::size_t f = 0; f < first.size(); ++f) {

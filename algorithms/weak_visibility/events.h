@@ -587,12 +587,10 @@ inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occlud
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Result> results(first.size());
-  std::atomic<std::size_t> done = 0;
-  const auto decide = [&](std::size_t f) {
+  const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
     Result& result = results[f];
-    const std::uint32_t end = f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size());
     const auto is_settled = [&] { return result.status == Weak_status::visible && !options.surfaces; };
-    for (std::uint32_t piece = first[f]; piece < end && !is_settled(); ++piece)
+    for (std::uint32_t piece = begin; piece < end && !is_settled(); ++piece)
       for (std::uint32_t s = 0; s < sources.size() && !is_settled(); ++s) {
         const auto keep = [&](const Event_search::Surface& surface) {
           Event_surface& kept = result.surfaces.emplace_back(Event_surface{surface.kind, piece, s, {}});
@@ -601,9 +599,8 @@ inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occlud
         const Events_answer answer = weakly_visible_by_events(occluders, sources[s], piece, options, result.counters, keep);
         if (answer.status != Weak_status::hidden && result.status != Weak_status::visible) result.status = answer.status, result.pair = {piece, s, answer};
       }
-    if (options.progress) options.progress(++done, first.size());
   };
-  run_with_threads(options.threads, [&] { oneapi::tbb::parallel_for(std::size_t{0}, first.size(), decide); });
+  for_each_face(pieces, first, options.threads, options.progress, decide);
 
   Weakly_visible_by_events all;
   for (std::size_t f = 0; f < first.size(); ++f) {

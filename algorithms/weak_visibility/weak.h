@@ -99,6 +99,18 @@ inline std::vector<std::uint32_t> first_pieces(const std::vector<Piece>& pieces)
   return first;
 }
 
+/// Calls decide(f, begin, end) for each kept face, the f-th in order, of the pieces from `begin` to before `end`: on so many threads, in any order. After each, progress(done, all) by any thread.
+template <class Decide>
+void for_each_face(const std::vector<Piece>& pieces, const std::vector<std::uint32_t>& first, int threads, const std::function<void(std::size_t, std::size_t)>& progress, const Decide& decide) {
+  std::atomic<std::size_t> done = 0;
+  run_with_threads(threads, [&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, first.size(), [&](std::size_t f) {
+      decide(f, first[f], f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size()));
+      if (progress) progress(++done, first.size());
+    });
+  });
+}
+
 /// The faces that are weakly visible from at least one of the sources: for some p inside it and some q inside the face, q strictly in front of the source and p
 /// strictly in front of the face (or off its plane, where two-sided), no closed face meets the open segment from p to q. Grazing, and cracks of width zero, are
 /// not visibility. Degenerate: a face in a source's plane is hidden; faces that coincide or overlap in a plane do not hide one another. Post: the same at any
@@ -113,11 +125,9 @@ inline Weakly_visible weakly_visible(const Occluders& occluders, const std::vect
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Result> results(first.size());
-  std::atomic<std::size_t> done = 0;
-  const auto decide = [&](std::size_t f) {
+  const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
     Result& result = results[f];
-    const std::uint32_t end = f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size());
-    for (std::uint32_t piece = first[f]; piece < end && result.status != Weak_status::visible; ++piece)
+    for (std::uint32_t piece = begin; piece < end && result.status != Weak_status::visible; ++piece)
       for (std::uint32_t s = 0; s < sources.size(); ++s) {
         Weak_answer answer = Line_search(occluders, sources[s].polygon, sources[s].plane, occluders.polygon(piece), piece, options.search).run(result.counters);
         if (answer.status == Weak_status::visible) {
@@ -129,9 +139,8 @@ inline Weakly_visible weakly_visible(const Occluders& occluders, const std::vect
         result.pairs.push_back({piece, s, std::move(answer)});
         if (result.status == Weak_status::visible) break;
       }
-    if (options.progress) options.progress(++done, first.size());
   };
-  run_with_threads(options.threads, [&] { oneapi::tbb::parallel_for(std::size_t{0}, first.size(), decide); });
+  for_each_face(pieces, first, options.threads, options.progress, decide);
 
   Weakly_visible all;
   for (std::size_t f = 0; f < first.size(); ++f) {
