@@ -9,7 +9,7 @@ namespace sightline::harness {
 /// {"format": "sightline query 1", "name", "seed", "distance": "exact", "beside" or "far", "eye": [x, y, z], "source": [[x, y, z], ...], "visible": [faces], "hidden": [faces]}; numbers are exact
 /// strings, p or p/q; JSON numbers are read too, as the doubles that they are. No source: an empty list. `visible` and `hidden` are what is known by construction of what the source sees; of other faces nothing is known. `seed` is of a checker's choices.
 inline nlohmann::ordered_json query_json(const generate::Posed_scene& scene, std::uint64_t seed) {
-  const auto point_json = [](const Exact_point& p) -> nlohmann::ordered_json { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; };
+  const auto point_json = [](const Exact_point& p) -> nlohmann::ordered_json { return {sightline::to_string(p[0]), sightline::to_string(p[1]), sightline::to_string(p[2])}; };
   nlohmann::ordered_json source = nlohmann::ordered_json::array();
   for (const Exact_point& p : scene.source) source.push_back(point_json(p));
   return {{"format", "sightline query 1"}, {"name", scene.name}, {"seed", seed}, {"distance", generate::name_of(scene.distance)}, {"eye", point_json(scene.eye)}, {"source", std::move(source)},

@@ -66,7 +66,8 @@ inline std::vector<Seed> seeds_of(const Target& target) {
 inline std::string input_near(const std::vector<Seed>& seeds, Mutator& mutator) {
   if (seeds.empty()) return mutator.random_bytes(300);
   const Seed& seed = seeds[mutator.below(seeds.size())];
-  if (seed.file.ends_with(".json") && mutator.below(4) != 0) return mutator.damaged(nlohmann::json::parse(seed.bytes)).dump();
+  const nlohmann::json value = seed.file.ends_with(".json") && mutator.below(4) != 0 ? nlohmann::json::parse(seed.bytes, nullptr, false) : nlohmann::json();
+  if (value.is_structured()) return mutator.damaged(value).dump();
   return mutator.damaged(seed.bytes);
 }
 
