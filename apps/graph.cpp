@@ -11,6 +11,7 @@
 #include <iostream>
 #include <map>
 #include <sstream>
+#include <utility>
 
 namespace sightline::app {
 
@@ -164,12 +165,13 @@ std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& trait
     const Pixel_sets sets = pixel_sets(faces, pixel_view(view));
     Pixel_image image{view, pixel_statistics(sets, h), pixel_statistics(sets, priorities(traits, tree, view.eye)), {}};
     if (!images.empty()) {
-      const std::vector<std::uint32_t>&before = images.back().by_number.image, &now = image.by_number.image;
+      const std::vector<std::uint32_t> before = std::exchange(images.back().by_number.image, {}), &now = image.by_number.image;  // one image's pixels are kept, however many there are
       std::size_t changed = 0;
       for (std::size_t k = 0; k < now.size(); ++k) changed += before[k] != now[k];
       image.changed = static_cast<double>(changed) / static_cast<double>(now.size());
     }
     if (!arguments.pixels.pictures.empty()) write_file(fmt::format("{}/image_{:04}.svg", arguments.pixels.pictures, images.size() + 1), painted(image));
+    image.by_tree.image = std::vector<std::uint32_t>{};
     images.push_back(std::move(image));
   }
   return images;

@@ -143,6 +143,7 @@ struct Pixel_statistics {
 /// Cost: linear in the sets. Pre: a number for each polygon of the sets.
 inline Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority) {
   Pixel_statistics found;
+  found.image.reserve(sets.size());
   for (std::size_t pixel = 0; pixel < sets.size(); ++pixel) {
     const std::span<const std::uint32_t> all = sets[pixel];
     std::uint32_t best = std::numeric_limits<std::uint32_t>::max();
