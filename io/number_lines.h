@@ -5,6 +5,7 @@
 #include <sightline/kernel/number.h>
 
 #include <functional>
+#include <utility>
 #include <vector>
 
 namespace sightline {
@@ -31,18 +32,32 @@ inline std::vector<Rational> numbers_in(std::string_view text, const std::string
   return numbers;
 }
 
-/// Gives the numbers of each line of a text to take(), which returns false where they are not what is wanted. Blanks between numbers are passed over, as are a first line that begins with a letter,
-/// empty lines, and what follows a #. Errors: Input_error at the line. Exact: yes. Cost: one pass.
+namespace detail {
+
+/// Whether a first line is one of names, such as X,Y,Z: it begins with a letter, and not with what some programs write for a number.
+inline bool is_header(std::string_view line) {
+  std::string begin(line.substr(0, 3));
+  for (char& c : begin) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
+  return begin[0] >= 'a' && begin[0] <= 'z' && begin != "nan" && begin != "inf";
+}
+
+}  // namespace detail
+
+/// Gives the numbers of each line of a text to take(), which returns false where they are not what is wanted. Blanks beside commas are passed over, as are a first line of names, empty lines, and what
+/// follows a #. Errors: Input_error at the line, or where a comma is missing. Exact: yes. Cost: one pass.
 inline void read_number_lines(const Input& input, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take) {
   Text_reader reader(input, Text_reader::Comments::hash);
   bool any = false, first = true;
   while (reader.next_line()) {
     const std::string_view begin = reader.next_token();
     std::string line(begin);
-    for (std::string_view token = reader.next_token(); !token.empty(); token = reader.next_token()) line += token;
-    const bool header = first && std::isalpha(static_cast<unsigned char>(line[0])) != 0;
-    first = false;
-    if (header) continue;
+    std::string_view apart;  // the first token that no comma joins to what is before it
+    for (std::string_view token = reader.next_token(); !token.empty(); token = reader.next_token()) {
+      if (apart.empty() && line.back() != ',' && token.front() != ',') apart = token;
+      line += token;
+    }
+    if (std::exchange(first, false) && detail::is_header(line)) continue;
+    if (!apart.empty()) reader.fail(apart, "expected a comma before " + sightline::quoted(apart) + "; a line wants " + wanted);
     std::vector<Rational> numbers;
     try {
       numbers = numbers_in(line, "a line wants " + wanted);

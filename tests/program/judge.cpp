@@ -49,6 +49,19 @@ TEST_F(Judge, marks_what_became_of_a_program) {
   }
 }
 
+TEST_F(Judge, ends_what_a_program_leaves_running) {
+  const std::string left = path("left").string();
+  EXPECT_EQ(mark("sleep 300 & echo $! > " + left + "; echo abstained all > $3", "exact", done), "abstained");
+  const std::string process = "/proc/" + std::to_string(std::stoi(read_file(left))) + "/stat";
+  const auto runs = [&] {  // a process that ended stays in the table as Z until somebody asks for it
+    const std::string stat = read_file(process);
+    const std::size_t name_end = stat.rfind(')');
+    return name_end != std::string::npos && stat.substr(name_end + 2, 1) != "Z";
+  };
+  for (int wait = 0; wait < 100 && runs(); ++wait) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(runs());
+}
+
 TEST_F(Judge, grades_orders_of_a_stack) {
   // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
   const std::vector<std::string> options{"--query", "order", "--contract", "exact", "--families", "stacked", "--size", "5", "--ulps", "0", "--cases", "4", "--two-sided"};

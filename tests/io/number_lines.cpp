@@ -1,0 +1,62 @@
+// Lists of numbers, one a line: what read_number_lines takes, passes over and refuses.
+
+#include <sightline/io/number_lines.h>
+
+#include <gtest/gtest.h>
+
+namespace sightline::test {
+namespace {
+
+/// The lines as they were taken, "1,2;3/4"; or the error.
+std::string lines_of(std::string_view text, std::size_t most = 3) {
+  std::string found;
+  try {
+    read_number_lines({"file", text}, "one to three numbers", [&](const std::vector<Rational>& numbers) {
+      if (numbers.size() > most) return false;
+      if (!found.empty()) found += ';';
+      for (std::size_t k = 0; k < numbers.size(); ++k) found += (k > 0 ? "," : "") + to_string(numbers[k]);
+      return true;
+    });
+    return found;
+  } catch (const Input_error& error) {
+    return error.what();
+  }
+}
+void expect_error(std::string_view text, const std::string& place, const std::string& why) {
+  const std::string said = lines_of(text);
+  EXPECT_TRUE(said.starts_with(place)) << said;
+  EXPECT_NE(said.find(why), std::string::npos) << said;
+}
+
+TEST(Number_lines, are_exact_decimals_and_fractions) { EXPECT_EQ(lines_of("0.1,-2e-3,7\n3/6\n"), "1/10,-1/500,7;1/2"); }
+
+TEST(Number_lines, pass_over_blanks_beside_commas_and_comments_and_empty_lines) {
+  EXPECT_EQ(lines_of("# two\n\n 1 , 2,\t3  # the first\r\n\r\n4"), "1,2,3;4");
+}
+
+TEST(Number_lines, may_begin_with_names_and_only_once) {
+  EXPECT_EQ(lines_of("x,y\n1,2\n"), "1,2");
+  EXPECT_EQ(lines_of("# a comment\nWeight Face\n1,2\n"), "1,2");
+  expect_error("1,2\nx,y\n", "file:2:1: ", "\"x\" is none");
+  expect_error("x,y\nx,y\n1,2\n", "file:2:1: ", "\"x\" is none");
+  for (const char* text : {"nan,1\n", "NaN,1\n", "inf,1\n", "Infinity,1\n"}) expect_error(text, "file:1:1: ", "is none");
+  for (const char* text : {"{1,2}\n", "\xC3\xA9,1\n"}) expect_error(text, "file:1:1: ", "is none");
+}
+
+TEST(Number_lines, of_numbers_without_a_comma_between_them_are_refused) {
+  expect_error("1,2\n1,2 5,3\n", "file:2:5: ", "expected a comma before \"5,3\"");
+  expect_error("1 2 3\n", "file:1:3: ", "expected a comma before \"2\"");
+  expect_error("1,2 ,3 4\n", "file:1:8: ", "expected a comma before \"4\"");
+}
+
+TEST(Number_lines, that_are_not_what_is_wanted_are_named_with_their_place) {
+  expect_error("1\n  1,2,3,4\n", "file:2:3: ", "expected one to three numbers, found \"1,2,3,4\"");
+  for (const char* text : {"1,,2", "1,", ",1", ",", "1/0", "1/", "0x1", "1;2", "1e99999"}) expect_error(text, "file:1:1: ", "a line wants one to three numbers");
+}
+
+TEST(Number_lines, of_which_there_is_none_are_an_error) {
+  for (const char* text : {"", "\n\n", "# only this", "x,y,z\n"}) expect_error(text, "file", "has no line; write one to three numbers a line");
+}
+
+}  // namespace
+}  // namespace sightline::test
