@@ -62,6 +62,7 @@ TEST(Decimal, exponents_up_to_1100_are_read_and_no_further) {
   EXPECT_EQ(value_of(decimal("1.0e-1100")), exact_decimal(1, -1100));
   EXPECT_EQ(value_of(decimal("0.1e1101")), exact_decimal(1, 1100));
   EXPECT_EQ(value_of(decimal("10e-1101")), exact_decimal(1, -1100));
+  EXPECT_EQ(value_of(decimal("1.0e1101")), exact_decimal(1, 1101));
   for (const char* token : {"1e1101", "1e-1101", "0.1e-1100", "1.1e1102", "1e99999999999999999999999", "-1e-99999999999999999999999", "1e4294967296", "1e18446744073709551616"})
     EXPECT_NE(message_of(decimal, token).find(": exponent out of range in"), std::string::npos) << message_of(decimal, token);
   EXPECT_NE(message_of(decimal, "0." + std::string(1100, '0') + "1").find("exponent out of range"), std::string::npos);
