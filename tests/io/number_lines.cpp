@@ -4,6 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 namespace sightline::test {
 namespace {
 
@@ -56,6 +59,19 @@ TEST(Number_lines, that_are_not_what_is_wanted_are_named_with_their_place) {
 
 TEST(Number_lines, of_which_there_is_none_are_an_error) {
   for (const char* text : {"", "\n\n", "# only this", "x,y,z\n"}) expect_error(text, "file", "has no line; write one to three numbers a line");
+}
+
+TEST(Number_lines, of_the_corpus_are_taken_or_refused_at_their_place) {
+  const auto said_of = [](const std::string& name) {
+    std::ifstream in(std::string(SIGHTLINE_SOURCE_DIR) + "/tests/corpus/paths/" + name, std::ios::binary);
+    EXPECT_TRUE(in) << name;
+    return lines_of(std::string{std::istreambuf_iterator<char>(in), {}}, 8);
+  };
+  EXPECT_TRUE(said_of("viewpoints.csv").starts_with("1,2,3;")) << said_of("viewpoints.csv");
+  EXPECT_TRUE(said_of("motion.txt").starts_with("1,0,0,0,1/2,0,0;3,0,4,0,-100,1/2,2")) << said_of("motion.txt");
+  EXPECT_TRUE(said_of("weights.txt").starts_with("1/4,0,3;3/4")) << said_of("weights.txt");
+  EXPECT_TRUE(said_of("comma_missing.txt").starts_with("file:1:5: ")) << said_of("comma_missing.txt");
+  EXPECT_TRUE(said_of("nan_first.csv").starts_with("file:1:1: ")) << said_of("nan_first.csv");
 }
 
 }  // namespace
