@@ -304,7 +304,7 @@ void add_graph(CLI::App& app) {
   command->add_flag("--split", a->split, "cut faces until no cycle is left, and compare with a BSP tree");
   command->add_flag("--two-sided", a->two_sided, "a tree of both sides of each face");
   auto* pixels = command->add_option("--pixels", a->pixels.size, "WIDTHxHEIGHT: how many faces the priorities leave to choose from at each pixel of images")->check(sightline::app::not_empty);
-  auto* eyes = command->add_option("--eyes", a->pixels.eyes, "the images' eyes: a file with X,Y,Z a line, and after a blank, if wanted, the direction of view DX,DY,DZ")->check(sightline::app::not_empty);
+  auto* eyes = command->add_option("--eyes", a->pixels.eyes, "the images' eyes: a file with X,Y,Z a line, or X,Y,Z,DX,DY,DZ with the direction of view")->check(sightline::app::not_empty);
   auto* pictures = command->add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")->check(CLI::ExistingDirectory);
   pixels->needs(eyes), eyes->needs(pixels), pictures->needs(pixels);
   command->add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");

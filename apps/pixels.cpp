@@ -1,9 +1,9 @@
 #include "pixels.h"
 
-#include <sightline/io/svg.h>
-#include <sightline/io/text.h>
+#include "paths.h"
 
-#include <fstream>
+#include <sightline/io/svg.h>
+
 #include <iostream>
 #include <sstream>
 
@@ -21,32 +21,15 @@ static std::array<std::uint32_t, 2> parse_size(const std::string& text) {
 
 std::vector<View> read_views(const Pixel_arguments& arguments) {
   const auto [width, height] = parse_size(arguments.size);
-  std::ifstream in(arguments.eyes, std::ios::binary);
-  if (!in) throw Input_error::of_file(arguments.eyes, "cannot be opened; check its name");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  const Input input{arguments.eyes, bytes};
-  Text_reader reader(input, Text_reader::Comments::hash);
   std::vector<View> views;
-  while (reader.next_line()) {
-    const std::string_view eye = reader.next_token(), look = reader.next_token(), more = reader.next_token();
-    if (!more.empty()) reader.fail(more, "expected the end of the line; a line is an eye X,Y,Z and, if wanted, the direction DX,DY,DZ it looks in");
-    const auto point = [&](std::string_view token) {
-      try {
-        return parse_point(std::string(token), "an eye");
-      } catch (const Usage_error& error) {
-        reader.fail(token, error.what());
-      }
-    };
-    View view{point(eye)};
-    if (!look.empty()) {
-      const Exact_point direction = point(look);
-      view.look = {nearest_double(direction[0]), nearest_double(direction[1]), nearest_double(direction[2])};
-      if (view.look == Direction3{} || !std::isfinite(view.look[0] + view.look[1] + view.look[2])) reader.fail(look, "expected a direction that is not zero and in the range of doubles");
-    }
+  read_lines(arguments.eyes, "an eye X,Y,Z, or X,Y,Z,DX,DY,DZ with the direction it looks in, not zero and in the range of doubles", [&, width = width, height = height](const std::vector<Rational>& n) {
+    if (n.size() != 3 && n.size() != 6) return false;
+    View& view = views.emplace_back(View{{n[0], n[1], n[2]}});
     view.width = static_cast<int>(width), view.height = static_cast<int>(height);
-    views.push_back(view);
-  }
-  if (views.empty()) throw Input_error::of_file(arguments.eyes, "has no eye; write one X,Y,Z a line");
+    if (n.size() == 3) return true;
+    view.look = {nearest_double(n[3]), nearest_double(n[4]), nearest_double(n[5])};
+    return view.look != Direction3{} && std::isfinite(view.look[0] + view.look[1] + view.look[2]);
+  });
   return views;
 }
 

@@ -23,7 +23,7 @@ TEST_F(Fuzz, one_seed_is_one_sequence_and_seconds_end_it) {
   const auto counters = [&](const char* seed) { return run({"fuzz", "io", "--scenes", "40", "--seed", seed, "--json", "-"}).json()["counters"].dump(); };
   EXPECT_EQ(counters("1"), counters("1"));
   EXPECT_NE(counters("1"), counters("2"));
-  const Outcome r = run({"fuzz", "io", "--seconds", "0.2"});
+  const Outcome r = run({"fuzz", "io", "--seconds", "1"});
   EXPECT_EQ(r.code, done) << r;
   for (const char* word : {"qoff", "regulus", "cases", "a second"}) EXPECT_NE(r.out.find(word), std::string::npos) << word << r;
 }

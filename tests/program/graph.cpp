@@ -200,7 +200,7 @@ TEST_F(Graph, codes_of_three_bars_decide_each_pair_and_splitting_cuts_them) {
 TEST_F(Graph, pixels_count_the_faces_left_to_choose_from) {
   // Two squares that face up, one above a half of the other, seen from above.
   const std::string scene = file("two.off", "OFF\n8 2 0\n-4 -4 0\n4 -4 0\n4 4 0\n-4 4 0\n-4 -4 1\n0 -4 1\n0 4 1\n-4 4 1\n4 0 1 2 3\n4 4 5 6 7\n");
-  const std::string eyes = file("eyes.txt", "# two eyes\n0.01,0,5 0,0,-1\n\n0,0,-5 0,0,1  # below: nothing is on-view\n");
+  const std::string eyes = file("eyes.txt", "# two eyes\n0.01,0,5,0,0,-1\n\n0,0,-5, 0,0,1  # below: nothing is on-view\n");
   const std::string folder = path("").string();
   const Json d = graph({scene, "--pixels", "16x12", "--eyes", eyes, "--pictures", folder});
   const Json& images = d["result"]["images"];
@@ -217,7 +217,7 @@ TEST_F(Graph, pixels_count_the_faces_left_to_choose_from) {
   const std::string picture = read_file(path("image_0001.svg").string());
   EXPECT_NE(picture.find("one face left at 100.0%"), std::string::npos) << picture.substr(0, 500);
   // In a ring h leaves all that a ray pierces.
-  const Json ring = graph({bars, "--pixels", "40x30", "--eyes", file("above.txt", "0,0,50 0,0,-1\n")});
+  const Json ring = graph({bars, "--pixels", "40x30", "--eyes", file("above.txt", "0,0,50,0,0,-1\n")});
   const Json& image = ring["result"]["images"][0];
   EXPECT_GT(image["several"].get<int>(), 0);
   EXPECT_EQ(image["by_h"]["left"], image["faces"]);
@@ -225,7 +225,7 @@ TEST_F(Graph, pixels_count_the_faces_left_to_choose_from) {
 
 TEST_F(Graph, images_take_no_more_memory_the_more_they_are) {
   std::string eyes;
-  for (int k = 0; k < 40; ++k) eyes += "0,0,50 0,0,1\n";  // all look away: nothing is drawn
+  for (int k = 0; k < 40; ++k) eyes += "0,0,50,0,0,1\n";  // all look away: nothing is drawn
   const Outcome r = run({"graph", bars, "--pixels", "1500x1500", "--eyes", file("away.txt", eyes), "--json", "-"}, {60, 300});
   ASSERT_EQ(r.code, done) << r;
   const Json d = r.json();
@@ -243,10 +243,11 @@ TEST_F(Graph, wrong_eyes_and_sizes_are_named_with_their_place) {
   const std::string good = file("good.txt", "0,0,9\n");
   for (const char* size : {"0x4", "4", "x", "4x", "4x-4", "5000x2", "4x4x4", "99999999999x2"}) fails(size, good, usage, "--pixels wants WIDTHxHEIGHT");
   fails("4x4", path("none.txt").string(), bad_input, "cannot be opened");
-  fails("4x4", file("empty.txt", "# nothing\n"), bad_input, "has no eye");
+  fails("4x4", file("empty.txt", "# nothing\n"), bad_input, "has no line; write an eye");
   fails("4x4", file("wrong.txt", "0,0,9\n0,0\n"), bad_input, "wrong.txt:2:1: ");
-  fails("4x4", file("much.txt", "0,0,9 0,0,1 7\n"), bad_input, "much.txt:1:13: ");
-  fails("4x4", file("zero.txt", "0,0,9  0,0,0\n"), bad_input, "zero.txt:1:8: ");
+  fails("4x4", file("much.txt", "0,0,9,0,0,1,7\n"), bad_input, "much.txt:1:1: ");
+  fails("4x4", file("apart.txt", "0,0,9 0,0,1\n"), bad_input, "apart.txt:1:7: ");
+  for (const char* look : {"0,0,0", "0,1e-400,0", "0,0,1e400"}) fails("4x4", file("zero.txt", std::string("0,0,9,") + look + "\n"), bad_input, "zero.txt:1:1: ");
   EXPECT_EQ(run({"graph", bars, "--pixels", "4x4"}).code, usage);
   EXPECT_EQ(run({"graph", bars, "--tree", "--eye", "1,2,3"}).code, usage);
   EXPECT_EQ(run({"graph", bars, "--pixels", "4x4", "--eyes", good, "--box", "0,0,0", "1,1,1"}).code, usage);
