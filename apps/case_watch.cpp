@@ -37,7 +37,8 @@ void tell_of_crash() { tell(line_of_crash); }
 void set_alarm(double seconds) {
   itimerval timer{};
   timer.it_value.tv_sec = static_cast<time_t>(seconds);
-  timer.it_value.tv_usec = std::min<suseconds_t>(999999, static_cast<suseconds_t>(std::ceil(1e6 * (seconds - std::floor(seconds)))));  // all 0 would be no alarm
+  timer.it_value.tv_usec = std::min<suseconds_t>(
+      999999, static_cast<suseconds_t>(std::ceil(1e6 * (seconds - std::floor(seconds)))));  // all 0 would be no alarm
   setitimer(ITIMER_PROF, &timer, nullptr);
 }
 
@@ -54,7 +55,8 @@ extern "C" void end_by_alarm(int) {
 }  // namespace
 
 void watch_for_crashes() {
-  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGTERM, SIGINT}) std::signal(number, end_by_signal);
+  for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL, SIGTERM, SIGINT})
+    std::signal(number, end_by_signal);
 #if defined(__SANITIZE_ADDRESS__)
   __sanitizer_set_death_callback(tell_of_crash);
 #endif
@@ -63,7 +65,8 @@ void watch_for_crashes() {
 void begin_case(const std::string& replay, double seconds, const std::string& doing) {
   set_alarm(0);
   set_line(line_of_crash, fmt::format("sightline fuzz: ended {}: {}", doing, replay));
-  set_line(line_of_delay, fmt::format("sightline fuzz: no end within {} s of processor time {}: {}", seconds, doing, replay));
+  set_line(line_of_delay,
+           fmt::format("sightline fuzz: no end within {} s of processor time {}: {}", seconds, doing, replay));
   std::signal(SIGPROF, end_by_alarm);
   set_alarm(std::min(std::max(seconds, 1e-6), 1e8));
 }

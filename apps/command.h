@@ -14,8 +14,9 @@ enum class Exit : int {
   undecided = 4,  ///< the budget ran out
 };
 
-/// Lets a command do its work after the whole command line is read; what action returns becomes the program's exit code.
-/// Pre: called once for a command. What action throws is reported and becomes Exit::bad_input, or what main.cpp says of its kind.
+/// Lets a command do its work after the whole command line is read; what action returns becomes the program's exit
+/// code. Pre: called once for a command. What action throws is reported and becomes Exit::bad_input, or what main.cpp
+/// says of its kind.
 void set_action(CLI::App& command, std::function<Exit()> action);
 
 void add_info(CLI::App& app);

@@ -13,17 +13,25 @@ namespace sightline::app {
 void Common::add_to(CLI::App& command) {
   command.add_option("SCENE", scene, "a scene: .obj .off .ply .stl .qoff")->required();
   command.add_option("--json", json, "write everything as JSON to this file, - for standard output");
-  command.add_option("--coordinates", coordinates, "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
+  command
+      .add_option("--coordinates", coordinates,
+                  "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
       ->check(CLI::IsMember({"exact", "double"}))
       ->capture_default_str();
-  command.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")->check(CLI::Range(0, 1024))->capture_default_str();
+  command.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   command.add_option("--seed", seed, "of random choices")->check(whole_number)->capture_default_str();
-  command.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")->check(CLI::NonNegativeNumber & finite_number)->capture_default_str();
+  command.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")
+      ->check(CLI::NonNegativeNumber & finite_number)
+      ->capture_default_str();
 }
 
-std::function<void(std::size_t, std::size_t)> Common::within_budget(std::function<void(std::size_t, std::size_t)> report) const {
+std::function<void(std::size_t, std::size_t)> Common::within_budget(
+    std::function<void(std::size_t, std::size_t)> report) const {
   return [report = std::move(report), limit = budget, watch = Stopwatch()](std::size_t done, std::size_t all) {
-    if (limit > 0 && watch.seconds() > limit) throw Out_of_budget(fmt::format("undecided: the budget of {} s ran out", limit));
+    if (limit > 0 && watch.seconds() > limit)
+      throw Out_of_budget(fmt::format("undecided: the budget of {} s ran out", limit));
     report(done, all);
   };
 }
@@ -75,13 +83,19 @@ void Progress::operator()(std::size_t done, std::size_t all) {
   const int percent = all == 0 ? 0 : static_cast<int>(std::min<std::size_t>(99, 100 * done / all));
   int before = shown_.load();
   if (percent <= before || !shown_.compare_exchange_strong(before, percent)) return;
-  std::cerr << fmt::format("\r{} [{:<40}] {:2}%", what_, std::string(static_cast<std::size_t>(percent) * 40 / 100, '#'), percent) << std::flush;
+  std::cerr << fmt::format("\r{} [{:<40}] {:2}%", what_, std::string(static_cast<std::size_t>(percent) * 40 / 100, '#'),
+                           percent)
+            << std::flush;
 }
 
 Json point_json(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }
 
 Json predicates_json(const Predicate_counts& counts) {
-  return {{"total", counts.total()}, {"combinatorial", counts.combinatorial}, {"filtered", counts.filtered}, {"fixed", counts.fixed}, {"gmp", counts.gmp}};
+  return {{"total", counts.total()},
+          {"combinatorial", counts.combinatorial},
+          {"filtered", counts.filtered},
+          {"fixed", counts.fixed},
+          {"gmp", counts.gmp}};
 }
 
 Json scene_json(const Scene& scene) {
@@ -98,7 +112,8 @@ Json scene_json(const Scene& scene) {
           {"pieces", c.pieces}};
 }
 
-bool write_json(const Common& common, const std::string& command, const Scene& scene, Json result, Json counters, Json seconds) {
+bool write_json(const Common& common, const std::string& command, const Scene& scene, Json result, Json counters,
+                Json seconds) {
   if (common.json.empty()) return false;
   Json document;
   document["command"] = command;
@@ -123,7 +138,8 @@ void row(const std::string& name, const std::string& value) { std::cout << fmt::
 void scene_rows(const Scene& scene) {
   const Scene_counters& c = scene.counters();
   row("scene", scene.file());
-  row("faces", fmt::format("{} of {} read, {} set aside, {} convex pieces", c.faces, c.faces_read, scene.set_aside().size(), c.pieces));
+  row("faces", fmt::format("{} of {} read, {} set aside, {} convex pieces", c.faces, c.faces_read,
+                           scene.set_aside().size(), c.pieces));
 }
 
 }  // namespace sightline::app

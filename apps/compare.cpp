@@ -1,4 +1,5 @@
-// sightline compare: the same question to several kernels and methods, each in a process of its own: time, memory, error.
+// sightline compare: the same question to several kernels and methods, each in a process of its own: time, memory,
+// error.
 
 #include "compare.h"
 
@@ -25,7 +26,8 @@ std::uint64_t Peak_memory::bytes() const {
   return peak > before_ ? peak - before_ : 0;
 }
 
-/// Asks a contestant in a child process, since an inexact kernel may do anything, for at most the budget; what became of it otherwise is the row's status.
+/// Asks a contestant in a child process, since an inexact kernel may do anything, for at most the budget; what became
+/// of it otherwise is the row's status.
 static Json judge_apart(const Contestant& contestant, double limit) {
   const auto named = [&](const Json& row) {
     Json all = contestant.name;
@@ -77,9 +79,12 @@ static Json judge_apart(const Contestant& contestant, double limit) {
   return named({{"status", status}});
 }
 
-static bool is_exact(const Json& row) { return row["kernel"] == "exact" || row["kernel"] == "epeck" || row["kernel"] == "gmpq"; }
+static bool is_exact(const Json& row) {
+  return row["kernel"] == "exact" || row["kernel"] == "epeck" || row["kernel"] == "gmpq";
+}
 
-Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows, const std::function<bool(const Json&)>& right) {
+Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
+         const std::function<bool(const Json&)>& right) {
   bool disagree = false, undecided = false;
   for (const Contestant& contestant : contestants) {
     rows.push_back(judge_apart(contestant, budget));
@@ -97,30 +102,74 @@ Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows, 
 
 void add_compare(CLI::App& app) {
   using namespace sightline::app;
-  CLI::App* command = app.add_subcommand("compare", "The same question to several kernels and methods: seconds, memory, and errors against exact");
+  CLI::App* command = app.add_subcommand(
+      "compare", "The same question to several kernels and methods: seconds, memory, and errors against exact");
   auto a = std::make_shared<Compare_arguments>();
   a->common.add_to(*command);
-  command->add_option("COMMAND", a->command, "the question")->check(CLI::IsMember({"order", "bsp", "see", "weak"}))->capture_default_str();
-  command->add_option("--eye", a->eye, "the eye X,Y,Z, for order and see; by default a place outside the scene")->check(not_empty);
-  CLI::Option* kernels = command->add_option("--kernels", a->kernels, "which kernels, with commas; see asks all but epick, weak exact and double")->delimiter(',')->check(CLI::IsMember(kernel_names))->capture_default_str();
-  command->add_option("--max-fragments", a->max_fragments, "order: compare all pairs up to this many fragments")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--sizes", a->sizes, "see: depth buffers of so many pixels along each side of a cube, with commas")->delimiter(',')->check(sightline::app::whole_number)->check(CLI::Range(1, 16384))->capture_default_str();
-  command->add_option("--bits", a->bits, "see: bits of their depths, with commas; 32: floats")->delimiter(',')->check(sightline::app::whole_number)->check(CLI::Range(1, 32))->capture_default_str();
-  command->add_option("--near", a->near, "see: their near plane; by default from the scene's box, at least 1/4096 of the far one")->check(sightline::app::finite_number)->check(CLI::PositiveNumber);
-  command->add_option("--far", a->far, "see: their far plane; by default from the scene's box")->check(sightline::app::finite_number)->check(CLI::PositiveNumber);
+  command->add_option("COMMAND", a->command, "the question")
+      ->check(CLI::IsMember({"order", "bsp", "see", "weak"}))
+      ->capture_default_str();
+  command->add_option("--eye", a->eye, "the eye X,Y,Z, for order and see; by default a place outside the scene")
+      ->check(not_empty);
+  CLI::Option* kernels = command
+                             ->add_option("--kernels", a->kernels,
+                                          "which kernels, with commas; see asks all but epick, weak exact and double")
+                             ->delimiter(',')
+                             ->check(CLI::IsMember(kernel_names))
+                             ->capture_default_str();
+  command->add_option("--max-fragments", a->max_fragments, "order: compare all pairs up to this many fragments")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command
+      ->add_option("--sizes", a->sizes, "see: depth buffers of so many pixels along each side of a cube, with commas")
+      ->delimiter(',')
+      ->check(sightline::app::whole_number)
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
+  command->add_option("--bits", a->bits, "see: bits of their depths, with commas; 32: floats")
+      ->delimiter(',')
+      ->check(sightline::app::whole_number)
+      ->check(CLI::Range(1, 32))
+      ->capture_default_str();
+  command
+      ->add_option("--near", a->near,
+                   "see: their near plane; by default from the scene's box, at least 1/4096 of the far one")
+      ->check(sightline::app::finite_number)
+      ->check(CLI::PositiveNumber);
+  command->add_option("--far", a->far, "see: their far plane; by default from the scene's box")
+      ->check(sightline::app::finite_number)
+      ->check(CLI::PositiveNumber);
   a->sources.add_to(*command, "weak: ");
-  command->add_option("--rays", a->rays, "weak: numbers of random rays from each source, with commas")->delimiter(',')->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--cells", a->weak.cells, "weak: how many cells a search may take before its face is undecided")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--event-edges", a->weak.event_edges, "weak: faces that lines leave open go to events where so many edges are near at most; events alone are asked where no pair has more")->check(sightline::app::whole_number)->capture_default_str();
+  command->add_option("--rays", a->rays, "weak: numbers of random rays from each source, with commas")
+      ->delimiter(',')
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--cells", a->weak.cells, "weak: how many cells a search may take before its face is undecided")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command
+      ->add_option("--event-edges", a->weak.event_edges,
+                   "weak: faces that lines leave open go to events where so many edges are near at most; events alone "
+                   "are asked where no pair has more")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
   command->add_option("--svg", a->svg, "weak: plot the seconds and the errors");
-  command->footer("order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of inexact kernels).\n"
-                  "pairs wrong: overlapping fragments drawn in the wrong order; beyond rounding: by more than 2^-20 of the distance.\n"
-                  "see. Areas are shares of the sphere of directions. wrong area: another face is shown than the exact one, or none; tied: another one of its plane that is there too;\n"
-                  "wrongly visible, wrongly hidden: faces, against the exact list; missing: visible faces that are shown nowhere, with the largest area of one;\n"
-                  "gaps, overlaps: directions with no part, and with two. Example: sightline compare town.off see --sizes 512,2048 --bits 24\n"
-                  "weak. Faces that a method says are visible and are not, are hidden and are not, or leaves open, against lines and events together; of conservative, wrongly visible are those that it has too many.\n"
-                  "Example: sightline compare rooms.off weak --from \"1,1,2 1,2,2 2,2,2 2,1,2\" --rays 100,10000 --svg weak.svg\n"
-                  "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was not.");
+  command->footer(
+      "order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of "
+      "inexact kernels).\n"
+      "pairs wrong: overlapping fragments drawn in the wrong order; beyond rounding: by more than 2^-20 of the "
+      "distance.\n"
+      "see. Areas are shares of the sphere of directions. wrong area: another face is shown than the exact one, or "
+      "none; tied: another one of its plane that is there too;\n"
+      "wrongly visible, wrongly hidden: faces, against the exact list; missing: visible faces that are shown nowhere, "
+      "with the largest area of one;\n"
+      "gaps, overlaps: directions with no part, and with two. Example: sightline compare town.off see --sizes 512,2048 "
+      "--bits 24\n"
+      "weak. Faces that a method says are visible and are not, are hidden and are not, or leaves open, against lines "
+      "and events together; of conservative, wrongly visible are those that it has too many.\n"
+      "Example: sightline compare rooms.off weak --from \"1,1,2 1,2,2 2,2,2 2,1,2\" --rays 100,10000 --svg weak.svg\n"
+      "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
+      "not.");
   set_action(*command, [a, kernels] {
     a->kernels_given = kernels->count() > 0;
     return a->command == "weak" ? compare_weak(*a) : a->command == "see" ? compare_visible(*a) : compare_orders(*a);

@@ -1,5 +1,6 @@
 #pragma once
-// What the questions of sightline compare share: who is asked, each in a process of its own, and how long it took in how much memory.
+// What the questions of sightline compare share: who is asked, each in a process of its own, and how long it took in
+// how much memory.
 
 #include "methods.h"
 #include "weak_methods.h"
@@ -37,9 +38,10 @@ class Peak_memory {
   std::uint64_t before_ = 0;
 };
 
-/// Asks all of them, each for at most the budget in seconds (0: none). What claims to be exact must be, as far as `right` can tell from a row; a row whose status begins with
-/// "left out" was not asked.
-Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows, const std::function<bool(const Json&)>& right);
+/// Asks all of them, each for at most the budget in seconds (0: none). What claims to be exact must be, as far as
+/// `right` can tell from a row; a row whose status begins with "left out" was not asked.
+Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
+         const std::function<bool(const Json&)>& right);
 
 Exit compare_orders(const Compare_arguments& arguments);
 Exit compare_visible(const Compare_arguments& arguments);

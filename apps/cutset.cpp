@@ -38,13 +38,15 @@ std::vector<Face_id> faces_on_view(const Face_graph& graph, const Tracker& track
   std::vector<Face_id> faces;
   const std::vector<Piece>& pieces = graph.scene().pieces();
   for (std::uint32_t i = 0; i < pieces.size(); ++i)
-    if (tracker.on_view(graph.node(i)) && (faces.empty() || faces.back() != pieces[i].face)) faces.push_back(pieces[i].face);  // pieces are in the order of faces
+    if (tracker.on_view(graph.node(i)) && (faces.empty() || faces.back() != pieces[i].face))
+      faces.push_back(pieces[i].face);  // pieces are in the order of faces
   return faces;
 }
 
 /// Nodes and edges of which a tracker says something else than a test of each piece does.
 template <class Tracker>
-std::size_t disagreements(const Exact_traits& traits, const Face_graph& graph, const Tracker& tracker, const Viewpoint& view) {
+std::size_t disagreements(const Exact_traits& traits, const Face_graph& graph, const Tracker& tracker,
+                          const Viewpoint& view) {
   const Scene& scene = graph.scene();
   std::vector<bool> on(graph.size());
   Predicate_counts counts;
@@ -61,7 +63,8 @@ std::size_t disagreements(const Exact_traits& traits, const Face_graph& graph, c
   for (std::uint32_t node = 0; node < graph.size(); ++node) wrong += tracker.on_view(node) != on[node];
   std::vector<bool> cut(graph.edges().size());
   for (const std::uint32_t e : tracker.cut_edges()) cut[e] = true;
-  for (std::size_t e = 0; e < cut.size(); ++e) wrong += cut[e] != (on[graph.edges()[e].first] != on[graph.edges()[e].second]);
+  for (std::size_t e = 0; e < cut.size(); ++e)
+    wrong += cut[e] != (on[graph.edges()[e].first] != on[graph.edges()[e].second]);
   return wrong;
 }
 
@@ -77,7 +80,8 @@ constexpr std::size_t frames_shown = 20;
 
 /// A path, by whatever tracker: move(view) says what it took.
 template <class Tracker, class Move>
-Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph, const Path& path, const Tracker& tracker, Move move) {
+Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph,
+                const Path& path, const Tracker& tracker, Move move) {
   Progress progress("moving");
   const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::size_t every = (path.size + pictures_in_a_strip - 1) / pictures_in_a_strip;
@@ -88,7 +92,8 @@ Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, c
     const Stopwatch watch;
     const Cut_set_counters counters = move(view);
     followed.seconds += watch.seconds();
-    const std::size_t cut_edges = tracker.cut_edges().size(), wrong = arguments.check ? disagreements(traits, graph, tracker, view) : 0;
+    const std::size_t cut_edges = tracker.cut_edges().size(),
+                      wrong = arguments.check ? disagreements(traits, graph, tracker, view) : 0;
     followed.total += counters, ++followed.count, followed.wrong += wrong > 0, followed.cut_edges += cut_edges;
     const bool pictured = !arguments.svg.empty() && k % every == 0;
     if (k >= frames_shown && !pictured && arguments.common.json.empty()) continue;
@@ -104,8 +109,13 @@ Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, c
 Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& arguments) {
   Json list = Json::array();
   for (const Frame& frame : frames) {
-    Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)}, {"on_view", arguments.faces ? Json(frame.faces) : Json(frame.on_view)}, {"cut_edges", frame.cut_edges},
-               {"tests", frame.counters.tests}, {"tests_away", frame.counters.away}, {"births", frame.counters.births}, {"changed", frame.counters.changed}};
+    Json entry{{frame.view.at_infinity ? "direction" : "eye", point_json(frame.view.at)},
+               {"on_view", arguments.faces ? Json(frame.faces) : Json(frame.on_view)},
+               {"cut_edges", frame.cut_edges},
+               {"tests", frame.counters.tests},
+               {"tests_away", frame.counters.away},
+               {"births", frame.counters.births},
+               {"changed", frame.counters.changed}};
     if (arguments.check) entry["wrong"] = frame.wrong;
     list.push_back(std::move(entry));
   }
@@ -117,10 +127,13 @@ void print_frames(const Followed& followed, bool check) {
   for (const Frame& frame : followed.frames) {
     if (frame.number > frames_shown) break;
     const Exact_point& at = frame.view.at;
-    std::cout << fmt::format("{:>5}  {:>7}  {:>9}  {:>7}  {:>6}  {}({:g}, {:g}, {:g}){}\n", frame.number, frame.on_view, frame.cut_edges, frame.counters.tests, frame.counters.births,
-                             frame.view.at_infinity ? "at infinity, " : "", nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2]), check && frame.wrong > 0 ? "  WRONG" : "");
+    std::cout << fmt::format("{:>5}  {:>7}  {:>9}  {:>7}  {:>6}  {}({:g}, {:g}, {:g}){}\n", frame.number, frame.on_view,
+                             frame.cut_edges, frame.counters.tests, frame.counters.births,
+                             frame.view.at_infinity ? "at infinity, " : "", nearest_double(at[0]),
+                             nearest_double(at[1]), nearest_double(at[2]), check && frame.wrong > 0 ? "  WRONG" : "");
   }
-  if (followed.count > frames_shown) std::cout << fmt::format("  ... {} more: --json - prints them all\n", followed.count - frames_shown);
+  if (followed.count > frames_shown)
+    std::cout << fmt::format("  ... {} more: --json - prints them all\n", followed.count - frames_shown);
 }
 
 Exit run_decisions(const Cutset_arguments& arguments) {
@@ -128,7 +141,9 @@ Exit run_decisions(const Cutset_arguments& arguments) {
   const Stopwatch watch;
   const Decisions decisions = decide(arguments.decisions, Face_graph(scene));
   const double seconds = watch.seconds();
-  if (write_json(arguments.common, "cutset", scene, {{"decision_tree", to_json(decisions)}}, {{"states", decisions.tree.states}}, {{"search", seconds}})) return Exit::done;
+  if (write_json(arguments.common, "cutset", scene, {{"decision_tree", to_json(decisions)}},
+                 {{"states", decisions.tree.states}}, {{"search", seconds}}))
+    return Exit::done;
   scene_rows(scene);
   print(decisions);
   row("seconds", fmt::format("{:.3f}", seconds));
@@ -140,8 +155,10 @@ Exit run_decisions(const Cutset_arguments& arguments) {
 static Exit run(const Cutset_arguments& arguments) {
   const Common& common = arguments.common;
   check_usage(arguments.path);
-  if (arguments.path.given() == arguments.decisions.wanted) throw Usage_error("cutset wants a path (--path FILE, --orbit FRAMES or --motion FILE) or --decision-tree");
-  if (!arguments.decisions.wanted && (arguments.decisions.inside || !arguments.decisions.likelihood.empty())) throw Usage_error("--inside and --likelihood go with --decision-tree");
+  if (arguments.path.given() == arguments.decisions.wanted)
+    throw Usage_error("cutset wants a path (--path FILE, --orbit FRAMES or --motion FILE) or --decision-tree");
+  if (!arguments.decisions.wanted && (arguments.decisions.inside || !arguments.decisions.likelihood.empty()))
+    throw Usage_error("--inside and --likelihood go with --decision-tree");
   if (arguments.decisions.wanted) return run_decisions(arguments);
   const Scene scene(common.read());
   const Path path = path_of(arguments.path, scene);
@@ -153,9 +170,11 @@ static Exit run(const Cutset_arguments& arguments) {
   Followed followed;
   if (arguments.method == "tracker") {
     Cut_set_tracker tracker(traits, graph);
-    followed = follow(arguments, traits, graph, path, tracker, [&](const Viewpoint& view) { return tracker.move_to(view); });
+    followed =
+        follow(arguments, traits, graph, path, tracker, [&](const Viewpoint& view) { return tracker.move_to(view); });
   } else {
-    Cut_set_1977<Exact_traits> update(traits, graph, path.at(0), arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
+    Cut_set_1977<Exact_traits> update(traits, graph, path.at(0),
+                                      arguments.method == "1977" ? Reading_1977::mended : Reading_1977::literal);
     bool started = false;
     const auto move = [&](const Viewpoint& view) {
       Cut_set_counters counters;
@@ -172,32 +191,66 @@ static Exit run(const Cutset_arguments& arguments) {
   if (!arguments.svg.empty()) {
     std::vector<Outline> outlines;
     for (const Frame& frame : frames)
-      if (!frame.nodes.empty()) outlines.push_back({frame.view, frame.nodes, fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
+      if (!frame.nodes.empty())
+        outlines.push_back(
+            {frame.view, frame.nodes,
+             fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
     write_file(arguments.svg, painted(graph, outlines));
   }
 
   const std::size_t later = count - 1;
   const std::uint64_t later_tests = total.tests - frames.front().counters.tests;
-  const auto share = [&](std::uint64_t part) { return later == 0 || graph.size() == 0 ? 0 : static_cast<double>(part) / static_cast<double>(later * graph.size()); };
-  const Json counters{{"nodes", graph.size()}, {"edges", graph.edges().size()}, {"components", graph.components().size()}, {"convex", convex}, {"refused", graph.refused()}, {"tests", total.tests},
-                      {"tests_away", total.away}, {"first_tests", frames.front().counters.tests}, {"exact_tests", total.exact}, {"changed", total.changed}, {"births", total.births}, {"searches", total.searches}, {"compared", total.compared}};
+  const auto share = [&](std::uint64_t part) {
+    return later == 0 || graph.size() == 0 ? 0 : static_cast<double>(part) / static_cast<double>(later * graph.size());
+  };
+  const Json counters{{"nodes", graph.size()},
+                      {"edges", graph.edges().size()},
+                      {"components", graph.components().size()},
+                      {"convex", convex},
+                      {"refused", graph.refused()},
+                      {"tests", total.tests},
+                      {"tests_away", total.away},
+                      {"first_tests", frames.front().counters.tests},
+                      {"exact_tests", total.exact},
+                      {"changed", total.changed},
+                      {"births", total.births},
+                      {"searches", total.searches},
+                      {"compared", total.compared}};
   Json result;
   if (!common.json.empty()) result["frames"] = frames_json(frames, arguments);
   if (arguments.check) result["wrong_frames"] = wrong;
   const Exit exit = wrong > 0 ? Exit::disagreement : Exit::done;
-  if (write_json(common, "cutset", scene, std::move(result), counters, {{"graph", graph_seconds}, {"frames", seconds}})) return exit;
+  if (write_json(common, "cutset", scene, std::move(result), counters, {{"graph", graph_seconds}, {"frames", seconds}}))
+    return exit;
   scene_rows(scene);
-  row("face graph", fmt::format("{} nodes (faces joined across coplanar edges), {} edges, {} components, {} of them convex bodies", graph.size(), graph.edges().size(), graph.components().size(), convex));
-  if (graph.refused() > 0) row("not manifold", fmt::format("{} pieces stand apart in the graph: births, not the cut-set, find their changes", graph.refused()));
+  row("face graph",
+      fmt::format("{} nodes (faces joined across coplanar edges), {} edges, {} components, {} of them convex bodies",
+                  graph.size(), graph.edges().size(), graph.components().size(), convex));
+  if (graph.refused() > 0)
+    row("not manifold", fmt::format("{} pieces stand apart in the graph: births, not the cut-set, find their changes",
+                                    graph.refused()));
   print_frames(followed, arguments.check);
-  row("tests", fmt::format("{} for the first frame; then {:.4g} a frame: {:.3g}% of testing all faces, {:.3g} for each edge of the cut-set", frames.front().counters.tests,
-                           later == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(later), 100 * share(later_tests),
+  row("tests", fmt::format("{} for the first frame; then {:.4g} a frame: {:.3g}% of testing all faces, {:.3g} for each "
+                           "edge of the cut-set",
+                           frames.front().counters.tests,
+                           later == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(later),
+                           100 * share(later_tests),
                            cut_edges == 0 ? 0.0 : static_cast<double>(later_tests) / static_cast<double>(cut_edges)));
   if (arguments.method == "tracker" && later > 0)
-    row("tests split", fmt::format("{:.4g} a frame at the cut-set, {:.4g} away from it, where births are looked for", static_cast<double>(later_tests - (total.away - frames.front().counters.away)) / static_cast<double>(later), static_cast<double>(total.away - frames.front().counters.away) / static_cast<double>(later)));
+    row("tests split",
+        fmt::format(
+            "{:.4g} a frame at the cut-set, {:.4g} away from it, where births are looked for",
+            static_cast<double>(later_tests - (total.away - frames.front().counters.away)) / static_cast<double>(later),
+            static_cast<double>(total.away - frames.front().counters.away) / static_cast<double>(later)));
   row("beyond doubles", fmt::format("{} of {} tests", total.exact, total.tests));
-  if (arguments.method == "tracker") row("changes", fmt::format("{} of nodes, {} clusters born away from the cut-set, {} searches of convex bodies that showed no face", total.changed, total.births, total.searches));
-  if (arguments.check) row("check", wrong == 0 ? fmt::format("all {} frames equal brute force", count) : fmt::format("{} of {} frames are WRONG", wrong, count));
+  if (arguments.method == "tracker")
+    row("changes",
+        fmt::format(
+            "{} of nodes, {} clusters born away from the cut-set, {} searches of convex bodies that showed no face",
+            total.changed, total.births, total.searches));
+  if (arguments.check)
+    row("check", wrong == 0 ? fmt::format("all {} frames equal brute force", count)
+                            : fmt::format("{} of {} frames are WRONG", wrong, count));
   row("seconds", fmt::format("{:.3f} for the graph, {:.4f} for {} frames", graph_seconds, seconds, count));
   return exit;
 }
@@ -205,19 +258,25 @@ static Exit run(const Cutset_arguments& arguments) {
 }  // namespace sightline::app
 
 void add_cutset(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("cutset", "The on-view faces along a path of viewpoints: cut-set, tests, births");
+  CLI::App* command =
+      app.add_subcommand("cutset", "The on-view faces along a path of viewpoints: cut-set, tests, births");
   auto a = std::make_shared<sightline::app::Cutset_arguments>();
   a->common.add_to(*command);
   sightline::app::add_to(*command, a->path);
   sightline::app::add_to(*command, a->decisions);
   command->add_flag("--faces", a->faces, "in the JSON, `on_view` is the list of on-view faces, not their number");
   command->add_flag("--check", a->check, "hold each frame to a test of every face; exit code 1 where one is wrong");
-  command->add_option("--method", a->method, "tracker: right whatever the move; 1977: the published update, which loses faces on some moves; 1977-literal: the same to the letter, which loses edges of the cut-set")
+  command
+      ->add_option("--method", a->method,
+                   "tracker: right whatever the move; 1977: the published update, which loses faces on some moves; "
+                   "1977-literal: the same to the letter, which loses edges of the cut-set")
       ->check(CLI::IsMember({"tracker", "1977", "1977-literal"}))
       ->capture_default_str();
   command->add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline");
-  command->footer("Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"
-                  "         sightline cutset box.off --decision-tree\n"
-                  "A face counts as on-view where a piece of it is; a viewpoint in a face's plane is off-view. `tests` are on-view predicates, `births` clusters of changed faces away from the cut-set.");
+  command->footer(
+      "Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"
+      "         sightline cutset box.off --decision-tree\n"
+      "A face counts as on-view where a piece of it is; a viewpoint in a face's plane is off-view. `tests` are on-view "
+      "predicates, `births` clusters of changed faces away from the cut-set.");
   set_action(*command, [a] { return sightline::app::run(*a); });
 }

@@ -23,7 +23,8 @@ std::int64_t parse_ulps(const std::string& text) {
   if (text == "-far") return -generate::far_ulps;
   std::int64_t ulps = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), ulps);
-  if (error != std::errc() || end != text.data() + text.size()) throw Usage_error("--ulps wants a whole number, far or -far, not '" + text + "'");
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Usage_error("--ulps wants a whole number, far or -far, not '" + text + "'");
   return ulps;
 }
 
@@ -33,7 +34,8 @@ Rational parse_scale(const std::string& text) {
   if (text.starts_with("2^")) {
     int power = 0;
     const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), power);
-    if (error != std::errc() || end != text.data() + text.size() || power < -1100 || power > 1100) throw Usage_error(wanted + ", not '" + text + "'");
+    if (error != std::errc() || end != text.data() + text.size() || power < -1100 || power > 1100)
+      throw Usage_error(wanted + ", not '" + text + "'");
     return generate::power_of_two(power);
   }
   const std::vector<Rational> numbers = parse_numbers(text, wanted);
@@ -63,12 +65,14 @@ std::string list_of_families() {
   std::string families, kinds;
   for (const generate::Family& family : generate::families()) {
     const auto& all = generate::kinds();
-    const bool is_kind = std::any_of(all.begin(), all.end(), [&](const generate::Kind& kind) { return kind.name == family.name; });
+    const bool is_kind =
+        std::any_of(all.begin(), all.end(), [&](const generate::Kind& kind) { return kind.name == family.name; });
     if (is_kind) kinds += fmt::format("\n  {:<26} {} (size: {})", family.name, family.what, family.size_means);
     else families += fmt::format("\n  {:<26} {}", family.name, family.what);
   }
-  return "Families of small scenes with a question (size: faces, at least; 0: as the seed has it). --ulps 0 is exactly degenerate; K leaves a gap of K ulps, -K an overlap:" + families +
-         "\nKinds of any size; --ulps K moves each coordinate by K ulps, or by none, or by -K:" + kinds;
+  return "Families of small scenes with a question (size: faces, at least; 0: as the seed has it). --ulps 0 is exactly "
+         "degenerate; K leaves a gap of K ulps, -K an overlap:" +
+         families + "\nKinds of any size; --ulps K moves each coordinate by K ulps, or by none, or by -K:" + kinds;
 }
 
 }  // namespace
@@ -76,16 +80,28 @@ std::string list_of_families() {
 }  // namespace sightline::app
 
 void add_generate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("generate", "Makes a scene from a seed, exactly degenerate or nearly so, and what may be asked of it");
+  CLI::App* command = app.add_subcommand(
+      "generate", "Makes a scene from a seed, exactly degenerate or nearly so, and what may be asked of it");
   auto a = std::make_shared<sightline::app::Generate_arguments>();
   command->add_option("FAMILY", a->family, "which family or kind, see below")->required();
-  command->add_option("--size", a->size, "how large; 0: the family's own")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--seed", a->seed, "of random choices")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--ulps", a->ulps, "how far beside its degeneracy, in units of 2^-52 of the scene's size; far: 2^44 of them")->capture_default_str();
+  command->add_option("--size", a->size, "how large; 0: the family's own")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--seed", a->seed, "of random choices")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command
+      ->add_option("--ulps", a->ulps,
+                   "how far beside its degeneracy, in units of 2^-52 of the scene's size; far: 2^44 of them")
+      ->capture_default_str();
   command->add_option("--offset", a->offset, "X,Y,Z added to all points, exact decimals or p/q")->capture_default_str();
-  command->add_option("--scale", a->scale, "multiplies all coordinates, before --offset: a number or 2^K")->capture_default_str();
+  command->add_option("--scale", a->scale, "multiplies all coordinates, before --offset: a number or 2^K")
+      ->capture_default_str();
   command->add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff")->required();
-  command->add_option("--query", a->query, "write the eye, the source polygon and what is known of its answers, as JSON");
-  command->footer(sightline::app::list_of_families() + "\nExamples: sightline generate rooms --size 4 --out rooms.off\n          sightline generate regulus --seed 7 --ulps 1 --out regulus.qoff --query regulus.json");
+  command->add_option("--query", a->query,
+                      "write the eye, the source polygon and what is known of its answers, as JSON");
+  command->footer(sightline::app::list_of_families() +
+                  "\nExamples: sightline generate rooms --size 4 --out rooms.off\n          sightline generate regulus "
+                  "--seed 7 --ulps 1 --out regulus.qoff --query regulus.json");
   set_action(*command, [a] { return sightline::app::run(*a); });
 }

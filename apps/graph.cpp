@@ -28,8 +28,11 @@ struct Graph_arguments {
 
 using Faces = Priority_relation<Exact_traits>;
 
-const std::map<Precedence, std::string> precedence_names{
-    {Precedence::never, "never"}, {Precedence::first, "first"}, {Precedence::second, "second"}, {Precedence::by_plane, "plane"}, {Precedence::crossing, "crossing"}};
+const std::map<Precedence, std::string> precedence_names{{Precedence::never, "never"},
+                                                         {Precedence::first, "first"},
+                                                         {Precedence::second, "second"},
+                                                         {Precedence::by_plane, "plane"},
+                                                         {Precedence::crossing, "crossing"}};
 
 /// What a run found.
 struct Found {
@@ -51,14 +54,20 @@ Found find(const Relation& relation, const Graph_arguments& arguments) {
   if (!is_explicit) {
     Implicit_priority_graph<Relation> graph(relation);
     Progress progress("searching");
-    found.components = graph.find_components(&found.trees, arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
+    found.components = graph.find_components(
+        &found.trees, arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
     found.component_seconds = watch.seconds();
     const Index_counters& c = graph.counters();
-    found.counters = {{"index_nodes", c.nodes}, {"hits", c.hits}, {"misses", c.misses}, {"pairs", c.relation.pairs}, {"predicates", predicates_json(c.relation.predicates)}};
+    found.counters = {{"index_nodes", c.nodes},
+                      {"hits", c.hits},
+                      {"misses", c.misses},
+                      {"pairs", c.relation.pairs},
+                      {"predicates", predicates_json(c.relation.predicates)}};
   }
   if (is_explicit || arguments.arcs || !arguments.dot.empty() || relation.size() <= few) {
     Progress progress("comparing");
-    found.arcs.emplace(relation, arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
+    found.arcs.emplace(relation,
+                       arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
     const Relation_counters& c = found.arcs->counters();
     if (is_explicit) {
       found.components = components(*found.arcs);
@@ -70,7 +79,9 @@ Found find(const Relation& relation, const Graph_arguments& arguments) {
   return found;
 }
 
-Json name_json(const Scene& scene, std::uint32_t piece) { return {scene.pieces()[piece].face, scene.pieces()[piece].number}; }
+Json name_json(const Scene& scene, std::uint32_t piece) {
+  return {scene.pieces()[piece].face, scene.pieces()[piece].number};
+}
 std::string name(const Scene& scene, std::uint32_t piece) {
   const Piece& p = scene.pieces()[piece];
   return p.number == 0 ? std::to_string(p.face) : fmt::format("{}.{}", p.face, p.number);
@@ -86,19 +97,22 @@ std::vector<Exact_point> parse_points(const std::vector<std::string>& texts, con
   return points;
 }
 
-/// The graph for Graphviz: components of more than one face are boxes, each face is named, arcs within a component are red.
+/// The graph for Graphviz: components of more than one face are boxes, each face is named, arcs within a component are
+/// red.
 std::string dot_of(const Scene& scene, const Found& found) {
   std::string text = "digraph priority {\n  node [shape=ellipse, fontsize=11];\n";
   for (std::size_t c = 0; c < found.components.size(); ++c) {
     const bool cyclic = found.components[c].size() > 1;
     if (cyclic) text += fmt::format("  subgraph cluster_{} {{\n    label=\"component {}\"; color=red;\n", c, c);
-    for (const std::uint32_t i : found.components[c]) text += fmt::format("  {}n{} [label=\"{}\"];\n", cyclic ? "  " : "", i, name(scene, i));
+    for (const std::uint32_t i : found.components[c])
+      text += fmt::format("  {}n{} [label=\"{}\"];\n", cyclic ? "  " : "", i, name(scene, i));
     if (cyclic) text += "  }\n";
   }
   const Arc_graph& graph = found.arcs->boost_graph();
   for (const auto& arc : boost::make_iterator_range(boost::edges(graph))) {
     const auto from = boost::source(arc, graph), to = boost::target(arc, graph);
-    text += fmt::format("  n{} -> n{}{};\n", from, to, found.components.h(from) == found.components.h(to) ? " [color=red]" : "");
+    text += fmt::format("  n{} -> n{}{};\n", from, to,
+                        found.components.h(from) == found.components.h(to) ? " [color=red]" : "");
   }
   return text + "}\n";
 }
@@ -144,7 +158,8 @@ Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph
         ++found.pairs[code.precedence];
         if (arguments.common.json.empty() || code.precedence == Precedence::never) continue;
         Json entry{name_of(i), name_of(j), precedence_names.at(code.precedence)};
-        if (code.plane) entry.push_back({{"normal", point_json(code.plane->normal)}, {"point", point_json(code.plane->point)}});
+        if (code.plane)
+          entry.push_back({{"normal", point_json(code.plane->normal)}, {"point", point_json(code.plane->point)}});
         found.codes.push_back(std::move(entry));
       }
     }
@@ -152,25 +167,31 @@ Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph
   return found;
 }
 
-std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& traits, const Faces& faces, const Priority_components& components, const std::vector<View>& views, const Graph_arguments& arguments) {
+std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& traits, const Faces& faces,
+                                   const Priority_components& components, const std::vector<View>& views,
+                                   const Graph_arguments& arguments) {
   std::vector<Pixel_image> images;
   Progress progress("looking");
   const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   std::vector<std::uint32_t> h(faces.size());
   for (std::uint32_t i = 0; i < faces.size(); ++i) h[i] = components.h(i);
-  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {false, false, report});  // cuts nothing, so its polygons are the faces
+  const Priority_tree<Exact_traits> tree =
+      build_priority_tree(traits, {false, false, report});  // cuts nothing, so its polygons are the faces
   for (const View& unaimed : views) {
     const View view = scene.counters().faces > 0 ? aimed(unaimed, scene) : unaimed;
     if (report) report(images.size(), views.size());
     const Pixel_sets sets = pixel_sets(faces, pixel_view(view));
     Pixel_image image{view, pixel_statistics(sets, h), pixel_statistics(sets, priorities(traits, tree, view.eye)), {}};
     if (!images.empty()) {
-      const std::vector<std::uint32_t> before = std::exchange(images.back().by_number.image, {}), &now = image.by_number.image;  // one image's pixels are kept, however many there are
+      const std::vector<std::uint32_t> before = std::exchange(images.back().by_number.image, {}),
+                                       &now = image.by_number
+                                                  .image;  // one image's pixels are kept, however many there are
       std::size_t changed = 0;
       for (std::size_t k = 0; k < now.size(); ++k) changed += before[k] != now[k];
       image.changed = static_cast<double>(changed) / static_cast<double>(now.size());
     }
-    if (!arguments.pixels.pictures.empty()) write_file(fmt::format("{}/image_{:04}.svg", arguments.pixels.pictures, images.size() + 1), painted(image));
+    if (!arguments.pixels.pictures.empty())
+      write_file(fmt::format("{}/image_{:04}.svg", arguments.pixels.pictures, images.size() + 1), painted(image));
     image.by_tree.image = std::vector<std::uint32_t>{};
     images.push_back(std::move(image));
   }
@@ -179,23 +200,40 @@ std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& trait
 
 void print(const Clusters& clusters, const Graph_arguments& arguments) {
   const Priority_tree_counters& c = clusters.tree.counters;
-  row("tree", fmt::format("{} planes that cut nothing{} ({} of no face), {} lists of fixed order, depth {}; {:.3f} s", c.planes - c.cutting_planes, c.cutting_planes > 0 ? fmt::format(" and {} that cut", c.cutting_planes) : "",
-                          c.free_planes, c.sequences, c.depth, clusters.seconds));
-  row("settled", fmt::format("of {} {}: {} by priority, {} on planes, {} left in {} cycles", c.polygons, arguments.two_sided ? "sides of faces" : "faces", c.by_number, c.by_plane, c.left, c.cycles));
+  row("tree", fmt::format("{} planes that cut nothing{} ({} of no face), {} lists of fixed order, depth {}; {:.3f} s",
+                          c.planes - c.cutting_planes,
+                          c.cutting_planes > 0 ? fmt::format(" and {} that cut", c.cutting_planes) : "", c.free_planes,
+                          c.sequences, c.depth, clusters.seconds));
+  row("settled",
+      fmt::format("of {} {}: {} by priority, {} on planes, {} left in {} cycles", c.polygons,
+                  arguments.two_sided ? "sides of faces" : "faces", c.by_number, c.by_plane, c.left, c.cycles));
   if (arguments.split)
-    row("pieces", fmt::format("{} after {} cuts; a BSP tree has {} fragments: {:.2f} of them", c.polygons, c.splits, clusters.bsp_fragments,
-                              static_cast<double>(c.polygons) / (arguments.two_sided ? 2 : 1) / static_cast<double>(std::max<std::uint64_t>(1, clusters.bsp_fragments))));
+    row("pieces", fmt::format("{} after {} cuts; a BSP tree has {} fragments: {:.2f} of them", c.polygons, c.splits,
+                              clusters.bsp_fragments,
+                              static_cast<double>(c.polygons) / (arguments.two_sided ? 2 : 1) /
+                                  static_cast<double>(std::max<std::uint64_t>(1, clusters.bsp_fragments))));
   if (arguments.codes) {
     const auto count = [&](Precedence p) { return clusters.pairs.contains(p) ? clusters.pairs.at(p) : 0; };
-    row("codes", fmt::format("of the pairs in cycles {} are never seen along one ray, {} in one order, {} by the eye's side of a plane, {} cross", count(Precedence::never),
-                             count(Precedence::first) + count(Precedence::second), count(Precedence::by_plane), count(Precedence::crossing)));
+    row("codes", fmt::format("of the pairs in cycles {} are never seen along one ray, {} in one order, {} by the eye's "
+                             "side of a plane, {} cross",
+                             count(Precedence::never), count(Precedence::first) + count(Precedence::second),
+                             count(Precedence::by_plane), count(Precedence::crossing)));
   }
 }
 
 Json to_json(const Clusters& clusters) {
   const Priority_tree_counters& c = clusters.tree.counters;
-  return {{"polygons", c.polygons}, {"by_number", c.by_number}, {"by_plane", c.by_plane}, {"left", c.left}, {"planes", c.planes}, {"cutting_planes", c.cutting_planes}, {"free_planes", c.free_planes},
-          {"sequences", c.sequences}, {"cycles", c.cycles}, {"depth", c.depth}, {"graphs", c.graphs}};
+  return {{"polygons", c.polygons},
+          {"by_number", c.by_number},
+          {"by_plane", c.by_plane},
+          {"left", c.left},
+          {"planes", c.planes},
+          {"cutting_planes", c.cutting_planes},
+          {"free_planes", c.free_planes},
+          {"sequences", c.sequences},
+          {"cycles", c.cycles},
+          {"depth", c.depth},
+          {"graphs", c.graphs}};
 }
 
 void print(const Scene& scene, const Found& found, const std::string& scope, const Graph_arguments& arguments) {
@@ -204,12 +242,17 @@ void print(const Scene& scene, const Found& found, const std::string& scope, con
   row("scope", scope);
   if (found.arcs) row("arcs", fmt::format("{}", found.arcs->arc_count()));
   else row("arcs", "not written out; --arcs does");
-  row("components", fmt::format("{}: {} of one face, {} cyclic, the largest of {} faces", all.size(), all.size() - all.cyclic(), all.cyclic(), all.largest()));
-  row("seconds", fmt::format("{:.3f} for components ({}){}", found.component_seconds, arguments.method, found.arcs && arguments.method != "explicit" ? fmt::format(", {:.3f} for arcs", found.arc_seconds) : ""));
+  row("components", fmt::format("{}: {} of one face, {} cyclic, the largest of {} faces", all.size(),
+                                all.size() - all.cyclic(), all.cyclic(), all.largest()));
+  row("seconds",
+      fmt::format(
+          "{:.3f} for components ({}){}", found.component_seconds, arguments.method,
+          found.arcs && arguments.method != "explicit" ? fmt::format(", {:.3f} for arcs", found.arc_seconds) : ""));
   constexpr std::size_t shown = 20, members = 12;
   for (std::size_t c = 0; c < std::min(shown, all.size()); ++c) {
     std::string line;
-    for (std::size_t k = 0; k < std::min(members, all[c].size()); ++k) line += (k == 0 ? "" : ", ") + name(scene, all[c][k]);
+    for (std::size_t k = 0; k < std::min(members, all[c].size()); ++k)
+      line += (k == 0 ? "" : ", ") + name(scene, all[c][k]);
     if (all[c].size() > members) line += fmt::format(", ... {} more", all[c].size() - members);
     std::cout << fmt::format("{:>6}. {}{}\n", c + 1, all[c].size() > 1 ? "cyclic: " : "face ", line);
   }
@@ -221,17 +264,22 @@ void print(const Scene& scene, const Found& found, const std::string& scope, con
 static Exit run(const Graph_arguments& arguments) {
   const Common& common = arguments.common;
   // Usage errors come before a long read.
-  const std::vector<Exact_point> box = parse_points(arguments.box, "--box"), region = parse_points(arguments.region, "--region");
+  const std::vector<Exact_point> box = parse_points(arguments.box, "--box"),
+                                 region = parse_points(arguments.region, "--region");
   if (!arguments.box.empty() && box.size() != 2) throw Usage_error("--box wants two corners X,Y,Z X,Y,Z");
   const Exact_point origin;
   const Exact_point eye = arguments.eye.empty() ? origin : parse_point(arguments.eye, "--eye");
   const Exact_point direction = arguments.direction.empty() ? origin : parse_point(arguments.direction, "--ray");
-  if (!arguments.direction.empty() && direction == origin) throw Usage_error("--ray wants a direction that is not 0,0,0");
+  if (!arguments.direction.empty() && direction == origin)
+    throw Usage_error("--ray wants a direction that is not 0,0,0");
   const bool whole = box.empty() && region.empty() && arguments.eye.empty();
   if (!arguments.certificate.empty() && !(whole && arguments.method == "implicit"))
-    throw Usage_error("--certificate is for --method implicit over all viewpoints: leave out --box, --region and --eye");
+    throw Usage_error(
+        "--certificate is for --method implicit over all viewpoints: leave out --box, --region and --eye");
   if (!whole && (arguments.wants_tree() || !arguments.pixels.size.empty()))
-    throw Usage_error("--tree, --codes, --split, --two-sided and --pixels are over all viewpoints: leave out --box, --region and --eye");
+    throw Usage_error(
+        "--tree, --codes, --split, --two-sided and --pixels are over all viewpoints: leave out --box, --region and "
+        "--eye");
 
   const std::vector<View> views = arguments.pixels.size.empty() ? std::vector<View>{} : read_views(arguments.pixels);
 
@@ -240,17 +288,22 @@ static Exit run(const Graph_arguments& arguments) {
   const Faces faces(traits);
   std::string scope = "all viewpoints";
   const Found found = [&] {
-    if (!arguments.direction.empty()) return scope = "one ray", find(Ray_relation<Exact_traits>(faces, eye, direction), arguments);
-    if (!arguments.eye.empty()) return scope = "one viewpoint", find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments);
+    if (!arguments.direction.empty())
+      return scope = "one ray", find(Ray_relation<Exact_traits>(faces, eye, direction), arguments);
+    if (!arguments.eye.empty())
+      return scope = "one viewpoint", find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments);
     if (!whole) {
       const View_region viewpoints = box.empty() ? View_region{region} : View_region::box(box[0], box[1]);
-      scope = viewpoints.points.empty() ? "no viewpoint: the box is empty" : fmt::format("viewpoints in the hull of {} points", viewpoints.points.size());
+      scope = viewpoints.points.empty() ? "no viewpoint: the box is empty"
+                                        : fmt::format("viewpoints in the hull of {} points", viewpoints.points.size());
       return find(Region_relation<Exact_traits>(faces, viewpoints), arguments);
     }
     return find(faces, arguments);
   }();
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(graph_certificate(scene, faces, found.components, found.trees)).dump() + "\n");
+  if (!arguments.certificate.empty())
+    write_file(arguments.certificate,
+               to_json(graph_certificate(scene, faces, found.components, found.trees)).dump() + "\n");
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
   std::optional<Clusters> clusters;
   if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments);
@@ -268,14 +321,17 @@ static Exit run(const Graph_arguments& arguments) {
       Json& list = result["arc_list"] = Json::array();
       const Arc_graph& graph = found.arcs->boost_graph();
       for (const auto& arc : boost::make_iterator_range(boost::edges(graph)))
-        list.push_back({name_json(scene, static_cast<std::uint32_t>(boost::source(arc, graph))), name_json(scene, static_cast<std::uint32_t>(boost::target(arc, graph)))});
+        list.push_back({name_json(scene, static_cast<std::uint32_t>(boost::source(arc, graph))),
+                        name_json(scene, static_cast<std::uint32_t>(boost::target(arc, graph)))});
     }
   }
   Json counters = found.counters, seconds{{"components", found.component_seconds}, {"arcs", found.arc_seconds}};
   if (clusters) {
     result["tree"] = to_json(*clusters), seconds["tree"] = clusters->seconds;
     if (arguments.codes) result["codes"] = std::move(clusters->codes);
-    if (arguments.split) result["splits"] = clusters->tree.counters.splits, result["pieces"] = clusters->tree.counters.polygons, counters["bsp_fragments"] = clusters->bsp_fragments;
+    if (arguments.split)
+      result["splits"] = clusters->tree.counters.splits, result["pieces"] = clusters->tree.counters.polygons,
+      counters["bsp_fragments"] = clusters->bsp_fragments;
   }
   if (!images.empty()) result["images"] = app::to_json(images);
   if (write_json(common, "graph", scene, std::move(result), counters, seconds)) return Exit::done;
@@ -288,29 +344,55 @@ static Exit run(const Graph_arguments& arguments) {
 }  // namespace sightline::app
 
 void add_graph(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("graph", "Which face may obscure which: the priority graph, its strongly connected components and their order");
+  CLI::App* command = app.add_subcommand(
+      "graph", "Which face may obscure which: the priority graph, its strongly connected components and their order");
   auto a = std::make_shared<sightline::app::Graph_arguments>();
   a->common.add_to(*command);
-  command->add_option("--method", a->method, "implicit: no arc is written out; explicit: all are")->check(CLI::IsMember({"implicit", "explicit"}))->capture_default_str();
-  auto* box = command->add_option("--box", a->box, "viewpoints in a box only: two corners X,Y,Z X,Y,Z")->check(sightline::app::not_empty)->expected(1, 2);
-  auto* region = command->add_option("--region", a->region, "viewpoints in the convex hull of these points only: X,Y,Z X,Y,Z ...")->check(sightline::app::not_empty)->expected(1, 1 << 20);
+  command->add_option("--method", a->method, "implicit: no arc is written out; explicit: all are")
+      ->check(CLI::IsMember({"implicit", "explicit"}))
+      ->capture_default_str();
+  auto* box = command->add_option("--box", a->box, "viewpoints in a box only: two corners X,Y,Z X,Y,Z")
+                  ->check(sightline::app::not_empty)
+                  ->expected(1, 2);
+  auto* region =
+      command->add_option("--region", a->region, "viewpoints in the convex hull of these points only: X,Y,Z X,Y,Z ...")
+          ->check(sightline::app::not_empty)
+          ->expected(1, 1 << 20);
   auto* eye = command->add_option("--eye", a->eye, "one viewpoint only")->check(sightline::app::not_empty);
-  auto* ray = command->add_option("--ray", a->direction, "one ray only, from the eye in direction X,Y,Z")->check(sightline::app::not_empty)->needs(eye);
+  auto* ray = command->add_option("--ray", a->direction, "one ray only, from the eye in direction X,Y,Z")
+                  ->check(sightline::app::not_empty)
+                  ->needs(eye);
   box->excludes(region)->excludes(eye), region->excludes(eye);
   static_cast<void>(ray);
   command->add_flag("--arcs", a->arcs, "write all arcs out, however many, and list them in the JSON");
-  command->add_flag("--tree", a->tree, "separate the faces by planes that cut none, and order what is left by the graph: how many faces each settles");
-  command->add_flag("--codes", a->codes, "codes for the pairs in the cycles that the tree leaves: which face is nearer along any ray; listed in the JSON");
+  command->add_flag(
+      "--tree", a->tree,
+      "separate the faces by planes that cut none, and order what is left by the graph: how many faces each settles");
+  command->add_flag(
+      "--codes", a->codes,
+      "codes for the pairs in the cycles that the tree leaves: which face is nearer along any ray; listed in the JSON");
   command->add_flag("--split", a->split, "cut faces until no cycle is left, and compare with a BSP tree");
   command->add_flag("--two-sided", a->two_sided, "a tree of both sides of each face");
-  auto* pixels = command->add_option("--pixels", a->pixels.size, "WIDTHxHEIGHT: how many faces the priorities leave to choose from at each pixel of images")->check(sightline::app::not_empty);
-  auto* eyes = command->add_option("--eyes", a->pixels.eyes, "the images' eyes: a file with X,Y,Z a line, or X,Y,Z,DX,DY,DZ with the direction of view")->check(sightline::app::not_empty);
-  auto* pictures = command->add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")->check(CLI::ExistingDirectory);
+  auto* pixels =
+      command
+          ->add_option("--pixels", a->pixels.size,
+                       "WIDTHxHEIGHT: how many faces the priorities leave to choose from at each pixel of images")
+          ->check(sightline::app::not_empty);
+  auto* eyes =
+      command
+          ->add_option("--eyes", a->pixels.eyes,
+                       "the images' eyes: a file with X,Y,Z a line, or X,Y,Z,DX,DY,DZ with the direction of view")
+          ->check(sightline::app::not_empty);
+  auto* pictures = command->add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")
+                       ->check(CLI::ExistingDirectory);
   pixels->needs(eyes), eyes->needs(pixels), pictures->needs(pixels);
   command->add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
-  command->footer("Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed highest priority first:\n"
-                  "no face of a later one obscures a face of an earlier one, whatever the viewpoint. Options that take several points end at the next option.\n"
-                  "Example: sightline graph object.off --dot object.dot --certificate object.json");
+  command->footer(
+      "Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed "
+      "highest priority first:\n"
+      "no face of a later one obscures a face of an earlier one, whatever the viewpoint. Options that take several "
+      "points end at the next option.\n"
+      "Example: sightline graph object.off --dot object.dot --certificate object.json");
   set_action(*command, [a] { return sightline::app::run(*a); });
 }

@@ -19,7 +19,8 @@ namespace {
 std::vector<Exact_point> a_piece(const Scene& scene, std::uint64_t seed) {
   std::vector<Exact_point> points;
   if (scene.pieces().empty()) return points;
-  for (const Piece_corner& corner : scene.corners(scene.pieces()[seed % scene.pieces().size()])) points.push_back(scene.position(corner.point));
+  for (const Piece_corner& corner : scene.corners(scene.pieces()[seed % scene.pieces().size()]))
+    points.push_back(scene.position(corner.point));
   return points;
 }
 
@@ -27,7 +28,8 @@ std::int64_t ulps_of(const std::string& text) {
   if (text == "far") return generate::far_ulps;
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) throw Usage_error("--ulps wants whole numbers or `far`, with commas; '" + text + "' is none");
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Usage_error("--ulps wants whole numbers or `far`, with commas; '" + text + "' is none");
   return value;
 }
 
@@ -47,7 +49,9 @@ void prepare(Judge_case& made, const Case_options& options) {
     made.query = judge::rounded_to_doubles(std::move(made.query));
   }
   made.soup = judge::with_planar_faces(made.soup);
-  made.as_given = same_coordinates(made.soup, given) && (options.question == judge::Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye);
+  made.as_given =
+      same_coordinates(made.soup, given) &&
+      (options.question == judge::Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye);
 }
 
 /// Runs `make`; what cannot be made, or is beyond the range of doubles, is not asked.
@@ -66,7 +70,8 @@ Judge_case attempted(Make make) {
 
 }  // namespace
 
-Judge_case case_of(const generate::Family& family, const generate::Family_parameters& parameters, const Case_options& options) {
+Judge_case case_of(const generate::Family& family, const generate::Family_parameters& parameters,
+                   const Case_options& options) {
   return attempted([&](Judge_case& made) {
     generate::Posed_scene posed = family.make(parameters);
     made.soup = posed.soup;
@@ -84,7 +89,8 @@ Judge_case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_opt
     if (scene.point_count() == 0) return;
     Exact_point low = scene.point(0), high = low;
     for (Point_id p = 0; p < scene.point_count(); ++p)
-      for (std::size_t k = 0; k < 3; ++k) low[k] = std::min(low[k], scene.point(p)[k]), high[k] = std::max(high[k], scene.point(p)[k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        low[k] = std::min(low[k], scene.point(p)[k]), high[k] = std::max(high[k], scene.point(p)[k]);
     generate::Random random(seed);
     // A place in the box, or up to a quarter of its sides outside.
     Rational longest = 0;
@@ -137,7 +143,9 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
     for (const auto& entry : fs::recursive_directory_iterator(choice.scenes))
       if (entry.is_regular_file() && format_of_ending(entry.path())) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
-    if (files.empty()) throw Usage_error("--scenes " + choice.scenes + ": the folder holds no scene; give one with " + std::string(supported_formats));
+    if (files.empty())
+      throw Usage_error("--scenes " + choice.scenes + ": the folder holds no scene; give one with " +
+                        std::string(supported_formats));
   } else {
     files.push_back(choice.scenes);
   }
@@ -145,8 +153,12 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
   if (!choice.ask.empty()) query = query_of(choice.ask, options.question);
   std::vector<Case_group> groups;
   for (const fs::path& file : files) {
-    const auto make = [file, query, options](std::uint64_t seed) { return query ? case_of(read_scene(file), *query, options) : case_of(read_scene(file), seed, options); };
-    groups.push_back({file.filename().string(), "-", "--scenes " + shell_word(file.string()) + (query ? " --ask " + shell_word(choice.ask) : ""), make});
+    const auto make = [file, query, options](std::uint64_t seed) {
+      return query ? case_of(read_scene(file), *query, options) : case_of(read_scene(file), seed, options);
+    };
+    groups.push_back({file.filename().string(), "-",
+                      "--scenes " + shell_word(file.string()) + (query ? " --ask " + shell_word(choice.ask) : ""),
+                      make});
   }
   return groups;
 }
@@ -171,14 +183,21 @@ std::vector<Case_group> groups_of_families(const Case_choice& choice, const Case
         parameters.seed = seed;
         return case_of(*family, parameters, options);
       };
-      groups.push_back({name, distance == "far" ? "far" : parameters.ulps == 0 ? "exact" : fmt::format("{:+} ulps", parameters.ulps),
-                        fmt::format("--families {} --ulps {}{}", shell_word(name), distance, choice.size > 0 ? fmt::format(" --size {}", choice.size) : ""), make});
+      groups.push_back({name,
+                        distance == "far"      ? "far"
+                        : parameters.ulps == 0 ? "exact"
+                                               : fmt::format("{:+} ulps", parameters.ulps),
+                        fmt::format("--families {} --ulps {}{}", shell_word(name), distance,
+                                    choice.size > 0 ? fmt::format(" --size {}", choice.size) : ""),
+                        make});
     }
   return groups;
 }
 
 }  // namespace
 
-std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options) { return choice.scenes.empty() ? groups_of_families(choice, options) : groups_of_scenes(choice, options); }
+std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options) {
+  return choice.scenes.empty() ? groups_of_families(choice, options) : groups_of_scenes(choice, options);
+}
 
 }  // namespace sightline::app

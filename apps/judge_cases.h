@@ -1,5 +1,6 @@
 #pragma once
-// The cases that `sightline judge` asks about: families at several distances from their degeneracies, or scenes of a folder.
+// The cases that `sightline judge` asks about: families at several distances from their degeneracies, or scenes of a
+// folder.
 
 #include <sightline/algorithms/generate/families.h>
 #include <sightline/algorithms/judge/truth.h>
@@ -25,8 +26,10 @@ struct Judge_case {
   std::string not_asked;
 };
 
-/// A case of a family. Where weak visibility is asked and the family names no source, a face of the scene looks. The same arguments give the same case.
-Judge_case case_of(const generate::Family& family, const generate::Family_parameters& parameters, const Case_options& options);
+/// A case of a family. Where weak visibility is asked and the family names no source, a face of the scene looks. The
+/// same arguments give the same case.
+Judge_case case_of(const generate::Family& family, const generate::Family_parameters& parameters,
+                   const Case_options& options);
 
 /// A query about a scene.
 Judge_case case_of(const Polygon_soup& scene, const judge::Query& query, const Case_options& options);
@@ -39,7 +42,8 @@ struct Case_choice {
   std::vector<std::string> families;  ///< none: all
   std::vector<std::string> ulps;      ///< whole numbers, or `far`
   std::size_t size = 0;               ///< of families' scenes; 0: small
-  std::string scenes, ask;            ///< instead of families, a folder or a file; and a file with the one query about it, instead of queries of our own
+  std::string scenes, ask;  ///< instead of families, a folder or a file; and a file with the one query about it,
+                            ///< instead of queries of our own
 };
 
 /// What all cases of a family have in common at one distance, or all of a scene, and how to make them.

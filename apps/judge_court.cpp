@@ -14,7 +14,8 @@ namespace fs = std::filesystem;
 
 static std::string in_words(const judge::Grade& grade) {
   std::vector<std::string> all;
-  for (const auto& [earlier, later] : grade.wrong_pairs) all.push_back(fmt::format("face {} is drawn before face {} but is nearer somewhere", earlier, later));
+  for (const auto& [earlier, later] : grade.wrong_pairs)
+    all.push_back(fmt::format("face {} is drawn before face {} but is nearer somewhere", earlier, later));
   if (grade.wrong_pairs.empty()) {
     for (const Face_id face : grade.wrong_visible) all.push_back(fmt::format("face {} is shown but hidden", face));
     for (const Face_id face : grade.wrong_hidden) all.push_back(fmt::format("face {} is missing but visible", face));
@@ -31,7 +32,9 @@ Court::Court(Court_options options) : options_(std::move(options)) {
     throw Usage_error(std::string("--program: ") + error.what());
   }
   for (const char* place : {"{scene}", "{query}", "{answer}"})
-    if (options_.program.find(place) == std::string::npos) throw Usage_error(std::string("--program has no ") + place + ": give the command with {scene} {query} {answer} where the names of these files belong");
+    if (options_.program.find(place) == std::string::npos)
+      throw Usage_error(std::string("--program has no ") + place +
+                        ": give the command with {scene} {query} {answer} where the names of these files belong");
 }
 
 Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
@@ -41,9 +44,12 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
   const judge::Truth truth = judge::truth_of(asked.soup, asked.query, options_.truth);
   judged.not_asked = truth.not_asked;
   if (!judged.not_asked.empty()) return judged;
-  for (const auto& [known, found] : {std::pair(&asked.visible, &truth.hidden), std::pair(&asked.hidden, &truth.visible)})
+  for (const auto& [known, found] :
+       {std::pair(&asked.visible, &truth.hidden), std::pair(&asked.hidden, &truth.visible)})
     for (const Face_id face : *known)
-      if (std::binary_search(found->begin(), found->end(), face)) throw std::logic_error(fmt::format("the library says of face {} what its construction excludes (seed {}); please report it", face, seed));
+      if (std::binary_search(found->begin(), found->end(), face))
+        throw std::logic_error(fmt::format(
+            "the library says of face {} what its construction excludes (seed {}); please report it", face, seed));
   try {
     write_scene(asked.soup, scene());
   } catch (const Not_representable& error) {
@@ -59,8 +65,10 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
 void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   std::vector<std::string> words = words_;
   for (std::string& word : words)
-    for (const auto& [place, file] : {std::pair("{scene}", scene()), std::pair("{query}", query()), std::pair("{answer}", answer())})
-      for (std::size_t at = word.find(place); at != std::string::npos; at = word.find(place, at + file.string().size())) word.replace(at, std::string_view(place).size(), file.string());
+    for (const auto& [place, file] :
+         {std::pair("{scene}", scene()), std::pair("{query}", query()), std::pair("{answer}", answer())})
+      for (std::size_t at = word.find(place); at != std::string::npos; at = word.find(place, at + file.string().size()))
+        word.replace(at, std::string_view(place).size(), file.string());
   Process_end end;
   try {
     end = run_limited(words, options_.limits, (folder_ / "said").string());
@@ -71,8 +79,13 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
   const std::string said = end.said.empty() ? "" : "; it said: " + end.said.substr(end.said.find_last_of('\n') + 1);
   const auto crashed = [&](const std::string& how) { judged.mark = judge::Mark::crashed, judged.why = how + said; };
   switch (end.kind) {
-    case Process_end::timed_out: judged.mark = judge::Mark::timed_out, judged.why = fmt::format("no end within {} s", options_.limits.seconds); break;
-    case Process_end::out_of_memory: judged.mark = judge::Mark::out_of_memory, judged.why = fmt::format("more than {} MB", options_.limits.bytes >> 20); break;
+    case Process_end::timed_out:
+      judged.mark = judge::Mark::timed_out, judged.why = fmt::format("no end within {} s", options_.limits.seconds);
+      break;
+    case Process_end::out_of_memory:
+      judged.mark = judge::Mark::out_of_memory,
+      judged.why = fmt::format("more than {} MB", options_.limits.bytes >> 20);
+      break;
     case Process_end::signalled: crashed(fmt::format("signal {} ({})", end.number, strsignal(end.number))); break;
     case Process_end::exited:
       if (end.number != 0) crashed(fmt::format("exit code {}", end.number));
@@ -84,7 +97,8 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
     if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
-    judged.grade = judge::grade(truth, judge::read_answer(detail::read_bytes(answer()), asked.query.question, asked.soup.face_count()));
+    judged.grade = judge::grade(
+        truth, judge::read_answer(detail::read_bytes(answer()), asked.query.question, asked.soup.face_count()));
   } catch (const std::runtime_error& error) {  // no file that can be read
     judged.mark = judge::Mark::invalid, judged.why = error.what();
     return;
@@ -100,7 +114,8 @@ std::vector<std::string> Court::keep_files(const std::string& folder, const std:
   std::vector<std::string> kept;
   fs::create_directories(folder);
   for (const fs::path& file : {scene(), query(), answer()}) {
-    const fs::path to = fs::path(folder) / (stem + '.' + (file.extension() == "" ? "answer" : file.extension().string().substr(1)));
+    const fs::path to =
+        fs::path(folder) / (stem + '.' + (file.extension() == "" ? "answer" : file.extension().string().substr(1)));
     std::error_code ignored;
     fs::remove(to, ignored);
     if (fs::exists(file) && fs::copy_file(file, to, ignored)) kept.push_back(to.string());

@@ -9,8 +9,8 @@ namespace sightline::app {
 
 /// What is asked of a program, and what it is allowed.
 struct Court_options {
-  std::string program;            ///< a command line with {scene}, {query} and {answer}
-  std::string format = "off";     ///< of the scene's file: its ending
+  std::string program;         ///< a command line with {scene}, {query} and {answer}
+  std::string format = "off";  ///< of the scene's file: its ending
   judge::Contract contract = judge::Contract::exact;
   Process_limits limits;
   judge::Truth_options truth;
@@ -22,7 +22,7 @@ struct Judged {
   std::string not_asked;  ///< why; the rest is then empty
   std::size_t faces = 0;
   judge::Mark mark = judge::Mark::right;
-  bool breaks = false;    ///< the contract
+  bool breaks = false;  ///< the contract
   std::string why;
   judge::Grade grade;
   double seconds = 0;
@@ -35,10 +35,12 @@ class Court {
   /// Errors: Usage_error where the command line holds not all that it has to.
   explicit Court(Court_options options);
 
-  /// Errors: Usage_error where the program cannot be started; std::logic_error where the library contradicts what is known by construction.
+  /// Errors: Usage_error where the program cannot be started; std::logic_error where the library contradicts what is
+  /// known by construction.
   Judged judge(const Judge_case& asked, std::uint64_t seed) const;
 
-  /// Copies the files of the last case to a folder, so that the program can be asked again by hand. Returns the names that it gave them: STEM.off or what the format is, STEM.json, STEM.answer.
+  /// Copies the files of the last case to a folder, so that the program can be asked again by hand. Returns the names
+  /// that it gave them: STEM.off or what the format is, STEM.json, STEM.answer.
   std::vector<std::string> keep_files(const std::string& folder, const std::string& stem) const;
 
  private:

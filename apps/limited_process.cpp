@@ -113,24 +113,32 @@ std::vector<std::string> split_words(const std::string& command) {
 }
 
 std::string shell_word(const std::string& text) {
-  if (!text.empty() && text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%{}") == std::string::npos && text.find("{}") == std::string::npos) return text;
+  if (!text.empty() &&
+      text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%{}") ==
+          std::string::npos &&
+      text.find("{}") == std::string::npos)
+    return text;
   std::string word = "'";
   for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
   return word + "'";
 }
 
-Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits, const std::string& output_file) {
+Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits,
+                        const std::string& output_file) {
   std::vector<char*> argv;
   for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  Descriptor input(open("/dev/null", O_RDONLY | O_CLOEXEC)), output(open(output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+  Descriptor input(open("/dev/null", O_RDONLY | O_CLOEXEC)),
+      output(open(output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
   Descriptor from(ends[0]), to(ends[1]);
 
   // 1. Start it. The pipe closes by itself once the program runs, so that nothing of this process is measured.
   const std::uint64_t own = status_bytes("self", "VmHWM");
-  const auto processor_seconds = static_cast<rlim_t>(std::min(1e9, limits.seconds * std::max(1u, std::thread::hardware_concurrency()))) + 2;  // ends what escapes from the group
+  const auto processor_seconds =
+      static_cast<rlim_t>(std::min(1e9, limits.seconds * std::max(1u, std::thread::hardware_concurrency()))) +
+      2;  // ends what escapes from the group
   const pid_t child = fork();
   if (child < 0) throw std::runtime_error(std::string("no process: ") + std::strerror(errno));
   if (child == 0) become(argv, input.number, output.number, to.number, processor_seconds);
@@ -166,7 +174,8 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   kill(-child, SIGKILL);  // what it left running
 
   // 3. What became of it. The system's own figure is of use where it is above what this process had when it forked.
-  if (const std::uint64_t most = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; most > own) end.bytes = std::max(end.bytes, most);
+  if (const std::uint64_t most = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; most > own)
+    end.bytes = std::max(end.bytes, most);
   if (!killed) {
     end.kind = WIFEXITED(status) ? Process_end::exited : Process_end::signalled;
     end.number = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
@@ -178,7 +187,8 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
 
 Temporary_folder::Temporary_folder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "sightline-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error(pattern + ": no folder can be made there; check TMPDIR");
+  if (mkdtemp(pattern.data()) == nullptr)
+    throw std::runtime_error(pattern + ": no folder can be made there; check TMPDIR");
   path_ = pattern;
 }
 Temporary_folder::~Temporary_folder() {

@@ -1,5 +1,6 @@
 #pragma once
-// Somebody else's program, run in a process group of its own with limits on time and memory; and a folder for its files.
+// Somebody else's program, run in a process group of its own with limits on time and memory; and a folder for its
+// files.
 
 #include <cstdint>
 #include <filesystem>
@@ -10,28 +11,30 @@
 namespace sightline::app {
 
 struct Process_limits {
-  double seconds = 10;                            ///< on the clock
-  std::uint64_t bytes = std::uint64_t{1} << 30;   ///< of memory in use, with all processes that it starts
+  double seconds = 10;                           ///< on the clock
+  std::uint64_t bytes = std::uint64_t{1} << 30;  ///< of memory in use, with all processes that it starts
 };
 
 /// What became of a run.
 struct Process_end {
   enum Kind { exited, signalled, timed_out, out_of_memory };
   Kind kind = exited;
-  int number = 0;            ///< the exit code, or the signal
-  double seconds = 0;        ///< on the clock, to about two milliseconds
-  std::uint64_t bytes = 0;   ///< the most memory in use; 0 where the run was too short to see it
-  std::string said;          ///< the last lines of standard output and error together, at most 2000 bytes
+  int number = 0;           ///< the exit code, or the signal
+  double seconds = 0;       ///< on the clock, to about two milliseconds
+  std::uint64_t bytes = 0;  ///< the most memory in use; 0 where the run was too short to see it
+  std::string said;         ///< the last lines of standard output and error together, at most 2000 bytes
 };
 
-/// Words as a shell would split them: blanks between, '...' and "..." hold a word together. Errors: std::invalid_argument where a quote is open.
+/// Words as a shell would split them: blanks between, '...' and "..." hold a word together. Errors:
+/// std::invalid_argument where a quote is open.
 std::vector<std::string> split_words(const std::string& command);
 
 /// Text as one word of a shell's command line.
 std::string shell_word(const std::string& text);
 
-/// Runs a program (found along PATH) without input, what it prints into a file, and waits for its end, or ends it and all that it started. It cannot write files beyond 256 MiB, nor leave a core.
-/// Errors: std::runtime_error where it cannot be started, saying why.
+/// Runs a program (found along PATH) without input, what it prints into a file, and waits for its end, or ends it and
+/// all that it started. It cannot write files beyond 256 MiB, nor leave a core. Errors: std::runtime_error where it
+/// cannot be started, saying why.
 Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits, const std::string& output);
 
 /// A folder that is gone at the end.

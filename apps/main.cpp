@@ -17,9 +17,11 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "sightline " SIGHTLINE_VERSION);
   app.require_subcommand(1);
   app.failure_message([](const CLI::App* at, const CLI::Error& error) {  // one line, with the word that is no command
-    return fmt::format("sightline: {}{}; --help says more\n", error.what(), at->remaining().empty() ? "" : " ('" + at->remaining().front() + "' is none)");
+    return fmt::format("sightline: {}{}; --help says more\n", error.what(),
+                       at->remaining().empty() ? "" : " ('" + at->remaining().front() + "' is none)");
   });
-  add_info(app), add_bsp(app), add_order(app), add_graph(app), add_cutset(app), add_see(app), add_weak(app), add_verify(app), add_compare(app), add_generate(app), add_fuzz(app), add_reduce(app), add_judge(app);
+  add_info(app), add_bsp(app), add_order(app), add_graph(app), add_cutset(app), add_see(app), add_weak(app),
+      add_verify(app), add_compare(app), add_generate(app), add_fuzz(app), add_reduce(app), add_judge(app);
 
   try {
     app.parse(argc, argv);

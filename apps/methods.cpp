@@ -4,7 +4,9 @@
 
 namespace sightline::app {
 
-Outcome run_epeck(const Scene& scene, const Task& task, std::optional<Plane> near) { return run_points<CGAL::Epeck>(scene, task, near); }
+Outcome run_epeck(const Scene& scene, const Task& task, std::optional<Plane> near) {
+  return run_points<CGAL::Epeck>(scene, task, near);
+}
 
 Outcome run_method(const std::string& kernel, Scene& scene, const Task& task) {
   std::optional<Plane> near;

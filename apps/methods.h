@@ -20,8 +20,9 @@ struct Drawn {
 
 struct Task {
   Bsp_options bsp;
-  std::optional<Exact_point> eye;                 ///< none: only build the tree
-  std::optional<std::array<Integer, 4>> near;     ///< only what is in front of this plane (grid coordinates), by making it the root
+  std::optional<Exact_point> eye;  ///< none: only build the tree
+  std::optional<std::array<Integer, 4>>
+      near;  ///< only what is in front of this plane (grid coordinates), by making it the root
   bool keep_fragments = true;
 };
 
@@ -29,14 +30,17 @@ struct Outcome {
   Bsp_counters tree;
   Traversal_counters walk;
   double build_seconds = 0, order_seconds = 0;
-  std::vector<Drawn> drawn;             ///< back to front
-  std::uint64_t not_finite = 0;         ///< fragments of an inexact kernel with coordinates that are no numbers; they are left out
+  std::vector<Drawn> drawn;  ///< back to front
+  std::uint64_t not_finite =
+      0;  ///< fragments of an inexact kernel with coordinates that are no numbers; they are left out
 };
 
-/// Builds the tree of a scene by the named kernel and walks it. The scene takes the near plane. Errors: Usage_error for a name that is none.
+/// Builds the tree of a scene by the named kernel and walks it. The scene takes the near plane. Errors: Usage_error for
+/// a name that is none.
 Outcome run_method(const std::string& kernel, Scene& scene, const Task& task);
 
-/// Sides that the kernel would have got wrong while the exact kernel builds its tree and walks it; nothing for kernels whose numbers are exact.
+/// Sides that the kernel would have got wrong while the exact kernel builds its tree and walks it; nothing for kernels
+/// whose numbers are exact.
 struct Lockstep {
   std::uint64_t asked = 0, opposite = 0, false_zero = 0, missed_zero = 0;
 };

@@ -21,19 +21,26 @@ Outcome run_traits(const Scene& scene, const Traits& traits, const Task& task, B
   std::vector<std::pair<const Fragment<Traits>*, Sign>> order;
   order.reserve(tree.fragments.size());
   const Stopwatch order_watch;
-  outcome.walk = traverse(traits, tree, traits.eye(*task.eye), Direction::back_to_front, [&](const Fragment<Traits>& fragment, Sign side) {
-    order.emplace_back(&fragment, fragment.same_sense ? side : -side);
-  });
+  outcome.walk = traverse(traits, tree, traits.eye(*task.eye), Direction::back_to_front,
+                          [&](const Fragment<Traits>& fragment, Sign side) {
+                            order.emplace_back(&fragment, fragment.same_sense ? side : -side);
+                          });
   outcome.order_seconds = order_watch.seconds();
   if (!task.keep_fragments) return outcome;
 
-  // With a near plane at the root, what is behind the plane was drawn after all else or before it; take the part in front.
+  // With a near plane at the root, what is behind the plane was drawn after all else or before it; take the part in
+  // front.
   const Fragment<Traits>* behind_begin = nullptr;
   const Fragment<Traits>* behind_end = nullptr;
   if (task.near && !tree.nodes.empty()) {
     const auto& root = tree.nodes[0];
-    const auto first_of = [&](std::int32_t node) { return tree.fragments.data() + (node == Bsp_tree<Traits>::leaf ? tree.fragments.size() : tree.nodes[static_cast<std::size_t>(node)].first); };
-    behind_begin = first_of(root.behind), behind_end = tree.fragments.data() + tree.fragments.size();  // preorder: the back child comes last
+    const auto first_of = [&](std::int32_t node) {
+      return tree.fragments.data() + (node == Bsp_tree<Traits>::leaf
+                                          ? tree.fragments.size()
+                                          : tree.nodes[static_cast<std::size_t>(node)].first);
+    };
+    behind_begin = first_of(root.behind),
+    behind_end = tree.fragments.data() + tree.fragments.size();  // preorder: the back child comes last
   }
   outcome.drawn.reserve(order.size());
   for (const auto& [fragment, side] : order) {
@@ -41,7 +48,8 @@ Outcome run_traits(const Scene& scene, const Traits& traits, const Task& task, B
     const Piece& piece = scene.pieces()[fragment->polygon.piece];
     Drawn drawn{{piece.face, piece.number, {}}, fragment->number, side};
     try {
-      for (const Corner<Traits>& corner : fragment->polygon) drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
+      for (const Corner<Traits>& corner : fragment->polygon)
+        drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
     } catch (const std::domain_error&) {
       ++outcome.not_finite;
       continue;

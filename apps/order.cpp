@@ -19,7 +19,8 @@ struct Order_arguments {
 };
 
 /// What `verify` reads.
-static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn, bool on_view) {
+static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn,
+                                        bool on_view) {
   Order_certificate certificate;
   certificate.eye = eye, certificate.on_view = on_view;
   for (const Drawn& item : drawn) certificate.fragments.push_back(item.fragment);
@@ -59,7 +60,8 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
     drawn.side = traits.side(traits.eye(*task.eye), piece.support, outcome.walk.predicates);
     const auto with_corners = [&](const Convex_polygon<Exact_traits>& part) {
       Drawn whole = drawn;
-      for (const Corner<Exact_traits>& corner : part) whole.fragment.vertices.push_back(traits.position(*corner.vertex));
+      for (const Corner<Exact_traits>& corner : part)
+        whole.fragment.vertices.push_back(traits.position(*corner.vertex));
       return whole;
     };
     outcome.drawn.push_back(with_corners(polygon));
@@ -67,7 +69,8 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
     const Prepared_plane cutter = traits.prepare(*near);
     const Position at = classify(traits, polygon, cutter, scratch, outcome.walk.predicates);
     if (at == Position::in_front) graph.in_view.push_back(outcome.drawn.back());
-    if (at == Position::across) graph.in_view.push_back(with_corners(split(traits, polygon, cutter, scratch, store)[1]));
+    if (at == Position::across)
+      graph.in_view.push_back(with_corners(split(traits, polygon, cutter, scratch, store)[1]));
   }
   return outcome;
 }
@@ -77,11 +80,13 @@ static Exit run(const Order_arguments& arguments) {
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
   const bool by_graph = arguments.by_graph();
   if (by_graph && arguments.kernel != "exact") throw Usage_error("--method graph is exact: leave out --kernel");
-  if (!by_graph && arguments.two_sided) throw Usage_error("--two-sided is for --method graph: a tree draws both sides anyway");
+  if (!by_graph && arguments.two_sided)
+    throw Usage_error("--two-sided is for --method graph: a tree draws both sides anyway");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = arguments.view.view(eye, scene);
-  const std::optional<std::array<Integer, 4>> near = arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
+  const std::optional<std::array<Integer, 4>> near =
+      arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
   Progress progress("building");
   Task task;
   task.eye = eye;
@@ -89,9 +94,12 @@ static Exit run(const Order_arguments& arguments) {
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   Graph_order graph;
   if (by_graph) task.near = near;
-  const Outcome outcome = by_graph ? run_graph(scene, task, arguments.two_sided, graph) : run_method(arguments.kernel, scene, task);
+  const Outcome outcome =
+      by_graph ? run_graph(scene, task, arguments.two_sided, graph) : run_method(arguments.kernel, scene, task);
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided)).dump() + "\n");
+  if (!arguments.certificate.empty())
+    write_file(arguments.certificate,
+               to_json(certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided)).dump() + "\n");
   if (!arguments.svg.empty()) {
     if (near && !by_graph) task.near = near, graph.in_view = run_method(arguments.kernel, scene, task).drawn;
     Svg svg = empty_picture(view);
@@ -108,30 +116,62 @@ static Exit run(const Order_arguments& arguments) {
     }
   const Bsp_counters& c = outcome.tree;
   Json result{{"eye", point_json(eye)}, {"fragments", std::move(fragments)}};
-  Json counters{{"kernel", arguments.kernel}, {"nodes", c.nodes}, {"depth", c.depth}, {"splits", c.splits}, {"fragments", c.fragments}, {"free_planes", c.free_planes},
-                      {"eye_on_planes", outcome.walk.on_planes}, {"not_finite", outcome.not_finite}, {"degenerate", c.degenerate},
-                      {"predicates", predicates_json(c.predicates)}, {"eye_predicates", predicates_json(outcome.walk.predicates)}};
+  Json counters{{"kernel", arguments.kernel},
+                {"nodes", c.nodes},
+                {"depth", c.depth},
+                {"splits", c.splits},
+                {"fragments", c.fragments},
+                {"free_planes", c.free_planes},
+                {"eye_on_planes", outcome.walk.on_planes},
+                {"not_finite", outcome.not_finite},
+                {"degenerate", c.degenerate},
+                {"predicates", predicates_json(c.predicates)},
+                {"eye_predicates", predicates_json(outcome.walk.predicates)}};
   if (by_graph) {
     const Priority_tree_counters& t = graph.tree;
     const Eye_order_counters& e = graph.eye;
-    counters["graph"] = {{"by_number", t.by_number}, {"by_plane", t.by_plane}, {"left", t.left}, {"planes", t.planes}, {"sequences", t.sequences}, {"cycles", t.cycles},
-                         {"off_view", e.off_view}, {"edge_on", e.edge_on}, {"searched", e.searched}, {"eye_cycles", e.cycles}, {"in_eye_cycles", e.in_cycles},
+    counters["graph"] = {{"by_number", t.by_number},
+                         {"by_plane", t.by_plane},
+                         {"left", t.left},
+                         {"planes", t.planes},
+                         {"sequences", t.sequences},
+                         {"cycles", t.cycles},
+                         {"off_view", e.off_view},
+                         {"edge_on", e.edge_on},
+                         {"searched", e.searched},
+                         {"eye_cycles", e.cycles},
+                         {"in_eye_cycles", e.in_cycles},
                          {"pairs", t.search.relation.pairs + e.search.relation.pairs}};
   }
-  if (write_json(common, "order", scene, std::move(result), counters, {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}})) return Exit::done;
+  if (write_json(common, "order", scene, std::move(result), counters,
+                 {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}}))
+    return Exit::done;
 
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
-  if (by_graph) row("order", fmt::format("{} polygons, back to front; {} off-view, {} searched for this eye, {} cyclic overlaps of {} faces took {} cuts", outcome.drawn.size(), graph.eye.off_view, graph.eye.searched, graph.eye.cycles, graph.eye.in_cycles, c.splits));
-  else row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(), outcome.walk.on_planes));
-  if (outcome.not_finite + c.degenerate > 0) row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
-  row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds, arguments.kernel));
+  if (by_graph)
+    row("order", fmt::format("{} polygons, back to front; {} off-view, {} searched for this eye, {} cyclic overlaps of "
+                             "{} faces took {} cuts",
+                             outcome.drawn.size(), graph.eye.off_view, graph.eye.searched, graph.eye.cycles,
+                             graph.eye.in_cycles, c.splits));
+  else
+    row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(),
+                             outcome.walk.on_planes));
+  if (outcome.not_finite + c.degenerate > 0)
+    row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
+  row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds,
+                             arguments.kernel));
   if (arguments.certificate.empty() && arguments.svg.empty()) {
     constexpr std::size_t shown = 20;
     for (std::size_t i = 0; i < std::min(shown, outcome.drawn.size()); ++i)
-      std::cout << fmt::format("{:>6}. face {}, piece {}{}\n", i + 1, outcome.drawn[i].fragment.face, outcome.drawn[i].number,
-                               outcome.drawn[i].side == CGAL::ZERO ? ", edge-on" : outcome.drawn[i].side == CGAL::NEGATIVE ? ", from behind" : "");
-    if (outcome.drawn.size() > shown) std::cout << fmt::format("   ... {} more: --json - prints them all, --svg draws them\n", outcome.drawn.size() - shown);
+      std::cout << fmt::format("{:>6}. face {}, piece {}{}\n", i + 1, outcome.drawn[i].fragment.face,
+                               outcome.drawn[i].number,
+                               outcome.drawn[i].side == CGAL::ZERO       ? ", edge-on"
+                               : outcome.drawn[i].side == CGAL::NEGATIVE ? ", from behind"
+                                                                         : "");
+    if (outcome.drawn.size() > shown)
+      std::cout << fmt::format("   ... {} more: --json - prints them all, --svg draws them\n",
+                               outcome.drawn.size() - shown);
   }
   return Exit::done;
 }
@@ -139,19 +179,28 @@ static Exit run(const Order_arguments& arguments) {
 }  // namespace sightline::app
 
 void add_order(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("order", "The exact back-to-front order of a scene from an eye, with a picture and a certificate");
+  CLI::App* command = app.add_subcommand(
+      "order", "The exact back-to-front order of a scene from an eye, with a picture and a certificate");
   auto a = std::make_shared<sightline::app::Order_arguments>();
   a->common.add_to(*command);
-  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")->check(sightline::app::not_empty);
-  command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember(sightline::app::kernel_names))->capture_default_str();
-  command->add_option("--method", a->method, "bsp: a tree that cuts faces, both sides of each drawn; graph: the on-view faces, whole but where they overlap in a cycle")
+  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
+      ->check(sightline::app::not_empty);
+  command->add_option("--kernel", a->kernel, "arithmetic")
+      ->check(CLI::IsMember(sightline::app::kernel_names))
+      ->capture_default_str();
+  command
+      ->add_option("--method", a->method,
+                   "bsp: a tree that cuts faces, both sides of each drawn; graph: the on-view faces, whole but where "
+                   "they overlap in a cycle")
       ->check(CLI::IsMember({"bsp", "graph"}))
       ->capture_default_str();
   command->add_flag("--two-sided", a->two_sided, "with --method graph: faces seen from behind too");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->add_option("--svg", a->svg, "draw the order as a painter would");
   a->view.add_to(*command);
-  command->footer("Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
-                  "A fragment is [face, piece]; the certificate's `piece` is the convex piece of the face that the fragment is a part of.");
+  command->footer(
+      "Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
+      "A fragment is [face, piece]; the certificate's `piece` is the convex piece of the face that the fragment is a "
+      "part of.");
   set_action(*command, [a] { return sightline::app::run(*a); });
 }

@@ -7,7 +7,8 @@
 
 namespace sightline::app {
 
-/// Where viewpoints come from: one of a file of viewpoints, a file of motions of the object seen from --eye, and a circle round the scene.
+/// Where viewpoints come from: one of a file of viewpoints, a file of motions of the object seen from --eye, and a
+/// circle round the scene.
 struct Path_arguments {
   std::string path, motion, eye;
   std::size_t orbit = 0;
@@ -18,9 +19,11 @@ struct Path_arguments {
 void add_to(CLI::App& command, Path_arguments& arguments);
 /// Errors: Usage_error where there is more than one path.
 void check_usage(const Path_arguments& arguments);
-/// Calls `take` with the numbers of each line; '#' begins a comment, a first line that begins with a letter is a header. Errors: Input_error with line and column, saying what is `wanted`, for what is
-/// no number, where `take` says no, and for a file without a line.
-void read_lines(const std::string& file, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take);
+/// Calls `take` with the numbers of each line; '#' begins a comment, a first line that begins with a letter is a
+/// header. Errors: Input_error with line and column, saying what is `wanted`, for what is no number, where `take` says
+/// no, and for a file without a line.
+void read_lines(const std::string& file, const std::string& wanted,
+                const std::function<bool(const std::vector<Rational>&)>& take);
 
 /// Viewpoints, each made when it is asked for: an orbit of any length takes no memory.
 struct Path {
@@ -37,7 +40,8 @@ struct Outline {
   std::string title;
 };
 inline constexpr std::size_t pictures_in_a_strip = 12;
-/// The frames beside each other: on-view faces, the far ones first by the distance of their middle (a sketch: `order` is exact), and the edges of the cut-set.
+/// The frames beside each other: on-view faces, the far ones first by the distance of their middle (a sketch: `order`
+/// is exact), and the edges of the cut-set.
 std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines);
 
 }  // namespace sightline::app

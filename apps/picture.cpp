@@ -2,7 +2,9 @@
 
 namespace sightline::app {
 
-static Direction3 cross(const Direction3& a, const Direction3& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+static Direction3 cross(const Direction3& a, const Direction3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 static Direction3 unit(const Direction3& a) {
   const double size = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
   if (!(size > 0)) return {};
@@ -11,7 +13,8 @@ static Direction3 unit(const Direction3& a) {
   return {scaled[0] / length, scaled[1] / length, scaled[2] / length};
 }
 static Direction3 difference(const Exact_point& a, const Exact_point& b) {
-  return {nearest_double(Rational(a[0] - b[0])), nearest_double(Rational(a[1] - b[1])), nearest_double(Rational(a[2] - b[2]))};
+  return {nearest_double(Rational(a[0] - b[0])), nearest_double(Rational(a[1] - b[1])),
+          nearest_double(Rational(a[2] - b[2]))};
 }
 
 static Direction3 parse_direction(const std::string& text, const std::string& option) {
@@ -25,7 +28,9 @@ static Direction3 parse_direction(const std::string& text, const std::string& op
 void View_arguments::add_to(CLI::App& command) {
   command.add_option("--look", look, "direction X,Y,Z of the picture; by default to the centre of the scene");
   command.add_option("--up", up, "up direction X,Y,Z of the picture (0,0,1)");
-  command.add_option("--field", field, "width of the picture's view in degrees")->check(CLI::Range(1.0, 170.0) & finite_number)->capture_default_str();
+  command.add_option("--field", field, "width of the picture's view in degrees")
+      ->check(CLI::Range(1.0, 170.0) & finite_number)
+      ->capture_default_str();
 }
 
 View View_arguments::view(const Exact_point& eye, const Scene& scene) const {
@@ -61,7 +66,9 @@ std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& 
   mpz_cdiv_q(at.get_mpz_t(), at.get_mpz_t(), eye.w.get_mpz_t());
   h[3] = -(at + reach + 1);
   for (std::uint32_t p = 0; p < scene.points().size(); ++p)
-    if (sgn(Integer(h[0] * scene.points().integer(p, 0) + h[1] * scene.points().integer(p, 1) + h[2] * scene.points().integer(p, 2) + h[3])) <= 0) return h;
+    if (sgn(Integer(h[0] * scene.points().integer(p, 0) + h[1] * scene.points().integer(p, 1) +
+                    h[2] * scene.points().integer(p, 2) + h[3])) <= 0)
+      return h;
   return std::nullopt;
 }
 
@@ -76,7 +83,8 @@ std::vector<Exact_point> corner_rays(const View& view) {
   const auto [right, up] = axes_of(view);
   const double across = view.width / 2.0 / scale_of(view), upwards = across * view.height / view.width;
   std::vector<Exact_point> rays;
-  for (const auto& [x, y] : {std::pair(-across, upwards), std::pair(across, upwards), std::pair(across, -upwards), std::pair(-across, -upwards)}) {
+  for (const auto& [x, y] : {std::pair(-across, upwards), std::pair(across, upwards), std::pair(across, -upwards),
+                             std::pair(-across, -upwards)}) {
     Exact_point& ray = rays.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) ray[k] = exact(view.look[k] + x * right[k] + y * up[k]);
   }
@@ -87,13 +95,16 @@ static Flat_point projected(const View& view, const Axes& axes, const Direction3
   const double scale = scale_of(view), depth = dot(v, view.look);
   return {view.width / 2.0 + scale * dot(v, axes.right) / depth, view.height / 2.0 - scale * dot(v, axes.up) / depth};
 }
-Flat_point projected(const View& view, const Exact_point& p) { return projected(view, axes_of(view), difference(p, view.eye)); }
+Flat_point projected(const View& view, const Exact_point& p) {
+  return projected(view, axes_of(view), difference(p, view.eye));
+}
 
 Svg empty_picture(const View& view) { return {view.width, view.height, "#f4f3ef"}; }
 
 std::string colour_by_face(const Drawn& item, double shade) {
   const bool front = item.side == CGAL::POSITIVE;
-  return fmt::format("hsl({:.0f},{}%,{:.0f}%)", std::fmod(item.fragment.face * 137.50776405, 360.0), front ? 45 : 12, (front ? 62 : 55) + 18 * shade);
+  return fmt::format("hsl({:.0f},{}%,{:.0f}%)", std::fmod(item.fragment.face * 137.50776405, 360.0), front ? 45 : 12,
+                     (front ? 62 : 55) + 18 * shade);
 }
 
 void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines, const Colour& colour) {
@@ -108,7 +119,9 @@ void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool out
     }
     Direction3 normal{};
     for (std::size_t i = 2; i < corners.size(); ++i) {
-      const auto arm = [&](std::size_t k) { return Direction3{corners[k][0] - corners[0][0], corners[k][1] - corners[0][1], corners[k][2] - corners[0][2]}; };
+      const auto arm = [&](std::size_t k) {
+        return Direction3{corners[k][0] - corners[0][0], corners[k][1] - corners[0][1], corners[k][2] - corners[0][2]};
+      };
       const Direction3 part = cross(arm(i - 1), arm(i));
       for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
     }

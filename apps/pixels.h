@@ -18,7 +18,8 @@ struct Pixel_image {
   std::optional<double> changed;  ///< share of the pixels where |S^| by h is not that of the image before
 };
 
-/// The views of a file: a line X,Y,Z for the eye, or X,Y,Z,DX,DY,DZ with the direction it looks in. Errors: Usage_error for the size; those of read_lines for the file.
+/// The views of a file: a line X,Y,Z for the eye, or X,Y,Z,DX,DY,DZ with the direction it looks in. Errors: Usage_error
+/// for the size; those of read_lines for the file.
 std::vector<View> read_views(const Pixel_arguments& arguments);
 Pixel_view pixel_view(const View& view);
 /// Both images beside each other, pixels with one face left green, with more from yellow to red.

@@ -34,11 +34,12 @@ struct Line {
 /// What a kernel saw, in exact numbers.
 struct Seen {
   std::vector<Line> lines;
-  std::vector<Drawn> parts;                      ///< fragment.piece: the convex piece; no vertices where nobody asks for them
+  std::vector<Drawn> parts;  ///< fragment.piece: the convex piece; no vertices where nobody asks for them
   std::vector<Face_id> visible;
   std::optional<Visible_certificate> certificate;  ///< where it is asked for; exact only
   Visible_counters counters;
-  std::size_t edge_on = 0, not_finite = 0;       ///< pieces in the eye's plane; parts of an inexact kernel that are no numbers
+  std::size_t edge_on = 0,
+              not_finite = 0;  ///< pieces in the eye's plane; parts of an inexact kernel that are no numbers
   double seconds = 0, line_seconds = 0;
 };
 
@@ -54,7 +55,8 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, const Wanted& wan
   seen.visible = surface.visible, seen.counters = surface.counters;
   if (wanted.two_sided) {
     seen.visible.clear();
-    std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(), surface.from_behind.end(), std::back_inserter(seen.visible));
+    std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(),
+                   surface.from_behind.end(), std::back_inserter(seen.visible));
   }
   for (const auto& part : surface.parts) {
     if (part.piece == surface.nothing) continue;
@@ -77,12 +79,18 @@ std::vector<Line> lines_of(const Exact_view& view, const Visible_surface<Exact_v
   std::vector<Line> lines;
   for (Drawn_edge& drawn : hidden_lines(view, surface, threads)) {
     if (drawn.parts.empty()) continue;
-    Line& line = lines.emplace_back(Line{{scene.position(drawn.edge.p), scene.position(drawn.edge.q)}, names[static_cast<std::size_t>(drawn.kind)], {}, std::move(drawn.parts)});
+    Line& line = lines.emplace_back(Line{{scene.position(drawn.edge.p), scene.position(drawn.edge.q)},
+                                         names[static_cast<std::size_t>(drawn.kind)],
+                                         {},
+                                         std::move(drawn.parts)});
     for (const std::uint32_t piece : drawn.edge.pieces) line.faces.push_back(scene.pieces()[piece].face);
   }
   for (const auto& crossing : surface.crossings) {
     const auto face = [&](std::uint32_t piece) { return scene.pieces()[piece].face; };
-    lines.push_back({{view.position(crossing.f, crossing.from), view.position(crossing.f, crossing.to)}, "intersection", {face(crossing.f), face(crossing.g)}, {{0, 1, Line_part::nothing}}});
+    lines.push_back({{view.position(crossing.f, crossing.from), view.position(crossing.f, crossing.to)},
+                     "intersection",
+                     {face(crossing.f), face(crossing.g)},
+                     {{0, 1, Line_part::nothing}}});
   }
   return lines;
 }
@@ -96,11 +104,17 @@ Json lines_json(const Scene& scene, const std::vector<Line>& lines) {
   for (const Line& line : lines) {
     Json parts = Json::array();
     for (const Line_part& part : line.parts) {
-      Json& entry = parts.emplace_back(Json{{"from", to_string(part.from)}, {"to", to_string(part.to)}, {"visible", part.hidden_by == Line_part::nothing}});
-      if (part.hidden_by != Line_part::nothing) entry["hidden_by"] = {scene.pieces()[part.hidden_by].face, scene.pieces()[part.hidden_by].number};
+      Json& entry = parts.emplace_back(Json{{"from", to_string(part.from)},
+                                            {"to", to_string(part.to)},
+                                            {"visible", part.hidden_by == Line_part::nothing}});
+      if (part.hidden_by != Line_part::nothing)
+        entry["hidden_by"] = {scene.pieces()[part.hidden_by].face, scene.pieces()[part.hidden_by].number};
       entry["vertices"] = {point_json(point_on(line, part.from)), point_json(point_on(line, part.to))};
     }
-    all.push_back({{"class", line.kind}, {"faces", line.faces}, {"vertices", {point_json(line.ends[0]), point_json(line.ends[1])}}, {"parts", std::move(parts)}});
+    all.push_back({{"class", line.kind},
+                   {"faces", line.faces},
+                   {"vertices", {point_json(line.ends[0]), point_json(line.ends[1])}},
+                   {"parts", std::move(parts)}});
   }
   return all;
 }
@@ -112,15 +126,19 @@ void draw(Svg& svg, const View& view, const std::vector<Line>& lines) {
       if (kind == "smooth") continue;
       for (const Line_part& part : line.parts) {
         if ((part.hidden_by == Line_part::nothing) != visible) continue;
-        const Flat_point from = projected(view, point_on(line, part.from)), to = projected(view, point_on(line, part.to));
-        if (visible) svg.line(from, to, kind == "intersection" ? "#b0281c" : "#1c1c1c", kind == "boundary" || kind == "silhouette" ? 1.4 : 0.8);
+        const Flat_point from = projected(view, point_on(line, part.from)),
+                         to = projected(view, point_on(line, part.to));
+        if (visible)
+          svg.line(from, to, kind == "intersection" ? "#b0281c" : "#1c1c1c",
+                   kind == "boundary" || kind == "silhouette" ? 1.4 : 0.8);
         else svg.line(from, to, "#00000050", 0.6, true);
       }
     }
 }
 
 /// The whole sphere, or the given field of view.
-Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field, const Wanted& wanted, const Visible_options& options) {
+Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field,
+         const Wanted& wanted, const Visible_options& options) {
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
   Seen seen;
@@ -132,7 +150,8 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
   };
   if (kernel == "exact") {
     const Exact_view view(scene, eye, field.empty() ? std::vector<std::array<Integer, 3>>() : field_of(field));
-    const auto surface = visible_surface(view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), options);
+    const auto surface =
+        visible_surface(view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), options);
     const double seconds = watch.seconds();
     seen = seen_by(view, surface, wanted);
     seen.seconds = seconds;
@@ -159,7 +178,9 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
 static Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
-  if (arguments.kernel != "exact" && (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum || arguments.lines)) throw Usage_error("--certificate, --svg, --lines and --frustum are exact: leave out --kernel");
+  if (arguments.kernel != "exact" &&
+      (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum || arguments.lines))
+    throw Usage_error("--certificate, --svg, --lines and --frustum are exact: leave out --kernel");
   const Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = arguments.view.view(eye, scene);
@@ -169,7 +190,9 @@ static Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  const Seen seen = see(scene, eye, arguments.kernel, field, {arguments.two_sided, !common.json.empty(), !arguments.certificate.empty(), arguments.lines}, options);
+  const Seen seen =
+      see(scene, eye, arguments.kernel, field,
+          {arguments.two_sided, !common.json.empty(), !arguments.certificate.empty(), arguments.lines}, options);
 
   if (seen.certificate) write_file(arguments.certificate, to_json(*seen.certificate).dump() + "\n");
   if (!arguments.svg.empty()) {
@@ -191,12 +214,29 @@ static Exit run(const See_arguments& arguments) {
     if (common.json.empty()) continue;
     Json corners = Json::array();
     for (const Exact_point& p : drawn.fragment.vertices) corners.push_back(point_json(p));
-    pieces.push_back({{"face", drawn.fragment.face}, {"piece", drawn.fragment.piece}, {"side", drawn.side == CGAL::POSITIVE ? "front" : "back"}, {"vertices", std::move(corners)}});
+    pieces.push_back({{"face", drawn.fragment.face},
+                      {"piece", drawn.fragment.piece},
+                      {"side", drawn.side == CGAL::POSITIVE ? "front" : "back"},
+                      {"vertices", std::move(corners)}});
   }
   const Visible_counters& c = seen.counters;
-  Json counters{{"kernel", arguments.kernel}, {"pieces", c.pieces}, {"edge_on", seen.edge_on}, {"boxes_opened", c.opened}, {"looked_at", c.looked_at}, {"hidden", c.hidden}, {"hidden_boxes", c.hidden_boxes},
-                {"regions", c.regions}, {"cuts", c.splits}, {"crossings", c.crossings}, {"merged", c.merged}, {"depth", c.depth}, {"parts", seen.parts.size()}, {"not_finite", seen.not_finite}, {"predicates", predicates_json(c.predicates)}};
-  Json result{{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}}, seconds{{"see", seen.seconds}};
+  Json counters{{"kernel", arguments.kernel},
+                {"pieces", c.pieces},
+                {"edge_on", seen.edge_on},
+                {"boxes_opened", c.opened},
+                {"looked_at", c.looked_at},
+                {"hidden", c.hidden},
+                {"hidden_boxes", c.hidden_boxes},
+                {"regions", c.regions},
+                {"cuts", c.splits},
+                {"crossings", c.crossings},
+                {"merged", c.merged},
+                {"depth", c.depth},
+                {"parts", seen.parts.size()},
+                {"not_finite", seen.not_finite},
+                {"predicates", predicates_json(c.predicates)}};
+  Json result{{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}},
+      seconds{{"see", seen.seconds}};
   if (arguments.lines) {
     if (!common.json.empty()) result["lines"] = lines_json(scene, seen.lines);
     seconds["lines"] = seen.line_seconds;
@@ -204,10 +244,16 @@ static Exit run(const See_arguments& arguments) {
   if (write_json(common, "see", scene, std::move(result), counters, seconds)) return Exit::done;
 
   scene_rows(scene);
-  row("eye", fmt::format("({}, {}, {}){}", to_string(eye[0]), to_string(eye[1]), to_string(eye[2]), seen.edge_on > 0 ? fmt::format(", in the planes of {} pieces, which are edge-on", seen.edge_on) : ""));
-  row("visible", fmt::format("{} of {} faces, in {} parts{}", seen.visible.size(), scene.counters().faces, parts, arguments.two_sided ? "" : "; --two-sided counts back sides too"));
-  row("looked at", fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others", c.looked_at, c.opened, c.hidden, c.hidden_boxes));
-  row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again", c.regions, c.splits, c.crossings, c.merged));
+  row("eye", fmt::format(
+                 "({}, {}, {}){}", to_string(eye[0]), to_string(eye[1]), to_string(eye[2]),
+                 seen.edge_on > 0 ? fmt::format(", in the planes of {} pieces, which are edge-on", seen.edge_on) : ""));
+  row("visible", fmt::format("{} of {} faces, in {} parts{}", seen.visible.size(), scene.counters().faces, parts,
+                             arguments.two_sided ? "" : "; --two-sided counts back sides too"));
+  row("looked at",
+      fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others",
+                  c.looked_at, c.opened, c.hidden, c.hidden_boxes));
+  row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again", c.regions,
+                             c.splits, c.crossings, c.merged));
   if (arguments.lines) {
     std::size_t whole = 0, hidden = 0, crossing = 0;
     for (const Line& line : seen.lines) {
@@ -217,10 +263,13 @@ static Exit run(const See_arguments& arguments) {
       whole += kind != "intersection" && std::none_of(line.parts.begin(), line.parts.end(), is_hidden);
       hidden += std::all_of(line.parts.begin(), line.parts.end(), is_hidden);
     }
-    row("lines", fmt::format("{} edges: {} visible, {} hidden, {} in part; {} lines where faces cross, {:.3f} seconds", seen.lines.size() - crossing, whole, hidden, seen.lines.size() - crossing - whole - hidden, crossing, seen.line_seconds));
+    row("lines", fmt::format("{} edges: {} visible, {} hidden, {} in part; {} lines where faces cross, {:.3f} seconds",
+                             seen.lines.size() - crossing, whole, hidden, seen.lines.size() - crossing - whole - hidden,
+                             crossing, seen.line_seconds));
   }
   if (seen.not_finite > 0) row("lost", fmt::format("{} parts are not finite", seen.not_finite));
-  row("predicates", fmt::format("{} by names, {} by doubles, {} by fixed width, {} by GMP", c.predicates.combinatorial, c.predicates.filtered, c.predicates.fixed, c.predicates.gmp));
+  row("predicates", fmt::format("{} by names, {} by doubles, {} by fixed width, {} by GMP", c.predicates.combinatorial,
+                                c.predicates.filtered, c.predicates.fixed, c.predicates.gmp));
   row("seconds", fmt::format("{:.4f} ({})", seen.seconds, arguments.kernel));
   return Exit::done;
 }
@@ -228,18 +277,28 @@ static Exit run(const See_arguments& arguments) {
 }  // namespace sightline::app
 
 void add_see(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("see", "The exact visible parts of a scene from an eye, with a picture and a certificate");
+  CLI::App* command =
+      app.add_subcommand("see", "The exact visible parts of a scene from an eye, with a picture and a certificate");
   auto a = std::make_shared<sightline::app::See_arguments>();
   a->common.add_to(*command);
-  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")->check(sightline::app::not_empty);
-  command->add_option("--kernel", a->kernel, "arithmetic")->check(CLI::IsMember({"exact", "epeck", "gmpq", "double", "float"}))->capture_default_str();
-  command->add_flag("--two-sided", a->two_sided, "count faces seen from behind too (they hide what is behind them anyway)");
-  command->add_flag("--frustum", a->frustum, "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
-  command->add_flag("--lines", a->lines, "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, in the picture solid and dashed");
+  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
+      ->check(sightline::app::not_empty);
+  command->add_option("--kernel", a->kernel, "arithmetic")
+      ->check(CLI::IsMember({"exact", "epeck", "gmpq", "double", "float"}))
+      ->capture_default_str();
+  command->add_flag("--two-sided", a->two_sided,
+                    "count faces seen from behind too (they hide what is behind them anyway)");
+  command->add_flag("--frustum", a->frustum,
+                    "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
+  command->add_flag("--lines", a->lines,
+                    "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
+                    "in the picture solid and dashed");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->add_option("--svg", a->svg, "draw the visible parts");
   a->view.add_to(*command);
-  command->footer("Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
-                  "Where faces of one plane overlap, one is shown: seen from its front before from behind, then the lower face id; `visible` has them all.");
+  command->footer(
+      "Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
+      "Where faces of one plane overlap, one is shown: seen from its front before from behind, then the lower face id; "
+      "`visible` has them all.");
   set_action(*command, [a] { return sightline::app::run(*a); });
 }

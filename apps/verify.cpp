@@ -10,10 +10,18 @@
 
 namespace sightline::app {
 
-static Verdict verdict_on(const Polygon_soup& soup, const Order_certificate& claim, const Verify_options& options) { return verify_order(soup, claim, options); }
-static Verdict verdict_on(const Polygon_soup& soup, const Graph_certificate& claim, const Verify_options& options) { return verify_graph(soup, claim, options); }
-static Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& claim, const Verify_options& options) { return verify_visible(soup, claim, options); }
-static Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim, const Verify_options& options) { return verify_weak(soup, claim, options); }
+static Verdict verdict_on(const Polygon_soup& soup, const Order_certificate& claim, const Verify_options& options) {
+  return verify_order(soup, claim, options);
+}
+static Verdict verdict_on(const Polygon_soup& soup, const Graph_certificate& claim, const Verify_options& options) {
+  return verify_graph(soup, claim, options);
+}
+static Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& claim, const Verify_options& options) {
+  return verify_visible(soup, claim, options);
+}
+static Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim, const Verify_options& options) {
+  return verify_weak(soup, claim, options);
+}
 
 static Exit run(const Common& common, const std::string& file) {
   const Polygon_soup soup = common.read();
@@ -33,7 +41,11 @@ static Exit run(const Common& common, const std::string& file) {
   const double seconds = watch.seconds();
   const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
   Json result{{"accepted", verdict.accepted}, {"why", verdict.why}, {"fragments", verdict.fragments}};
-  if (write_json(common, "verify", Scene(soup), result, {{"fragments", std::visit([](const Covering& covering) { return covering.fragments.size(); }, certificate)}}, {{"verify", seconds}})) return exit;
+  if (write_json(
+          common, "verify", Scene(soup), result,
+          {{"fragments", std::visit([](const Covering& covering) { return covering.fragments.size(); }, certificate)}},
+          {{"verify", seconds}}))
+    return exit;
   row(verdict.accepted ? "accepted" : "REJECTED", verdict.why);
   row("seconds", fmt::format("{:.3f}", seconds));
   return exit;
@@ -42,7 +54,8 @@ static Exit run(const Common& common, const std::string& file) {
 }  // namespace sightline::app
 
 void add_verify(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("verify", "Checks a certificate against a scene, by code that shares nothing with what made it");
+  CLI::App* command = app.add_subcommand(
+      "verify", "Checks a certificate against a scene, by code that shares nothing with what made it");
   auto common = std::make_shared<sightline::app::Common>();
   auto certificate = std::make_shared<std::string>();
   common->add_to(*command);

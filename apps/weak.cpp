@@ -18,7 +18,8 @@ struct Weak_arguments {
   Weak_task task;
 };
 
-// ---- Pictures ---------------------------------------------------------------------------------------------------------------
+// ---- Pictures
+// ---------------------------------------------------------------------------------------------------------------
 
 /// visible, hidden, undecided or "source", by face; sources are numbered after the faces.
 std::vector<std::string> names_of(const Scene& scene, const Weak_faces& found, std::size_t sources) {
@@ -30,8 +31,10 @@ std::vector<std::string> names_of(const Scene& scene, const Weak_faces& found, s
   return names;
 }
 
-/// The fronts of faces, as a painter paints them: what has its back to the eye is left out, so that one looks into rooms.
-void draw(const Weak_arguments& arguments, Polygon_soup soup, const Sources& sources, const std::vector<std::string>& names) {
+/// The fronts of faces, as a painter paints them: what has its back to the eye is left out, so that one looks into
+/// rooms.
+void draw(const Weak_arguments& arguments, Polygon_soup soup, const Sources& sources,
+          const std::vector<std::string>& names) {
   for (const std::vector<Exact_point>& polygon : sources.points) {
     std::vector<Point_id> loop;
     for (const Exact_point& p : polygon) loop.push_back(soup.add_point(p[0], p[1], p[2]));
@@ -44,15 +47,21 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Sources& sou
   task.eye = eye, task.bsp.threads = arguments.common.threads;
   task.near = near_plane(view, scene);
   std::vector<Drawn> drawn = run_method("exact", scene, task).drawn;
-  for (const std::vector<Face_id>* list : {&arguments.sources.faces, &arguments.sources.solid})  // faces of the scene that are sources: themselves, not their doubles
+  for (const std::vector<Face_id>* list :
+       {&arguments.sources.faces,
+        &arguments.sources.solid})  // faces of the scene that are sources: themselves, not their doubles
     for (const Face_id face : *list)
       for (Drawn& item : drawn)
         if (item.fragment.face == face) item.fragment.face = static_cast<Face_id>(names.size() - 1);
-  std::erase_if(drawn, [&](const Drawn& item) { return item.side != CGAL::POSITIVE && names[item.fragment.face] != "source"; });
+  std::erase_if(
+      drawn, [&](const Drawn& item) { return item.side != CGAL::POSITIVE && names[item.fragment.face] != "source"; });
   Svg svg = empty_picture(view);
   paint(svg, view, drawn, true, [&](const Drawn& item, double shade) {
     const std::string& name = names[item.fragment.face];
-    const auto [hue, strength, light] = name == "visible" ? std::tuple(38, 85, 62) : name == "hidden" ? std::tuple(215, 12, 60) : name == "source" ? std::tuple(350, 75, 50) : std::tuple(290, 60, 55);
+    const auto [hue, strength, light] = name == "visible"  ? std::tuple(38, 85, 62)
+                                        : name == "hidden" ? std::tuple(215, 12, 60)
+                                        : name == "source" ? std::tuple(350, 75, 50)
+                                                           : std::tuple(290, 60, 55);
     return fmt::format("hsl({},{}%,{:.0f}%)", hue, strength, light + 14 * shade);
   });
   svg.label(12, 22, 14, "orange: visible, grey: hidden, violet: undecided, red: the source");
@@ -75,9 +84,12 @@ std::string obj_text(const Scene& scene, const std::vector<std::string>& names) 
   return text;
 }
 
-// ---- Event surfaces ------------------------------------------------------------------------------------------------------------
+// ---- Event surfaces
+// ------------------------------------------------------------------------------------------------------------
 
-const char* name_of(Event_kind kind) { return kind == Event_kind::horizon ? "horizon" : kind == Event_kind::edge_vertex ? "edge and vertex" : "triple"; }
+const char* name_of(Event_kind kind) {
+  return kind == Event_kind::horizon ? "horizon" : kind == Event_kind::edge_vertex ? "edge and vertex" : "triple";
+}
 
 Json surfaces_json(const Scene& scene, const std::vector<Event_surface>& surfaces) {
   Json all = Json::array();
@@ -85,7 +97,11 @@ Json surfaces_json(const Scene& scene, const std::vector<Event_surface>& surface
     Json rulings = Json::array();
     for (const auto& [p, q] : surface.rulings) rulings.push_back({point_json(p), point_json(q)});
     const Piece& piece = scene.pieces()[surface.piece];
-    all.push_back({{"kind", name_of(surface.kind)}, {"face", piece.face}, {"piece", piece.number}, {"source", surface.source}, {"rulings", std::move(rulings)}});
+    all.push_back({{"kind", name_of(surface.kind)},
+                   {"face", piece.face},
+                   {"piece", piece.number},
+                   {"source", surface.source},
+                   {"rulings", std::move(rulings)}});
   }
   return {{"format", "sightline event surfaces 1"}, {"scene", scene.file()}, {"surfaces", std::move(all)}};
 }
@@ -98,16 +114,20 @@ std::string surfaces_obj(const std::vector<Event_surface>& surfaces) {
     const std::string kind = surface.kind == Event_kind::edge_vertex ? "edge_and_vertex" : name_of(surface.kind);
     text += fmt::format("g {0}\nusemtl {0}\n", kind);
     for (const auto& ruling : surface.rulings)
-      for (const Exact_point& p : ruling) text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
-    for (std::size_t k = 1; k < surface.rulings.size(); ++k, points += 2) text += fmt::format("f {} {} {} {}\n", points + 1, points + 2, points + 4, points + 3);
+      for (const Exact_point& p : ruling)
+        text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
+    for (std::size_t k = 1; k < surface.rulings.size(); ++k, points += 2)
+      text += fmt::format("f {} {} {} {}\n", points + 1, points + 2, points + 4, points + 3);
     points += 2;
   }
   return text;
 }
 
-// ---- What stays open ---------------------------------------------------------------------------------------------------------------
+// ---- What stays open
+// ---------------------------------------------------------------------------------------------------------------
 
-/// The pairs of undecided faces with the first of their open cells: conditions on segments from a part of a source to a part of a piece.
+/// The pairs of undecided faces with the first of their open cells: conditions on segments from a part of a source to a
+/// part of a piece.
 Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_visible& found) {
   constexpr std::size_t most_cells = 4;
   const std::vector<Piece>& pieces = occluders.scene().pieces();
@@ -121,25 +141,38 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
     Json cells = Json::array();
     for (const Open_cell& cell : open_cells(occluders, sources.polygons[pair.source], pair, most_cells)) {
       Json sides = Json::array();
-      for (const Open_cell::Side& side : cell.sides) sides.push_back({{"face", pieces[side.edge.piece].face}, {"piece", pieces[side.edge.piece].number}, {"corner", side.edge.corner}, {"side", side.sign}});
-      cells.push_back({{"source", points_json(cell.source)}, {"target", points_json(cell.target)}, {"sides", std::move(sides)}});
+      for (const Open_cell::Side& side : cell.sides)
+        sides.push_back({{"face", pieces[side.edge.piece].face},
+                         {"piece", pieces[side.edge.piece].number},
+                         {"corner", side.edge.corner},
+                         {"side", side.sign}});
+      cells.push_back(
+          {{"source", points_json(cell.source)}, {"target", points_json(cell.target)}, {"sides", std::move(sides)}});
     }
     const auto is_open = [](const Weak_step& step) { return step.kind == Weak_step::Kind::open; };
     const auto count = std::count_if(pair.answer.proof.begin(), pair.answer.proof.end(), is_open);
-    all.push_back({{"face", pieces[pair.piece].face}, {"piece", pieces[pair.piece].number}, {"source", pair.source}, {"open_cells", count}, {"cells", std::move(cells)}});
+    all.push_back({{"face", pieces[pair.piece].face},
+                   {"piece", pieces[pair.piece].number},
+                   {"source", pair.source},
+                   {"open_cells", count},
+                   {"cells", std::move(cells)}});
   }
   return all;
 }
 
-// ---- The command ---------------------------------------------------------------------------------------------------------------------
+// ---- The command
+// ---------------------------------------------------------------------------------------------------------------------
 
 Exit run_weak(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
   const std::string& method = arguments.method;
-  if ((method == "sample" || method == "doubles") && !arguments.certificate.empty()) throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
+  if ((method == "sample" || method == "doubles") && !arguments.certificate.empty())
+    throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
   const bool as_obj = arguments.surfaces.ends_with(".obj");
-  if (!arguments.surfaces.empty() && method != "events") throw Usage_error("--surfaces are those of events: add --method events");
-  if (!arguments.surfaces.empty() && !as_obj && !arguments.surfaces.ends_with(".json")) throw Usage_error("--surfaces wants a file that ends with .json or .obj, not " + arguments.surfaces);
+  if (!arguments.surfaces.empty() && method != "events")
+    throw Usage_error("--surfaces are those of events: add --method events");
+  if (!arguments.surfaces.empty() && !as_obj && !arguments.surfaces.ends_with(".json"))
+    throw Usage_error("--surfaces wants a file that ends with .json or .obj, not " + arguments.surfaces);
   const Polygon_soup soup = common.read();
   const Scene scene(soup);
   Stopwatch watch;
@@ -148,9 +181,12 @@ Exit run_weak(const Weak_arguments& arguments) {
   const double prepare_seconds = watch.seconds();
   Progress progress("searching");
   Weak_task task = arguments.task;
-  task.two_sided = arguments.sources.two_sided, task.threads = common.threads, task.seed = common.seed, task.surfaces = !arguments.surfaces.empty();
+  task.two_sided = arguments.sources.two_sided, task.threads = common.threads, task.seed = common.seed,
+  task.surfaces = !arguments.surfaces.empty();
   const bool leaves_open = method == "lines" || method == "events";
-  const std::function<void(std::size_t, std::size_t)> report = [&](std::size_t done, std::size_t all) { progress(done, all); };
+  const std::function<void(std::size_t, std::size_t)> report = [&](std::size_t done, std::size_t all) {
+    progress(done, all);
+  };
   if (leaves_open && common.budget > 0) task.out_of_time = [&] { return watch.seconds() > common.budget; };
   task.progress = leaves_open ? report : common.within_budget(report);
   watch = {};
@@ -158,8 +194,12 @@ Exit run_weak(const Weak_arguments& arguments) {
   const Weakly_visible& found = outcome.found;
   const double seconds = watch.seconds();
 
-  if (!arguments.certificate.empty()) write_file(arguments.certificate, to_json(weak_certificate(scene, sources.points, task.two_sided, found)).dump() + "\n");
-  if (!arguments.surfaces.empty()) write_file(arguments.surfaces, as_obj ? surfaces_obj(outcome.surfaces) : surfaces_json(scene, outcome.surfaces).dump() + "\n");
+  if (!arguments.certificate.empty())
+    write_file(arguments.certificate,
+               to_json(weak_certificate(scene, sources.points, task.two_sided, found)).dump() + "\n");
+  if (!arguments.surfaces.empty())
+    write_file(arguments.surfaces,
+               as_obj ? surfaces_obj(outcome.surfaces) : surfaces_json(scene, outcome.surfaces).dump() + "\n");
   const std::vector<std::string> names = names_of(scene, found, sources.points.size());
   if (!arguments.svg.empty()) draw(arguments, soup, sources, names);
   if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(scene, names));
@@ -167,26 +207,72 @@ Exit run_weak(const Weak_arguments& arguments) {
   const Exit exit = found.undecided.empty() ? Exit::done : Exit::undecided;
   const Weak_counters& c = found.counters;
   const Event_counters& e = outcome.events;
-  Json counters{{"searches", c.targets}, {"away", c.away}, {"by_rays", c.by_rays}, {"occluders", c.occluders}, {"cells", c.cells}, {"cuts", c.cuts}, {"shaves", c.shaves}, {"bisections", c.bisections},
-                {"blocked", c.blocked}, {"empty", c.empty}, {"learned", c.learned}, {"jumps", c.jumps}, {"programs", c.programs}, {"exact_programs", c.exact_programs}, {"confirmed", c.confirmed},
-                {"refuted", c.refuted}, {"lines", c.lines}, {"open", c.open}, {"deepest", c.deepest},
-                {"events", {{"searches", e.targets}, {"horizon", e.horizon}, {"edge_vertex", e.edge_vertex}, {"triple", e.triple}, {"subranges", e.subranges}, {"cells", e.cells}, {"surfaces", outcome.surfaces.size()}}}};
-  Json result{{"visible", found.visible}, {"hidden", found.hidden}, {"undecided", found.undecided}, {"certificate", arguments.certificate}, {"unproved", found.unproved},
-              {"by_events", outcome.by_events}, {"within", outcome.within}, {"open", open_json(occluders, sources, found)}};
-  if (write_json(common, "weak", scene, std::move(result), counters, {{"prepare", prepare_seconds}, {"search", seconds}})) return exit;
+  Json counters{{"searches", c.targets},
+                {"away", c.away},
+                {"by_rays", c.by_rays},
+                {"occluders", c.occluders},
+                {"cells", c.cells},
+                {"cuts", c.cuts},
+                {"shaves", c.shaves},
+                {"bisections", c.bisections},
+                {"blocked", c.blocked},
+                {"empty", c.empty},
+                {"learned", c.learned},
+                {"jumps", c.jumps},
+                {"programs", c.programs},
+                {"exact_programs", c.exact_programs},
+                {"confirmed", c.confirmed},
+                {"refuted", c.refuted},
+                {"lines", c.lines},
+                {"open", c.open},
+                {"deepest", c.deepest},
+                {"events",
+                 {{"searches", e.targets},
+                  {"horizon", e.horizon},
+                  {"edge_vertex", e.edge_vertex},
+                  {"triple", e.triple},
+                  {"subranges", e.subranges},
+                  {"cells", e.cells},
+                  {"surfaces", outcome.surfaces.size()}}}};
+  Json result{{"visible", found.visible},     {"hidden", found.hidden},
+              {"undecided", found.undecided}, {"certificate", arguments.certificate},
+              {"unproved", found.unproved},   {"by_events", outcome.by_events},
+              {"within", outcome.within},     {"open", open_json(occluders, sources, found)}};
+  if (write_json(common, "weak", scene, std::move(result), counters,
+                 {{"prepare", prepare_seconds}, {"search", seconds}}))
+    return exit;
   scene_rows(scene);
   row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
   row("visible", fmt::format("{} of {} faces", found.visible.size(), scene.counters().faces));
-  if (method == "conservative") row("of these, too many", "those that several pieces hide together: `sightline compare SCENE weak` with the same sources says how many");
-  if (!outcome.within.empty()) row("of these, within", fmt::format("{}: parts of them are seen without leaving the volume", outcome.within.size()));
+  if (method == "conservative")
+    row("of these, too many",
+        "those that several pieces hide together: `sightline compare SCENE weak` with the same sources says how many");
+  if (!outcome.within.empty())
+    row("of these, within",
+        fmt::format("{}: parts of them are seen without leaving the volume", outcome.within.size()));
   row("hidden", fmt::format("{}", found.hidden.size()));
-  row("undecided", found.undecided.empty() ? "none" : fmt::format("{}: --cells and --budget set how long each is looked at, --event-edges whether events are; --json shows the cells that are open", found.undecided.size()));
-  if (!outcome.by_events.empty()) row("by events", fmt::format("{} of them, that lines left open", outcome.by_events.size()));
-  if (!found.unproved.empty()) row("unproved", fmt::format("{}: a certificate leaves these open", found.unproved.size()));
+  row("undecided", found.undecided.empty()
+                       ? "none"
+                       : fmt::format("{}: --cells and --budget set how long each is looked at, --event-edges whether "
+                                     "events are; --json shows the cells that are open",
+                                     found.undecided.size()));
+  if (!outcome.by_events.empty())
+    row("by events", fmt::format("{} of them, that lines left open", outcome.by_events.size()));
+  if (!found.unproved.empty())
+    row("unproved", fmt::format("{}: a certificate leaves these open", found.unproved.size()));
   if (method == "sample") row("rays", fmt::format("{} from each source; nothing is proved", task.rays));
-  if (method == "lines") row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets, c.away, c.by_rays, c.cells));
-  if (method == "lines") row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} linear programs, {} of them exact", c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections, c.programs + c.exact_programs, c.exact_programs));
-  if (e.targets > 0) row("events", fmt::format("{} searches; {} in planes of edges, {} of a vertex and an edge, {} of three edges; {} cells of lines beside them", e.targets, e.horizon, e.edge_vertex, e.triple, e.cells));
+  if (method == "lines")
+    row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets,
+                                c.away, c.by_rays, c.cells));
+  if (method == "lines")
+    row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} "
+                             "linear programs, {} of them exact",
+                             c.blocked, c.empty, c.learned, c.cuts, c.shaves, c.bisections,
+                             c.programs + c.exact_programs, c.exact_programs));
+  if (e.targets > 0)
+    row("events", fmt::format("{} searches; {} in planes of edges, {} of a vertex and an edge, {} of three edges; {} "
+                              "cells of lines beside them",
+                              e.targets, e.horizon, e.edge_vertex, e.triple, e.cells));
   if (task.surfaces) row("surfaces", fmt::format("{} in {}", outcome.surfaces.size(), arguments.surfaces));
   row("seconds", fmt::format("{:.4f}, and {:.4f} to prepare the scene", seconds, prepare_seconds));
   return exit;
@@ -197,23 +283,52 @@ Exit run_weak(const Weak_arguments& arguments) {
 }  // namespace sightline::app
 
 void add_weak(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("weak", "The faces that are weakly visible from polygons or solids: seen from some point of them, exactly, with a certificate for both answers");
+  CLI::App* command = app.add_subcommand("weak",
+                                         "The faces that are weakly visible from polygons or solids: seen from some "
+                                         "point of them, exactly, with a certificate for both answers");
   auto a = std::make_shared<sightline::app::Weak_arguments>();
   a->common.add_to(*command);
   a->sources.add_to(*command);
-  CLI::Option* method = command->add_option("--method", a->method, "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; "
-                                                                   "doubles: a search without proofs; sample: random rays, as others do")->check(CLI::IsMember({"lines", "events", "doubles", "sample"}))->capture_default_str();
-  command->add_flag("--conservative{conservative}", a->method, "instead of a method: quick, visible is all that no single piece hides, so some faces too many; `sightline compare SCENE weak` says how many")->disable_flag_override()->excludes(method);
-  command->add_option("--rays", a->task.rays, "sample: from each source")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--event-edges", a->task.event_edges, "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")->check(sightline::app::whole_number)->capture_default_str();
-  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads: of lines all answers, of events what is visible, with --conservative what is hidden");
-  command->add_option("--surfaces", a->surfaces, "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; then no search ends before it has them all");
-  command->add_option("--svg", a->svg, "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out");
+  CLI::Option* method =
+      command
+          ->add_option(
+              "--method", a->method,
+              "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; "
+              "doubles: a search without proofs; sample: random rays, as others do")
+          ->check(CLI::IsMember({"lines", "events", "doubles", "sample"}))
+          ->capture_default_str();
+  command
+      ->add_flag("--conservative{conservative}", a->method,
+                 "instead of a method: quick, visible is all that no single piece hides, so some faces too many; "
+                 "`sightline compare SCENE weak` says how many")
+      ->disable_flag_override()
+      ->excludes(method);
+  command->add_option("--rays", a->task.rays, "sample: from each source")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command
+      ->add_option("--event-edges", a->task.event_edges,
+                   "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--certificate", a->certificate,
+                      "write what `sightline verify` reads: of lines all answers, of events what is visible, with "
+                      "--conservative what is hidden");
+  command->add_option("--surfaces", a->surfaces,
+                      "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; "
+                      "then no search ends before it has them all");
+  command->add_option(
+      "--svg", a->svg,
+      "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out");
   command->add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided");
-  command->add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")->check(sightline::app::not_empty);
+  command->add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
+      ->check(sightline::app::not_empty);
   a->view.add_to(*command);
-  command->footer("Example: sightline weak room.off --from \"0,0,1 1,0,1 1,0,2 0,0,2\" --svg room.svg --certificate room.json\n"
-                  "Exit code 4: some faces are undecided.");
+  command->footer(
+      "Example: sightline weak room.off --from \"0,0,1 1,0,1 1,0,2 0,0,2\" --svg room.svg --certificate room.json\n"
+      "Exit code 4: some faces are undecided.");
   set_action(*command, [a] { return sightline::app::run_weak(*a); });
 }

@@ -27,17 +27,18 @@ struct Sources {
   std::list<Weak_volume> volumes;
 };
 /// Errors: Usage_error where there are none, or that name what is none.
-Sources sources_of(const Source_arguments& arguments, const Common& common, const Polygon_soup& soup, const Occluders& occluders);
+Sources sources_of(const Source_arguments& arguments, const Common& common, const Polygon_soup& soup,
+                   const Occluders& occluders);
 
 struct Weak_task {
   bool two_sided = false;
   int threads = 0;
   std::uint64_t seed = 1;
   std::size_t cells = Weak_search_options{}.cells;
-  std::size_t event_edges = 300;          ///< lines: what stays undecided goes to events where no more edges are near
-  std::size_t rays = 100000;              ///< sample
-  bool surfaces = false;                  ///< events: whether to keep them
-  std::function<bool()> out_of_time;      ///< lines, events: what they have no time for stays open
+  std::size_t event_edges = 300;      ///< lines: what stays undecided goes to events where no more edges are near
+  std::size_t rays = 100000;          ///< sample
+  bool surfaces = false;              ///< events: whether to keep them
+  std::function<bool()> out_of_time;  ///< lines, events: what they have no time for stays open
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
@@ -50,6 +51,7 @@ struct Weak_outcome {
 };
 
 /// `method`: lines, which ends with events where that helps; events, conservative, doubles, sample.
-Weak_outcome run_weak_method(const std::string& method, const Occluders& occluders, const Sources& sources, const Weak_task& task);
+Weak_outcome run_weak_method(const std::string& method, const Occluders& occluders, const Sources& sources,
+                             const Weak_task& task);
 
 }  // namespace sightline::app

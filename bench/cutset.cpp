@@ -1,6 +1,7 @@
-// Cut-sets against testing every face: convex bodies of 10^3 to 10^6 faces, the paper's example, and real meshes subdivided to 10^5 faces: bench_cutset [--max FACES] [--scenes FOLDER] [--out FOLDER]
-// CSV on standard output, a line a run; ratios and growth on standard error; with --out also cutset.csv and cutset.svg. Every frame's count of on-view faces is compared with the exact
-// count now and then, so a wrong frame ends the run.
+// Cut-sets against testing every face: convex bodies of 10^3 to 10^6 faces, the paper's example, and real meshes
+// subdivided to 10^5 faces: bench_cutset [--max FACES] [--scenes FOLDER] [--out FOLDER] CSV on standard output, a line
+// a run; ratios and growth on standard error; with --out also cutset.csv and cutset.svg. Every frame's count of on-view
+// faces is compared with the exact count now and then, so a wrong frame ends the run.
 
 #include "measure.h"
 
@@ -38,29 +39,37 @@ struct All_planes {
     }
     on.resize(a.size());
   }
-  [[gnu::noinline, gnu::target_clones("avx512f", "avx2", "default"), gnu::optimize("O3")]] static void test(std::size_t n, const double* a, const double* b, const double* c, const double* d, double x, double y, double z, std::uint8_t* on) {
+  [[gnu::noinline, gnu::target_clones("avx512f", "avx2", "default"), gnu::optimize("O3")]] static void test(
+      std::size_t n, const double* a, const double* b, const double* c, const double* d, double x, double y, double z,
+      std::uint8_t* on) {
     for (std::size_t i = 0; i < n; ++i) on[i] = a[i] * x + b[i] * y + c[i] * z + d[i] > 0;
   }
-  void test(double x, double y, double z) { test(a.size(), a.data(), b.data(), c.data(), d.data(), x, y, z, on.data()); }
+  void test(double x, double y, double z) {
+    test(a.size(), a.data(), b.data(), c.data(), d.data(), x, y, z, on.data());
+  }
 };
 
 struct Run {
-  double build, tracker, plain, all;            // seconds: graph and tracker, then a frame
-  double tests, plain_tests, cut, births;       // a frame
+  double build, tracker, plain, all;       // seconds: graph and tracker, then a frame
+  double tests, plain_tests, cut, births;  // a frame
   std::uint64_t nodes, first_tests, wrong, peak;
 };
 
-/// A level circle round the scene's middle, three half sides away and one above it, the first `frames` of `circle` places.
+/// A level circle round the scene's middle, three half sides away and one above it, the first `frames` of `circle`
+/// places.
 std::vector<Viewpoint> orbit(const Scene& scene, std::size_t frames, std::uint64_t circle) {
   const auto box = scene.box();
   Exact_point centre{0, 0, 0};
   Rational half = 0;
-  for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2, half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
+  for (std::size_t k = 0; k < 3; ++k)
+    centre[k] = (box[0][k] + box[1][k]) / 2, half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
   std::vector<Viewpoint> path;
   for (std::size_t k = 0; k < frames; ++k) {
     const auto [x, y] = generate::circle_point(k, circle, std::int64_t{1} << 30);
     const double r = nearest_double(half) * 3 / 0x1p30;
-    path.push_back({{Rational(centre[0] + exact(static_cast<double>(x) * r)), Rational(centre[1] + exact(static_cast<double>(y) * r)), Rational(centre[2] + half)}, false});
+    path.push_back({{Rational(centre[0] + exact(static_cast<double>(x) * r)),
+                     Rational(centre[1] + exact(static_cast<double>(y) * r)), Rational(centre[2] + half)},
+                    false});
   }
   return path;
 }
@@ -89,8 +98,12 @@ Run run(const Polygon_soup& soup, std::uint64_t circle) {
     }
     return best;
   };
-  r.tracker = a_frame([&](const Viewpoint& view) { tracker.move_to(view), r.cut += static_cast<double>(tracker.cut_edges().size()) / frames, counts.push_back(tracker.on_view_count()); });
-  r.tests = static_cast<double>(tracker.counters().tests - r.first_tests) / frames, r.births = static_cast<double>(tracker.counters().births) / frames;
+  r.tracker = a_frame([&](const Viewpoint& view) {
+    tracker.move_to(view), r.cut += static_cast<double>(tracker.cut_edges().size()) / frames,
+        counts.push_back(tracker.on_view_count());
+  });
+  r.tests = static_cast<double>(tracker.counters().tests - r.first_tests) / frames,
+  r.births = static_cast<double>(tracker.counters().births) / frames;
   if (graph.is_convex(0)) {
     Cut_set_1977 plain(traits, graph, path[0], Reading_1977::mended);
     std::uint64_t tests = 0;
@@ -106,7 +119,8 @@ Run run(const Polygon_soup& soup, std::uint64_t circle) {
   for (std::size_t k = 0; k < path.size(); k += 40) {
     const Located_point eye = scene.locate(path[k].at);
     std::size_t on = 0;
-    for (std::uint32_t i = 0; i < graph.size(); ++i) on += traits.side(eye, graph.plane(i), predicates) == CGAL::POSITIVE;
+    for (std::uint32_t i = 0; i < graph.size(); ++i)
+      on += traits.side(eye, graph.plane(i), predicates) == CGAL::POSITIVE;
     r.wrong += on != counts[k];
   }
   return r;
@@ -125,7 +139,8 @@ Polygon_soup subdivided(const Polygon_soup& soup, std::size_t faces) {
   omerr().disable();
   for (const Piece& piece : scene.pieces()) {
     const auto corners = scene.corners(piece);
-    for (std::size_t k = 2; k < corners.size(); ++k) mesh.add_face(vertices[corners[0].point], vertices[corners[k - 1].point], vertices[corners[k].point]);
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      mesh.add_face(vertices[corners[0].point], vertices[corners[k - 1].point], vertices[corners[k].point]);
   }
   omerr().enable();
   OpenMesh::Subdivider::Uniform::LoopT<Mesh, double> loop;
@@ -160,16 +175,26 @@ int main(int argc, char** argv) {
     std::cout << line << std::endl;
     csv << line << '\n';
   };
-  print("scene,nodes,degrees_a_frame,build_seconds,frame_seconds,update_1977_seconds,all_faces_seconds,tests,update_1977_tests,cut_edges,births,first_tests,bytes_a_node,wrong");
+  print(
+      "scene,nodes,degrees_a_frame,build_seconds,frame_seconds,update_1977_seconds,all_faces_seconds,tests,update_1977_"
+      "tests,cut_edges,births,first_tests,bytes_a_node,wrong");
   Log_plot plot("A frame of an orbit", "faces", "seconds");
   bool failed = false;
   const auto measure = [&](const std::string& name, const Polygon_soup& soup, std::uint64_t circle) {
     Run r{};
-    if (!bench::in_child<Run>(r, [&] { return run(soup, circle); }) || r.wrong > 0) failed = true, std::cerr << name << ": FAILED\n";
+    if (!bench::in_child<Run>(r, [&] { return run(soup, circle); }) || r.wrong > 0)
+      failed = true, std::cerr << name << ": FAILED\n";
     const double nodes = static_cast<double>(r.nodes), degrees = 360.0 / static_cast<double>(circle);
-    print(fmt::format("{},{},{:.3g},{:.4f},{:.3e},{:.3e},{:.3e},{:.1f},{:.1f},{:.1f},{:.2f},{},{:.0f},{}", name, r.nodes, degrees, r.build, r.tracker, r.plain, r.all, r.tests, r.plain_tests, r.cut, r.births, r.first_tests, static_cast<double>(r.peak) / nodes, r.wrong));
-    std::cerr << fmt::format("{:<22} {:>8} faces, {:>4.2g} degrees a frame: {:>9.1f} tests, {:.2f} a cut edge, 1/{:<6.0f} of all; {:>8.1f} us, all faces / tracker = {:.1f}", name, r.nodes, degrees, r.tests, r.tests / r.cut, nodes / r.tests, 1e6 * r.tracker, r.all / r.tracker);
-    if (r.plain > 0) std::cerr << fmt::format("; 1977: {:.2f} a cut edge, {:.1f}% saved, {:.1f} us", r.plain_tests / r.cut, 100 - 100 * r.plain_tests / nodes, 1e6 * r.plain);
+    print(fmt::format("{},{},{:.3g},{:.4f},{:.3e},{:.3e},{:.3e},{:.1f},{:.1f},{:.1f},{:.2f},{},{:.0f},{}", name,
+                      r.nodes, degrees, r.build, r.tracker, r.plain, r.all, r.tests, r.plain_tests, r.cut, r.births,
+                      r.first_tests, static_cast<double>(r.peak) / nodes, r.wrong));
+    std::cerr << fmt::format(
+        "{:<22} {:>8} faces, {:>4.2g} degrees a frame: {:>9.1f} tests, {:.2f} a cut edge, 1/{:<6.0f} of all; {:>8.1f} "
+        "us, all faces / tracker = {:.1f}",
+        name, r.nodes, degrees, r.tests, r.tests / r.cut, nodes / r.tests, 1e6 * r.tracker, r.all / r.tracker);
+    if (r.plain > 0)
+      std::cerr << fmt::format("; 1977: {:.2f} a cut edge, {:.1f}% saved, {:.1f} us", r.plain_tests / r.cut,
+                               100 - 100 * r.plain_tests / nodes, 1e6 * r.plain);
     std::cerr << '\n';
     plot.add(fmt::format("{}, {:.2g} degrees: cut-set", name, degrees), nodes, r.tracker);
     plot.add("all faces in doubles", nodes, r.all);
@@ -181,7 +206,10 @@ int main(int argc, char** argv) {
     for (const double n : {1e3, 1e4, 1e5, 1e6}) {
       if (n > max_faces * 1.01) continue;
       const Run r = measure("convex_sphere", generate::convex_sphere(static_cast<std::size_t>(n)), circle);
-      if (first_nodes > 0) std::cerr << fmt::format("{:<22} growth n^{:.2f}\n", "", std::log(r.tracker / first_seconds) / std::log(static_cast<double>(r.nodes) / first_nodes));
+      if (first_nodes > 0)
+        std::cerr << fmt::format(
+            "{:<22} growth n^{:.2f}\n", "",
+            std::log(r.tracker / first_seconds) / std::log(static_cast<double>(r.nodes) / first_nodes));
       else first_nodes = static_cast<double>(r.nodes), first_seconds = r.tracker;
     }
   }

@@ -1,6 +1,7 @@
-// Speed against error: how often each arithmetic gets the side of a vertex wrong, near and far from degeneracy. bench_error [--out FOLDER]
-// A query is four planes of triangles on a grid: three meet in a vertex, the fourth passes the very same point, or is moved off it by `distance` grid units
-// in one corner; all moved by `offset` grid units from the origin. CSV on standard output; with --out also error.csv and error.svg.
+// Speed against error: how often each arithmetic gets the side of a vertex wrong, near and far from degeneracy.
+// bench_error [--out FOLDER] A query is four planes of triangles on a grid: three meet in a vertex, the fourth passes
+// the very same point, or is moved off it by `distance` grid units in one corner; all moved by `offset` grid units from
+// the origin. CSV on standard output; with --out also error.csv and error.svg.
 
 #include "measure.h"
 
@@ -32,13 +33,16 @@ Polygon_soup queries(std::size_t n, long distance, double offset) {
   for (std::size_t i = 0; i < n; ++i) {
     const double point[3] = {offset + step(), offset + step(), offset + step()};
     for (int k = 0; k < 4; ++k) {
-      // The common point is p + (a b)/... inside the triangle's plane: p = (q0 + q1)/2 for corners q0 = p + d, q1 = p - d, so that no corner is the point itself.
+      // The common point is p + (a b)/... inside the triangle's plane: p = (q0 + q1)/2 for corners q0 = p + d, q1 = p -
+      // d, so that no corner is the point itself.
       const double d[3] = {step(), step(), step()}, e[3] = {step(), step(), step()};
       Point_id id[3];
       const auto corner = [&](double s, double t, double off) {
-        return soup.add_point(point[0] + s * d[0] + t * e[0], point[1] + s * d[1] + t * e[1], point[2] + s * d[2] + t * e[2] + off);
+        return soup.add_point(point[0] + s * d[0] + t * e[0], point[1] + s * d[1] + t * e[1],
+                              point[2] + s * d[2] + t * e[2] + off);
       };
-      id[0] = corner(1, 0, k == 3 ? static_cast<double>(distance) : 0), id[1] = corner(-1, 0, 0), id[2] = corner(0, 1, 0);
+      id[0] = corner(1, 0, k == 3 ? static_cast<double>(distance) : 0), id[1] = corner(-1, 0, 0),
+      id[2] = corner(0, 1, 0);
       soup.add_face({id[0], id[1], id[2]});
     }
   }
@@ -50,7 +54,8 @@ struct Result {
   std::size_t asked = 0, wrong = 0, opposite = 0;
 };
 
-/// Makes the vertex of the first three planes by cutting the first triangle's edge line with two planes, as algorithms do: two meets.
+/// Makes the vertex of the first three planes by cutting the first triangle's edge line with two planes, as algorithms
+/// do: two meets.
 template <class K>
 Result ask_points(const Scene& scene, const std::vector<Sign>& truth) {
   const Point_traits<K> traits(scene);
@@ -58,7 +63,8 @@ Result ask_points(const Scene& scene, const std::vector<Sign>& truth) {
   std::vector<Sign> answers;
   const double start = bench::now();
   for (std::uint32_t i = 0; i + 3 < traits.piece_count(); i += 4) {
-    const auto f = traits.prepare(traits.supporting_plane(i)), g = traits.prepare(traits.supporting_plane(i + 1)), h = traits.prepare(traits.supporting_plane(i + 2));
+    const auto f = traits.prepare(traits.supporting_plane(i)), g = traits.prepare(traits.supporting_plane(i + 1)),
+               h = traits.prepare(traits.supporting_plane(i + 2));
     // Cramer's rule, in the kernel's own numbers.
     using FT = typename K::FT;
     const FT bc = g.b() * h.c() - g.c() * h.b(), ca = g.c() * h.a() - g.a() * h.c(), ab = g.a() * h.b() - g.b() * h.a();
@@ -68,7 +74,8 @@ Result ask_points(const Scene& scene, const std::vector<Sign>& truth) {
       answers.push_back(CGAL::ZERO);
       continue;
     }
-    const typename K::Point_3 p((f.c() * bd - f.b() * cd - f.d() * bc) / w, (f.a() * cd - f.c() * ad - f.d() * ca) / w, (f.b() * ad - f.a() * bd - f.d() * ab) / w);
+    const typename K::Point_3 p((f.c() * bd - f.b() * cd - f.d() * bc) / w, (f.a() * cd - f.c() * ad - f.d() * ca) / w,
+                                (f.b() * ad - f.a() * bd - f.d() * ab) / w);
     answers.push_back(traits.prepare(traits.supporting_plane(i + 3)).oriented_side(p));
   }
   result.nanoseconds = (bench::now() - start) * 1e9 / static_cast<double>(std::max<std::size_t>(1, answers.size()));
@@ -89,7 +96,8 @@ Result ask_exact(const Scene& scene, std::vector<Sign>& truth, bool gmp) {
     const auto plane = [&](std::uint32_t k) { return traits.supporting_plane(i + k); };
     try {
       const Vertex v = traits.predicates().meet(plane(0).id(), plane(1).id(), plane(2).id());
-      truth.push_back(gmp ? traits.predicates().side_exact<Integer>(v, plane(3)) : traits.side(v, traits.prepare(plane(3)), counts));
+      truth.push_back(gmp ? traits.predicates().side_exact<Integer>(v, plane(3))
+                          : traits.side(v, traits.prepare(plane(3)), counts));
     } catch (const std::domain_error&) {
       truth.push_back(CGAL::ZERO);
     }
@@ -109,14 +117,16 @@ int main(int argc, char** argv) {
     csv << line << '\n';
   };
   print("kernel,distance,offset,asked,wrong,opposite,nanoseconds");
-  Log_plot plot("Sides that are wrong, by what they cost (each dot a distance and an offset)", "nanoseconds for a vertex and its side", "share wrong");
+  Log_plot plot("Sides that are wrong, by what they cost (each dot a distance and an offset)",
+                "nanoseconds for a vertex and its side", "share wrong");
   for (const double offset : {0.0, 1e6, 1e9})
     for (const long distance : {0L, 1L, 1000L}) {
       const Scene scene(queries(4000, distance, offset));
       std::vector<Sign> by_gmp, truth;
       ask_exact(scene, by_gmp, true);
       const auto report = [&](const std::string& kernel, const Result& r) {
-        print(fmt::format("{},{},{:g},{},{},{},{:.1f}", kernel, distance, offset, r.asked, r.wrong, r.opposite, r.nanoseconds));
+        print(fmt::format("{},{},{:g},{},{},{},{:.1f}", kernel, distance, offset, r.asked, r.wrong, r.opposite,
+                          r.nanoseconds));
         plot.add(kernel, r.nanoseconds, static_cast<double>(r.wrong) / static_cast<double>(r.asked));
       };
       Result exact = ask_exact(scene, truth, false);

@@ -12,7 +12,9 @@
 
 namespace bench {
 
-inline double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+inline double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// A value of /proc/self/status in bytes.
 inline std::uint64_t process_memory(const std::string& key) {
@@ -22,7 +24,8 @@ inline std::uint64_t process_memory(const std::string& key) {
   return 0;
 }
 
-/// What a function returns, run in a child process, so that its memory is its own; the function gets the bytes in use at its start.
+/// What a function returns, run in a child process, so that its memory is its own; the function gets the bytes in use
+/// at its start.
 template <class Result>
 bool in_child(Result& result, const std::function<Result()>& work) {
   static_assert(std::is_trivially_copyable_v<Result>);

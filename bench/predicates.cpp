@@ -1,4 +1,5 @@
-// The price of one predicate, stage by stage, and of a whole cut: Google Benchmark. bench_predicates [--benchmark_filter=...]
+// The price of one predicate, stage by stage, and of a whole cut: Google Benchmark. bench_predicates
+// [--benchmark_filter=...]
 
 #include <sightline/algorithms/generate/scenes.h>
 #include <sightline/kernel/exact_traits.h>
@@ -15,8 +16,9 @@ using namespace sightline;
 
 namespace {
 
-/// Vertices that are meets of three random planes of a soup on a grid of `bits` bits, and planes to test them against: random ones, or (incident) the
-/// planes through each vertex's own three planes' common point, which no cheap stage can see.
+/// Vertices that are meets of three random planes of a soup on a grid of `bits` bits, and planes to test them against:
+/// random ones, or (incident) the planes through each vertex's own three planes' common point, which no cheap stage can
+/// see.
 struct Queries {
   Polygon_soup soup;
   Scene scene;
@@ -26,7 +28,9 @@ struct Queries {
 
   explicit Queries(int bits) : soup(generate::soup(2000, 0.5, 1, bits)), scene(soup), traits(scene) {
     std::mt19937_64 random(1);
-    const auto plane = [&] { return traits.supporting_plane(static_cast<std::uint32_t>(random() % traits.piece_count())); };
+    const auto plane = [&] {
+      return traits.supporting_plane(static_cast<std::uint32_t>(random() % traits.piece_count()));
+    };
     while (vertices.size() < 1024) {
       try {
         const Vertex v = traits.predicates().meet(plane().id(), plane().id(), plane().id());
@@ -54,7 +58,8 @@ void side_of_a_meet_by_the_cascade(benchmark::State& state) {
     benchmark::DoNotOptimize(q.traits.side(q.vertices[i % 1024], q.planes[i * 7 % 1024], counts));
     ++i;
   }
-  state.counters["beyond_doubles"] = static_cast<double>(counts.fixed + counts.gmp) / static_cast<double>(std::max<std::uint64_t>(1, counts.total()));
+  state.counters["beyond_doubles"] =
+      static_cast<double>(counts.fixed + counts.gmp) / static_cast<double>(std::max<std::uint64_t>(1, counts.total()));
 }
 BENCHMARK(side_of_a_meet_by_the_cascade)->Arg(12)->Arg(26)->Arg(30);
 
@@ -63,7 +68,8 @@ void side_of_a_meet_in(benchmark::State& state) {
   const Queries& q = queries(static_cast<int>(state.range(0)));
   std::size_t i = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(q.traits.predicates().side_exact<Number>(q.vertices[i % 1024], q.planes[i * 7 % 1024].plane));
+    benchmark::DoNotOptimize(
+        q.traits.predicates().side_exact<Number>(q.vertices[i % 1024], q.planes[i * 7 % 1024].plane));
     ++i;
   }
 }
@@ -100,13 +106,16 @@ void cut(benchmark::State& state, const Traits& traits) {
   auto out = std::make_unique<Polygon_store<Traits>>();
   for (auto _ : state) {
     const auto& [polygon, cutter] = crossing[i++ % crossing.size()];
-    if (classify(traits, polygon, cutter, scratch, counts) == Position::across) benchmark::DoNotOptimize(split(traits, polygon, cutter, scratch, *out));
+    if (classify(traits, polygon, cutter, scratch, counts) == Position::across)
+      benchmark::DoNotOptimize(split(traits, polygon, cutter, scratch, *out));
     if (i % 65536 == 0) out = std::make_unique<Polygon_store<Traits>>();
   }
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
 }
 void cut_exact(benchmark::State& state) { cut(state, queries(26).traits); }
-void cut_double(benchmark::State& state) { cut(state, Point_traits<CGAL::Simple_cartesian<double>>(queries(26).scene)); }
+void cut_double(benchmark::State& state) {
+  cut(state, Point_traits<CGAL::Simple_cartesian<double>>(queries(26).scene));
+}
 void cut_epeck(benchmark::State& state) { cut(state, Point_traits<CGAL::Epeck>(queries(26).scene)); }
 BENCHMARK(cut_exact);
 BENCHMARK(cut_double);

@@ -1,5 +1,6 @@
-// Components of the priority graph without its arcs, and with them; trees of separating planes; orders of whole faces from an eye: bench_priority [--max FACES] [--out FOLDER]
-// CSV on standard output, a line a run; growth and ratios on standard error; with --out also priority.csv and priority.svg. Each run is a process of its own.
+// Components of the priority graph without its arcs, and with them; trees of separating planes; orders of whole faces
+// from an eye: bench_priority [--max FACES] [--out FOLDER] CSV on standard output, a line a run; growth and ratios on
+// standard error; with --out also priority.csv and priority.svg. Each run is a process of its own.
 
 #include "measure.h"
 
@@ -42,7 +43,14 @@ Run run_implicit(const Scene& scene) {
     const std::uint64_t peak = bench::process_memory("VmHWM");
     if (repeat > 0 && end - start >= best.prepare + best.search) continue;
     const std::uint64_t added = repeat == 0 ? (peak > before ? peak - before : 0) : best.peak;
-    best = {prepared - start, end - prepared, faces.size(), found.size(), found.largest(), graph.counters().nodes, graph.counters().relation.pairs, added};
+    best = {prepared - start,
+            end - prepared,
+            faces.size(),
+            found.size(),
+            found.largest(),
+            graph.counters().nodes,
+            graph.counters().relation.pairs,
+            added};
     if (end - start > 5) break;
   }
   return best;
@@ -57,10 +65,14 @@ Run run_explicit(const Scene& scene) {
   const double prepared = bench::now();
   const Priority_components found = components(graph);
   const double end = bench::now();
-  return {prepared - start, end - prepared, faces.size(), found.size(), found.largest(), 0, graph.counters().pairs, bench::process_memory("VmHWM") - before};
+  return {prepared - start,       end - prepared,
+          faces.size(),           found.size(),
+          found.largest(),        0,
+          graph.counters().pairs, bench::process_memory("VmHWM") - before};
 }
 
-/// A tree that cuts nothing (or cuts until no cycle is left), and an order of what is on-view from an eye in the middle of the scene. `components`: planes; `largest`: faces left in cycles, or cuts.
+/// A tree that cuts nothing (or cuts until no cycle is left), and an order of what is on-view from an eye in the middle
+/// of the scene. `components`: planes; `largest`: faces left in cycles, or cuts.
 Run run_tree(const Scene& scene, bool split) {
   const Exact_traits traits(scene);
   const std::uint64_t before = bench::process_memory("VmRSS");
@@ -69,11 +81,19 @@ Run run_tree(const Scene& scene, bool split) {
   const double built = bench::now();
   const auto box = scene.box();
   Exact_point eye;
-  for (std::size_t k = 0; k < 3; ++k) eye[k] = box[0][k] + (box[1][k] - box[0][k]) * Rational(static_cast<long>(500 + k), 1009);
+  for (std::size_t k = 0; k < 3; ++k)
+    eye[k] = box[0][k] + (box[1][k] - box[0][k]) * Rational(static_cast<long>(500 + k), 1009);
   back_to_front(traits, tree, eye);
   const double end = bench::now();
   const Priority_tree_counters& c = tree.counters;
-  return {built - start, end - built, traits.piece_count(), c.planes, split ? c.splits : c.left, c.search.nodes, c.search.relation.pairs, bench::process_memory("VmHWM") - before};
+  return {built - start,
+          end - built,
+          traits.piece_count(),
+          c.planes,
+          split ? c.splits : c.left,
+          c.search.nodes,
+          c.search.relation.pairs,
+          bench::process_memory("VmHWM") - before};
 }
 
 /// Disjoint convex bodies of about 100 faces in the cells of a cubic lattice, in random order.
@@ -122,34 +142,50 @@ int main(int argc, char** argv) {
     std::cout << line << std::endl;
     csv << line << '\n';
   };
-  print("scene,faces,method,prepare_seconds,search_seconds,components,largest,index_nodes,pairs,peak_bytes,bytes_per_face");
+  print(
+      "scene,faces,method,prepare_seconds,search_seconds,components,largest,index_nodes,pairs,peak_bytes,bytes_per_"
+      "face");
   Log_plot plot("Components of a priority graph", "faces", "seconds");
-  for (const std::string kind : {"city", "city_rotated", "bodies", "convex_sphere", "soup_constant_density", "rooms", "terrain"}) {
+  for (const std::string kind :
+       {"city", "city_rotated", "bodies", "convex_sphere", "soup_constant_density", "rooms", "terrain"}) {
     double first_faces = 0, first_seconds = 0;
     for (const double n : {1e3, 1e4, 1e5, 1e6}) {
       if (n > max_faces * 1.01) continue;
-      const Scene scene(soup_of(kind, kind == "rooms" ? static_cast<std::size_t>(std::lround(std::sqrt(n / 220))) : static_cast<std::size_t>(n)));
+      const Scene scene(soup_of(kind, kind == "rooms" ? static_cast<std::size_t>(std::lround(std::sqrt(n / 220)))
+                                                      : static_cast<std::size_t>(n)));
       std::map<std::string, double> seconds;
       for (const std::string method : {"implicit", "explicit", "tree", "split"}) {
         if (method == "explicit" && n > 1e4) continue;
         if ((method == "tree" || method == "split") && n > (method == "tree" ? 1e5 : 1e4)) continue;
         Run r{};
-        if (!bench::in_child<Run>(r, [&] { return method == "implicit" ? run_implicit(scene) : method == "explicit" ? run_explicit(scene) : run_tree(scene, method == "split"); })) {
+        if (!bench::in_child<Run>(r, [&] {
+              return method == "implicit"   ? run_implicit(scene)
+                     : method == "explicit" ? run_explicit(scene)
+                                            : run_tree(scene, method == "split");
+            })) {
           std::cerr << kind << ' ' << method << ": failed\n";
           return 1;
         }
         seconds[method] = r.prepare + r.search;
         const double faces = static_cast<double>(r.faces);
-        print(fmt::format("{},{},{},{:.6f},{:.6f},{},{},{},{},{},{:.0f}", kind, r.faces, method, r.prepare, r.search, r.components, r.largest, r.nodes, r.pairs, r.peak, static_cast<double>(r.peak) / faces));
+        print(fmt::format("{},{},{},{:.6f},{:.6f},{},{},{},{},{},{:.0f}", kind, r.faces, method, r.prepare, r.search,
+                          r.components, r.largest, r.nodes, r.pairs, r.peak, static_cast<double>(r.peak) / faces));
         plot.add(kind + ' ' + method, faces, seconds[method]);
-        if (method == "tree" || method == "split") std::cerr << fmt::format("{:<24} {:>8} faces: {} {:.3f} s, {} planes, {} {}, order {:.4f} s\n", kind, r.faces, method, r.prepare, r.components, r.largest, method == "tree" ? "left in cycles" : "cuts", r.search);
+        if (method == "tree" || method == "split")
+          std::cerr << fmt::format("{:<24} {:>8} faces: {} {:.3f} s, {} planes, {} {}, order {:.4f} s\n", kind, r.faces,
+                                   method, r.prepare, r.components, r.largest,
+                                   method == "tree" ? "left in cycles" : "cuts", r.search);
         if (method != "implicit") continue;
         std::cerr << fmt::format("{:<24} {:>8} faces: {:.3f} s", kind, r.faces, seconds[method]);
-        if (first_faces > 0) std::cerr << fmt::format(", growth n^{:.2f}", std::log(seconds[method] / first_seconds) / std::log(faces / first_faces));
+        if (first_faces > 0)
+          std::cerr << fmt::format(", growth n^{:.2f}",
+                                   std::log(seconds[method] / first_seconds) / std::log(faces / first_faces));
         else std::cerr << (first_faces = faces, first_seconds = seconds[method], "");
         std::cerr << '\n';
       }
-      if (seconds.count("explicit")) std::cerr << fmt::format("{:<24} {:>8} faces: explicit / implicit = {:.0f}\n", kind, scene.pieces().size(), seconds["explicit"] / seconds["implicit"]);
+      if (seconds.count("explicit"))
+        std::cerr << fmt::format("{:<24} {:>8} faces: explicit / implicit = {:.0f}\n", kind, scene.pieces().size(),
+                                 seconds["explicit"] / seconds["implicit"]);
     }
   }
   if (!folder.empty()) {

@@ -1,6 +1,7 @@
 // How building a tree scales, and what exactness costs: bench_scaling [--max FACES] [--slow SECONDS] [--out FOLDER]
-// CSV on standard output, a line a run; ratios and growth on standard error; with --out also scaling.csv and scaling.svg.
-// Each run is a process of its own; seconds are the best of three where a run is short. Peak memory is what the run added.
+// CSV on standard output, a line a run; ratios and growth on standard error; with --out also scaling.csv and
+// scaling.svg. Each run is a process of its own; seconds are the best of three where a run is short. Peak memory is
+// what the run added.
 
 #include "measure.h"
 
@@ -48,7 +49,16 @@ static Run run(const Scene& scene, const Traits& traits, int threads) {
     traverse(traits, tree, traits.eye(box[1]), Direction::back_to_front, [&](const auto&, Sign) { ++visited; });
     const double order = bench::now() - order_start;
     const Bsp_counters& c = tree.counters;
-    if (repeat == 0) best = {build, order, c.pieces, c.fragments, c.splits, c.depth, peak > before ? peak - before : 0, c.predicates.fixed + c.predicates.gmp, c.polygon_tests};
+    if (repeat == 0)
+      best = {build,
+              order,
+              c.pieces,
+              c.fragments,
+              c.splits,
+              c.depth,
+              peak > before ? peak - before : 0,
+              c.predicates.fixed + c.predicates.gmp,
+              c.polygon_tests};
     best.build = std::min(best.build, build), best.order = std::min(best.order, order);
     if (build > 1) break;
   }
@@ -62,10 +72,14 @@ static Run run_kernel(const std::string& kernel, const Scene& scene) {
   return run(scene, Point_traits<CGAL::Epeck>(scene), 1);
 }
 
-/// n random triangles: a centre in the unit cube, corners up to 1/5 from it on each axis; all on a grid of 2^-20. Each is cut tens of times.
+/// n random triangles: a centre in the unit cube, corners up to 1/5 from it on each axis; all on a grid of 2^-20. Each
+/// is cut tens of times.
 static Polygon_soup deep_soup(std::size_t n) {
   std::mt19937_64 random(1);
-  const auto between = [&](long low, long high) { return static_cast<double>(low + static_cast<long>(random() % static_cast<unsigned long>(high - low + 1))) * 0x1p-20; };
+  const auto between = [&](long low, long high) {
+    return static_cast<double>(low + static_cast<long>(random() % static_cast<unsigned long>(high - low + 1))) *
+           0x1p-20;
+  };
   Polygon_soup soup;
   for (std::size_t i = 0; i < n; ++i) {
     const double centre[3] = {between(0, 1 << 20), between(0, 1 << 20), between(0, 1 << 20)};
@@ -83,8 +97,10 @@ static Polygon_soup soup_of(const std::string& kind, std::size_t size, const cha
   if (size == 0) return read_scene(std::filesystem::path(scenes) / kind);
   if (kind == "dense_soup") return generate::soup(size, 0.4, 1);
   if (kind == "deep_soup") return deep_soup(size);
-  if (const std::size_t end = kind.find(" in 27ths"); end != std::string::npos) return generate::scaled(generate::make(kind.substr(0, end), size, 1), Rational(1, 27));
-  if (const std::size_t end = kind.find(" rotated"); end != std::string::npos) return generate::rotated(generate::make(kind.substr(0, end), size, 1), generate::rotation(1, 2, 3, 4));
+  if (const std::size_t end = kind.find(" in 27ths"); end != std::string::npos)
+    return generate::scaled(generate::make(kind.substr(0, end), size, 1), Rational(1, 27));
+  if (const std::size_t end = kind.find(" rotated"); end != std::string::npos)
+    return generate::rotated(generate::make(kind.substr(0, end), size, 1), generate::rotation(1, 2, 3, 4));
   return generate::make(kind, size, 1);
 }
 
@@ -113,14 +129,18 @@ int main(int argc, char** argv) {
   }
   for (const std::size_t n : {100u, 300u, 1000u}) cases.push_back({"dense_soup", n, static_cast<double>(n)});
   for (const std::size_t n : {500u, 1000u, 2000u}) cases.push_back({"deep_soup", n, static_cast<double>(n)});
-  // Axis-parallel on small integers, where an interval is as good as a number, and in 27ths or turned by a rational rotation, where it is not.
+  // Axis-parallel on small integers, where an interval is as good as a number, and in 27ths or turned by a rational
+  // rotation, where it is not.
   for (const std::string turned : {"", " in 27ths", " rotated"}) {
-    for (const std::size_t n : {6u, 15u, 32u, 69u}) cases.push_back({"lattice" + turned, n, 3.0 * static_cast<double>(n * n * n)});
-    for (const std::size_t n : {2u, 3u, 4u}) cases.push_back({"menger_sponge_merged" + turned, n, n == 2 ? 1e3 : n == 3 ? 1e4 : 2e5});
+    for (const std::size_t n : {6u, 15u, 32u, 69u})
+      cases.push_back({"lattice" + turned, n, 3.0 * static_cast<double>(n * n * n)});
+    for (const std::size_t n : {2u, 3u, 4u})
+      cases.push_back({"menger_sponge_merged" + turned, n, n == 2 ? 1e3 : n == 3 ? 1e4 : 2e5});
   }
   const char* scenes = std::getenv("SIGHTLINE_SCENES");
   if (scenes != nullptr)
-    for (const char* name : {"a_interior/fd1_E1M1.qoff", "a_interior/lq_lq_e0m4.world.qoff", "a_interior/gpl/id_dm4.world.qoff", "a_interior/gpl/id_e1m7.world.qoff"})
+    for (const char* name : {"a_interior/fd1_E1M1.qoff", "a_interior/lq_lq_e0m4.world.qoff",
+                             "a_interior/gpl/id_dm4.world.qoff", "a_interior/gpl/id_e1m7.world.qoff"})
       cases.push_back({name, 0, 2000});
   else std::cerr << "real rooms left out: SIGHTLINE_SCENES is not set\n";
   std::stable_sort(cases.begin(), cases.end(), [](const Case& a, const Case& b) { return a.kind < b.kind; });
@@ -130,7 +150,9 @@ int main(int argc, char** argv) {
     std::cout << line << std::endl;
     csv << line << '\n';
   };
-  print("scene,faces,kernel,build_seconds,order_seconds,fragments,splits,depth,peak_bytes,bytes_per_fragment,polygon_tests,beyond_doubles");
+  print(
+      "scene,faces,kernel,build_seconds,order_seconds,fragments,splits,depth,peak_bytes,bytes_per_fragment,polygon_"
+      "tests,beyond_doubles");
   Log_plot plot("Building a BSP tree", "faces", "seconds");
   std::map<std::string, std::map<double, double>> growth;
   for (const Case& c : cases) {
@@ -146,18 +168,26 @@ int main(int argc, char** argv) {
         return 1;
       }
       seconds[kernel] = r.build;
-      print(fmt::format("{},{},{},{:.6f},{:.6f},{},{},{},{},{:.0f},{},{}", c.kind, r.pieces, kernel, r.build, r.order, r.fragments, r.splits, r.depth, r.peak,
-                        static_cast<double>(r.peak) / static_cast<double>(std::max<std::uint64_t>(1, r.fragments)), r.tests, r.fixed));
-      if (kernel == "exact" || kernel == "double") plot.add(c.kind.substr(c.kind.find_last_of('/') + 1) + ' ' + kernel, static_cast<double>(r.pieces), r.build);
+      print(fmt::format("{},{},{},{:.6f},{:.6f},{},{},{},{},{:.0f},{},{}", c.kind, r.pieces, kernel, r.build, r.order,
+                        r.fragments, r.splits, r.depth, r.peak,
+                        static_cast<double>(r.peak) / static_cast<double>(std::max<std::uint64_t>(1, r.fragments)),
+                        r.tests, r.fixed));
+      if (kernel == "exact" || kernel == "double")
+        plot.add(c.kind.substr(c.kind.find_last_of('/') + 1) + ' ' + kernel, static_cast<double>(r.pieces), r.build);
       if (kernel == "exact") growth[c.kind][static_cast<double>(r.pieces)] = r.build;
     }
-    std::cerr << fmt::format("{:<36} {:>8} faces: exact / double = {:.2f}, epeck / exact = {}, one / two threads = {:.2f}\n", c.kind, scene.counters().faces, seconds["exact"] / seconds["double"],
-                             seconds.count("epeck") ? fmt::format("{:.1f}", seconds["epeck"] / seconds["exact"]) : "-", seconds["exact"] / seconds["exact_2_threads"]);
+    std::cerr << fmt::format(
+        "{:<36} {:>8} faces: exact / double = {:.2f}, epeck / exact = {}, one / two threads = {:.2f}\n", c.kind,
+        scene.counters().faces, seconds["exact"] / seconds["double"],
+        seconds.count("epeck") ? fmt::format("{:.1f}", seconds["epeck"] / seconds["exact"]) : "-",
+        seconds["exact"] / seconds["exact_2_threads"]);
   }
   for (const auto& [kind, points] : growth) {
     if (points.size() < 2) continue;
     const auto &first = *points.begin(), &last = *points.rbegin();
-    std::cerr << fmt::format("{:<36} grows like n^{:.2f} from {:.0f} to {:.0f} faces\n", kind, std::log(last.second / first.second) / std::log(last.first / first.first), first.first, last.first);
+    std::cerr << fmt::format("{:<36} grows like n^{:.2f} from {:.0f} to {:.0f} faces\n", kind,
+                             std::log(last.second / first.second) / std::log(last.first / first.first), first.first,
+                             last.first);
   }
   if (!folder.empty()) {
     std::ofstream(folder + "/scaling.csv") << csv.str();

@@ -1,5 +1,5 @@
-// Weak visibility: the random-triangle queries that others are measured with, and real rooms. Times of searches, certificates and checks.
-// bench_weak [--max K] [--queries N] [--scenes FOLDER] [--sources N] [--out FOLDER]
+// Weak visibility: the random-triangle queries that others are measured with, and real rooms. Times of searches,
+// certificates and checks. bench_weak [--max K] [--queries N] [--scenes FOLDER] [--sources N] [--out FOLDER]
 
 #include "measure.h"
 
@@ -18,12 +18,14 @@ using namespace sightline;
 
 namespace {
 
-/// Published, or measured with others' code on a machine of this kind, mean milliseconds: a program with floats and tolerances, and a prototype in doubles without proofs.
+/// Published, or measured with others' code on a machine of this kind, mean milliseconds: a program with floats and
+/// tolerances, and a prototype in doubles without proofs.
 struct Others {
   std::size_t triangles;
   double floats, prototype;
 };
-constexpr Others others[] = {{10, 0.15, 0}, {20, 0.6, 0}, {50, 5.8, 0.06}, {100, 70, 0.7}, {200, 951, 37}, {300, 0, 127}, {400, 1700, 112}, {1000, 0, 136}};
+constexpr Others others[] = {{10, 0.15, 0},  {20, 0.6, 0},  {50, 5.8, 0.06},  {100, 70, 0.7},
+                             {200, 951, 37}, {300, 0, 127}, {400, 1700, 112}, {1000, 0, 136}};
 
 std::string ratio(double theirs, double ours) { return theirs > 0 ? fmt::format("{:.1f}", theirs / ours) : "-"; }
 
@@ -34,8 +36,10 @@ std::vector<Exact_point> corners_of(const Scene& scene, const Piece& piece) {
 }
 
 void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) {
-  fmt::print("random triangles between two squares, {} queries each, one core, milliseconds; every answer is checked\n", queries);
-  fmt::print("{:>5} {:>9} {:>9} {:>9} {:>9} {:>8} {:>7} {:>10} {:>9} {:>9} {:>9} {:>9}\n", "k", "mean", "max", "prepare", "check", "visible", "hidden", "undecided", "cells", "leaves", "floats/", "proto/");
+  fmt::print("random triangles between two squares, {} queries each, one core, milliseconds; every answer is checked\n",
+             queries);
+  fmt::print("{:>5} {:>9} {:>9} {:>9} {:>9} {:>8} {:>7} {:>10} {:>9} {:>9} {:>9} {:>9}\n", "k", "mean", "max",
+             "prepare", "check", "visible", "hidden", "undecided", "cells", "leaves", "floats/", "proto/");
   csv << "k,mean_ms,max_ms,prepare_ms,check_ms,visible,hidden,undecided,cells,steps\n";
   for (const Others& other : others) {
     if (other.triangles > most) break;
@@ -66,11 +70,16 @@ void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) 
       const double written = bench::now();
       const Verdict verdict = verify_weak(soup, certificate);
       check += bench::now() - written;
-      if (!verdict.accepted) throw std::logic_error(fmt::format("k = {}, query {}: {}", other.triangles, t, verdict.why));
+      if (!verdict.accepted)
+        throw std::logic_error(fmt::format("k = {}, query {}: {}", other.triangles, t, verdict.why));
     }
     const double n = static_cast<double>(queries), mean = 1e3 * total / n;
-    fmt::print("{:>5} {:>9.3f} {:>9.2f} {:>9.3f} {:>9.2f} {:>8} {:>7} {:>10} {:>9} {:>9} {:>9} {:>9}\n", other.triangles, mean, 1e3 * worst, 1e3 * prepare / n, 1e3 * check / n, answers[1], answers[0], answers[2], counters.cells / queries, steps / queries, ratio(other.floats, mean), ratio(other.prototype, mean));
-    csv << fmt::format("{},{},{},{},{},{},{},{},{},{}\n", other.triangles, mean, 1e3 * worst, 1e3 * prepare / n, 1e3 * check / n, answers[1], answers[0], answers[2], counters.cells, steps);
+    fmt::print("{:>5} {:>9.3f} {:>9.2f} {:>9.3f} {:>9.2f} {:>8} {:>7} {:>10} {:>9} {:>9} {:>9} {:>9}\n",
+               other.triangles, mean, 1e3 * worst, 1e3 * prepare / n, 1e3 * check / n, answers[1], answers[0],
+               answers[2], counters.cells / queries, steps / queries, ratio(other.floats, mean),
+               ratio(other.prototype, mean));
+    csv << fmt::format("{},{},{},{},{},{},{},{},{},{}\n", other.triangles, mean, 1e3 * worst, 1e3 * prepare / n,
+                       1e3 * check / n, answers[1], answers[0], answers[2], counters.cells, steps);
     std::fflush(stdout);
   }
 }
@@ -78,7 +87,8 @@ void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) 
 /// All faces of a scene from some of its faces, in their order, evenly spread.
 void rooms(const std::filesystem::path& folder, std::size_t count, std::ostream& csv) {
   fmt::print("rooms of others, all faces from {} faces each, one core, seconds\n", count);
-  fmt::print("{:>28} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>10} {:>9}\n", "scene", "faces", "mean", "max", "check", "find/", "visible", "by events", "undecided", "cells");
+  fmt::print("{:>28} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>9} {:>10} {:>9}\n", "scene", "faces", "mean", "max",
+             "check", "find/", "visible", "by events", "undecided", "cells");
   csv << "scene,faces,mean_s,max_s,check_s,visible,by_events,undecided,cells\n";
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -104,16 +114,21 @@ void rooms(const std::filesystem::path& folder, std::size_t count, std::ostream&
       settle_by_events(occluders, sources, 300, events, found);  // as the program does
       const double end = bench::now();
       total += end - start, worst = std::max(worst, end - start);
-      visible += found.visible.size(), undecided += found.undecided.size(), by_events -= found.undecided.size(), counters += found.counters;
-      const Weak_certificate certificate = weak_certificate(scene, {corners_of(scene, scene.pieces()[piece])}, false, found);
+      visible += found.visible.size(), undecided += found.undecided.size(), by_events -= found.undecided.size(),
+          counters += found.counters;
+      const Weak_certificate certificate =
+          weak_certificate(scene, {corners_of(scene, scene.pieces()[piece])}, false, found);
       const double written = bench::now();
       const Verdict verdict = verify_weak(soup, certificate);
       check += bench::now() - written;
       if (!verdict.accepted) throw std::logic_error(fmt::format("{}, piece {}: {}", file.string(), piece, verdict.why));
     }
     const double n = static_cast<double>(count);
-    fmt::print("{:>28} {:>6} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.2f} {:>8} {:>9} {:>10} {:>9}\n", file.stem().string(), scene.counters().faces, total / n, worst, check / n, total / check, visible / count, by_events, undecided, counters.cells / count);
-    csv << fmt::format("{},{},{},{},{},{},{},{},{}\n", file.stem().string(), scene.counters().faces, total / n, worst, check / n, visible, by_events, undecided, counters.cells);
+    fmt::print("{:>28} {:>6} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.2f} {:>8} {:>9} {:>10} {:>9}\n", file.stem().string(),
+               scene.counters().faces, total / n, worst, check / n, total / check, visible / count, by_events,
+               undecided, counters.cells / count);
+    csv << fmt::format("{},{},{},{},{},{},{},{},{}\n", file.stem().string(), scene.counters().faces, total / n, worst,
+                       check / n, visible, by_events, undecided, counters.cells);
     std::fflush(stdout);
   }
 }

@@ -18,22 +18,25 @@ struct Decimal {
   friend bool operator==(const Decimal&, const Decimal&) = default;
 };
 
-/// A finite number of a file. A Decimal wherever one can hold it, except that a binary file's float stays one and that p/q and
-/// what was rounded may be the other kinds. Of the numbers parse_decimal gives, equal ones are == .
+/// A finite number of a file. A Decimal wherever one can hold it, except that a binary file's float stays one and that
+/// p/q and what was rounded may be the other kinds. Of the numbers parse_decimal gives, equal ones are == .
 using Number = std::variant<Decimal, double, Rational>;
 
-/// A decimal is an integer x 10^E, E the exponent less the number of digits after the point; zeros at the end are dropped while E < 0, so that 1.0e-1100 is read, and 1.0e1101 is 10 x 10^1100.
-/// |E| at most this, or a file of twenty bytes would fill the memory. Every double is within it (the least is 5^1074 x 10^-1074).
+/// A decimal is an integer x 10^E, E the exponent less the number of digits after the point; zeros at the end are
+/// dropped while E < 0, so that 1.0e-1100 is read, and 1.0e1101 is 10 x 10^1100. |E| at most this, or a file of twenty
+/// bytes would fill the memory. Every double is within it (the least is 5^1074 x 10^-1074).
 inline constexpr std::int64_t largest_decimal_exponent = 1100;
 
 inline void push(Coordinates& coordinates, const Number& number) {
-  if (const auto* decimal = std::get_if<Decimal>(&number)) coordinates.push_decimal(decimal->mantissa, decimal->exponent);
+  if (const auto* decimal = std::get_if<Decimal>(&number))
+    coordinates.push_decimal(decimal->mantissa, decimal->exponent);
   else if (const auto* floating = std::get_if<double>(&number)) coordinates.push_double(*floating);
   else coordinates.push(std::get<Rational>(number));
 }
 
 inline Rational value_of(const Number& number) {
-  if (const auto* decimal = std::get_if<Decimal>(&number)) return exact_decimal(Integer(static_cast<long>(decimal->mantissa)), decimal->exponent);
+  if (const auto* decimal = std::get_if<Decimal>(&number))
+    return exact_decimal(Integer(static_cast<long>(decimal->mantissa)), decimal->exponent);
   if (const auto* floating = std::get_if<double>(&number)) return exact(*floating);
   return std::get<Rational>(number);
 }
@@ -67,8 +70,10 @@ inline std::string not_a_decimal(std::string_view token) {
   if (lower.starts_with("nan") || lower.starts_with("inf") || lower.starts_with("1.#"))
     return quoted(token) + " is not a finite number; give the point finite coordinates or remove it";
   if (lower.starts_with("0x")) return quoted(token) + " is a hexadecimal number; write it as a decimal such as 1.25";
-  if (token.find(',') != std::string_view::npos) return quoted(token) + " is not a number; write a decimal point, not a comma";
-  if (token.find('/') != std::string_view::npos) return quoted(token) + " is not a decimal; coordinates p/q belong into a .qoff file";
+  if (token.find(',') != std::string_view::npos)
+    return quoted(token) + " is not a number; write a decimal point, not a comma";
+  if (token.find('/') != std::string_view::npos)
+    return quoted(token) + " is not a decimal; coordinates p/q belong into a .qoff file";
   return quoted(token) + " is not a number; write a decimal such as 1.25 or -3e-4";
 }
 
@@ -118,7 +123,8 @@ inline Number parse_decimal(const Text_reader& text, std::string_view token) {
   if (p != end) text.fail(token, detail::not_a_decimal(token));
   if (significant == 0) return Decimal{0, 0};
 
-  // Zeros at the end of the digits after the point say nothing; and none of the digits' does where the exponent takes it back.
+  // Zeros at the end of the digits after the point say nothing; and none of the digits' does where the exponent takes
+  // it back.
   const char* last = digits_end;
   std::int64_t zeros = 0;
   exponent -= after_point;
@@ -127,7 +133,9 @@ inline Number parse_decimal(const Text_reader& text, std::string_view token) {
     ++zeros, ++exponent;
   }
   if (exponent > largest_decimal_exponent || exponent < -largest_decimal_exponent)
-    text.fail(token, "exponent out of range in " + quoted(token) + "; scale the scene so that exponents stay within +-" + std::to_string(largest_decimal_exponent));
+    text.fail(token, "exponent out of range in " + quoted(token) +
+                         "; scale the scene so that exponents stay within +-" +
+                         std::to_string(largest_decimal_exponent));
 
   const int scale = static_cast<int>(exponent);
   if (significant <= 18 && scale <= 0) {
@@ -146,7 +154,8 @@ inline Number parse_rational(const Text_reader& text, std::string_view token) {
   if (token.size() <= 18) {
     const std::optional<std::int64_t> p = parse_integer(token.substr(0, slash));
     if (slash == std::string_view::npos && p) return Decimal{*p, 0};
-    const std::optional<std::int64_t> q = slash == std::string_view::npos ? std::nullopt : parse_integer(token.substr(slash + 1));
+    const std::optional<std::int64_t> q =
+        slash == std::string_view::npos ? std::nullopt : parse_integer(token.substr(slash + 1));
     if (p && q && *q != 0) {
       const std::int64_t divisor = std::gcd(*p, *q) * (*q < 0 ? -1 : 1);
       if (*q == divisor) return Decimal{*p / divisor, 0};
@@ -160,27 +169,33 @@ inline Number parse_rational(const Text_reader& text, std::string_view token) {
     if (value.get_den() == 1 && fits_int64(value.get_num())) return Decimal{value.get_num().get_si(), 0};
     return value;
   } catch (const std::invalid_argument&) {
-    const bool zero = slash != std::string_view::npos && token.find_first_not_of("+-0", slash + 1) == std::string_view::npos && token.back() == '0';
-    text.fail(token, zero ? quoted(token) + " has the denominator 0; write p/q with q not 0"
-                          : quoted(token) + " is not a number p or p/q; write integers such as -7 or 22/7 (decimals belong into a .off file)");
+    const bool zero = slash != std::string_view::npos &&
+                      token.find_first_not_of("+-0", slash + 1) == std::string_view::npos && token.back() == '0';
+    text.fail(
+        token,
+        zero ? quoted(token) + " has the denominator 0; write p/q with q not 0"
+             : quoted(token) +
+                   " is not a number p or p/q; write integers such as -7 or 22/7 (decimals belong into a .off file)");
   }
 }
 
 namespace detail {
 
 /// The double nearest to a decimal, ties to even, where 128 bits suffice; nothing where its exponent is below -19.
-/// Exact: yes. The quotient has at least 64 bits, 53 are kept, the rest and `inexact` (whether the division leaves a remainder)
-/// decide the rounding; and nothing is subnormal or overflows, since 10^-19 <= |value| < 2^63, or it is 0.
+/// Exact: yes. The quotient has at least 64 bits, 53 are kept, the rest and `inexact` (whether the division leaves a
+/// remainder) decide the rounding; and nothing is subnormal or overflows, since 10^-19 <= |value| < 2^63, or it is 0.
 inline std::optional<double> nearest_double_of_short(Decimal decimal) {
   __extension__ using Wide = unsigned __int128;
   if (decimal.mantissa == 0) return 0.0;
   if (decimal.exponent < -19) return std::nullopt;
   const bool negative = decimal.mantissa < 0;
-  const std::uint64_t numerator = negative ? 0 - static_cast<std::uint64_t>(decimal.mantissa) : static_cast<std::uint64_t>(decimal.mantissa);
+  const std::uint64_t numerator =
+      negative ? 0 - static_cast<std::uint64_t>(decimal.mantissa) : static_cast<std::uint64_t>(decimal.mantissa);
   const std::uint64_t denominator = powers_of_ten[static_cast<std::size_t>(-decimal.exponent)];
 
   const int shift = 64 + std::countl_zero(numerator);
-  const Wide scaled = Wide{numerator << (shift - 64)} << 64;  // numerator x 2^shift, at least 2^127; the denominator is below 2^64
+  const Wide scaled = Wide{numerator << (shift - 64)}
+                      << 64;  // numerator x 2^shift, at least 2^127; the denominator is below 2^64
   const Wide quotient = scaled / denominator;
   const bool inexact = scaled % denominator != 0;
 
@@ -205,20 +220,26 @@ inline double nearest_double(const Number& number) {
 /// What a coordinate in text may look like.
 enum class Number_syntax { decimal, rational };
 
-/// A coordinate of a text file, as `options` wish it. Throws where it is missing, no number, or too large to be rounded to a double.
-inline Number read_coordinate(const Text_reader& text, std::string_view token, Number_syntax syntax, const Read_options& options) {
+/// A coordinate of a text file, as `options` wish it. Throws where it is missing, no number, or too large to be rounded
+/// to a double.
+inline Number read_coordinate(const Text_reader& text, std::string_view token, Number_syntax syntax,
+                              const Read_options& options) {
   if (token.empty()) text.fail(token, "a coordinate is missing; a point has three");
   Number number = syntax == Number_syntax::decimal ? parse_decimal(text, token) : parse_rational(text, token);
   if (!options.round_to_double) return number;
   const double rounded = nearest_double(number);
-  if (!std::isfinite(rounded)) text.fail(token, quoted(token) + " is beyond the range of a double; scale the scene, or read exact coordinates");
+  if (!std::isfinite(rounded))
+    text.fail(token, quoted(token) + " is beyond the range of a double; scale the scene, or read exact coordinates");
   return rounded;
 }
 
-/// Passes over a number that is of no interest (a colour, a normal, which may well be nan). Throws where it is missing or no number.
+/// Passes over a number that is of no interest (a colour, a normal, which may well be nan). Throws where it is missing
+/// or no number.
 inline void skip_number(const Text_reader& text, std::string_view token) {
   if (token.empty()) text.fail(token, "a number is missing; complete the line");
-  if (token.find_first_of("0123456789") != std::string_view::npos && token.find_first_not_of("0123456789+-.eE") == std::string_view::npos) return;
+  if (token.find_first_of("0123456789") != std::string_view::npos &&
+      token.find_first_not_of("0123456789+-.eE") == std::string_view::npos)
+    return;
   std::string_view name = token;
   if (name.front() == '-' || name.front() == '+') name.remove_prefix(1);
   for (const std::string_view known : {"nan", "NaN", "NAN", "inf", "Inf", "INF", "1.#"})

@@ -14,12 +14,14 @@ class Not_representable : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The decimal that a rational is ("0.1", "-25", "1e-30"), such that parse_decimal gives it back; nothing where it has no finite one,
-/// or one beyond largest_decimal_exponent. Exact: yes.
+/// The decimal that a rational is ("0.1", "-25", "1e-30"), such that parse_decimal gives it back; nothing where it has
+/// no finite one, or one beyond largest_decimal_exponent. Exact: yes.
 inline std::optional<std::string> decimal_text(const Rational& value) {
   // The denominator is 2^a 5^b, or there is none; the number of places is the larger of a and b.
   Integer rest;
-  const auto divide_out = [&rest](const Integer& n, unsigned long prime) { return mpz_remove(rest.get_mpz_t(), n.get_mpz_t(), Integer(prime).get_mpz_t()); };
+  const auto divide_out = [&rest](const Integer& n, unsigned long prime) {
+    return mpz_remove(rest.get_mpz_t(), n.get_mpz_t(), Integer(prime).get_mpz_t());
+  };
   const unsigned long twos = divide_out(value.get_den(), 2);
   const unsigned long fives = divide_out(rest, 5);
   if (rest != 1) return std::nullopt;
@@ -42,8 +44,8 @@ inline std::string decimal_texts(const Polygon_soup& soup, Point_id p, const std
   for (const Rational& coordinate : soup.point(p)) {
     const std::optional<std::string> text = decimal_text(coordinate);
     if (!text)
-      throw Not_representable(format + " cannot hold the coordinate " + printable(to_string(coordinate), 40, true) + " of point " + std::to_string(p) +
-                              ", which is no finite decimal; write .qoff");
+      throw Not_representable(format + " cannot hold the coordinate " + printable(to_string(coordinate), 40, true) +
+                              " of point " + std::to_string(p) + ", which is no finite decimal; write .qoff");
     (texts += ' ') += *text;
   }
   return texts;
@@ -53,7 +55,8 @@ inline std::string decimal_texts(const Polygon_soup& soup, Point_id p, const std
 inline void check_no_holes(const Polygon_soup& soup, const std::string& format) {
   for (Face_id f = 0; f < soup.face_count(); ++f)
     if (soup.loop_count(f) != 1)
-      throw Not_representable(format + " cannot hold face " + std::to_string(f) + ", which has holes; cut it into faces without holes first");
+      throw Not_representable(format + " cannot hold face " + std::to_string(f) +
+                              ", which has holes; cut it into faces without holes first");
 }
 
 }  // namespace sightline

@@ -16,21 +16,30 @@ namespace sightline {
 class Input_error : public std::runtime_error {
  public:
   /// Line and column count from 1; a column is a byte of its line (a tab is one, a byte order mark is none).
-  static Input_error in_text(const std::string& file, std::size_t line, std::size_t column, const std::string& message) {
-    return {file, line, column, std::nullopt, ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + message};
+  static Input_error in_text(const std::string& file, std::size_t line, std::size_t column,
+                             const std::string& message) {
+    return {file, line, column, std::nullopt,
+            ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + message};
   }
   static Input_error in_binary(const std::string& file, std::size_t byte, const std::string& message) {
     return {file, 0, 0, byte, ": byte " + std::to_string(byte) + ": " + message};
   }
-  static Input_error of_file(const std::string& file, const std::string& message) { return {file, 0, 0, std::nullopt, ": " + message}; }
+  static Input_error of_file(const std::string& file, const std::string& message) {
+    return {file, 0, 0, std::nullopt, ": " + message};
+  }
 
   std::string file;
   std::size_t line, column;         ///< 0 where the error is not in text
   std::optional<std::size_t> byte;  ///< from 0, where the error is in binary data
 
  private:
-  Input_error(const std::string& file_, std::size_t line_, std::size_t column_, std::optional<std::size_t> byte_, const std::string& rest)
-      : std::runtime_error(printable(file_, file_.size(), false) + rest), file(file_), line(line_), column(column_), byte(byte_) {}
+  Input_error(const std::string& file_, std::size_t line_, std::size_t column_, std::optional<std::size_t> byte_,
+              const std::string& rest)
+      : std::runtime_error(printable(file_, file_.size(), false) + rest),
+        file(file_),
+        line(line_),
+        column(column_),
+        byte(byte_) {}
 };
 
 inline constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // UTF-8
@@ -45,7 +54,8 @@ struct Input {
   [[noreturn]] void fail(const char* place, const std::string& message) const {
     const char* const end = bytes.data() + bytes.size();
     const char* line_begin = bytes.data();
-    if (bytes.starts_with(byte_order_mark) && place >= line_begin + byte_order_mark.size()) line_begin += byte_order_mark.size();
+    if (bytes.starts_with(byte_order_mark) && place >= line_begin + byte_order_mark.size())
+      line_begin += byte_order_mark.size();
     std::size_t line = 1;
     for (const char* p = line_begin; p < place; ++p) {
       const bool ends_line = *p == '\n' || (*p == '\r' && (p + 1 == end || p[1] != '\n'));
@@ -55,7 +65,9 @@ struct Input {
   }
 
   /// Throws the Input_error of a place in binary data.
-  [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& message) const { throw Input_error::in_binary(name, offset, message); }
+  [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& message) const {
+    throw Input_error::in_binary(name, offset, message);
+  }
 };
 
 }  // namespace sightline

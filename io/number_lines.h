@@ -10,7 +10,8 @@
 
 namespace sightline {
 
-/// Numbers with commas between them, decimals or p/q. Errors: std::invalid_argument, one line that begins with `wanted`. Exact: yes.
+/// Numbers with commas between them, decimals or p/q. Errors: std::invalid_argument, one line that begins with
+/// `wanted`. Exact: yes.
 inline std::vector<Rational> numbers_in(std::string_view text, const std::string& wanted) {
   std::vector<Rational> numbers;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -34,7 +35,8 @@ inline std::vector<Rational> numbers_in(std::string_view text, const std::string
 
 namespace detail {
 
-/// Whether a first line is one of names, such as X,Y,Z: it begins with a letter, and not with what some programs write for a number.
+/// Whether a first line is one of names, such as X,Y,Z: it begins with a letter, and not with what some programs write
+/// for a number.
 inline bool is_header(std::string_view line) {
   std::string begin(line.substr(0, 3));
   for (char& c : begin) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
@@ -43,9 +45,11 @@ inline bool is_header(std::string_view line) {
 
 }  // namespace detail
 
-/// Gives the numbers of each line of a text to take(), which returns false where they are not what is wanted. Blanks beside commas are passed over, as are a first line of names, empty lines, and what
-/// follows a #. Errors: Input_error at the line, or where a comma is missing. Exact: yes. Cost: one pass.
-inline void read_number_lines(const Input& input, const std::string& wanted, const std::function<bool(const std::vector<Rational>&)>& take) {
+/// Gives the numbers of each line of a text to take(), which returns false where they are not what is wanted. Blanks
+/// beside commas are passed over, as are a first line of names, empty lines, and what follows a #. Errors: Input_error
+/// at the line, or where a comma is missing. Exact: yes. Cost: one pass.
+inline void read_number_lines(const Input& input, const std::string& wanted,
+                              const std::function<bool(const std::vector<Rational>&)>& take) {
   Text_reader reader(input, Text_reader::Comments::hash);
   bool any = false, first = true;
   while (reader.next_line()) {
@@ -57,7 +61,8 @@ inline void read_number_lines(const Input& input, const std::string& wanted, con
       line += token;
     }
     if (std::exchange(first, false) && detail::is_header(line)) continue;
-    if (!apart.empty()) reader.fail(apart, "expected a comma before " + sightline::quoted(apart) + "; a line wants " + wanted);
+    if (!apart.empty())
+      reader.fail(apart, "expected a comma before " + sightline::quoted(apart) + "; a line wants " + wanted);
     std::vector<Rational> numbers;
     try {
       numbers = numbers_in(line, "a line wants " + wanted);

@@ -9,8 +9,8 @@ namespace sightline {
 
 namespace detail {
 
-/// Reads OBJ line by line. Statements are `v` and `f` (or `fo`, its old name); what only dresses them is passed over; anything else is an
-/// error, so that no surface is lost unseen.
+/// Reads OBJ line by line. Statements are `v` and `f` (or `fo`, its old name); what only dresses them is passed over;
+/// anything else is an error, so that no surface is lost unseen.
 class Obj_reader {
  public:
   Obj_reader(const Input& input, const Read_options& options)
@@ -31,11 +31,13 @@ class Obj_reader {
  private:
   /// v x y z, then nothing, w, r g b, or w r g b. The weight w bends only curves and surfaces, so it may only be 1.
   void read_vertex() {
-    for (int i = 0; i < 3; ++i) push(soup_.coordinates, read_coordinate(text_, text_.next_token(), Number_syntax::decimal, options_));
+    for (int i = 0; i < 3; ++i)
+      push(soup_.coordinates, read_coordinate(text_, text_.next_token(), Number_syntax::decimal, options_));
     std::array<std::string_view, 4> more;
     std::size_t count = 0;
     for (std::string_view token = text_.next_token(); !token.empty(); token = text_.next_token()) {
-      if (count == more.size()) text_.fail(token, "more than 7 numbers after v; write x y z, perhaps with w, perhaps with a colour r g b");
+      if (count == more.size())
+        text_.fail(token, "more than 7 numbers after v; write x y z, perhaps with w, perhaps with a colour r g b");
       skip_number(text_, token);
       more[count++] = token;
     }
@@ -47,7 +49,8 @@ class Obj_reader {
   /// f, then any number of v, v/vt, v//vn, v/vt/vn.
   void read_face() {
     corners_.clear();
-    for (std::string_view token = text_.next_token(); !token.empty(); token = text_.next_token()) corners_.push_back(read_corner(token));
+    for (std::string_view token = text_.next_token(); !token.empty(); token = text_.next_token())
+      corners_.push_back(read_corner(token));
     soup_.add_face(corners_);
   }
 
@@ -59,8 +62,8 @@ class Obj_reader {
     const auto count = static_cast<std::int64_t>(soup_.point_count());
     if (*index == 0 || *index < -count) fail_out_of_range(token);
     if (*index < 0) return static_cast<Point_id>(count + *index);
-    // The vertex may come later in the file. Of such corners only those need be looked at in the end that go beyond all before them:
-    // the first one out of range is among them.
+    // The vertex may come later in the file. Of such corners only those need be looked at in the end that go beyond all
+    // before them: the first one out of range is among them.
     if (*index > count && (forward_.empty() || *index > forward_.back().index)) forward_.push_back({*index, token});
     return static_cast<Point_id>(*index - 1);
   }
@@ -73,18 +76,21 @@ class Obj_reader {
   }
 
   void check_ignored(std::string_view statement) {
-    for (const std::string_view known : {"vt", "vn", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib", "l", "p", "bevel", "c_interp",
-                                         "d_interp", "lod", "shadow_obj", "trace_obj"})
+    for (const std::string_view known : {"vt", "vn", "vp", "g", "o", "s", "mg", "usemtl", "mtllib", "usemap", "maplib",
+                                         "l", "p", "bevel", "c_interp", "d_interp", "lod", "shadow_obj", "trace_obj"})
       if (statement == known) return;
-    for (const std::string_view free_form : {"cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con",
-                                             "ctech", "stech"})
-      if (statement == free_form) text_.fail(statement, "free-form curves and surfaces (" + quoted(statement) + ") are not supported; convert them to polygons");
+    for (const std::string_view free_form : {"cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim",
+                                             "hole", "scrv", "sp", "end", "con", "ctech", "stech"})
+      if (statement == free_form)
+        text_.fail(statement, "free-form curves and surfaces (" + quoted(statement) +
+                                  ") are not supported; convert them to polygons");
     text_.fail(statement, "unknown statement " + quoted(statement) + "; if this is an OBJ file, remove the line");
   }
 
   [[noreturn]] void fail_out_of_range(std::string_view token) {
-    text_.fail(token, "vertex index " + quoted(token) + " is out of range; there are " + std::to_string(soup_.point_count()) +
-                          " vertices" + (token.front() == '-' ? " so far" : "") + ", counted from 1, or from -1 backwards");
+    text_.fail(token, "vertex index " + quoted(token) + " is out of range; there are " +
+                          std::to_string(soup_.point_count()) + " vertices" + (token.front() == '-' ? " so far" : "") +
+                          ", counted from 1, or from -1 backwards");
   }
 
   struct Forward {
@@ -103,7 +109,9 @@ class Obj_reader {
 
 /// Reads OBJ: `v` and `f`; texture coordinates, normals, groups, materials, lines and points are passed over.
 /// Throws Input_error. Exact: yes. Cost: one pass.
-inline Polygon_soup read_obj(const Input& input, const Read_options& options = {}) { return detail::Obj_reader(input, options).read(); }
+inline Polygon_soup read_obj(const Input& input, const Read_options& options = {}) {
+  return detail::Obj_reader(input, options).read();
+}
 
 /// Writes OBJ. Throws Not_representable where a coordinate is no finite decimal or a face has holes. Exact: yes.
 inline void write_obj(const Polygon_soup& soup, std::ostream& out) {

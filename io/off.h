@@ -9,13 +9,14 @@
 
 namespace sightline {
 
-/// The common denominator of a soup's coordinates has at most this many bits, or every number of the scene, scaled to integers, would have them.
-/// Decimals and doubles never need more (2^1100 5^1100 has 3655), p/q may.
+/// The common denominator of a soup's coordinates has at most this many bits, or every number of the scene, scaled to
+/// integers, would have them. Decimals and doubles never need more (2^1100 5^1100 has 3655), p/q may.
 inline constexpr std::size_t largest_common_denominator_bits = 8192;
 
 namespace detail {
 
-/// The least common multiple of denominators as they come along, up to the limit. Cost: a division by the new one; a look into a table where it has come before.
+/// The least common multiple of denominators as they come along, up to the limit. Cost: a division by the new one; a
+/// look into a table where it has come before.
 class Common_denominator {
  public:
   /// Takes one more in; false once the multiple needs more bits than allowed.
@@ -43,16 +44,18 @@ class Off_reader {
     for (std::size_t i = 0; i < points_; ++i) read_point(i);
     for (std::size_t i = 0; i < faces_; ++i) read_face(i);
     if (text_.next_line())
-      text_.fail(text_.next_token(), "more lines than the " + std::to_string(points_) + " vertices and " + std::to_string(faces_) +
+      text_.fail(text_.next_token(), "more lines than the " + std::to_string(points_) + " vertices and " +
+                                         std::to_string(faces_) +
                                          " faces that are announced; correct the counts in the header");
     return std::move(soup_);
   }
 
  private:
-  /// Reads [ST][C][N][4][n]OFF, of which the last two and BINARY are refused, and gives the first count, which may stand on its line or the next.
-  /// As Geomview has it, the word may be missing.
+  /// Reads [ST][C][N][4][n]OFF, of which the last two and BINARY are refused, and gives the first count, which may
+  /// stand on its line or the next. As Geomview has it, the word may be missing.
   std::string_view read_header() {
-    if (!text_.next_line()) text_.fail_at_end("no header; begin the file with a line OFF, then the counts of vertices, faces and edges");
+    if (!text_.next_line())
+      text_.fail_at_end("no header; begin the file with a line OFF, then the counts of vertices, faces and edges");
     const std::string_view word = text_.next_token();
     if (parse_integer(word)) return word;
     std::string_view kind = word;
@@ -63,12 +66,16 @@ class Off_reader {
     };
     for (const std::string_view prefix : {"ST", "C", "N"}) attributes_ = skip(prefix) || attributes_;
     const bool four = skip("4"), many = skip("n");
-    if (kind != "OFF") text_.fail(word, "unknown header " + quoted(word) + "; begin the file with a line OFF, then the counts of vertices, faces and edges");
-    if (four || many) text_.fail(word, "points of " + quoted(word) + " are not of three dimensions; project them to OFF first");
+    if (kind != "OFF")
+      text_.fail(word, "unknown header " + quoted(word) +
+                           "; begin the file with a line OFF, then the counts of vertices, faces and edges");
+    if (four || many)
+      text_.fail(word, "points of " + quoted(word) + " are not of three dimensions; project them to OFF first");
     std::string_view token = text_.next_token();
     if (token == "BINARY") text_.fail(token, "binary OFF is not supported; convert the file to text, or to binary PLY");
     if (!token.empty()) return token;
-    if (!text_.next_line()) text_.fail_at_end("the counts are missing; write the numbers of vertices, faces and edges behind OFF");
+    if (!text_.next_line())
+      text_.fail_at_end("the counts are missing; write the numbers of vertices, faces and edges behind OFF");
     return text_.next_token();
   }
 
@@ -76,7 +83,8 @@ class Off_reader {
     points_ = read_count(text_, token, "vertices", std::string_view("0 0 0\n").size());
     faces_ = read_count(text_, text_.next_token(), "faces", std::string_view("0\n").size());
     token = text_.next_token();
-    if (!token.empty() && !parse_integer(token)) text_.fail(token, quoted(token) + " is not a number of edges; write a count such as 12, or 0");
+    if (!token.empty() && !parse_integer(token))
+      text_.fail(token, quoted(token) + " is not a number of edges; write a count such as 12, or 0");
     expect_end_of_line(0);
   }
 
@@ -85,8 +93,10 @@ class Off_reader {
     for (int k = 0; k < 3; ++k) {
       const std::string_view token = text_.next_token();
       const Number number = read_coordinate(text_, token, syntax_, options_);
-      if (const auto* value = std::get_if<Rational>(&number); value && syntax_ == Number_syntax::rational && !denominator_.include(value->get_den()))
-        text_.fail(token, "common denominator of the coordinates needs more than " + std::to_string(largest_common_denominator_bits) +
+      if (const auto* value = std::get_if<Rational>(&number);
+          value && syntax_ == Number_syntax::rational && !denominator_.include(value->get_den()))
+        text_.fail(token, "common denominator of the coordinates needs more than " +
+                              std::to_string(largest_common_denominator_bits) +
                               " bits; read the file with coordinates rounded to double, or round them in the file");
       push(soup_.coordinates, number);
     }
@@ -101,11 +111,14 @@ class Off_reader {
     corners_.clear();
     for (std::size_t k = 0; k < count; ++k) {
       token = text_.next_token();
-      if (token.empty()) text_.fail(token, "corner " + std::to_string(k + 1) + " of " + std::to_string(count) + " is missing; write them all on one line");
+      if (token.empty())
+        text_.fail(token, "corner " + std::to_string(k + 1) + " of " + std::to_string(count) +
+                              " is missing; write them all on one line");
       const std::optional<std::int64_t> index = parse_integer(token);
       if (!index) text_.fail(token, quoted(token) + " is not a vertex index; write an integer");
       if (*index >= static_cast<std::int64_t>(points_) || token.front() == '-')
-        text_.fail(token, "vertex index " + quoted(token) + " is out of range; there are " + std::to_string(points_) + " vertices, counted from 0");
+        text_.fail(token, "vertex index " + quoted(token) + " is out of range; there are " + std::to_string(points_) +
+                              " vertices, counted from 0");
       corners_.push_back(static_cast<Point_id>(*index));
     }
     expect_end_of_line(4);  // a colour
@@ -115,7 +128,8 @@ class Off_reader {
   /// Passes over at most so many numbers. Throws on any others.
   void expect_end_of_line(int numbers) {
     for (std::string_view token = text_.next_token(); !token.empty(); token = text_.next_token()) {
-      if (numbers-- == 0) text_.fail(token, "unexpected " + quoted(token) + "; write each vertex and each face on a line of its own");
+      if (numbers-- == 0)
+        text_.fail(token, "unexpected " + quoted(token) + "; write each vertex and each face on a line of its own");
       skip_number(text_, token);
     }
   }
@@ -155,12 +169,17 @@ inline void write_off(const Polygon_soup& soup, std::ostream& out, bool rational
 
 }  // namespace detail
 
-/// Reads OFF in text, with or without colours, normals and texture coordinates (COFF, NOFF, STOFF, ...), which are passed over.
-/// Throws Input_error. Exact: yes. Cost: one pass.
-inline Polygon_soup read_off(const Input& input, const Read_options& options = {}) { return detail::Off_reader(input, Number_syntax::decimal, options).read(); }
+/// Reads OFF in text, with or without colours, normals and texture coordinates (COFF, NOFF, STOFF, ...), which are
+/// passed over. Throws Input_error. Exact: yes. Cost: one pass.
+inline Polygon_soup read_off(const Input& input, const Read_options& options = {}) {
+  return detail::Off_reader(input, Number_syntax::decimal, options).read();
+}
 
-/// Reads OFF whose coordinates are integers or p/q. Throws Input_error, also where the common denominator gets too long. Exact: yes.
-inline Polygon_soup read_qoff(const Input& input, const Read_options& options = {}) { return detail::Off_reader(input, Number_syntax::rational, options).read(); }
+/// Reads OFF whose coordinates are integers or p/q. Throws Input_error, also where the common denominator gets too
+/// long. Exact: yes.
+inline Polygon_soup read_qoff(const Input& input, const Read_options& options = {}) {
+  return detail::Off_reader(input, Number_syntax::rational, options).read();
+}
 
 /// Writes OFF. Throws Not_representable where a coordinate is no finite decimal or a face has holes. Exact: yes.
 inline void write_off(const Polygon_soup& soup, std::ostream& out) { detail::write_off(soup, out, false); }

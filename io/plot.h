@@ -8,11 +8,13 @@
 
 namespace sightline {
 
-/// Series of points by name, joined in the order of x; both axes are logarithmic. Points with y = 0 stand on a line of their own, marked 0, below the others. Pre: words
-/// without characters that XML reserves. Degenerate: points with x <= 0 or y < 0, and what is no number, are left out; without points there are only axes. Exact: no, it is a picture.
+/// Series of points by name, joined in the order of x; both axes are logarithmic. Points with y = 0 stand on a line of
+/// their own, marked 0, below the others. Pre: words without characters that XML reserves. Degenerate: points with x <=
+/// 0 or y < 0, and what is no number, are left out; without points there are only axes. Exact: no, it is a picture.
 class Log_plot {
  public:
-  Log_plot(std::string title, std::string x, std::string y) : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)) {}
+  Log_plot(std::string title, std::string x, std::string y)
+      : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)) {}
 
   void add(const std::string& series, double x, double y) {
     if (x > 0 && y >= 0 && std::isfinite(x) && std::isfinite(y)) series_[series].push_back({x, y});
@@ -64,7 +66,8 @@ class Log_plot {
     for (const auto& [name, unsorted] : series_) {
       std::vector<Flat_point> points = unsorted;
       std::sort(points.begin(), points.end());
-      const std::string colour = "hsl(" + std::to_string(number * 137508 / 1000 % 360) + ",65%," + (number % 2 == 0 ? "38%)" : "45%)");
+      const std::string colour =
+          "hsl(" + std::to_string(number * 137508 / 1000 % 360) + ",65%," + (number % 2 == 0 ? "38%)" : "45%)");
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Flat_point at = place(points[i]);
         if (i > 0) svg.line(place(points[i - 1]), at, colour, 1.8);

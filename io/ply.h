@@ -43,13 +43,15 @@ struct Ply_header {
   std::vector<Ply_element> elements;
 };
 
-/// Reads a PLY header, up to and with the line end_header. Throws on what is not one, or is one of another kind of surface.
+/// Reads a PLY header, up to and with the line end_header. Throws on what is not one, or is one of another kind of
+/// surface.
 class Ply_header_reader {
  public:
   explicit Ply_header_reader(Text_reader& text) : text_(text) {}
 
   Ply_header read() {
-    if (const std::string_view word = next_line(); word != "ply") text_.fail(word, "unexpected " + quoted(word) + "; a PLY file begins with a line ply");
+    if (const std::string_view word = next_line(); word != "ply")
+      text_.fail(word, "unexpected " + quoted(word) + "; a PLY file begins with a line ply");
     expect_end_of_line();
     read_encoding();
     for (;;) {
@@ -71,17 +73,20 @@ class Ply_header_reader {
     return text_.next_token();
   }
   void expect_end_of_line() {
-    if (const std::string_view token = text_.next_token(); !token.empty()) text_.fail(token, "unexpected " + quoted(token) + "; end the header line before it");
+    if (const std::string_view token = text_.next_token(); !token.empty())
+      text_.fail(token, "unexpected " + quoted(token) + "; end the header line before it");
   }
 
   void read_encoding() {
     std::string_view word = next_line();
-    if (word != "format") text_.fail(word, "unexpected " + quoted(word) + "; the second line of a PLY file is its format");
+    if (word != "format")
+      text_.fail(word, "unexpected " + quoted(word) + "; the second line of a PLY file is its format");
     word = text_.next_token();
     if (word == "ascii") header_.encoding = Ply_encoding::text;
     else if (word == "binary_little_endian") header_.encoding = Ply_encoding::little_endian;
     else if (word == "binary_big_endian") header_.encoding = Ply_encoding::big_endian;
-    else text_.fail(word, "unknown format " + quoted(word) + "; write ascii, binary_little_endian or binary_big_endian");
+    else
+      text_.fail(word, "unknown format " + quoted(word) + "; write ascii, binary_little_endian or binary_big_endian");
     word = text_.next_token();
     if (word != "1.0") text_.fail(word, "unknown version " + quoted(word) + "; only PLY 1.0 is supported");
     expect_end_of_line();
@@ -98,35 +103,51 @@ class Ply_header_reader {
   }
 
   void read_property(std::string_view word) {
-    if (header_.elements.empty()) text_.fail(word, "a property before the first element; write element NAME COUNT before it");
+    if (header_.elements.empty())
+      text_.fail(word, "a property before the first element; write element NAME COUNT before it");
     Ply_property property{};
     std::string_view token = text_.next_token();
     if (token == "list") {
       token = text_.next_token();
       property.count_type = read_type(token);
-      if (!is_integer(*property.count_type)) text_.fail(token, "a list's length cannot be " + quoted(token) + "; write an integer type such as uchar");
+      if (!is_integer(*property.count_type))
+        text_.fail(token, "a list's length cannot be " + quoted(token) + "; write an integer type such as uchar");
       token = text_.next_token();
     }
     property.type = read_type(token);
     property.name = text_.next_token();
-    if (property.name.empty()) text_.fail(property.name, "the name of the property is missing; write property TYPE NAME");
+    if (property.name.empty())
+      text_.fail(property.name, "the name of the property is missing; write property TYPE NAME");
     Ply_element& element = header_.elements.back();
-    if (element.find({property.name})) text_.fail(property.name, "property " + quoted(property.name) + " comes twice; remove one");
-    const bool is_corners = element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index");
+    if (element.find({property.name}))
+      text_.fail(property.name, "property " + quoted(property.name) + " comes twice; remove one");
+    const bool is_corners =
+        element.name == "face" && (property.name == "vertex_indices" || property.name == "vertex_index");
     if (is_corners && !(property.count_type && is_integer(property.type)))
-      text_.fail(property.name, quoted(property.name) + " is not a list of integers; write property list uchar int vertex_indices");
-    const bool is_coordinate = element.name == "vertex" && (property.name == "x" || property.name == "y" || property.name == "z");
-    if (is_coordinate && property.count_type) text_.fail(property.name, quoted(property.name) + " is a list; write property double " + std::string(property.name));
+      text_.fail(property.name,
+                 quoted(property.name) + " is not a list of integers; write property list uchar int vertex_indices");
+    const bool is_coordinate =
+        element.name == "vertex" && (property.name == "x" || property.name == "y" || property.name == "z");
+    if (is_coordinate && property.count_type)
+      text_.fail(property.name,
+                 quoted(property.name) + " is a list; write property double " + std::string(property.name));
     expect_end_of_line();
     element.properties.push_back(property);
   }
 
   Ply_type read_type(std::string_view token) {
-    constexpr std::array<std::array<std::string_view, 2>, 8> names{{{"char", "int8"}, {"uchar", "uint8"}, {"short", "int16"}, {"ushort", "uint16"},
-                                                                     {"int", "int32"}, {"uint", "uint32"}, {"float", "float32"}, {"double", "float64"}}};
+    constexpr std::array<std::array<std::string_view, 2>, 8> names{{{"char", "int8"},
+                                                                    {"uchar", "uint8"},
+                                                                    {"short", "int16"},
+                                                                    {"ushort", "uint16"},
+                                                                    {"int", "int32"},
+                                                                    {"uint", "uint32"},
+                                                                    {"float", "float32"},
+                                                                    {"double", "float64"}}};
     for (std::size_t i = 0; i < names.size(); ++i)
       if (token == names[i][0] || token == names[i][1]) return static_cast<Ply_type>(i);
-    text_.fail(token, "unknown type " + quoted(token) + "; write char, uchar, short, ushort, int, uint, float or double");
+    text_.fail(token,
+               "unknown type " + quoted(token) + "; write char, uchar, short, ushort, int, uint, float or double");
   }
 
   /// Points need x, y and z, faces a list of corners, and there must be points.
@@ -135,12 +156,14 @@ class Ply_header_reader {
     for (const Ply_element& element : header_.elements) {
       const auto need = [&](std::initializer_list<std::string_view> names) {
         if (!element.find(names))
-          text_.fail(element.name, "element " + std::string(element.name) + " has no property " + std::string(*names.begin()) + "; add it to the header and the data");
+          text_.fail(element.name, "element " + std::string(element.name) + " has no property " +
+                                       std::string(*names.begin()) + "; add it to the header and the data");
       };
       if (element.name == "vertex") need({"x"}), need({"y"}), need({"z"}), has_points = true;
       if (element.name == "face") need({"vertex_indices", "vertex_index"});
     }
-    if (!has_points) text_.fail({text_.cursor(), 0}, "the header has no element vertex; add it and its properties x, y and z");
+    if (!has_points)
+      text_.fail({text_.cursor(), 0}, "the header has no element vertex; add it and its properties x, y and z");
   }
 
   Text_reader& text_;
@@ -154,10 +177,13 @@ class Ply_text_values {
 
   void begin(const Ply_element& element, std::size_t i) {
     if (!text_.next_line())
-      text_.fail_at_end("the file ends after " + std::to_string(i) + " of " + std::to_string(element.count) + " elements " + quoted(element.name) +
+      text_.fail_at_end("the file ends after " + std::to_string(i) + " of " + std::to_string(element.count) +
+                        " elements " + quoted(element.name) +
                         "; correct the count, or fetch the file again if it is cut off");
   }
-  Number coordinate(Ply_type) { return read_coordinate(text_, token_ = text_.next_token(), Number_syntax::decimal, options_); }
+  Number coordinate(Ply_type) {
+    return read_coordinate(text_, token_ = text_.next_token(), Number_syntax::decimal, options_);
+  }
   std::int64_t integer(Ply_type) {
     token_ = text_.next_token();
     if (token_.empty()) text_.fail(token_, "a number is missing; an element has all its properties on one line");
@@ -169,15 +195,18 @@ class Ply_text_values {
     while (count-- > 0) skip_number(text_, token_ = text_.next_token());
   }
   void end() {
-    if (token_ = text_.next_token(); !token_.empty()) fail("unexpected " + quoted(token_) + "; an element has no more properties in the header");
+    if (token_ = text_.next_token(); !token_.empty())
+      fail("unexpected " + quoted(token_) + "; an element has no more properties in the header");
   }
   void end_all() {
-    if (text_.next_line()) token_ = text_.next_token(), fail("more lines than the header announces; correct its counts");
+    if (text_.next_line())
+      token_ = text_.next_token(), fail("more lines than the header announces; correct its counts");
   }
   /// How many values there is room for, at most.
   std::size_t room(Ply_type) const { return text_.bytes_left() / 2; }
   std::size_t room(const Ply_element& element) const {
-    return element.properties.empty() ? std::numeric_limits<std::size_t>::max() : text_.bytes_left() / (2 * element.properties.size());
+    return element.properties.empty() ? std::numeric_limits<std::size_t>::max()
+                                      : text_.bytes_left() / (2 * element.properties.size());
   }
   [[noreturn]] void fail(const std::string& message) const { text_.fail(token_, message); }
 
@@ -190,13 +219,15 @@ class Ply_text_values {
 /// The values of a PLY file in binary.
 class Ply_binary_values {
  public:
-  Ply_binary_values(const Input& input, std::size_t offset, std::endian order) : input_(input), next_(offset), last_(offset), order_(order) {}
+  Ply_binary_values(const Input& input, std::size_t offset, std::endian order)
+      : input_(input), next_(offset), last_(offset), order_(order) {}
 
   void begin(const Ply_element&, std::size_t) {}
   Number coordinate(Ply_type type) {
     if (is_integer(type)) return Decimal{integer(type), 0};
     take(type);
-    const double value = type == Ply_type::float32 ? double{load<float>(input_.bytes, last_, order_)} : load<double>(input_.bytes, last_, order_);
+    const double value = type == Ply_type::float32 ? double{load<float>(input_.bytes, last_, order_)}
+                                                   : load<double>(input_.bytes, last_, order_);
     if (!std::isfinite(value)) fail("a coordinate is not a finite number; repair or remove the point");
     return value;
   }
@@ -216,19 +247,22 @@ class Ply_binary_values {
   void end() {}
   void end_all() {
     last_ = next_;
-    if (input_.bytes.find_first_not_of(" \t\r\n", next_) != std::string_view::npos) fail("more data than the header announces; correct its counts");
+    if (input_.bytes.find_first_not_of(" \t\r\n", next_) != std::string_view::npos)
+      fail("more data than the header announces; correct its counts");
   }
   std::size_t room(Ply_type type) const { return (input_.bytes.size() - next_) / bytes_of(type); }
   std::size_t room(const Ply_element& element) const {
     std::size_t bytes = 0;
-    for (const Ply_property& property : element.properties) bytes += bytes_of(property.count_type.value_or(property.type));
+    for (const Ply_property& property : element.properties)
+      bytes += bytes_of(property.count_type.value_or(property.type));
     return bytes == 0 ? std::numeric_limits<std::size_t>::max() : (input_.bytes.size() - next_) / bytes;
   }
   [[noreturn]] void fail(const std::string& message) const { input_.fail_at_byte(last_, message); }
 
  private:
   void take(Ply_type type, std::size_t count = 1) {
-    if (count > room(type)) input_.fail_at_byte(input_.bytes.size(), "the file ends within its data; fetch it again if it is cut off");
+    if (count > room(type))
+      input_.fail_at_byte(input_.bytes.size(), "the file ends within its data; fetch it again if it is cut off");
     last_ = next_;
     next_ += count * bytes_of(type);
   }
@@ -242,7 +276,8 @@ class Ply_binary_values {
 template <class Values>
 class Ply_reader {
  public:
-  Ply_reader(const Text_reader& text, const Ply_header& header, Values values) : text_(text), header_(header), values_(std::move(values)) {}
+  Ply_reader(const Text_reader& text, const Ply_header& header, Values values)
+      : text_(text), header_(header), values_(std::move(values)) {}
 
   Polygon_soup read() {
     for (const Ply_element& element : header_.elements)
@@ -250,8 +285,10 @@ class Ply_reader {
     for (const Ply_element& element : header_.elements) {
       if (element.properties.empty()) continue;
       if (element.count > values_.room(element))
-        text_.fail(element.count_token, std::to_string(element.count) + " elements " + quoted(element.name) + " are announced, but there is room for " +
-                                            std::to_string(values_.room(element)) + " at most; correct the count, or fetch the file again if it is cut off");
+        text_.fail(element.count_token, std::to_string(element.count) + " elements " + quoted(element.name) +
+                                            " are announced, but there is room for " +
+                                            std::to_string(values_.room(element)) +
+                                            " at most; correct the count, or fetch the file again if it is cut off");
       if (element.name == "vertex") read_points(element);
       else if (element.name == "face") read_faces(element);
       else read_others(element);
@@ -296,7 +333,8 @@ class Ply_reader {
     for (std::size_t k = 0; k < count; ++k) {
       const std::int64_t index = values_.integer(list.type);
       if (index < 0 || index >= static_cast<std::int64_t>(points_))
-        values_.fail("vertex index " + std::to_string(index) + " is out of range; there are " + std::to_string(points_) + " vertices, counted from 0");
+        values_.fail("vertex index " + std::to_string(index) + " is out of range; there are " +
+                     std::to_string(points_) + " vertices, counted from 0");
       corners_.push_back(static_cast<Point_id>(index));
     }
   }
@@ -309,12 +347,15 @@ class Ply_reader {
     }
   }
 
-  void skip(const Ply_property& property) { values_.skip(property.type, property.count_type ? list_length(property) : 1); }
+  void skip(const Ply_property& property) {
+    values_.skip(property.type, property.count_type ? list_length(property) : 1);
+  }
 
   std::size_t list_length(const Ply_property& list) {
     const std::int64_t length = values_.integer(*list.count_type);
     if (static_cast<std::size_t>(length) > values_.room(list.type))  // one below 0 is beyond any room, too
-      values_.fail("a list of " + std::to_string(length) + " numbers, but there is room for " + std::to_string(values_.room(list.type)) +
+      values_.fail("a list of " + std::to_string(length) + " numbers, but there is room for " +
+                   std::to_string(values_.room(list.type)) +
                    " at most; correct the length, or fetch the file again if it is cut off");
     return static_cast<std::size_t>(length);
   }
@@ -331,15 +372,16 @@ class Ply_reader {
 inline double double_that_is(const Rational& value, Point_id p) {
   const double nearest = nearest_double(value);
   if (!std::isfinite(nearest) || exact(nearest) != value)
-    throw Not_representable("binary PLY cannot hold the coordinate " + printable(to_string(value), 40, true) + " of point " + std::to_string(p) +
+    throw Not_representable("binary PLY cannot hold the coordinate " + printable(to_string(value), 40, true) +
+                            " of point " + std::to_string(p) +
                             ", which is no double; write .qoff, or text where it is a finite decimal");
   return nearest;
 }
 
 }  // namespace detail
 
-/// Reads PLY 1.0: of each vertex x, y and z, of each face vertex_indices (or vertex_index); everything else is passed over.
-/// Throws Input_error. Exact: yes (decimals in text, floats in binary data as they are). Cost: one pass.
+/// Reads PLY 1.0: of each vertex x, y and z, of each face vertex_indices (or vertex_index); everything else is passed
+/// over. Throws Input_error. Exact: yes (decimals in text, floats in binary data as they are). Cost: one pass.
 inline Polygon_soup read_ply(const Input& input, const Read_options& options = {}) {
   Text_reader text(input, Text_reader::Comments::none);
   const detail::Ply_header header = detail::Ply_header_reader(text).read();
@@ -351,26 +393,28 @@ inline Polygon_soup read_ply(const Input& input, const Read_options& options = {
   const std::size_t first_end = input.bytes.find_first_of("\r\n");
   const bool only_carriage_return = input.bytes[first_end] == '\r' && input.bytes[first_end + 1] != '\n';
   if (only_carriage_return && input.bytes[begin - 1] == '\n') --begin;
-  const std::endian order = header.encoding == detail::Ply_encoding::little_endian ? std::endian::little : std::endian::big;
+  const std::endian order =
+      header.encoding == detail::Ply_encoding::little_endian ? std::endian::little : std::endian::big;
   return detail::Ply_reader(text, header, detail::Ply_binary_values(input, begin, order)).read();
 }
 
-/// Writes PLY, as text or as little-endian doubles. Throws Not_representable where a coordinate is no finite decimal (text) or no double (binary), or a
-/// face has holes. Exact: yes.
+/// Writes PLY, as text or as little-endian doubles. Throws Not_representable where a coordinate is no finite decimal
+/// (text) or no double (binary), or a face has holes. Exact: yes.
 inline void write_ply(const Polygon_soup& soup, std::ostream& out, bool binary) {
   check_no_holes(soup, "PLY");
   std::size_t most_corners = 0;
   for (Face_id f = 0; f < soup.face_count(); ++f) most_corners = std::max(most_corners, soup.loop(f).size());
   const bool short_lists = most_corners < 256;
-  out << std::string("ply\nformat ") + (binary ? "binary_little_endian" : "ascii") + " 1.0\nelement vertex " + std::to_string(soup.point_count()) +
-             "\nproperty double x\nproperty double y\nproperty double z\nelement face " + std::to_string(soup.face_count()) +
-             "\nproperty list " + (short_lists ? "uchar" : "uint") + " uint vertex_indices\nend_header\n";
+  out << std::string("ply\nformat ") + (binary ? "binary_little_endian" : "ascii") + " 1.0\nelement vertex " +
+             std::to_string(soup.point_count()) +
+             "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+             std::to_string(soup.face_count()) + "\nproperty list " + (short_lists ? "uchar" : "uint") +
+             " uint vertex_indices\nend_header\n";
   for (Point_id p = 0; p < soup.point_count(); ++p) {
     std::string bytes;
     if (binary)
       for (const Rational& coordinate : soup.point(p)) store(bytes, detail::double_that_is(coordinate, p));
-    else
-      bytes = decimal_texts(soup, p, "PLY").substr(1) + "\n";
+    else bytes = decimal_texts(soup, p, "PLY").substr(1) + "\n";
     out << bytes;
   }
   for (Face_id f = 0; f < soup.face_count(); ++f) {

@@ -22,7 +22,8 @@ inline std::string read_bytes(const std::filesystem::path& path) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) fail("no such file, or it is out of reach; check the path");
   if (std::filesystem::is_directory(status)) fail("is a directory; name a file in it");
-  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status)) fail("is not a file that has an end; name a regular file");
+  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
+    fail("is not a file that has an end; name a regular file");
 
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail(std::string("cannot be opened: ") + std::strerror(errno) + "; check its permissions");
@@ -56,10 +57,13 @@ inline std::optional<Format> format_of_content(const Input& input) {
 }  // namespace detail
 
 /// Reads a scene from bytes in a known format; `name` is what messages call it, and Polygon_soup::file.
-/// Throws Input_error on anything that is not well-formed. Faces of fewer than three corners and the like are well-formed. Exact: yes. Cost: one pass.
-inline Polygon_soup read_scene(std::string_view bytes, Format format, const std::string& name, const Read_options& options = {}) {
+/// Throws Input_error on anything that is not well-formed. Faces of fewer than three corners and the like are
+/// well-formed. Exact: yes. Cost: one pass.
+inline Polygon_soup read_scene(std::string_view bytes, Format format, const std::string& name,
+                               const Read_options& options = {}) {
   const Input input{name, bytes};
-  if (bytes.find_first_not_of(" \t\v\f\r\n", bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) == std::string_view::npos)
+  if (bytes.find_first_not_of(" \t\v\f\r\n", bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) ==
+      std::string_view::npos)
     input.fail(bytes.data(), "the file is empty; give a scene");
   Polygon_soup soup = [&] {
     switch (format) {
@@ -70,20 +74,24 @@ inline Polygon_soup read_scene(std::string_view bytes, Format format, const std:
       default: return read_ply(input, options);
     }
   }();
-  if (soup.point_count() > std::numeric_limits<Point_id>::max() || soup.face_count() > std::numeric_limits<Face_id>::max())
+  if (soup.point_count() > std::numeric_limits<Point_id>::max() ||
+      soup.face_count() > std::numeric_limits<Face_id>::max())
     throw Input_error::of_file(name, "more points or faces than ids of 32 bits can number; cut the scene into parts");
   soup.file = name;
   return soup;
 }
 
-/// Reads a scene from a file, whose format its ending says (.obj .off .qoff .ply .stl, in upper or lower case), or else its content.
-/// Throws Input_error, also where the file cannot be read or its format is unknown. Exact: yes. Cost: one pass.
+/// Reads a scene from a file, whose format its ending says (.obj .off .qoff .ply .stl, in upper or lower case), or else
+/// its content. Throws Input_error, also where the file cannot be read or its format is unknown. Exact: yes. Cost: one
+/// pass.
 inline Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& options = {}) {
   const std::string bytes = detail::read_bytes(path);
   const std::string name = path.string();
   std::optional<Format> format = format_of_ending(path);
   if (!format) format = detail::format_of_content({name, bytes});
-  if (!format) throw Input_error::of_file(name, std::string("neither its ending nor its content is of a known format; give one of ") + supported_formats);
+  if (!format)
+    throw Input_error::of_file(
+        name, std::string("neither its ending nor its content is of a known format; give one of ") + supported_formats);
   return read_scene(bytes, *format, name, options);
 }
 

@@ -12,7 +12,8 @@ namespace sightline {
 
 namespace detail {
 
-/// Gives points their ids, one to each exact value, in the order of first appearance. Value: == and hash of equal numbers agree.
+/// Gives points their ids, one to each exact value, in the order of first appearance. Value: == and hash of equal
+/// numbers agree.
 template <class Value>
 class Point_merger {
  public:
@@ -28,7 +29,8 @@ class Point_merger {
   struct Hash {
     static std::size_t hash(float value) { return std::hash<float>()(value); }  // 0 for -0, too
     static std::size_t hash(const Number& number) {
-      if (const auto* decimal = std::get_if<Decimal>(&number)) return std::hash<std::int64_t>()(decimal->mantissa) + static_cast<std::size_t>(decimal->exponent);
+      if (const auto* decimal = std::get_if<Decimal>(&number))
+        return std::hash<std::int64_t>()(decimal->mantissa) + static_cast<std::size_t>(decimal->exponent);
       if (const auto* floating = std::get_if<double>(&number)) return std::hash<double>()(*floating);
       const Rational& value = std::get<Rational>(number);
       return mpz_get_ui(value.get_num().get_mpz_t()) + 31 * mpz_get_ui(value.get_den().get_mpz_t());
@@ -42,10 +44,12 @@ class Point_merger {
   std::unordered_map<Point, Point_id, Hash> ids_;
 };
 
-/// Reads `solid NAME`, facets, `endsolid NAME`, any number of times. Words in upper or lower case; line ends are blanks except behind a name.
+/// Reads `solid NAME`, facets, `endsolid NAME`, any number of times. Words in upper or lower case; line ends are blanks
+/// except behind a name.
 class Stl_text_reader {
  public:
-  Stl_text_reader(const Input& input, const Read_options& options) : text_(input, Text_reader::Comments::none), options_(options) {}
+  Stl_text_reader(const Input& input, const Read_options& options)
+      : text_(input, Text_reader::Comments::none), options_(options) {}
 
   Polygon_soup read() {
     while (text_.next_line()) read_solid();
@@ -82,7 +86,8 @@ class Stl_text_reader {
 
   Point_id read_vertex() {
     std::array<Number, 3> point;
-    for (Number& coordinate : point) coordinate = read_coordinate(text_, next_word("a coordinate"), Number_syntax::decimal, options_);
+    for (Number& coordinate : point)
+      coordinate = read_coordinate(text_, next_word("a coordinate"), Number_syntax::decimal, options_);
     const auto [id, fresh] = merger_.id(point);
     if (fresh)
       for (const Number& coordinate : point) push(soup_.coordinates, coordinate);
@@ -91,11 +96,13 @@ class Stl_text_reader {
 
   std::string_view next_word(const std::string& expected) {
     const std::string_view word = text_.next_token_of_any_line();
-    if (word.empty()) text_.fail_at_end("the file ends where " + expected + " should follow; fetch it again if it is cut off");
+    if (word.empty())
+      text_.fail_at_end("the file ends where " + expected + " should follow; fetch it again if it is cut off");
     return word;
   }
   static bool is(std::string_view word, std::string_view lower) {
-    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(), [](char c, char l) { return c == l || (c >= 'A' && c <= 'Z' && c + 32 == l); });
+    return std::equal(word.begin(), word.end(), lower.begin(), lower.end(),
+                      [](char c, char l) { return c == l || (c >= 'A' && c <= 'Z' && c + 32 == l); });
   }
   void expect(const std::string& lower) {
     if (const std::string_view word = next_word(lower); !is(word, lower)) fail_unexpected(word, lower);
@@ -111,14 +118,18 @@ class Stl_text_reader {
   std::vector<Point_id> corners_;
 };
 
-inline constexpr std::size_t stl_header_bytes = 80, stl_facet_bytes = 50;  // then a count of 4 bytes; a facet is a normal, three points, 2 spare bytes
+inline constexpr std::size_t stl_header_bytes = 80,
+                             stl_facet_bytes =
+                                 50;  // then a count of 4 bytes; a facet is a normal, three points, 2 spare bytes
 
-/// Whether the bytes are a binary STL file, by their number; also where they begin with "solid", as they should not but do.
-/// Text is not mistaken: four characters of it, taken for a count, mean 0x09090909 facets or more, a file of 7.5 GB.
+/// Whether the bytes are a binary STL file, by their number; also where they begin with "solid", as they should not but
+/// do. Text is not mistaken: four characters of it, taken for a count, mean 0x09090909 facets or more, a file of 7.5
+/// GB.
 inline bool has_binary_stl_size(std::string_view bytes) {
   constexpr std::size_t facets_begin = stl_header_bytes + 4;
   return bytes.size() >= facets_begin &&
-         bytes.size() - facets_begin == stl_facet_bytes * std::size_t{load<std::uint32_t>(bytes, stl_header_bytes, std::endian::little)};
+         bytes.size() - facets_begin ==
+             stl_facet_bytes * std::size_t{load<std::uint32_t>(bytes, stl_header_bytes, std::endian::little)};
 }
 
 /// Whether the bytes begin with the word "solid", in upper or lower case, and hold no zero byte near the beginning.
@@ -133,14 +144,19 @@ inline Polygon_soup read_stl_binary(const Input& input) {
   constexpr std::size_t facets_begin = stl_header_bytes + 4;
   const std::string_view bytes = input.bytes;
   if (bytes.size() < facets_begin)
-    input.fail_at_byte(bytes.size(), "the file ends within the header of 84 bytes of a binary STL file; fetch it again if it is cut off (text begins with solid)");
+    input.fail_at_byte(bytes.size(),
+                       "the file ends within the header of 84 bytes of a binary STL file; fetch it again if it is cut "
+                       "off (text begins with solid)");
   const std::size_t count = load<std::uint32_t>(bytes, stl_header_bytes, std::endian::little);
   const std::size_t room = bytes.size() - facets_begin;
   if (count > room / stl_facet_bytes)
-    input.fail_at_byte(bytes.size(), std::to_string(count) + " facets are announced, but the file ends after " + std::to_string(room / stl_facet_bytes) +
+    input.fail_at_byte(bytes.size(), std::to_string(count) + " facets are announced, but the file ends after " +
+                                         std::to_string(room / stl_facet_bytes) +
                                          "; fetch it again if it is cut off (text begins with solid)");
   if (count * stl_facet_bytes != room)
-    input.fail_at_byte(facets_begin + count * stl_facet_bytes, "the file goes on after the " + std::to_string(count) + " facets that are announced; correct the count at byte 80");
+    input.fail_at_byte(facets_begin + count * stl_facet_bytes,
+                       "the file goes on after the " + std::to_string(count) +
+                           " facets that are announced; correct the count at byte 80");
 
   Polygon_soup soup;
   Point_merger<float> merger;
@@ -151,7 +167,8 @@ inline Polygon_soup read_stl_binary(const Input& input) {
       std::array<float, 3> point;
       for (float& coordinate : point) {
         coordinate = load<float>(bytes, offset, std::endian::little);
-        if (!std::isfinite(coordinate)) input.fail_at_byte(offset, "a coordinate is not a finite number; repair or remove the facet");
+        if (!std::isfinite(coordinate))
+          input.fail_at_byte(offset, "a coordinate is not a finite number; repair or remove the facet");
         offset += sizeof(float);
       }
       const auto [id, fresh] = merger.id(point);
@@ -166,21 +183,25 @@ inline Polygon_soup read_stl_binary(const Input& input) {
 }  // namespace detail
 
 /// Reads STL, text or binary. Points are merged by exact value; facet normals, names and spare bytes are passed over.
-/// Throws Input_error. Exact: yes (the floats of binary data as they are). Cost: one pass, and a hash table of the points.
+/// Throws Input_error. Exact: yes (the floats of binary data as they are). Cost: one pass, and a hash table of the
+/// points.
 inline Polygon_soup read_stl(const Input& input, const Read_options& options = {}) {
   // The size has the last word beyond 16 million facets; a smaller count has a zero byte, which text has not.
-  if (!detail::has_binary_stl_size(input.bytes) && detail::looks_like_stl_text(input)) return detail::Stl_text_reader(input, options).read();
+  if (!detail::has_binary_stl_size(input.bytes) && detail::looks_like_stl_text(input))
+    return detail::Stl_text_reader(input, options).read();
   return detail::read_stl_binary(input);
 }
 
-/// Writes STL in text; normals are written as 0 0 0, which stands for "as the points say". Reading gives the same triangles, but only the points
-/// in use, and each once. Throws Not_representable where a face is no triangle or a coordinate no finite decimal. Exact: yes.
+/// Writes STL in text; normals are written as 0 0 0, which stands for "as the points say". Reading gives the same
+/// triangles, but only the points in use, and each once. Throws Not_representable where a face is no triangle or a
+/// coordinate no finite decimal. Exact: yes.
 inline void write_stl(const Polygon_soup& soup, std::ostream& out) {
   check_no_holes(soup, "STL");
   out << "solid sightline\n";
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     if (soup.loop(f).size() != 3)
-      throw Not_representable("STL cannot hold face " + std::to_string(f) + ", which has " + std::to_string(soup.loop(f).size()) +
+      throw Not_representable("STL cannot hold face " + std::to_string(f) + ", which has " +
+                              std::to_string(soup.loop(f).size()) +
                               " corners; triangulate it first, or write .obj, .off, .ply or .qoff");
     out << "facet normal 0 0 0\nouter loop\n";
     for (const Point_id p : soup.loop(f)) out << "vertex" + decimal_texts(soup, p, "STL") + "\n";

@@ -7,16 +7,24 @@
 
 namespace sightline {
 
-/// Cuts text into lines of tokens. Blanks are space, tab, vertical tab and form feed; a line ends with \n, \r\n or \r (mixed
-/// as you like); a byte order mark at the beginning is passed over. A token that begins with '#' is a comment up to the end of the
-/// line where the format has comments ("1.#INF" is a token, not a 1). Cost: one pass, no copies; views point into the input.
+/// Cuts text into lines of tokens. Blanks are space, tab, vertical tab and form feed; a line ends with \n, \r\n or \r
+/// (mixed as you like); a byte order mark at the beginning is passed over. A token that begins with '#' is a comment up
+/// to the end of the line where the format has comments ("1.#INF" is a token, not a 1). Cost: one pass, no copies;
+/// views point into the input.
 class Text_reader {
  public:
   enum class Comments : bool { none, hash };
-  enum class Continuation : bool { none, backslash };  ///< a backslash at the end of a line joins the next line to it, as a blank would
+  enum class Continuation : bool {
+    none,
+    backslash
+  };  ///< a backslash at the end of a line joins the next line to it, as a blank would
 
   explicit Text_reader(const Input& input, Comments comments, Continuation continuation = Continuation::none)
-      : input_(input), cursor_(input.bytes.data()), end_(cursor_ + input.bytes.size()), token_end_(cursor_), hash_(comments == Comments::hash),
+      : input_(input),
+        cursor_(input.bytes.data()),
+        end_(cursor_ + input.bytes.size()),
+        token_end_(cursor_),
+        hash_(comments == Comments::hash),
         backslash_(continuation == Continuation::backslash) {
     if (input.bytes.starts_with(byte_order_mark)) cursor_ += byte_order_mark.size();
   }
@@ -50,7 +58,8 @@ class Text_reader {
 
   /// Leaves the line behind, with its end.
   void finish_line() {
-    while (!next_token().empty()) {}
+    while (!next_token().empty()) {
+    }
     while (cursor_ != end_ && !is_line_end(*cursor_)) ++cursor_;  // a comment
     skip_line_end();
     in_line_ = false;
@@ -60,7 +69,9 @@ class Text_reader {
   std::size_t bytes_left() const { return static_cast<std::size_t>(end_ - cursor_); }
   const char* cursor() const { return cursor_; }
 
-  [[noreturn]] void fail(std::string_view token, const std::string& message) const { input_.fail(token.data(), message); }
+  [[noreturn]] void fail(std::string_view token, const std::string& message) const {
+    input_.fail(token.data(), message);
+  }
   [[noreturn]] void fail_at_end(const std::string& message) const { input_.fail(end_, message); }
 
  private:
@@ -100,7 +111,8 @@ class Text_reader {
   bool in_line_ = false;
 };
 
-/// The integer that a token is, |n| held at 10^18 where it is larger; nothing if the token is no integer ([+-] and digits).
+/// The integer that a token is, |n| held at 10^18 where it is larger; nothing if the token is no integer ([+-] and
+/// digits).
 inline std::optional<std::int64_t> parse_integer(std::string_view token) {
   constexpr std::int64_t most = 1'000'000'000'000'000'000;
   const bool negative = token.starts_with('-');
@@ -115,15 +127,19 @@ inline std::optional<std::int64_t> parse_integer(std::string_view token) {
 }
 
 /// Reads a count of `what` (vertices, faces) that the text announces.
-/// Throws where it is no count, or where that many, each at least `least_bytes` long, cannot be in the rest of the text. So a reader may
-/// reserve memory for it.
-inline std::size_t read_count(const Text_reader& text, std::string_view token, const std::string& what, std::size_t least_bytes) {
+/// Throws where it is no count, or where that many, each at least `least_bytes` long, cannot be in the rest of the
+/// text. So a reader may reserve memory for it.
+inline std::size_t read_count(const Text_reader& text, std::string_view token, const std::string& what,
+                              std::size_t least_bytes) {
   const std::optional<std::int64_t> count = parse_integer(token);
   if (!count || *count < 0)
-    text.fail(token, (token.empty() ? "the number of " + what + " is missing" : quoted(token) + " is not a number of " + what) + "; write a count such as 8");
+    text.fail(token, (token.empty() ? "the number of " + what + " is missing"
+                                    : quoted(token) + " is not a number of " + what) +
+                         "; write a count such as 8");
   const std::size_t announced = static_cast<std::size_t>(*count);
   if (announced > text.bytes_left() / least_bytes)  // the last line may lack its end, but this one has one
-    text.fail(token, std::to_string(announced) + " " + what + " are announced, but only " + std::to_string(text.bytes_left()) +
+    text.fail(token, std::to_string(announced) + " " + what + " are announced, but only " +
+                         std::to_string(text.bytes_left()) +
                          " bytes follow; correct the count, or fetch the file again if it is cut off");
   return announced;
 }

@@ -10,9 +10,9 @@
 
 namespace sightline {
 
-/// Writes a scene such that read_scene gives it back: the same points and faces; from STL the same triangles of the same points.
-/// Throws Not_representable where the format cannot hold it; then some of it may have been written. Exact: yes.
-/// Post: errors of the stream are left in its state.
+/// Writes a scene such that read_scene gives it back: the same points and faces; from STL the same triangles of the
+/// same points. Throws Not_representable where the format cannot hold it; then some of it may have been written. Exact:
+/// yes. Post: errors of the stream are left in its state.
 inline void write_scene(const Polygon_soup& soup, std::ostream& out, Format format) {
   switch (format) {
     case Format::obj: return write_obj(soup, out);
@@ -33,7 +33,9 @@ inline void write_scene(const Polygon_soup& soup, const std::filesystem::path& p
     std::ofstream out(partial, std::ios::binary);
     if (out) write_scene(soup, out, format);
     out.close();
-    if (!out) throw std::runtime_error(path.string() + ": cannot be written; check the folder, its permissions and its free space");
+    if (!out)
+      throw std::runtime_error(path.string() +
+                               ": cannot be written; check the folder, its permissions and its free space");
     std::filesystem::rename(partial, path);
   } catch (...) {
     std::error_code ignored;
@@ -42,10 +44,12 @@ inline void write_scene(const Polygon_soup& soup, const std::filesystem::path& p
   }
 }
 
-/// Writes a scene to a file in the format that its ending says (.ply: text). Throws as above, and std::runtime_error where the ending says none.
+/// Writes a scene to a file in the format that its ending says (.ply: text). Throws as above, and std::runtime_error
+/// where the ending says none.
 inline void write_scene(const Polygon_soup& soup, const std::filesystem::path& path) {
   const std::optional<Format> format = format_of_ending(path);
-  if (!format) throw std::runtime_error(path.string() + ": no format has this ending; give one of " + supported_formats);
+  if (!format)
+    throw std::runtime_error(path.string() + ": no format has this ending; give one of " + supported_formats);
   write_scene(soup, path, *format);
 }
 

@@ -38,7 +38,8 @@ class Coordinates {
     const int zeros = std::countr_zero(static_cast<std::uint64_t>(mantissa));
     mantissa >>= zeros, exponent += zeros;
     if (exponent <= 0) entries_.push_back({mantissa, two_five_denominator(-exponent, 0)});
-    else if (std::fabs(value) < 0x1p62) entries_.push_back({mantissa * (std::int64_t{1} << exponent), two_five_denominator(0, 0)});
+    else if (std::fabs(value) < 0x1p62)
+      entries_.push_back({mantissa * (std::int64_t{1} << exponent), two_five_denominator(0, 0)});
     else push(exact(value));
   }
 
@@ -55,7 +56,8 @@ class Coordinates {
   Rational operator[](std::size_t i) const {
     const Entry& entry = entries_[i];
     if (entry.denominator == wide) return wide_[static_cast<std::size_t>(entry.numerator)];
-    Rational value(Integer(static_cast<long>(entry.numerator)), denominators_[static_cast<std::size_t>(entry.denominator)]);
+    Rational value(Integer(static_cast<long>(entry.numerator)),
+                   denominators_[static_cast<std::size_t>(entry.denominator)]);
     value.canonicalize();
     return value;
   }
@@ -94,10 +96,10 @@ class Coordinates {
       }
       const Integer& f = factor[static_cast<std::size_t>(entry.denominator)];
       std::int64_t product = 0;
-      if (f.fits_slong_p() && !__builtin_mul_overflow(entry.numerator, f.get_si(), &product) && product < limit && product > -limit)
+      if (f.fits_slong_p() && !__builtin_mul_overflow(entry.numerator, f.get_si(), &product) && product < limit &&
+          product > -limit)
         small(i, product);
-      else
-        large(i, Integer(Integer(static_cast<long>(entry.numerator)) * f));
+      else large(i, Integer(Integer(static_cast<long>(entry.numerator)) * f));
     }
   }
 

@@ -9,9 +9,9 @@ namespace sightline {
 
 using Limb = std::uint64_t;
 
-/// A two's complement integer of 64 x Limbs bits. Arithmetic is modulo 2^(64 Limbs), so a sum of products is exact whenever its
-/// final value fits, whatever its intermediate values do. Nothing checks the range at run time: the bit budget (P-02) is the proof.
-/// Cost: Limbs^2/2 multiplications a product. Exact: yes, within the budget.
+/// A two's complement integer of 64 x Limbs bits. Arithmetic is modulo 2^(64 Limbs), so a sum of products is exact
+/// whenever its final value fits, whatever its intermediate values do. Nothing checks the range at run time: the bit
+/// budget (P-02) is the proof. Cost: Limbs^2/2 multiplications a product. Exact: yes, within the budget.
 template <int Limbs>
 class Fixed_integer {
   static_assert(Limbs >= 1);
@@ -20,7 +20,8 @@ class Fixed_integer {
   static constexpr int bits = 64 * Limbs;
 
   Fixed_integer() = default;
-  /// Sign-extends a two's complement number of `count` limbs, least significant first. Pre: 1 <= count, and the value fits this width.
+  /// Sign-extends a two's complement number of `count` limbs, least significant first. Pre: 1 <= count, and the value
+  /// fits this width.
   Fixed_integer(const Limb* limbs, int count) {
     for (int i = 0; i < Limbs; ++i) limb_[i] = i < count ? limbs[i] : extension(limbs[count - 1]);
   }
@@ -88,7 +89,8 @@ class Fixed_integer {
 inline void to_limbs(const Integer& n, Limb* limbs, int count) {
   const bool negative = sgn(n) < 0;
   const Integer magnitude = negative ? Integer(-n - 1) : n;  // the complement of a negative number
-  if (bit_length(magnitude) >= static_cast<std::size_t>(64 * count)) throw std::overflow_error("integer wider than its limbs");
+  if (bit_length(magnitude) >= static_cast<std::size_t>(64 * count))
+    throw std::overflow_error("integer wider than its limbs");
   std::size_t written = 0;
   mpz_export(limbs, &written, -1, sizeof(Limb), 0, 0, magnitude.get_mpz_t());
   for (std::size_t i = written; i < static_cast<std::size_t>(count); ++i) limbs[i] = 0;
@@ -109,8 +111,8 @@ inline Integer from_limbs(const Limb* limbs, int count) {
   return n;
 }
 
-/// n x 2^-shift as a double, within one unit in the last place (relative error < 2^-52; exact where n fits 53 bits and no
-/// underflow occurs; an underflow loses at most 2^-1074).
+/// n x 2^-shift as a double, within one unit in the last place (relative error < 2^-52; exact where n fits 53 bits and
+/// no underflow occurs; an underflow loses at most 2^-1074).
 inline double approximate(const Limb* limbs, int count, long shift) {
   if (count == 1 && shift == 0) return static_cast<double>(static_cast<std::int64_t>(limbs[0]));
   if (count == 2 && shift == 0)

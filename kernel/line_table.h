@@ -5,16 +5,17 @@
 
 namespace sightline {
 
-/// An oriented line by name. Two handles with one id are the same line in space, whatever segments of it they came from.
+/// An oriented line by name. Two handles with one id are the same line in space, whatever segments of it they came
+/// from.
 struct Line {
   std::uint32_t id;
   bool flipped;  ///< runs against the canonical direction
   friend bool operator==(const Line&, const Line&) = default;
 };
 
-/// Interned lines through two grid points: direction q - p and moment p x q, divided by the greatest common divisor of the direction (which divides
-/// the moment p x (q - p) too), the first non-zero of the direction positive. Edges on one line share an id also where their end points differ.
-/// Exact: yes. Proof: P-01
+/// Interned lines through two grid points: direction q - p and moment p x q, divided by the greatest common divisor of
+/// the direction (which divides the moment p x (q - p) too), the first non-zero of the direction positive. Edges on one
+/// line share an id also where their end points differ. Exact: yes. Proof: P-01
 class Line_table {
  public:
   explicit Line_table(const Grid_points& points)
@@ -29,10 +30,14 @@ class Line_table {
     }
     const Integer common = gcd(gcd(direction[0], direction[1]), direction[2]);
     if (sgn(common) == 0) throw std::domain_error("a line needs two points");
-    const int lead = sgn(direction[0]) != 0 ? sgn(direction[0]) : sgn(direction[1]) != 0 ? sgn(direction[1]) : sgn(direction[2]);
+    const int lead = sgn(direction[0]) != 0   ? sgn(direction[0])
+                     : sgn(direction[1]) != 0 ? sgn(direction[1])
+                                              : sgn(direction[2]);
     const Integer divisor = lead < 0 ? Integer(-common) : common;
     for (Integer& x : direction) x /= divisor;
-    const std::array<Integer, 3> moment{a[1] * direction[2] - a[2] * direction[1], a[2] * direction[0] - a[0] * direction[2], a[0] * direction[1] - a[1] * direction[0]};
+    const std::array<Integer, 3> moment{a[1] * direction[2] - a[2] * direction[1],
+                                        a[2] * direction[0] - a[0] * direction[2],
+                                        a[0] * direction[1] - a[1] * direction[0]};
     scratch_.resize(rows_.stride());
     for (std::size_t k = 0; k < 3; ++k) {
       to_limbs(direction[k], &scratch_[k * static_cast<std::size_t>(limbs_)], limbs_);

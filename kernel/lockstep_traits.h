@@ -1,5 +1,6 @@
 #pragma once
-// Two models of Partition_traits side by side: the first decides, the second is asked the same and its mistakes are counted.
+// Two models of Partition_traits side by side: the first decides, the second is asked the same and its mistakes are
+// counted.
 
 #include <sightline/kernel/partition_traits.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -8,9 +9,10 @@
 
 namespace sightline {
 
-/// Runs model `Judged` in lockstep with the exact model `Truth`: every side is decided by Truth and also asked of Judged, every vertex is made by both.
-/// So both see the same queries throughout, and a wrong sign is counted once instead of changing all that follows. Pre: Judged names planes by piece, as
-/// Point_traits does; planes asked for are supporting planes of pieces or axis planes. Exact: yes, as Truth is.
+/// Runs model `Judged` in lockstep with the exact model `Truth`: every side is decided by Truth and also asked of
+/// Judged, every vertex is made by both. So both see the same queries throughout, and a wrong sign is counted once
+/// instead of changing all that follows. Pre: Judged names planes by piece, as Point_traits does; planes asked for are
+/// supporting planes of pieces or axis planes. Exact: yes, as Truth is.
 template <class Truth, class Judged>
 class Lockstep_traits {
  public:
@@ -36,7 +38,8 @@ class Lockstep_traits {
     for (std::uint32_t piece = 0; piece < truth.piece_count(); ++piece) {
       const Plane plane = truth.supporting_plane(piece);
       if (plane.id() >= names_.size()) names_.resize(plane.id() + 1);
-      if (Plane& name = names_[plane.id()]; !name.valid()) name = plane.flipped() ? judged.supporting_plane(piece).opposite() : judged.supporting_plane(piece);
+      if (Plane& name = names_[plane.id()]; !name.valid())
+        name = plane.flipped() ? judged.supporting_plane(piece).opposite() : judged.supporting_plane(piece);
     }
   }
 
@@ -66,12 +69,17 @@ class Lockstep_traits {
     Predicate_counts ignored;
     return compare(truth_->side(v.truth, cutter.truth, counts), judged_->side(v.judged, cutter.judged, ignored));
   }
-  Vertex meet(std::uint32_t piece, const Corner<Lockstep_traits>& from, const Corner<Lockstep_traits>& to, Sign side_from, const Cutter& cutter) const {
+  Vertex meet(std::uint32_t piece, const Corner<Lockstep_traits>& from, const Corner<Lockstep_traits>& to,
+              Sign side_from, const Cutter& cutter) const {
     const Corner<Truth> truth_from{&from.vertex->truth, from.edge.truth}, truth_to{&to.vertex->truth, to.edge.truth};
-    const Corner<Judged> judged_from{&from.vertex->judged, from.edge.judged}, judged_to{&to.vertex->judged, to.edge.judged};
-    return {truth_->meet(piece, truth_from, truth_to, side_from, cutter.truth), judged_->meet(piece, judged_from, judged_to, side_from, cutter.judged)};
+    const Corner<Judged> judged_from{&from.vertex->judged, from.edge.judged},
+        judged_to{&to.vertex->judged, to.edge.judged};
+    return {truth_->meet(piece, truth_from, truth_to, side_from, cutter.truth),
+            judged_->meet(piece, judged_from, judged_to, side_from, cutter.judged)};
   }
-  Edge bound(const Cutter& cutter, Sign keep) const { return {truth_->bound(cutter.truth, keep), judged_->bound(cutter.judged, keep)}; }
+  Edge bound(const Cutter& cutter, Sign keep) const {
+    return {truth_->bound(cutter.truth, keep), judged_->bound(cutter.judged, keep)};
+  }
   bool same_plane(Plane g, Plane h) const { return truth_->same_plane(g, h); }
   bool same_sense(Plane g, Plane h) const { return truth_->same_sense(g, h); }
   Eye eye(const Exact_point& p) const { return {truth_->eye(p), judged_->eye(p)}; }
@@ -80,14 +88,20 @@ class Lockstep_traits {
     return compare(truth_->side(eye.truth, plane, counts), judged_->side(eye.judged, judged_name(plane), ignored));
   }
   bool is_input(const Vertex& v) const { return judged_->is_input(v.judged); }
-  std::optional<Plane> axis_plane(int axis, const Vertex& v) const { return judged_->axis_plane(axis, v.judged); }  // a name that both know
+  std::optional<Plane> axis_plane(int axis, const Vertex& v) const {
+    return judged_->axis_plane(axis, v.judged);
+  }  // a name that both know
   double coordinate(const Vertex& v, int axis) const { return truth_->coordinate(v.truth, axis); }
   Exact_point position(const Vertex& v) const { return truth_->position(v.truth); }
 
  private:
   Sign compare(Sign truth, Sign judged) const {
     asked_.fetch_add(1, std::memory_order_relaxed);
-    if (truth != judged) (truth == CGAL::ZERO ? missed_zero_ : judged == CGAL::ZERO ? false_zero_ : opposite_).fetch_add(1, std::memory_order_relaxed);
+    if (truth != judged)
+      (truth == CGAL::ZERO    ? missed_zero_
+       : judged == CGAL::ZERO ? false_zero_
+                              : opposite_)
+          .fetch_add(1, std::memory_order_relaxed);
     return truth;
   }
   Plane judged_name(Plane plane) const {

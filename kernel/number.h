@@ -42,8 +42,8 @@ inline Rational exact_decimal(const Integer& mantissa, long exponent) {
   return value;
 }
 
-/// The double nearest to a rational, ties to even, as a correct decimal reader would give it; +-infinity beyond the range.
-/// (GMP's own get_d truncates.) Exact: yes.
+/// The double nearest to a rational, ties to even, as a correct decimal reader would give it; +-infinity beyond the
+/// range. (GMP's own get_d truncates.) Exact: yes.
 inline double nearest_double(const Rational& value) {
   const int sign = sgn(value);
   if (sign == 0) return 0.0;

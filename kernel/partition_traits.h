@@ -1,5 +1,6 @@
 #pragma once
-// What an algorithm that partitions space by planes needs of its geometry: the concept, and convex polygons over any model of it.
+// What an algorithm that partitions space by planes needs of its geometry: the concept, and convex polygons over any
+// model of it.
 
 #include <sightline/kernel/predicates.h>
 
@@ -42,21 +43,22 @@ struct Convex_polygon {
 ///   t.face(i), t.supporting_plane(i)  the face that piece i is of; its oriented plane
 ///   t.prepare(h)           the cutter of an oriented plane
 ///   t.side(v, cutter, counts)    front, on or behind
-///   t.meet(i, from, to, s, cutter)  where the edge of piece i from corner `from` (side s, not zero) to corner `to` (side -s) meets the plane
-///   t.bound(cutter, s)     the Edge that keeps side s of the plane
-///   t.same_plane(g, h), t.same_sense(g, h)   known to be one plane (may miss it, but not for one id); whether coplanar planes face alike
+///   t.meet(i, from, to, s, cutter)  where the edge of piece i from corner `from` (side s, not zero) to corner `to`
+///   (side -s) meets the plane t.bound(cutter, s)     the Edge that keeps side s of the plane t.same_plane(g, h),
+///   t.same_sense(g, h)   known to be one plane (may miss it, but not for one id); whether coplanar planes face alike
 ///   t.side(eye, h, counts) the side of a viewpoint
 ///   t.is_input(v)          whether a vertex is an input vertex
 ///   t.axis_plane(k, v)     the plane across axis k through an input vertex, if the vertex is one
 ///   t.coordinate(v, k)     roughly, for choosing among planes; never for deciding
 ///
 /// Laws: side(v, prepare(h)) == -side(v, prepare(h.opposite())); same_plane(g, h) implies side(v, g) == +-side(v, h);
-/// side(meet(.., cutter), cutter) == 0; exact models obey them, inexact ones (float, double, Epick's constructions) do not, and algorithms must
-/// end all the same.
-/// Models: Exact_traits (planes, exact, the default), Point_traits<K> (any CGAL kernel), Lockstep_traits<A, B> (both, compared).
+/// side(meet(.., cutter), cutter) == 0; exact models obey them, inexact ones (float, double, Epick's constructions) do
+/// not, and algorithms must end all the same. Models: Exact_traits (planes, exact, the default), Point_traits<K> (any
+/// CGAL kernel), Lockstep_traits<A, B> (both, compared).
 template <class T>
-concept Partition_traits = requires(const T t, typename T::Vertex v, typename T::Cutter cutter, typename T::Eye eye, Plane h, Sign s, Predicate_counts counts,
-                                    std::uint32_t i, const Corner<T>& corner, int axis, void (*visit)(typename T::Vertex, typename T::Edge)) {
+concept Partition_traits = requires(const T t, typename T::Vertex v, typename T::Cutter cutter, typename T::Eye eye,
+                                    Plane h, Sign s, Predicate_counts counts, std::uint32_t i, const Corner<T>& corner,
+                                    int axis, void (*visit)(typename T::Vertex, typename T::Edge)) {
   typename T::Edge;
   { t.piece_count() } -> std::convertible_to<std::size_t>;
   t.append_corners(i, visit);
@@ -74,8 +76,9 @@ concept Partition_traits = requires(const T t, typename T::Vertex v, typename T:
   { t.coordinate(v, axis) } -> std::same_as<double>;
 };
 
-/// Asks for the memory that a test of the polygon will read, without waiting for it: first where its corners are, and then, once those are there, its vertices.
-/// Polygons of a large cell lie far apart, and a processor waits longer for two of these in a row than a test takes.
+/// Asks for the memory that a test of the polygon will read, without waiting for it: first where its corners are, and
+/// then, once those are there, its vertices. Polygons of a large cell lie far apart, and a processor waits longer for
+/// two of these in a row than a test takes.
 template <class Traits>
 void fetch_corners(const Convex_polygon<Traits>& polygon) {
   __builtin_prefetch(polygon.corners);
@@ -85,10 +88,12 @@ void fetch_vertices(const Convex_polygon<Traits>& polygon) {
   for (std::uint32_t k = 0; k < std::min(polygon.size, 3u); ++k) __builtin_prefetch(polygon.corners[k].vertex);
 }
 
-/// Bounded_traits: Partition_traits that also say where things are in doubles, and how wrong those may be: what a spatial index needs.
+/// Bounded_traits: Partition_traits that also say where things are in doubles, and how wrong those may be: what a
+/// spatial index needs.
 ///
 ///   t.approximate(v)       a vertex, with a bound on the error of each coordinate
-///   t.approximate(h)       an oriented plane, in the same unit, up to a common factor: each coefficient within a relative 2^-51
+///   t.approximate(h)       an oriented plane, in the same unit, up to a common factor: each coefficient within a
+///   relative 2^-51
 /// Models: Exact_traits, Point_traits<K>.
 template <class T>
 concept Bounded_traits = Partition_traits<T> && requires(const T t, typename T::Vertex v, Plane h) {
@@ -117,7 +122,9 @@ class Polygon_store {
   /// Piece i of the scene as a polygon.
   Convex_polygon<Traits> piece(const Traits& traits, std::uint32_t i) {
     scratch_.clear();
-    traits.append_corners(i, [&](Vertex vertex, typename Traits::Edge edge) { scratch_.push_back({add(std::move(vertex)), edge}); });
+    traits.append_corners(i, [&](Vertex vertex, typename Traits::Edge edge) {
+      scratch_.push_back({add(std::move(vertex)), edge});
+    });
     return keep(scratch_, i, traits.supporting_plane(i));
   }
   /// A list that lives as long as the store.
@@ -137,7 +144,8 @@ class Polygon_store {
     }
     return {list(corners).data(), static_cast<std::uint32_t>(corners.size()), piece, support};
   }
-  /// Takes the list of corners of a polygon that nobody needs any more, for another. Pre: a store made it that lives as long as this one.
+  /// Takes the list of corners of a polygon that nobody needs any more, for another. Pre: a store made it that lives as
+  /// long as this one.
   void reuse(const Convex_polygon<Traits>& polygon) {
     if (polygon.size < spare_.size()) spare_[polygon.size].push_back(const_cast<Corner<Traits>*>(polygon.corners));
   }
@@ -150,7 +158,8 @@ class Polygon_store {
   void* room(std::size_t bytes, std::size_t alignment) {
     const auto aligned = [&](std::size_t used) { return (used + alignment - 1) / alignment * alignment; };
     if (blocks_.empty() || aligned(blocks_.back().used) + bytes > blocks_.back().size) {
-      const std::size_t size = std::max(bytes, blocks_.empty() ? std::size_t{1} << 12 : std::min(2 * blocks_.back().size, std::size_t{1} << 20));
+      const std::size_t size = std::max(
+          bytes, blocks_.empty() ? std::size_t{1} << 12 : std::min(2 * blocks_.back().size, std::size_t{1} << 20));
       blocks_.push_back({std::make_unique_for_overwrite<std::byte[]>(size), size, 0});
     }
     Block& block = blocks_.back();
@@ -182,7 +191,8 @@ inline Position position_of(bool front, bool behind) { return static_cast<Positi
 
 /// Where a polygon lies to a plane. Degenerate: one that touches the plane from one side is on that side.
 template <class Traits>
-Position position(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter, Predicate_counts& counts) {
+Position position(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter,
+                  Predicate_counts& counts) {
   bool front = false, behind = false;
   for (const Corner<Traits>& corner : polygon) {
     const Sign s = traits.side(*corner.vertex, cutter, counts);
@@ -195,7 +205,7 @@ Position position(const Traits& traits, const Convex_polygon<Traits>& polygon, c
 template <class Traits>
 class Plane_group {
  public:
-  static constexpr std::size_t most = 6;  ///< planes
+  static constexpr std::size_t most = 6;              ///< planes
   using Positions = std::array<std::uint64_t, most>;  ///< of a polygon to each of the planes, as numbers of Position
 
   /// Pre: 1 to `most` planes.
@@ -205,12 +215,14 @@ class Plane_group {
     for (const Plane plane : planes) cutters_.push_back(traits.prepare(plane));
   }
   /// Where each polygon lies to each plane: on those known to be its own, else as position() says.
-  void find(const Traits& traits, std::span<const Convex_polygon<Traits>> polygons, Positions* positions, Predicate_counts& counts) const {
+  void find(const Traits& traits, std::span<const Convex_polygon<Traits>> polygons, Positions* positions,
+            Predicate_counts& counts) const {
     for (const Convex_polygon<Traits>& polygon : polygons) {
       for (std::size_t k = 0; k < planes_.size(); ++k) {
         const bool own = traits.same_plane(polygon.support, planes_[k]);
         if (own) ++counts.combinatorial;
-        (*positions)[k] = static_cast<std::uint64_t>(own ? Position::on : position(traits, polygon, cutters_[k], counts));
+        (*positions)[k] =
+            static_cast<std::uint64_t>(own ? Position::on : position(traits, polygon, cutters_[k], counts));
       }
       ++positions;
     }
@@ -223,7 +235,8 @@ class Plane_group {
 
 /// Where a polygon lies to a plane, as position() says, and the sides of all corners in the scratch, for split().
 template <class Traits>
-Position classify(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter, Split_scratch<Traits>& scratch, Predicate_counts& counts) {
+Position classify(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter,
+                  Split_scratch<Traits>& scratch, Predicate_counts& counts) {
   if (scratch.sides.size() < polygon.size) scratch.sides.resize(polygon.size);
   bool front = false, behind = false;
   for (std::uint32_t i = 0; i < polygon.size; ++i) {
@@ -234,15 +247,18 @@ Position classify(const Traits& traits, const Convex_polygon<Traits>& polygon, c
   return position_of(front, behind);
 }
 
-/// Splits a polygon that is across a plane, as classify() found it with the same scratch. Returns its part behind and its part in front.
-/// For an exact model both are convex polygons of at least three corners that tile it and hold the very same crossing vertices. An inexact model
-/// may give fewer than three corners.
+/// Splits a polygon that is across a plane, as classify() found it with the same scratch. Returns its part behind and
+/// its part in front. For an exact model both are convex polygons of at least three corners that tile it and hold the
+/// very same crossing vertices. An inexact model may give fewer than three corners.
 template <class Traits>
-std::array<Convex_polygon<Traits>, 2> split(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter,
-                                            Split_scratch<Traits>& scratch, Polygon_store<Traits>& store) {
-  const std::array<typename Traits::Edge, 2> bound{traits.bound(cutter, CGAL::NEGATIVE), traits.bound(cutter, CGAL::POSITIVE)};
+std::array<Convex_polygon<Traits>, 2> split(const Traits& traits, const Convex_polygon<Traits>& polygon,
+                                            const typename Traits::Cutter& cutter, Split_scratch<Traits>& scratch,
+                                            Polygon_store<Traits>& store) {
+  const std::array<typename Traits::Edge, 2> bound{traits.bound(cutter, CGAL::NEGATIVE),
+                                                   traits.bound(cutter, CGAL::POSITIVE)};
   // Each corner adds at most two to a part.
-  if (scratch.corners[0].size() < 2 * polygon.size) scratch.corners[0].resize(2 * polygon.size), scratch.corners[1].resize(2 * polygon.size);
+  if (scratch.corners[0].size() < 2 * polygon.size)
+    scratch.corners[0].resize(2 * polygon.size), scratch.corners[1].resize(2 * polygon.size);
   std::array<Corner<Traits>*, 2> end{scratch.corners[0].data(), scratch.corners[1].data()};
   for (std::uint32_t i = 0; i < polygon.size; ++i) {
     const std::uint32_t after = i + 1 == polygon.size ? 0 : i + 1;
@@ -261,7 +277,9 @@ std::array<Convex_polygon<Traits>, 2> split(const Traits& traits, const Convex_p
       *end[1 - side]++ = {crossing, corner.edge};
     }
   }
-  const auto part = [&](std::size_t side) { return store.keep({scratch.corners[side].data(), end[side]}, polygon.piece, polygon.support); };
+  const auto part = [&](std::size_t side) {
+    return store.keep({scratch.corners[side].data(), end[side]}, polygon.piece, polygon.support);
+  };
   return {part(0), part(1)};
 }
 

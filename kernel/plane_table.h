@@ -13,17 +13,17 @@
 
 namespace sightline {
 
-/// a x + b y + c z + d in doubles for approximate coordinates (see Grid_points), each coefficient within a relative 2^-52 of the plane's own times
-/// one common factor.
+/// a x + b y + c z + d in doubles for approximate coordinates (see Grid_points), each coefficient within a relative
+/// 2^-52 of the plane's own times one common factor.
 struct Approximate_plane {
   double a, b, c, d;
   bool exact;  ///< integers without error, where they are below 2^53
 };
 
 /// The input points on the scene's integer grid (see Scene), equal points once, as two's complement limbs.
-/// Approximate coordinates, in doubles, are grid coordinates over `divisor` times 2^-shift. Up to 53 bits both change nothing. A wider grid is
-/// mostly one where few coordinates are to blame: then the divisor takes most of them back to small integers, which doubles hold exactly; with no such
-/// divisor (1), the shift makes them less than 1.
+/// Approximate coordinates, in doubles, are grid coordinates over `divisor` times 2^-shift. Up to 53 bits both change
+/// nothing. A wider grid is mostly one where few coordinates are to blame: then the divisor takes most of them back to
+/// small integers, which doubles hold exactly; with no such divisor (1), the shift makes them less than 1.
 class Grid_points {
  public:
   Grid_points() = default;
@@ -60,12 +60,19 @@ class Grid_points {
   }
 
   const Limb* coordinate(std::uint32_t point, int axis) const { return rows_[point] + axis * limbs_per_; }
-  std::int64_t small(std::uint32_t point, int axis) const { return static_cast<std::int64_t>(*coordinate(point, axis)); }  // Pre: limbs() == 1
+  std::int64_t small(std::uint32_t point, int axis) const {
+    return static_cast<std::int64_t>(*coordinate(point, axis));
+  }  // Pre: limbs() == 1
   Integer integer(std::uint32_t point, int axis) const { return from_limbs(coordinate(point, axis), limbs_per_); }
 
-  double approximate(std::uint32_t point, int axis) const { return is_narrow() ? static_cast<double>(small(point, axis)) : wide_[3 * std::size_t{point} + static_cast<std::size_t>(axis)].value; }
+  double approximate(std::uint32_t point, int axis) const {
+    return is_narrow() ? static_cast<double>(small(point, axis))
+                       : wide_[3 * std::size_t{point} + static_cast<std::size_t>(axis)].value;
+  }
   /// Whether the approximate coordinate is an integer without error.
-  bool is_exact(std::uint32_t point, int axis) const { return is_narrow() || wide_[3 * std::size_t{point} + static_cast<std::size_t>(axis)].exact; }
+  bool is_exact(std::uint32_t point, int axis) const {
+    return is_narrow() || wide_[3 * std::size_t{point} + static_cast<std::size_t>(axis)].exact;
+  }
 
  private:
   bool is_narrow() const { return bits_ <= 53; }
@@ -100,12 +107,15 @@ class Point_planes {
  public:
   Point_planes() = default;
   /// Pre: pairs (point, plane id), points below `points`. Cost: O(pairs log valence).
-  Point_planes(std::size_t points, std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs) : begin_(points + 1), planes_(pairs.size()) {
+  Point_planes(std::size_t points, std::span<const std::pair<std::uint32_t, std::uint32_t>> pairs)
+      : begin_(points + 1), planes_(pairs.size()) {
     for (const auto& [point, plane] : pairs) ++begin_[point + 1];
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
     for (const auto& [point, plane] : pairs) planes_[next[point]++] = plane;
-    for (std::size_t p = 0; p < points; ++p) std::sort(planes_.begin() + static_cast<std::ptrdiff_t>(begin_[p]), planes_.begin() + static_cast<std::ptrdiff_t>(begin_[p + 1]));
+    for (std::size_t p = 0; p < points; ++p)
+      std::sort(planes_.begin() + static_cast<std::ptrdiff_t>(begin_[p]),
+                planes_.begin() + static_cast<std::ptrdiff_t>(begin_[p + 1]));
   }
 
   /// Ascending, with repetitions.
@@ -117,7 +127,8 @@ class Point_planes {
     const std::span<const std::uint32_t> list = at(point);
     return std::binary_search(list.begin(), list.end(), plane);
   }
-  /// A plane through both points other than the given one, or Vertex::no_plane: the face on the other side of an edge. Looks at few planes only.
+  /// A plane through both points other than the given one, or Vertex::no_plane: the face on the other side of an edge.
+  /// Looks at few planes only.
   std::uint32_t other_plane(std::uint32_t p, std::uint32_t q, std::uint32_t than) const {
     const std::span<const std::uint32_t> list = at(p);
     for (const std::uint32_t plane : list.first(std::min<std::size_t>(list.size(), 24)))
@@ -130,19 +141,26 @@ class Point_planes {
   std::vector<std::uint32_t> planes_;
 };
 
-/// Interned planes with integer coefficients in canonical form: gcd(a, b, c, d) = 1 and the first non-zero of a, b, c positive.
-/// Equal planes have equal ids, whatever they were made from and however they were oriented. Exact: yes. Proof: P-01
+/// Interned planes with integer coefficients in canonical form: gcd(a, b, c, d) = 1 and the first non-zero of a, b, c
+/// positive. Equal planes have equal ids, whatever they were made from and however they were oriented. Exact: yes.
+/// Proof: P-01
 class Plane_table {
  public:
   Plane_table() : Plane_table(Grid_points(1)) {}
-  /// For planes through points of the given grid: rows are as wide as such planes can be (P-02), wider ones are refused.
+  /// For planes through points of the given grid: rows are as wide as such planes can be (P-02), wider ones are
+  /// refused.
   explicit Plane_table(const Grid_points& points)
-      : divisor_(points.divisor()), shift_(points.shift()), normal_limbs_((2 * points.bits() + 3) / 64 + 1), offset_limbs_((3 * points.bits() + 5) / 64 + 1), rows_(static_cast<std::size_t>(3 * normal_limbs_ + offset_limbs_)) {
+      : divisor_(points.divisor()),
+        shift_(points.shift()),
+        normal_limbs_((2 * points.bits() + 3) / 64 + 1),
+        offset_limbs_((3 * points.bits() + 5) / 64 + 1),
+        rows_(static_cast<std::size_t>(3 * normal_limbs_ + offset_limbs_)) {
     budget_.coordinate = points.bits();
   }
 
-  /// The handle of a x + b y + c z + d = 0 whose front is where that is positive. Pre: (a, b, c) != 0, or std::domain_error.
-  /// std::overflow_error where the reduced coefficients are wider than a plane through three grid points can be.
+  /// The handle of a x + b y + c z + d = 0 whose front is where that is positive. Pre: (a, b, c) != 0, or
+  /// std::domain_error. std::overflow_error where the reduced coefficients are wider than a plane through three grid
+  /// points can be.
   Plane intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d) {
     std::array<Integer, 4> row{a, b, c, d};
     const Integer divisor = gcd(gcd(a, b), c);
@@ -154,7 +172,8 @@ class Plane_table {
       if (flipped) x = -x;
     }
     scratch_.resize(rows_.stride());
-    for (int k = 0; k < 3; ++k) to_limbs(row[static_cast<std::size_t>(k)], scratch_.data() + k * normal_limbs_, normal_limbs_);
+    for (int k = 0; k < 3; ++k)
+      to_limbs(row[static_cast<std::size_t>(k)], scratch_.data() + k * normal_limbs_, normal_limbs_);
     to_limbs(row[3], scratch_.data() + 3 * normal_limbs_, offset_limbs_);
     const auto width = [&](int k) { return static_cast<int>(bit_length(row[static_cast<std::size_t>(k)])); };
     return {place(std::max({width(0), width(1), width(2)}), width(3)), flipped};
@@ -162,8 +181,12 @@ class Plane_table {
 
   /// The same for coefficients of machine width. Pre: |a|, |b|, |c| < 2^63, |d| < 2^126.
   Plane intern(std::int64_t a, std::int64_t b, std::int64_t c, __int128 d) {
-    const auto magnitude = [](auto x) { return x < 0 ? -static_cast<unsigned __int128>(x) : static_cast<unsigned __int128>(x); };
-    std::uint64_t common = std::gcd(std::gcd(static_cast<std::uint64_t>(magnitude(a)), static_cast<std::uint64_t>(magnitude(b))), static_cast<std::uint64_t>(magnitude(c)));
+    const auto magnitude = [](auto x) {
+      return x < 0 ? -static_cast<unsigned __int128>(x) : static_cast<unsigned __int128>(x);
+    };
+    std::uint64_t common =
+        std::gcd(std::gcd(static_cast<std::uint64_t>(magnitude(a)), static_cast<std::uint64_t>(magnitude(b))),
+                 static_cast<std::uint64_t>(magnitude(c)));
     if (common == 0) throw std::domain_error("a plane needs a normal");
     if (common > 1) common = std::gcd(common, static_cast<std::uint64_t>(magnitude(d) % common));
     const bool flipped = a != 0 ? a < 0 : b != 0 ? b < 0 : c < 0;
@@ -174,7 +197,8 @@ class Plane_table {
       limbs[0] = static_cast<Limb>(x);
       for (int i = 1; i < count; ++i) limbs[i] = static_cast<Limb>(i == 1 ? x >> 64 : x >> 127);
     };
-    put(a, scratch_.data(), normal_limbs_), put(b, scratch_.data() + normal_limbs_, normal_limbs_), put(c, scratch_.data() + 2 * normal_limbs_, normal_limbs_);
+    put(a, scratch_.data(), normal_limbs_), put(b, scratch_.data() + normal_limbs_, normal_limbs_),
+        put(c, scratch_.data() + 2 * normal_limbs_, normal_limbs_);
     put(d, scratch_.data() + 3 * normal_limbs_, offset_limbs_);
     const auto width = [&](__int128 x) {
       const unsigned __int128 m = magnitude(x);
@@ -192,7 +216,9 @@ class Plane_table {
 
   /// Coefficient k (0..2: normal, 3: offset) of a plane in its canonical orientation. Pre: not an axis plane.
   const Limb* coefficient(std::uint32_t id, int k) const { return rows_[id] + k * normal_limbs_; }
-  Integer integer(std::uint32_t id, int k) const { return from_limbs(coefficient(id, k), k == 3 ? offset_limbs_ : normal_limbs_); }
+  Integer integer(std::uint32_t id, int k) const {
+    return from_limbs(coefficient(id, k), k == 3 ? offset_limbs_ : normal_limbs_);
+  }
   /// The canonical plane in doubles, for approximate coordinates.
   const Approximate_plane& approximate(std::uint32_t id) const { return approximate_[id]; }
 
@@ -228,9 +254,12 @@ class Plane_table {
     return id;
   }
   Approximate_plane approximation(std::uint32_t id, int normal_width) const {
-    const auto in_double = [&](int k, long shift) { return sightline::approximate(coefficient(id, k), k == 3 ? offset_limbs_ : normal_limbs_, shift); };
+    const auto in_double = [&](int k, long shift) {
+      return sightline::approximate(coefficient(id, k), k == 3 ? offset_limbs_ : normal_limbs_, shift);
+    };
     if (divisor_ == 1 && shift_ == 0) return {in_double(0, 0), in_double(1, 0), in_double(2, 0), in_double(3, 0), true};
-    // Points are divided by divisor_ 2^shift_, so the offset is too, relative to the normal; then all by a power of two where that is wide.
+    // Points are divided by divisor_ 2^shift_, so the offset is too, relative to the normal; then all by a power of two
+    // where that is wide.
     const long scale = shift_ == 0 && normal_width <= 53 ? 0 : normal_width;
     Rational offset(integer(id, 3), divisor_);
     offset.canonicalize();

@@ -12,7 +12,8 @@
 
 namespace sightline {
 
-/// Conversions between GMP rationals and the field types of CGAL's kernels: exact where the field type is, else to the nearest.
+/// Conversions between GMP rationals and the field types of CGAL's kernels: exact where the field type is, else to the
+/// nearest.
 template <class FT>
 struct Field_number {  // float, double
   static FT from(const Rational& value) { return static_cast<FT>(nearest_double(value)); }
@@ -30,7 +31,9 @@ struct Field_number<CGAL::Gmpq> {
 };
 template <>
 struct Field_number<boost::multiprecision::mpq_rational> {
-  static boost::multiprecision::mpq_rational from(const Rational& value) { return boost::multiprecision::mpq_rational(value.get_mpq_t()); }
+  static boost::multiprecision::mpq_rational from(const Rational& value) {
+    return boost::multiprecision::mpq_rational(value.get_mpq_t());
+  }
   static Rational to(const boost::multiprecision::mpq_rational& value) { return Rational(value.backend().data()); }
 };
 template <class ET>
@@ -42,10 +45,11 @@ struct Field_number<CGAL::Lazy_exact_nt<ET>> {
   static Rational to(const CGAL::Lazy_exact_nt<ET>& value) { return Field_number<ET>::to(value.exact()); }
 };
 
-/// Vertices are points of the CGAL kernel K, planes go through three corners of each piece, crossings are interpolated. A plane's corners are
-/// not known to lie on it and coplanar faces are not known to be coplanar: K's arithmetic decides, which is right for Epeck and Cartesian<Gmpq>
-/// and not for Simple_cartesian<float>, Simple_cartesian<double>, or Epick (whose constructions round). It takes the exact scene's convex pieces
-/// in the file's coordinates. Exact: as K is.
+/// Vertices are points of the CGAL kernel K, planes go through three corners of each piece, crossings are interpolated.
+/// A plane's corners are not known to lie on it and coplanar faces are not known to be coplanar: K's arithmetic
+/// decides, which is right for Epeck and Cartesian<Gmpq> and not for Simple_cartesian<float>, Simple_cartesian<double>,
+/// or Epick (whose constructions round). It takes the exact scene's convex pieces in the file's coordinates. Exact: as
+/// K is.
 template <class K>
 class Point_traits {
  public:
@@ -78,7 +82,8 @@ class Point_traits {
   Plane supporting_plane(std::uint32_t piece) const { return {piece, false}; }
   template <class Function>
   void append_corners(std::uint32_t i, Function function) const {
-    for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i])) function(Vertex{points_[corner.point], corner.point}, Edge{});
+    for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i]))
+      function(Vertex{points_[corner.point], corner.point}, Edge{});
   }
 
   /// A plane that is no piece's (a near plane, say), by its coefficients in the file's coordinates.
@@ -95,16 +100,20 @@ class Point_traits {
     ++counts.filtered;  // K does not say how it decided
     return cutter.oriented_side(v.point);
   }
-  Vertex meet(std::uint32_t, const Corner<Point_traits>& from, const Corner<Point_traits>& to, Sign side_from, const Cutter& cutter) const {
+  Vertex meet(std::uint32_t, const Corner<Point_traits>& from, const Corner<Point_traits>& to, Sign side_from,
+              const Cutter& cutter) const {
     // Always from behind to in front, so that faces that share the edge get one point.
     const Point_3& behind = (side_from == CGAL::NEGATIVE ? from : to).vertex->point;
     const Point_3& front = (side_from == CGAL::NEGATIVE ? to : from).vertex->point;
-    const auto value = [&](const Point_3& p) { return cutter.a() * p.x() + cutter.b() * p.y() + cutter.c() * p.z() + cutter.d(); };
+    const auto value = [&](const Point_3& p) {
+      return cutter.a() * p.x() + cutter.b() * p.y() + cutter.c() * p.z() + cutter.d();
+    };
     const typename K::FT low = value(behind), high = value(front);
     if (high == low) return {front, sightline::Vertex::no_point};  // an inexact sign lied
     const typename K::FT t = low / (low - high);
     require_finite(t);
-    return {Point_3(behind.x() + t * (front.x() - behind.x()), behind.y() + t * (front.y() - behind.y()), behind.z() + t * (front.z() - behind.z())),
+    return {Point_3(behind.x() + t * (front.x() - behind.x()), behind.y() + t * (front.y() - behind.y()),
+                    behind.z() + t * (front.z() - behind.z())),
             sightline::Vertex::no_point};
   }
   Edge bound(const Cutter&, Sign) const { return {}; }
@@ -114,9 +123,7 @@ class Point_traits {
     return CGAL::is_positive(a.a() * b.a() + a.b() * b.b() + a.c() * b.c());
   }
 
-  Eye eye(const Exact_point& p) const {
-    return Point_3(number::from(p[0]), number::from(p[1]), number::from(p[2]));
-  }
+  Eye eye(const Exact_point& p) const { return Point_3(number::from(p[0]), number::from(p[1]), number::from(p[2])); }
   Sign side(const Eye& eye, Plane plane, Predicate_counts& counts) const {
     ++counts.filtered;
     return prepare(plane).oriented_side(eye);
@@ -135,7 +142,8 @@ class Point_traits {
       const auto [low, high] = CGAL::to_interval(v.point[axis]);
       *place[static_cast<std::size_t>(axis)] = low + (high - low) / 2;
       p.error = std::max(p.error, high - low);
-      if (!std::isfinite(*place[static_cast<std::size_t>(axis)])) return {0, 0, 0, std::numeric_limits<double>::infinity()};
+      if (!std::isfinite(*place[static_cast<std::size_t>(axis)]))
+        return {0, 0, 0, std::numeric_limits<double>::infinity()};
     }
     return p;
   }
@@ -149,13 +157,17 @@ class Point_traits {
   }
 
   /// Errors: std::domain_error where an inexact construction overflowed.
-  Exact_point position(const Vertex& v) const { return {number::to(v.point.x()), number::to(v.point.y()), number::to(v.point.z())}; }
+  Exact_point position(const Vertex& v) const {
+    return {number::to(v.point.x()), number::to(v.point.y()), number::to(v.point.z())};
+  }
 
  private:
-  /// Epick's exact stages end the program on infinity and NaN, so they must not get there; plain floats only get things wrong.
+  /// Epick's exact stages end the program on infinity and NaN, so they must not get there; plain floats only get things
+  /// wrong.
   static void require_finite(const typename K::FT& value) {
     if constexpr (std::is_floating_point_v<typename K::FT> && K::Has_filtered_predicates)
-      if (!std::isfinite(value)) throw std::domain_error("coordinates are beyond the range of this kernel's numbers; take an exact kernel");
+      if (!std::isfinite(value))
+        throw std::domain_error("coordinates are beyond the range of this kernel's numbers; take an exact kernel");
   }
 
   using number = Field_number<typename K::FT>;

@@ -34,24 +34,30 @@ struct Predicate_counts {
 /// A plane made ready for many sides: its oriented doubles and the bound below which they decide nothing.
 struct Prepared_plane {
   Plane plane;
-  bool exact;          ///< integers all through: at exact vertices the double value is the true one
-  double a, b, c, d;   ///< oriented
-  double norm;         ///< >= |a| + |b| + |c| of the true plane
-  double bound;        ///< rounding error of the double value at any vertex, not counting the vertex's own error
+  bool exact;         ///< integers all through: at exact vertices the double value is the true one
+  double a, b, c, d;  ///< oriented
+  double norm;        ///< >= |a| + |b| + |c| of the true plane
+  double bound;       ///< rounding error of the double value at any vertex, not counting the vertex's own error
 };
 
 /// A point that is not of the scene (an eye, a query), in homogeneous grid coordinates.
 struct Located_point {
-  Integer x, y, z, w;      ///< w > 0
-  double ax, ay, az;       ///< approximations of x/w, ... times 2^-shift
-  double error;            ///< their absolute error; infinity where doubles say nothing
+  Integer x, y, z, w;  ///< w > 0
+  double ax, ay, az;   ///< approximations of x/w, ... times 2^-shift
+  double error;        ///< their absolute error; infinity where doubles say nothing
 };
 
-/// The predicates over one scene's points and planes, and what is known of incidences. Cheap to copy: three references and a width.
+/// The predicates over one scene's points and planes, and what is known of incidences. Cheap to copy: three references
+/// and a width.
 class Predicates {
  public:
   Predicates(const Grid_points& points, const Plane_table& planes, const Point_planes& incidences)
-      : points_(&points), planes_(&planes), incidences_(&incidences), arithmetic_(planes.budget().arithmetic()), range_(points.range()), underflow_(points.bits() <= 53 ? 0 : 0x1p-1000) {}
+      : points_(&points),
+        planes_(&planes),
+        incidences_(&incidences),
+        arithmetic_(planes.budget().arithmetic()),
+        range_(points.range()),
+        underflow_(points.bits() <= 53 ? 0 : 0x1p-1000) {}
 
   const Grid_points& points() const { return *points_; }
   const Plane_table& planes() const { return *planes_; }
@@ -62,12 +68,18 @@ class Predicates {
   /// An input point as a corner where the three given planes meet.
   Vertex input_vertex(std::uint32_t point, std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
     const bool exact = points_->is_exact(point, 0) && points_->is_exact(point, 1) && points_->is_exact(point, 2);
-    const double error = exact ? 0.0 : 0x1p-53 * range_ + 0x1p-1000;  // each coordinate is the nearest double, or underflows
-    return {points_->approximate(point, 0), points_->approximate(point, 1), points_->approximate(point, 2), error, {p, q, r}, point};
+    const double error =
+        exact ? 0.0 : 0x1p-53 * range_ + 0x1p-1000;  // each coordinate is the nearest double, or underflows
+    return {points_->approximate(point, 0),
+            points_->approximate(point, 1),
+            points_->approximate(point, 2),
+            error,
+            {p, q, r},
+            point};
   }
 
-  /// The meet of three planes; `fourth`, where given, is known to pass through it. Pre: their normals are linearly independent, or std::domain_error. Exact: its position, yes; the doubles
-  /// beside it are within `error`. Proof: P-04
+  /// The meet of three planes; `fourth`, where given, is known to pass through it. Pre: their normals are linearly
+  /// independent, or std::domain_error. Exact: its position, yes; the doubles beside it are within `error`. Proof: P-04
   Vertex meet(std::uint32_t p, std::uint32_t q, std::uint32_t r, std::uint32_t fourth = Vertex::no_plane) const {
     const Approximate_plane f = approximate(p), g = approximate(q), h = approximate(r);
     // Cofactors of the last row of (f; g; h; .): the homogeneous coordinates of the meet.
@@ -77,15 +89,17 @@ class Predicates {
     double x = f.c * bd - f.b * cd - f.d * bc;
     double y = f.a * cd - f.c * ad - f.d * ca;
     double z = f.b * ad - f.a * bd - f.d * ab;
-    // Every one of them is a sum of six products of three entries, bounded by the largest normal entries n and the offsets.
+    // Every one of them is a sum of six products of three entries, bounded by the largest normal entries n and the
+    // offsets.
     const double nf = largest(f), ng = largest(g), nh = largest(h);
     const double size_w = 6 * nf * ng * nh;
     const double size_x = 2 * (std::fabs(f.d) * ng * nh + nf * (std::fabs(g.d) * nh + ng * std::fabs(h.d)));
     // Entries carry a relative 2^-52 each, products and sums 2^-53 a step: below 16 x 2^-53 of the size. P-04
     const double error_w = 0x1p-49 * size_w, error_x = 0x1p-49 * size_x + underflow_ * size_w;
     Vertex v{0, 0, 0, std::numeric_limits<double>::infinity(), {p, q, r}, Vertex::with_plane(fourth)};
-    const bool integers = f.exact && g.exact && h.exact && size_w < 0x1p53 && size_x < 0x1p53;  // then nothing was rounded
-    if (integers ? w == 0 : !(std::fabs(w) > 2 * error_w)) {  // also where w is not a number
+    const bool integers =
+        f.exact && g.exact && h.exact && size_w < 0x1p53 && size_x < 0x1p53;  // then nothing was rounded
+    if (integers ? w == 0 : !(std::fabs(w) > 2 * error_w)) {                  // also where w is not a number
       const int orientation = integers ? 0 : orientation_exact(p, q, r);
       if (orientation == 0) throw std::domain_error("three planes without a common point");
       if (orientation < 0) std::swap(v.plane[1], v.plane[2]);
@@ -95,15 +109,18 @@ class Predicates {
     v.x = x / w, v.y = y / w, v.z = z / w;
     const double reach = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
     if (integers) {
-      const bool grid_point = std::rint(v.x) * w == x && std::rint(v.y) * w == y && std::rint(v.z) * w == z && std::rint(v.x) == v.x &&
-                              std::rint(v.y) == v.y && std::rint(v.z) == v.z;
+      const bool grid_point = std::rint(v.x) * w == x && std::rint(v.y) * w == y && std::rint(v.z) * w == z &&
+                              std::rint(v.x) == v.x && std::rint(v.y) == v.y && std::rint(v.z) == v.z;
       v.error = grid_point ? 0.0 : 0x1p-52 * reach;
     } else {
-      // |X/W - x/w| <= (error_x + |x/w| error_w) / (|w| - error_w), and the division's own rounding; the factor is for rounding of this line.
+      // |X/W - x/w| <= (error_x + |x/w| error_w) / (|w| - error_w), and the division's own rounding; the factor is for
+      // rounding of this line.
       v.error = ((error_x + reach * error_w) / (std::fabs(w) - error_w) + 0x1p-52 * reach) * (1 + 0x1p-20);
     }
-    // Outside what Prepared_plane::bound covers, or not a number. Numbers all the same, so that no comparison need mind.
-    if (!(reach <= 2 * range_ && v.error < std::numeric_limits<double>::infinity())) v.x = v.y = v.z = 0, v.error = std::numeric_limits<double>::infinity();
+    // Outside what Prepared_plane::bound covers, or not a number. Numbers all the same, so that no comparison need
+    // mind.
+    if (!(reach <= 2 * range_ && v.error < std::numeric_limits<double>::infinity()))
+      v.x = v.y = v.z = 0, v.error = std::numeric_limits<double>::infinity();
     return v;
   }
 
@@ -113,8 +130,9 @@ class Predicates {
     const double sense = 1 - 2 * static_cast<int>(plane.flipped());  // without a branch, which no processor can predict
     f = {sense * f.a, sense * f.b, sense * f.c, sense * f.d, f.exact};
     const double norm = (std::fabs(f.a) + std::fabs(f.b) + std::fabs(f.c)) * (1 + 0x1p-50);
-    // The value a x + b y + c z + d: 2^-52 in each coefficient, three products and three sums of 2^-53, at coordinates up to twice the range:
-    // below 6 x 2^-53 (norm 2 range + |d|) (1 + 2^-50), so 8 x 2^-53 covers it and the rounding of the bound.
+    // The value a x + b y + c z + d: 2^-52 in each coefficient, three products and three sums of 2^-53, at coordinates
+    // up to twice the range: below 6 x 2^-53 (norm 2 range + |d|) (1 + 2^-50), so 8 x 2^-53 covers it and the rounding
+    // of the bound.
     const double size = norm * (2 * range_) + std::fabs(f.d);
     const bool exact = f.exact && size < 0x1p53;  // all terms and sums are integers below 2^53
     return {plane, exact, f.a, f.b, f.c, f.d, norm, 0x1p-50 * size + underflow_};
@@ -138,12 +156,14 @@ class Predicates {
     return CGAL::Uncertain<Sign>::indeterminate();
   }
 
-  /// Stages 3 and 4: the sign of an exact determinant in the given number type. Pre: Number is wide enough for the scene. Proof: P-02
+  /// Stages 3 and 4: the sign of an exact determinant in the given number type. Pre: Number is wide enough for the
+  /// scene. Proof: P-02
   template <class Number>
   Sign side_exact(const Vertex& v, Plane plane) const {
     int sign = 0;
     if (v.is_input() && plane.is_axis_plane()) {
-      sign = signum(Number(coordinate<Number>(v.point, plane.axis()) - coordinate<Number>(plane.axis_point(), plane.axis())));
+      sign = signum(
+          Number(coordinate<Number>(v.point, plane.axis()) - coordinate<Number>(plane.axis_point(), plane.axis())));
     } else if (const Row<Number> h = row<Number>(plane.id()); v.is_input()) {
       Number value = h[3];
       for (int k = 0; k < 3; ++k) value = value + h[static_cast<std::size_t>(k)] * coordinate<Number>(v.point, k);
@@ -166,7 +186,8 @@ class Predicates {
   }
 
   /// The side of a vertex to an oriented plane: POSITIVE in front, ZERO on it, NEGATIVE behind.
-  /// Degenerate: a vertex on the plane is ZERO, always. Cost: about four multiplications; 0.2 us where doubles cannot tell. Exact: yes.
+  /// Degenerate: a vertex on the plane is ZERO, always. Cost: about four multiplications; 0.2 us where doubles cannot
+  /// tell. Exact: yes.
   Sign side(const Vertex& v, const Prepared_plane& h, Predicate_counts& counts) const {
     // side_filtered() without a branch on the sign, which no processor can predict.
     const double value = h.a * v.x + h.b * v.y + h.c * v.z + h.d;
@@ -185,8 +206,10 @@ class Predicates {
     const double value = h.a * q.ax + h.b * q.ay + h.c * q.az + h.d;
     // As in prepare(), but at the point's own distance.
     const double size = std::fabs(h.a * q.ax) + std::fabs(h.b * q.ay) + std::fabs(h.c * q.az) + std::fabs(h.d);
-    // The last term is for underflow: the point may be as close to the origin, and the coefficients as unequal, as doubles do not go. P-03
-    const double bound = 0x1p-50 * size + h.norm * q.error + 0x1p-1000 * (1 + std::fabs(q.ax) + std::fabs(q.ay) + std::fabs(q.az));
+    // The last term is for underflow: the point may be as close to the origin, and the coefficients as unequal, as
+    // doubles do not go. P-03
+    const double bound =
+        0x1p-50 * size + h.norm * q.error + 0x1p-1000 * (1 + std::fabs(q.ax) + std::fabs(q.ay) + std::fabs(q.az));
     if (std::fabs(value) > bound) {
       ++counts.filtered;
       return sign_of(value);
@@ -201,10 +224,12 @@ class Predicates {
 
   /// A vertex in homogeneous integer grid coordinates (x, y, z, w), w > 0, not reduced.
   std::array<Integer, 4> homogeneous(const Vertex& v) const {
-    if (v.is_input()) return {points_->integer(v.point, 0), points_->integer(v.point, 1), points_->integer(v.point, 2), 1};
+    if (v.is_input())
+      return {points_->integer(v.point, 0), points_->integer(v.point, 1), points_->integer(v.point, 2), 1};
     const Row<Integer> f = row<Integer>(v.plane[0]), g = row<Integer>(v.plane[1]), h = row<Integer>(v.plane[2]);
     const auto minor = [&](std::size_t i, std::size_t j, std::size_t k) -> Integer {
-      return f[i] * (g[j] * h[k] - g[k] * h[j]) - f[j] * (g[i] * h[k] - g[k] * h[i]) + f[k] * (g[i] * h[j] - g[j] * h[i]);
+      return f[i] * (g[j] * h[k] - g[k] * h[j]) - f[j] * (g[i] * h[k] - g[k] * h[i]) +
+             f[k] * (g[i] * h[j] - g[j] * h[i]);
     };
     return {-minor(1, 2, 3), minor(0, 2, 3), -minor(0, 1, 3), minor(0, 1, 2)};
   }
@@ -217,8 +242,8 @@ class Predicates {
     return h;
   }
 
-  /// The sign of the determinant of three oriented planes' normals. Laws: exchanging two, or turning one round, negates it; equal planes give ZERO.
-  /// Exact: filtered, then GMP. Proof: P-04
+  /// The sign of the determinant of three oriented planes' normals. Laws: exchanging two, or turning one round, negates
+  /// it; equal planes give ZERO. Exact: filtered, then GMP. Proof: P-04
   Sign orientation(Plane p, Plane q, Plane r, Predicate_counts& counts) const {
     const bool flipped = (p.flipped() != q.flipped()) != r.flipped();
     if (p.id() == q.id() || q.id() == r.id() || r.id() == p.id()) {
@@ -243,7 +268,8 @@ class Predicates {
   /// The sign of the determinant of three planes' canonical normals. Exact: yes, in GMP.
   int orientation_exact(std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
     const Row<Integer> f = row<Integer>(p), g = row<Integer>(q), h = row<Integer>(r);
-    return sgn(Integer(f[0] * (g[1] * h[2] - g[2] * h[1]) + f[1] * (g[2] * h[0] - g[0] * h[2]) + f[2] * (g[0] * h[1] - g[1] * h[0])));
+    return sgn(Integer(f[0] * (g[1] * h[2] - g[2] * h[1]) + f[1] * (g[2] * h[0] - g[0] * h[2]) +
+                       f[2] * (g[0] * h[1] - g[1] * h[0])));
   }
 
  private:
@@ -251,10 +277,14 @@ class Predicates {
   using Row = std::array<Number, 4>;
 
   template <int L>
-  static int signum(const Fixed_integer<L>& n) { return n.sign(); }
+  static int signum(const Fixed_integer<L>& n) {
+    return n.sign();
+  }
   static int signum(const Integer& n) { return sgn(n); }
 
-  static double largest(const Approximate_plane& f) { return std::max({std::fabs(f.a), std::fabs(f.b), std::fabs(f.c)}); }
+  static double largest(const Approximate_plane& f) {
+    return std::max({std::fabs(f.a), std::fabs(f.b), std::fabs(f.c)});
+  }
 
   Approximate_plane approximate(std::uint32_t id) const {
     const Plane plane(id, false);
@@ -262,8 +292,8 @@ class Predicates {
   }
   Approximate_plane approximate_axis(Plane plane) const {
     const int axis = plane.axis();
-    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0, -points_->approximate(plane.axis_point(), axis),
-            points_->is_exact(plane.axis_point(), axis)};
+    return {axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0,
+            -points_->approximate(plane.axis_point(), axis), points_->is_exact(plane.axis_point(), axis)};
   }
 
   template <class Number>
@@ -277,12 +307,15 @@ class Predicates {
     const Plane plane(id, false);
     if (plane.is_axis_plane()) {
       const auto unit = [&](int k) { return Number(std::int64_t{plane.axis() == k}); };
-      return {unit(0), unit(1), unit(2), Number(std::int64_t{0}) - coordinate<Number>(plane.axis_point(), plane.axis())};
+      return {unit(0), unit(1), unit(2),
+              Number(std::int64_t{0}) - coordinate<Number>(plane.axis_point(), plane.axis())};
     }
     if constexpr (std::is_same_v<Number, Integer>) {
       return {planes_->integer(id, 0), planes_->integer(id, 1), planes_->integer(id, 2), planes_->integer(id, 3)};
     } else {
-      const auto entry = [&](int k) { return Number(planes_->coefficient(id, k), k == 3 ? planes_->offset_limbs() : planes_->normal_limbs()); };
+      const auto entry = [&](int k) {
+        return Number(planes_->coefficient(id, k), k == 3 ? planes_->offset_limbs() : planes_->normal_limbs());
+      };
       return {entry(0), entry(1), entry(2), entry(3)};
     }
   }
@@ -290,11 +323,13 @@ class Predicates {
   /// Laplace expansion along two pairs of rows: 30 products.
   template <class Number>
   static Number determinant(const Row<Number>& p, const Row<Number>& q, const Row<Number>& r, const Row<Number>& s) {
-    const auto minor = [](const Row<Number>& f, const Row<Number>& g, std::size_t i, std::size_t j) -> Number { return f[i] * g[j] - f[j] * g[i]; };
+    const auto minor = [](const Row<Number>& f, const Row<Number>& g, std::size_t i, std::size_t j) -> Number {
+      return f[i] * g[j] - f[j] * g[i];
+    };
     const Number upper01 = minor(p, q, 0, 1), upper02 = minor(p, q, 0, 2), upper03 = minor(p, q, 0, 3);
     const Number upper12 = minor(p, q, 1, 2), upper13 = minor(p, q, 1, 3), upper23 = minor(p, q, 2, 3);
-    return upper01 * minor(r, s, 2, 3) - upper02 * minor(r, s, 1, 3) + upper03 * minor(r, s, 1, 2) + upper12 * minor(r, s, 0, 3) -
-           upper13 * minor(r, s, 0, 2) + upper23 * minor(r, s, 0, 1);
+    return upper01 * minor(r, s, 2, 3) - upper02 * minor(r, s, 1, 3) + upper03 * minor(r, s, 1, 2) +
+           upper12 * minor(r, s, 0, 3) - upper13 * minor(r, s, 0, 2) + upper23 * minor(r, s, 0, 1);
   }
 
   /// What side() does where the sign of doubles alone cannot tell.
@@ -320,7 +355,7 @@ class Predicates {
   const Plane_table* planes_;
   const Point_planes* incidences_;
   Arithmetic arithmetic_;
-  double range_;  // |approximate coordinate| <= range_
+  double range_;      // |approximate coordinate| <= range_
   double underflow_;  // covers what is lost below 2^-1074: nothing where doubles are integers. P-03, P-04
 };
 

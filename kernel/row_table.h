@@ -8,7 +8,8 @@
 
 namespace sightline {
 
-/// Numbers equal rows alike, in the order of their first appearance. Cost: one expected probe a row. Reads are thread-safe beside reads.
+/// Numbers equal rows alike, in the order of their first appearance. Cost: one expected probe a row. Reads are
+/// thread-safe beside reads.
 class Row_table {
  public:
   static constexpr std::uint32_t none = ~std::uint32_t{0};

@@ -1,5 +1,6 @@
 #pragma once
-// Vertices of plane-defined polygons: an input point, or the meet of three planes, with a double beside it that knows its error.
+// Vertices of plane-defined polygons: an input point, or the meet of three planes, with a double beside it that knows
+// its error.
 
 #include <sightline/kernel/plane.h>
 
@@ -12,13 +13,16 @@ struct Approximate_point {
   double x, y, z, error;
 };
 
-/// A vertex of a fragment. Its exact position is the input point, where it has one, or else the meet of its three planes; the doubles
-/// only speed up decisions. It is never rounded into coordinates that are cut again, so cutting does not make it wider. Proof: P-05
+/// A vertex of a fragment. Its exact position is the input point, where it has one, or else the meet of its three
+/// planes; the doubles only speed up decisions. It is never rounded into coordinates that are cut again, so cutting
+/// does not make it wider. Proof: P-05
 struct Vertex {
-  double x, y, z;          ///< approximate coordinates (see Grid_points), each within `error` of the truth
-  double error;            ///< 0: x, y, z are exact integers; infinity: they say nothing
-  std::uint32_t plane[3];  ///< ids of planes that meet here; for a meet, their normals in this order are positively oriented
-  std::uint32_t point;     ///< an input point; or no_point; or with_plane(id), a fourth plane that is known to pass through the meet
+  double x, y, z;  ///< approximate coordinates (see Grid_points), each within `error` of the truth
+  double error;    ///< 0: x, y, z are exact integers; infinity: they say nothing
+  std::uint32_t
+      plane[3];  ///< ids of planes that meet here; for a meet, their normals in this order are positively oriented
+  std::uint32_t
+      point;  ///< an input point; or no_point; or with_plane(id), a fourth plane that is known to pass through the meet
 
   static constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint32_t no_plane = no_point;

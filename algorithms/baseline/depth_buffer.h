@@ -7,8 +7,8 @@
 
 namespace sightline {
 
-/// A side of the cube around the eye, a view of 90 degrees: the axes (0, 1, 2) that run to the right, up and forward in its image, and their senses.
-/// As in a photograph, right x up points back at the eye.
+/// A side of the cube around the eye, a view of 90 degrees: the axes (0, 1, 2) that run to the right, up and forward in
+/// its image, and their senses. As in a photograph, right x up points back at the eye.
 struct Cube_side {
   std::array<std::size_t, 3> axis;
   std::array<int, 3> sense;
@@ -20,8 +20,12 @@ struct Cube_side {
   }
 };
 /// Towards +x, -x, +y, -y with z up; then up, and down.
-inline constexpr std::array<Cube_side, 6> cube_sides{
-    {{{1, 2, 0}, {-1, 1, 1}}, {{1, 2, 0}, {1, 1, -1}}, {{0, 2, 1}, {1, 1, 1}}, {{0, 2, 1}, {-1, 1, -1}}, {{0, 1, 2}, {1, -1, 1}}, {{0, 1, 2}, {1, 1, -1}}}};
+inline constexpr std::array<Cube_side, 6> cube_sides{{{{1, 2, 0}, {-1, 1, 1}},
+                                                      {{1, 2, 0}, {1, 1, -1}},
+                                                      {{0, 2, 1}, {1, 1, 1}},
+                                                      {{0, 2, 1}, {-1, 1, -1}},
+                                                      {{0, 1, 2}, {1, -1, 1}},
+                                                      {{0, 1, 2}, {1, 1, -1}}}};
 
 struct Depth_buffer_options {
   std::uint32_t size = 1024;  ///< pixels along each side of the six square images; 1 to 16384
@@ -29,7 +33,8 @@ struct Depth_buffer_options {
   float near = 0, far = 0;    ///< distances of the clipping planes; 0: from the scene's box, near at least far / 4096
 };
 
-/// The pieces seen at the pixel centres of six images. Pixel (x, y) is x-th from the left, y-th from below; its centre is the direction
+/// The pieces seen at the pixel centres of six images. Pixel (x, y) is x-th from the left, y-th from below; its centre
+/// is the direction
 /// ((2 x + 1) / size - 1) right + ((2 y + 1) / size - 1) up + forward.
 struct Depth_buffer {
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
@@ -37,10 +42,11 @@ struct Depth_buffer {
   std::uint32_t size = 0;
   int bits = 0;
   float near = 0, far = 0;
-  std::vector<std::uint32_t> pieces, depths;  ///< of each pixel: what is seen, and its depth as it was stored (of a float its bits)
-  std::uint64_t triangles = 0;                ///< rasterized, each in every image that it meets
-  std::uint64_t clipped = 0;                  ///< pieces cut or lost at the near plane, in each image
-  std::uint64_t not_finite = 0;               ///< pieces left out, because floats do not hold them
+  std::vector<std::uint32_t> pieces,
+      depths;                    ///< of each pixel: what is seen, and its depth as it was stored (of a float its bits)
+  std::uint64_t triangles = 0;   ///< rasterized, each in every image that it meets
+  std::uint64_t clipped = 0;     ///< pieces cut or lost at the near plane, in each image
+  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them
 
   std::size_t pixel(std::size_t side, std::uint32_t x, std::uint32_t y) const { return (side * size + y) * size + x; }
   std::uint32_t piece(std::size_t side, std::uint32_t x, std::uint32_t y) const { return pieces[pixel(side, x, y)]; }
@@ -75,18 +81,21 @@ std::vector<Corner> clipped(const std::vector<Corner>& polygon, Form form) {
 
 class Rasterizer {
  public:
-  Rasterizer(Depth_buffer& to, std::size_t side) : to_(to), side_(side), scale_(to.far / (to.far - to.near)), shift_(-to.near * scale_) {}
+  Rasterizer(Depth_buffer& to, std::size_t side)
+      : to_(to), side_(side), scale_(to.far / (to.far - to.near)), shift_(-to.near * scale_) {}
 
   void draw(std::uint32_t piece, std::vector<Corner> polygon) {
     const auto all = [&](auto outside) { return std::all_of(polygon.begin(), polygon.end(), outside); };
-    if (all([](const Corner& c) { return c.w <= 0; }) || all([](const Corner& c) { return c.x > c.w; }) || all([](const Corner& c) { return -c.x > c.w; }) ||
-        all([](const Corner& c) { return c.y > c.w; }) || all([](const Corner& c) { return -c.y > c.w; }))
+    if (all([](const Corner& c) { return c.w <= 0; }) || all([](const Corner& c) { return c.x > c.w; }) ||
+        all([](const Corner& c) { return -c.x > c.w; }) || all([](const Corner& c) { return c.y > c.w; }) ||
+        all([](const Corner& c) { return -c.y > c.w; }))
       return;
     if (std::any_of(polygon.begin(), polygon.end(), [&](const Corner& c) { return c.w < to_.near; })) {
       ++to_.clipped;
       polygon = clipped(polygon, [&](const Corner& c) { return c.w - to_.near; });
     }
-    // A guard band of 16 images' widths keeps coordinates in the image small; what is between it and the image is not drawn anyway.
+    // A guard band of 16 images' widths keeps coordinates in the image small; what is between it and the image is not
+    // drawn anyway.
     const auto beyond = [](const Corner& c) { return std::fabs(c.x) > guard * c.w || std::fabs(c.y) > guard * c.w; };
     if (std::any_of(polygon.begin(), polygon.end(), beyond)) {
       polygon = clipped(polygon, [](const Corner& c) { return guard * c.w - c.x; });
@@ -98,7 +107,9 @@ class Rasterizer {
     std::vector<Pixel_corner> corners;
     for (const Corner& c : polygon) {
       const float inverse = 1 / c.w, half = static_cast<float>(to_.size) / 2;
-      const auto snapped = [&](float v) { return static_cast<std::int64_t>(std::lround((v * inverse * half + half) * 256)); };
+      const auto snapped = [&](float v) {
+        return static_cast<std::int64_t>(std::lround((v * inverse * half + half) * 256));
+      };
       corners.push_back({snapped(c.x), snapped(c.y), std::clamp(scale_ + shift_ * inverse, 0.0f, 1.0f)});
     }
     for (std::size_t k = 1; k + 1 < corners.size(); ++k) draw(piece, corners[0], corners[k], corners[k + 1]);
@@ -118,15 +129,18 @@ class Rasterizer {
     const std::int64_t y0 = first(std::min({a.y, b.y, c.y})), y1 = last(std::max({a.y, b.y, c.y}));
     if (x0 > x1 || y0 > y1) return;
     ++to_.triangles;
-    // A centre on an edge is inside where the edge is a left or a top one, so that triangles that share it share no pixel.
+    // A centre on an edge is inside where the edge is a left or a top one, so that triangles that share it share no
+    // pixel.
     const std::int64_t at_a = inclusive(b, c), at_b = inclusive(c, a), at_c = inclusive(a, b);
     const float inverse = 1 / static_cast<float>(area);
     for (std::int64_t y = y0; y <= y1; ++y) {
       const std::int64_t px = x0 * 256 + 128, py = y * 256 + 128;
       std::int64_t e_a = edge(b, c, px, py), e_b = edge(c, a, px, py), e_c = edge(a, b, px, py);
-      for (std::int64_t x = x0; x <= x1; ++x, e_a -= 256 * (c.y - b.y), e_b -= 256 * (a.y - c.y), e_c -= 256 * (b.y - a.y)) {
+      for (std::int64_t x = x0; x <= x1;
+           ++x, e_a -= 256 * (c.y - b.y), e_b -= 256 * (a.y - c.y), e_c -= 256 * (b.y - a.y)) {
         if (e_a < at_a || e_b < at_b || e_c < at_c) continue;
-        const float z = a.z + static_cast<float>(e_b) * inverse * (b.z - a.z) + static_cast<float>(e_c) * inverse * (c.z - a.z);
+        const float z =
+            a.z + static_cast<float>(e_b) * inverse * (b.z - a.z) + static_cast<float>(e_c) * inverse * (c.z - a.z);
         const std::uint32_t depth = stored(std::clamp(z, 0.0f, 1.0f));
         const std::size_t at = to_.pixel(side_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
         if (to_.pieces[at] != Depth_buffer::nothing && depth >= to_.depths[at]) continue;
@@ -135,10 +149,15 @@ class Rasterizer {
     }
   }
   /// Positive to the left of the edge from p to q.
-  static std::int64_t edge(const Pixel_corner& p, const Pixel_corner& q, std::int64_t x, std::int64_t y) { return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x); }
-  static std::int64_t inclusive(const Pixel_corner& p, const Pixel_corner& q) { return q.y < p.y || (q.y == p.y && q.x < p.x) ? 0 : 1; }
+  static std::int64_t edge(const Pixel_corner& p, const Pixel_corner& q, std::int64_t x, std::int64_t y) {
+    return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
+  }
+  static std::int64_t inclusive(const Pixel_corner& p, const Pixel_corner& q) {
+    return q.y < p.y || (q.y == p.y && q.x < p.x) ? 0 : 1;
+  }
   std::uint32_t stored(float z) const {
-    if (to_.bits == 32) return std::bit_cast<std::uint32_t>(z);  // as unsigned numbers, floats from 0 on keep their order
+    if (to_.bits == 32)
+      return std::bit_cast<std::uint32_t>(z);  // as unsigned numbers, floats from 0 on keep their order
     return static_cast<std::uint32_t>(std::lround(static_cast<double>(z) * ((std::uint64_t{1} << to_.bits) - 1)));
   }
 
@@ -149,33 +168,40 @@ class Rasterizer {
 
 }  // namespace depth_buffer_detail
 
-/// What a depth buffer sees of a scene: six images of 90 degrees each, all pieces drawn in the scene's order, both sides of them.
-/// As graphics hardware does it: positions, eye, perspective and depths in floats; corners snapped to 256ths of a pixel; pixel centres tested by edge functions, a centre on
-/// an edge drawn with the left and top ones; the smaller stored depth wins, of equal ones what was drawn first. Pieces are cut at the near plane, and what is nearer is lost; what is
-/// beyond the far plane gets its depth.
-/// Pre: size and bits within their bounds, 0 < near < far where they are given, or std::invalid_argument. Degenerate: pieces edge-on cover no pixel, but for rounding; an empty scene
-/// shows nothing; where floats do not hold the eye or the distances, all pieces are counted as not finite, else those that they do not hold.
-/// Cost: O(pieces + pixels covered). Exact: no; that is its purpose. Ref: Catmull 1974, as in the slides.
+/// What a depth buffer sees of a scene: six images of 90 degrees each, all pieces drawn in the scene's order, both
+/// sides of them. As graphics hardware does it: positions, eye, perspective and depths in floats; corners snapped to
+/// 256ths of a pixel; pixel centres tested by edge functions, a centre on an edge drawn with the left and top ones; the
+/// smaller stored depth wins, of equal ones what was drawn first. Pieces are cut at the near plane, and what is nearer
+/// is lost; what is beyond the far plane gets its depth. Pre: size and bits within their bounds, 0 < near < far where
+/// they are given, or std::invalid_argument. Degenerate: pieces edge-on cover no pixel, but for rounding; an empty
+/// scene shows nothing; where floats do not hold the eye or the distances, all pieces are counted as not finite, else
+/// those that they do not hold. Cost: O(pieces + pixels covered). Exact: no; that is its purpose. Ref: Catmull 1974, as
+/// in the slides.
 inline Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Depth_buffer_options& options = {}) {
-  if (options.size < 1 || options.size > 16384 || options.bits < 1 || options.bits > 32) throw std::invalid_argument("a depth buffer has 1 to 16384 pixels a side and 1 to 32 bits");
+  if (options.size < 1 || options.size > 16384 || options.bits < 1 || options.bits > 32)
+    throw std::invalid_argument("a depth buffer has 1 to 16384 pixels a side and 1 to 32 bits");
   Depth_buffer buffer;
   buffer.size = options.size, buffer.bits = options.bits, buffer.near = options.near, buffer.far = options.far;
   const std::size_t pixels = 6 * std::size_t{options.size} * options.size;
   buffer.pieces.assign(pixels, Depth_buffer::nothing), buffer.depths.assign(pixels, ~std::uint32_t{0});
   if (scene.pieces().empty()) return buffer;
 
-  // Along an image's forward axis, nothing that it shows is nearer or farther than the box in the largest of three coordinates.
+  // Along an image's forward axis, nothing that it shows is nearer or farther than the box in the largest of three
+  // coordinates.
   const auto rounded = [](const Rational& x) { return static_cast<float>(nearest_double(x)); };
   double nearest = 0, farthest = 0;
   const std::array<Exact_point, 2> box = scene.box();
   for (std::size_t k = 0; k < 3; ++k) {
-    const double low = nearest_double(Rational(box[0][k] - eye[k])), high = nearest_double(Rational(box[1][k] - eye[k]));
+    const double low = nearest_double(Rational(box[0][k] - eye[k])),
+                 high = nearest_double(Rational(box[1][k] - eye[k]));
     nearest = std::max({nearest, low, -high}), farthest = std::max({farthest, -low, high});
   }
   if (options.far == 0) buffer.far = static_cast<float>(farthest * 1.0625);
   if (options.near == 0) buffer.near = std::max(static_cast<float>(nearest * 0.9375), buffer.far / 4096);
-  const bool drawable = buffer.near > 0 && buffer.far > buffer.near && std::isfinite(buffer.far) && std::isfinite(1 / buffer.near);
-  if (!drawable && (options.near != 0 || options.far != 0)) throw std::invalid_argument("a near plane is in front of the eye, and a far one behind it");
+  const bool drawable =
+      buffer.near > 0 && buffer.far > buffer.near && std::isfinite(buffer.far) && std::isfinite(1 / buffer.near);
+  if (!drawable && (options.near != 0 || options.far != 0))
+    throw std::invalid_argument("a near plane is in front of the eye, and a far one behind it");
   const std::array<float, 3> from{rounded(eye[0]), rounded(eye[1]), rounded(eye[2])};
   if (!drawable || !std::all_of(from.begin(), from.end(), [](float x) { return std::isfinite(x); })) {
     buffer.not_finite = scene.pieces().size();

@@ -1,5 +1,6 @@
 #pragma once
-// Weak visibility as a careful program in doubles finds it: the same cells of lines, with a tolerance, and what it finds believed.
+// Weak visibility as a careful program in doubles finds it: the same cells of lines, with a tolerance, and what it
+// finds believed.
 
 #include <sightline/algorithms/weak_visibility/weak.h>
 
@@ -14,15 +15,18 @@ struct Doubles_search_options {
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
 
-/// One search in doubles: takes a line of the cell, and a piece that blocks it; cuts source or target by that piece's plane; goes on, edge by edge, to lines that pass it outside. A cell ends where
-/// a linear program finds no line with room, a line with no piece in its way makes the target visible. Nothing is checked, names of lines are not known, nothing is learned from a cell. Exact: no
+/// One search in doubles: takes a line of the cell, and a piece that blocks it; cuts source or target by that piece's
+/// plane; goes on, edge by edge, to lines that pass it outside. A cell ends where a linear program finds no line with
+/// room, a line with no piece in its way makes the target visible. Nothing is checked, names of lines are not known,
+/// nothing is learned from a cell. Exact: no
 class Doubles_search {
  public:
-  Doubles_search(const Occluders& occluders, const Doubles_search_options& options) : occluders_(&occluders), options_(&options) {}
+  Doubles_search(const Occluders& occluders, const Doubles_search_options& options)
+      : occluders_(&occluders), options_(&options) {}
 
   /// Whether a piece is visible from a source.
   Weak_status run(const Weak_source& source, std::uint32_t piece) {
-    const std::array<double, 4>& of_source = source.plane.near, of_target = occluders_->plane(piece).near;
+    const std::array<double, 4>&of_source = source.plane.near, of_target = occluders_->plane(piece).near;
     const Polygon target = part(near_of(occluders_->polygon(piece)), of_source, 1);
     pieces_ = occluders_->near_shaft(source.polygon, occluders_->polygon(piece));
     Weak_status status = Weak_status::hidden;
@@ -55,7 +59,9 @@ class Doubles_search {
     for (const Near_point& p : polygon) points.push_back(p.near);
     return points;
   }
-  static double height(const std::array<double, 4>& h, const Triple& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]; }
+  static double height(const std::array<double, 4>& h, const Triple& p) {
+    return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3];
+  }
   /// How far a polygon is in front of a plane, and behind it.
   static std::array<double, 2> reach(const Polygon& polygon, const std::array<double, 4>& h) {
     std::array<double, 2> most{0, 0};
@@ -78,7 +84,8 @@ class Doubles_search {
     return kept;
   }
 
-  // ---- Cells --------------------------------------------------------------------------------------------------------------------
+  // ---- Cells
+  // --------------------------------------------------------------------------------------------------------------------
 
   Weak_status search(const Polygon& source, const Polygon& target, int halvings) {
     if (++cells_ > options_->cells) return Weak_status::undecided;
@@ -93,7 +100,10 @@ class Doubles_search {
     const std::array<double, 4>& plane = occluders_->plane(*blocker).near;
     for (const Polygon* polygon : {&source, &target})
       if (const auto [front, behind] = reach(*polygon, plane); std::min(front, behind) > options_->tolerance)
-        return both([&](int side) { return polygon == &source ? search(part(source, plane, side), target, halvings) : search(source, part(target, plane, side), halvings); });
+        return both([&](int side) {
+          return polygon == &source ? search(part(source, plane, side), target, halvings)
+                                    : search(source, part(target, plane, side), halvings);
+        });
 
     Weak_status status = Weak_status::hidden;
     const std::size_t above = path_.size();
@@ -131,22 +141,28 @@ class Doubles_search {
           plane[3] = -(plane[0] * (a[0] + b[0]) + plane[1] * (a[1] + b[1]) + plane[2] * (a[2] + b[2])) / 2;
         }
     if (most <= options_->tolerance) return Weak_status::hidden;
-    return both([&](int side) { return of_source ? search(part(source, plane, side), target, halvings + 1) : search(source, part(target, plane, side), halvings + 1); });
+    return both([&](int side) {
+      return of_source ? search(part(source, plane, side), target, halvings + 1)
+                       : search(source, part(target, plane, side), halvings + 1);
+    });
   }
 
-  // ---- A line of the cell ---------------------------------------------------------------------------------------------------------
+  // ---- A line of the cell
+  // ---------------------------------------------------------------------------------------------------------
 
   /// The sides of an edge on lines between corners, scaled to at most 1.
   std::vector<double> sides(const Polygon& source, const Polygon& target, std::uint32_t piece, std::size_t edge) const {
     std::vector<double> values;
     double most = 0;
     for (const Triple& p : source)
-      for (const Triple& q : target) most = std::max(most, std::fabs(values.emplace_back(dot(pair_numbers(p, q), occluders_->edges(piece)[edge]))));
+      for (const Triple& q : target)
+        most = std::max(most, std::fabs(values.emplace_back(dot(pair_numbers(p, q), occluders_->edges(piece)[edge]))));
     for (double& v : values) v = most > options_->tolerance * options_->tolerance ? v / most : 0;
     return values;
   }
 
-  /// Whether there is a line on the path's sides with some room, and one that is; nothing where there may be one, and none was found.
+  /// Whether there is a line on the path's sides with some room, and one that is; nothing where there may be one, and
+  /// none was found.
   std::optional<bool> find_line(const Polygon& source, const Polygon& target, Line& line) {
     const std::size_t m = source.size(), n = target.size();
     line = {std::vector<double>(m, 1.0 / static_cast<double>(m)), std::vector<double>(n, 1.0 / static_cast<double>(n))};
@@ -161,20 +177,23 @@ class Doubles_search {
     for (const std::vector<double>& row : rows_) std::copy(row.begin(), row.end(), game_.add_row().begin());
     if (game_.solve() <= options_->tolerance) return false;
     line = {std::vector<double>(m, 0), std::vector<double>(n, 0)};
-    for (std::size_t c = 0; c < m * n; ++c) line.source[c / n] += game_.column_weights()[c], line.target[c % n] += game_.column_weights()[c];
+    for (std::size_t c = 0; c < m * n; ++c)
+      line.source[c / n] += game_.column_weights()[c], line.target[c % n] += game_.column_weights()[c];
     // 2. The best end for the other one, in turn.
     for (int round = 0; round < 8; ++round)
       if (improve(line, round % 2 == 0) > options_->tolerance) return improve(line, round % 2 != 0), true;
     return std::nullopt;
   }
-  /// The least side of a line whose one end is the best for the other; then that end goes half as far as it may towards the polygon's middle.
+  /// The least side of a line whose one end is the best for the other; then that end goes half as far as it may towards
+  /// the polygon's middle.
   double improve(Line& line, bool source) {
     const std::size_t m = line.source.size(), n = line.target.size(), own = source ? m : n;
     end_.restart(own);
     for (const std::vector<double>& row : rows_) {
       const std::span<double> values = end_.add_row();
       std::fill(values.begin(), values.end(), 0.0);
-      for (std::size_t c = 0; c < m * n; ++c) values[source ? c / n : c % n] += row[c] * (source ? line.target[c % n] : line.source[c / n]);
+      for (std::size_t c = 0; c < m * n; ++c)
+        values[source ? c / n : c % n] += row[c] * (source ? line.target[c % n] : line.source[c / n]);
     }
     const double value = end_.solve();
     std::vector<double>& weights = source ? line.source : line.target;
@@ -190,7 +209,8 @@ class Doubles_search {
     return value;
   }
 
-  // ---- What blocks it --------------------------------------------------------------------------------------------------------------
+  // ---- What blocks it
+  // --------------------------------------------------------------------------------------------------------------
 
   static Triple mean(const Polygon& polygon, const std::vector<double>& weights) {
     Triple p{};
@@ -198,8 +218,10 @@ class Doubles_search {
       for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * polygon[i][k];
     return p;
   }
-  /// A piece that a line meets, of several the one with the fewest open edges; those with the signs that they have inside.
-  std::optional<std::uint32_t> find_blocker(const Polygon& source, const Polygon& target, const Line& line, std::vector<Side>& open) const {
+  /// A piece that a line meets, of several the one with the fewest open edges; those with the signs that they have
+  /// inside.
+  std::optional<std::uint32_t> find_blocker(const Polygon& source, const Polygon& target, const Line& line,
+                                            std::vector<Side>& open) const {
     const Triple p = mean(source, line.source), q = mean(target, line.target);
     const Six numbers = pair_numbers(p, q);
     std::optional<std::uint32_t> best;
@@ -209,17 +231,20 @@ class Doubles_search {
       if (std::min(std::fabs(from), std::fabs(to)) <= options_->tolerance || (from > 0) == (to > 0)) continue;
       const int sign = from > 0 ? 1 : -1;
       const std::span<const Six> edges = occluders_->edges(piece);
-      if (!std::all_of(edges.begin(), edges.end(), [&](const Six& edge) { return sign * dot(numbers, edge) >= 0; })) continue;
+      if (!std::all_of(edges.begin(), edges.end(), [&](const Six& edge) { return sign * dot(numbers, edge) >= 0; }))
+        continue;
       std::vector<Side> of_piece;
       bool passed = false;  // by all of the cell, as doubles have it
       for (std::size_t e = 0; e < edges.size(); ++e) {
-        const auto known = std::find_if(path_.begin(), path_.end(), [&](const Side& side) { return side.piece == piece && side.edge == e; });
+        const auto known = std::find_if(path_.begin(), path_.end(),
+                                        [&](const Side& side) { return side.piece == piece && side.edge == e; });
         if (known != path_.end()) {
           passed |= known->sign != sign;
           continue;
         }
         const std::vector<double> values = sides(source, target, piece, e);
-        if (std::any_of(values.begin(), values.end(), [&](double v) { return sign * v < -options_->tolerance; })) of_piece.push_back({piece, e, sign});
+        if (std::any_of(values.begin(), values.end(), [&](double v) { return sign * v < -options_->tolerance; }))
+          of_piece.push_back({piece, e, sign});
       }
       if (passed || (best && of_piece.size() >= open.size())) continue;
       best = piece, open = of_piece;
@@ -236,9 +261,12 @@ class Doubles_search {
   std::size_t cells_ = 0;
 };
 
-/// The faces that a search in doubles takes for weakly visible from one of the sources, hidden, or neither. Degenerate: what is thinner than the tolerance is not there, neither gaps nor faces; where
-/// differences of products lose all digits, sides are what is left. Post: the same at any number of threads. Cost: exponential at worst, bounded by the options. Exact: no
-inline Weak_faces visible_by_doubles(const Occluders& occluders, const std::vector<Weak_source>& sources, const Doubles_search_options& options = {}) {
+/// The faces that a search in doubles takes for weakly visible from one of the sources, hidden, or neither. Degenerate:
+/// what is thinner than the tolerance is not there, neither gaps nor faces; where differences of products lose all
+/// digits, sides are what is left. Post: the same at any number of threads. Cost: exponential at worst, bounded by the
+/// options. Exact: no
+inline Weak_faces visible_by_doubles(const Occluders& occluders, const std::vector<Weak_source>& sources,
+                                     const Doubles_search_options& options = {}) {
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Weak_status> results(first.size(), Weak_status::hidden);

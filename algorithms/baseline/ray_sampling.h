@@ -12,14 +12,19 @@ struct Ray_sampling_options {
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< rays; called now and then
 };
 
-/// The faces that at least one of the rays hits first, from their front (or from behind too). Rays start at points spread evenly over each source and go to all sides in
-/// front of it, more of them upright (as light from a matt lamp). Post: sorted; the same seed gives the same rays. Degenerate: what is small, far or behind a narrow opening is missed; rays
-/// through cracks that are none are believed. Cost: rays times log n, as a rule. Exact: no: in doubles, and nothing is proved.
-inline std::vector<Face_id> visible_by_sampling(const Occluders& occluders, const std::vector<Weak_source>& sources, const Ray_sampling_options& options = {}) {
+/// The faces that at least one of the rays hits first, from their front (or from behind too). Rays start at points
+/// spread evenly over each source and go to all sides in front of it, more of them upright (as light from a matt lamp).
+/// Post: sorted; the same seed gives the same rays. Degenerate: what is small, far or behind a narrow opening is
+/// missed; rays through cracks that are none are believed. Cost: rays times log n, as a rule. Exact: no: in doubles,
+/// and nothing is proved.
+inline std::vector<Face_id> visible_by_sampling(const Occluders& occluders, const std::vector<Weak_source>& sources,
+                                                const Ray_sampling_options& options = {}) {
   std::mt19937_64 dice(options.seed);
   std::uniform_real_distribution<double> unit(0, 1);
   const auto minus = [](const Triple& a, const Triple& b) { return Triple{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
-  const auto cross = [](const Triple& a, const Triple& b) { return Triple{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; };
+  const auto cross = [](const Triple& a, const Triple& b) {
+    return Triple{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
   const auto length = [](const Triple& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); };
   const auto scaled = [](const Triple& a, double by) { return Triple{a[0] * by, a[1] * by, a[2] * by}; };
   std::vector<bool> seen(occluders.scene().counters().faces_read);
@@ -41,11 +46,15 @@ inline std::vector<Face_id> visible_by_sampling(const Occluders& occluders, cons
       if (options.progress && done++ % 4096 == 0) options.progress(done, sources.size() * options.rays);
       // 2. A point, and a direction.
       const double share = unit(dice) * total;
-      const std::size_t i = std::min(areas.size() - 1, static_cast<std::size_t>(std::upper_bound(areas.begin(), areas.end(), share) - areas.begin())) + 1;
+      const std::size_t i =
+          std::min(areas.size() - 1,
+                   static_cast<std::size_t>(std::upper_bound(areas.begin(), areas.end(), share) - areas.begin())) +
+          1;
       double s = unit(dice), t = unit(dice);
       if (s + t > 1) s = 1 - s, t = 1 - t;
       const Triple a = minus(source.polygon[i].near, origin), b = minus(source.polygon[i + 1].near, origin);
-      const double square = unit(dice), angle = 6.283185307179586 * unit(dice), flat = std::sqrt(square), up = std::sqrt(1 - square);
+      const double square = unit(dice), angle = 6.283185307179586 * unit(dice), flat = std::sqrt(square),
+                   up = std::sqrt(1 - square);
       Triple p, direction;
       for (std::size_t k = 0; k < 3; ++k) {
         p[k] = origin[k] + s * a[k] + t * b[k];

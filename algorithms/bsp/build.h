@@ -15,13 +15,15 @@
 namespace sightline {
 
 struct Bsp_options {
-  unsigned candidates = 5;       ///< face planes tried for each node
-  unsigned sample = 48;          ///< polygons that a candidate is scored on, at most
-  unsigned split_weight = 3;     ///< a split costs as much as an imbalance of this many polygons
-  std::uint64_t seed = 1;        ///< of the random choice of candidates
-  std::vector<Plane> first = {}; ///< planes of the topmost nodes on every way from the root, in this order: a near plane, say
-  int threads = 0;               ///< 0: as many as there are processors; the tree is the same for any number
-  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< polygons settled, of the pieces; called from any thread
+  unsigned candidates = 5;    ///< face planes tried for each node
+  unsigned sample = 48;       ///< polygons that a candidate is scored on, at most
+  unsigned split_weight = 3;  ///< a split costs as much as an imbalance of this many polygons
+  std::uint64_t seed = 1;     ///< of the random choice of candidates
+  std::vector<Plane> first =
+      {};           ///< planes of the topmost nodes on every way from the root, in this order: a near plane, say
+  int threads = 0;  ///< 0: as many as there are processors; the tree is the same for any number
+  std::function<void(std::size_t done, std::size_t all)> progress =
+      {};  ///< polygons settled, of the pieces; called from any thread
 };
 
 namespace bsp_detail {
@@ -35,7 +37,9 @@ struct Random {
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return z ^ (z >> 31);
   }
-  std::size_t below(std::size_t n) { return static_cast<std::size_t>(static_cast<unsigned __int128>((*this)()) * n >> 64); }
+  std::size_t below(std::size_t n) {
+    return static_cast<std::size_t>(static_cast<unsigned __int128>((*this)()) * n >> 64);
+  }
 };
 
 template <Partition_traits Traits>
@@ -46,7 +50,9 @@ class Builder {
   using Tree = Bsp_tree<Traits>;
   using Positions = typename Plane_group<Traits>::Positions;
 
-  Builder(const Traits& traits, const Bsp_options& options) : traits_(traits), options_(options) { options_.sample = std::max(1u, options_.sample); }
+  Builder(const Traits& traits, const Bsp_options& options) : traits_(traits), options_(options) {
+    options_.sample = std::max(1u, options_.sample);
+  }
 
   Tree build() {
     Part root;
@@ -67,7 +73,8 @@ class Builder {
     std::uint64_t seed;
     std::uint64_t depth;
   };
-  /// A cell whose polygons are the last ones on a stack, from `begin` on; and the side of a node that waits for its number: 2 node + side, or none.
+  /// A cell whose polygons are the last ones on a stack, from `begin` on; and the side of a node that waits for its
+  /// number: 2 node + side, or none.
   struct Waiting {
     std::size_t begin;
     std::int64_t place;
@@ -103,7 +110,8 @@ class Builder {
     std::size_t only_front() const { return front - across; }
     std::size_t only_behind() const { return behind - across; }
   };
-  /// The plane for a cell; and, where all polygons of the cell were scored, the place of their positions to it in best_positions.
+  /// The plane for a cell; and, where all polygons of the cell were scored, the place of their positions to it in
+  /// best_positions.
   struct Choice {
     Plane plane;
     std::optional<std::size_t> scored = {};
@@ -111,7 +119,8 @@ class Builder {
 
   static constexpr std::size_t worth_a_task = 1024;  // polygons; below, starting a task costs more than it gives
   static constexpr std::size_t ahead = 4;            // polygons whose memory is asked for before they are tested
-  static constexpr std::size_t worth_balance = 24;   // polygons; below, a chain of face planes is no deeper than free planes would be
+  static constexpr std::size_t worth_balance =
+      24;  // polygons; below, a chain of face planes is no deeper than free planes would be
 
   Polygons input() {
     Polygons polygons;
@@ -123,13 +132,18 @@ class Builder {
     return polygons;
   }
 
-  /// Makes the tree of a cell. The sides of a large cell are parts of their own, and tasks of their own where they are large, too.
+  /// Makes the tree of a cell. The sides of a large cell are parts of their own, and tasks of their own where they are
+  /// large, too.
   void settle(Cell cell, Part& part, tbb::task_group& group) {
     Workspace& mine = workspaces_.local();
-    const auto is_large = [&](const Polygons& polygons) { return polygons.size() >= worth_a_task && options_.threads != 1; };
+    const auto is_large = [&](const Polygons& polygons) {
+      return polygons.size() >= worth_a_task && options_.threads != 1;
+    };
     if (!is_large(cell.polygons)) return settle_here(std::move(cell), part, mine);
     Draws draws(cell.seed);
-    const auto middle = cell.polygons.begin() + static_cast<std::ptrdiff_t>(divide(cell.polygons, {0, nowhere, cell.seed, cell.depth}, draws.own, part, mine));
+    const auto middle =
+        cell.polygons.begin() +
+        static_cast<std::ptrdiff_t>(divide(cell.polygons, {0, nowhere, cell.seed, cell.depth}, draws.own, part, mine));
     Cell front{{middle, cell.polygons.end()}, draws.front, cell.depth + 1};
     cell.polygons.erase(middle, cell.polygons.end());
     Cell behind{std::move(cell.polygons), draws.behind, cell.depth + 1};
@@ -137,7 +151,10 @@ class Builder {
       if (side.polygons.empty()) return;
       place = &mine.parts.emplace_back();
       if (!is_large(side.polygons)) settle_here(std::move(side), *place, mine);
-      else group.run([this, &group, to = place, from = std::make_shared<Cell>(std::move(side))] { settle(std::move(*from), *to, group); });
+      else
+        group.run([this, &group, to = place, from = std::make_shared<Cell>(std::move(side))] {
+          settle(std::move(*from), *to, group);
+        });
     };
     settle_side(std::move(behind), part.behind), settle_side(std::move(front), part.front);
   }
@@ -160,7 +177,8 @@ class Builder {
 
   static constexpr std::int64_t nowhere = -1;
 
-  /// Makes the node of a cell and replaces its polygons by those behind the node's plane and, from the index returned on, those in front.
+  /// Makes the node of a cell and replaces its polygons by those behind the node's plane and, from the index returned
+  /// on, those in front.
   std::size_t divide(Polygons& polygons, const Waiting& job, Random& random, Part& part, Workspace& mine) {
     mine.counters.depth = std::max(mine.counters.depth, job.depth);
     if (job.place != nowhere) child(part.nodes, job.place) = static_cast<std::int32_t>(part.nodes.size());
@@ -168,7 +186,8 @@ class Builder {
     const bool is_given = job.depth <= options_.first.size();
     const Choice choice = is_given ? Choice{options_.first[job.depth - 1]} : choose(cell, random, mine);
     const std::uint32_t first = static_cast<std::uint32_t>(part.fragments.size());
-    const std::size_t middle = cell.size() == 1 && !is_given ? keep_only(polygons, choice.plane, part) : partition(polygons, job.begin, choice, part, mine);
+    const std::size_t middle = cell.size() == 1 && !is_given ? keep_only(polygons, choice.plane, part)
+                                                             : partition(polygons, job.begin, choice, part, mine);
     const std::uint32_t count = static_cast<std::uint32_t>(part.fragments.size()) - first;
     part.nodes.push_back({choice.plane, Tree::leaf, Tree::leaf, first, count});
     settled(count);
@@ -186,7 +205,9 @@ class Builder {
     polygons.pop_back();
     return polygons.size();
   }
-  void add_fragment(const Polygon& polygon, Plane plane, Part& part) { part.fragments.push_back({polygon, traits_.same_sense(polygon.support, plane), 0}); }
+  void add_fragment(const Polygon& polygon, Plane plane, Part& part) {
+    part.fragments.push_back({polygon, traits_.same_sense(polygon.support, plane), 0});
+  }
 
   /// The plane of one of the polygons, which is on it by its id whatever its corners say; or a free plane.
   Choice choose(std::span<const Polygon> polygons, Random& random, Workspace& mine) {
@@ -199,7 +220,8 @@ class Builder {
     std::size_t best = 0, best_cost = ~std::size_t{0};
     bool balanced = false;
     for (std::size_t begin = 0; begin < tries; begin += Plane_group<Traits>::most) {
-      const std::span<const Plane> planes = std::span<const Plane>(mine.planes).subspan(begin, std::min(tries - begin, Plane_group<Traits>::most));
+      const std::span<const Plane> planes =
+          std::span<const Plane>(mine.planes).subspan(begin, std::min(tries - begin, Plane_group<Traits>::most));
       const auto scores = scores_of(sample, planes, mine);
       const std::size_t before = best_cost;
       for (std::size_t t = 0; t < planes.size(); ++t) {
@@ -231,12 +253,15 @@ class Builder {
     return mine.sample;
   }
 
-  std::size_t cost(const Score& s) const { return (s.front > s.behind ? s.front - s.behind : s.behind - s.front) + options_.split_weight * s.across; }
+  std::size_t cost(const Score& s) const {
+    return (s.front > s.behind ? s.front - s.behind : s.behind - s.front) + options_.split_weight * s.across;
+  }
   /// At most eleven twelfths of the polygons strictly on one side.
   static bool is_balanced(const Score& s) { return 12 * std::max(s.only_front(), s.only_behind()) <= 11 * s.all; }
 
   /// How many of the polygons lie where to a few planes, and in mine.positions each of them.
-  std::array<Score, Plane_group<Traits>::most> scores_of(std::span<const Polygon> polygons, std::span<const Plane> planes, Workspace& mine) {
+  std::array<Score, Plane_group<Traits>::most> scores_of(std::span<const Polygon> polygons,
+                                                         std::span<const Plane> planes, Workspace& mine) {
     mine.counters.polygon_tests += polygons.size() * planes.size();
     if (mine.positions.size() < polygons.size()) mine.positions.resize(polygons.size());
     mine.group.prepare(traits_, planes);
@@ -253,18 +278,22 @@ class Builder {
     return scores;
   }
 
-  /// The best axis plane through a median corner of the sample, if it balances and costs less than the best face plane (convex bodies: n).
-  std::optional<Plane> free_plane(std::span<const Polygon> polygons, std::span<const Polygon> sample, std::size_t best_cost, Workspace& mine) {
+  /// The best axis plane through a median corner of the sample, if it balances and costs less than the best face plane
+  /// (convex bodies: n).
+  std::optional<Plane> free_plane(std::span<const Polygon> polygons, std::span<const Polygon> sample,
+                                  std::size_t best_cost, Workspace& mine) {
     std::vector<Plane> planes;
     const std::size_t step = std::max<std::size_t>(1, polygons.size() / (4 * options_.sample));
     for (int axis = 0; axis < 3; ++axis) {
       std::vector<std::pair<double, const typename Traits::Vertex*>> corners;
       for (std::size_t i = 0; i < polygons.size(); i += step)
         for (const Corner<Traits>& corner : polygons[i])
-          if (traits_.is_input(*corner.vertex)) corners.emplace_back(traits_.coordinate(*corner.vertex, axis), corner.vertex);
+          if (traits_.is_input(*corner.vertex))
+            corners.emplace_back(traits_.coordinate(*corner.vertex, axis), corner.vertex);
       if (corners.empty()) continue;
       const auto middle = corners.begin() + static_cast<std::ptrdiff_t>(corners.size() / 2);
-      std::nth_element(corners.begin(), middle, corners.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+      std::nth_element(corners.begin(), middle, corners.end(),
+                       [](const auto& a, const auto& b) { return a.first < b.first; });
       planes.push_back(*traits_.axis_plane(axis, *middle->second));
     }
     if (planes.empty()) return std::nullopt;
@@ -284,7 +313,8 @@ class Builder {
     const auto position_at = [&](std::size_t i) {
       if (choice.scored) return static_cast<Position>(mine.best_positions[i - begin][*choice.scored]);
       ++mine.counters.polygon_tests;
-      if (!traits_.same_plane(polygons[i].support, choice.plane)) return classify(traits_, polygons[i], cutter, mine.scratch, mine.counters.predicates);
+      if (!traits_.same_plane(polygons[i].support, choice.plane))
+        return classify(traits_, polygons[i], cutter, mine.scratch, mine.counters.predicates);
       ++mine.counters.predicates.combinatorial;
       return Position::on;
     };
@@ -323,7 +353,8 @@ class Builder {
   /// Makes one tree of the parts: the nodes of a part, its front, what is behind.
   void join(Part& root, Tree& tree) {
     tree.nodes = std::move(root.nodes), tree.fragments = std::move(root.fragments);
-    std::vector<std::pair<Part*, std::int64_t>> stack{{root.behind, 1}, {root.front, 0}};  // and the side of a node, as in Waiting
+    std::vector<std::pair<Part*, std::int64_t>> stack{{root.behind, 1},
+                                                      {root.front, 0}};  // and the side of a node, as in Waiting
     while (!stack.empty()) {
       const auto [part, place] = stack.back();
       stack.pop_back();
@@ -338,7 +369,8 @@ class Builder {
         tree.nodes.push_back(node);
       }
       tree.fragments.insert(tree.fragments.end(), part->fragments.begin(), part->fragments.end());
-      stack.emplace_back(part->behind, 2 * std::int64_t{number} + 1), stack.emplace_back(part->front, 2 * std::int64_t{number});
+      stack.emplace_back(part->behind, 2 * std::int64_t{number} + 1),
+          stack.emplace_back(part->front, 2 * std::int64_t{number});
     }
   }
 
@@ -370,11 +402,12 @@ class Builder {
 
 }  // namespace bsp_detail
 
-/// A BSP tree of all pieces of the scene: every piece, or each part of it, lies on the plane of a node. The plane of each node is the best of
-/// `candidates` random face planes by splits and balance, or, where none balances, an axis plane through an input vertex.
-/// Degenerate: coplanar pieces share a node, with their sense; a piece that touches a plane is not split. Cost: expected O(n log n) tests where
-/// splits are few. Memory: the fragments and what they were cut from. Exact: as the traits are; the tree ends for any traits.
-/// Source: Fuchs, Kedem, Naylor 1980; lecture slides "Visibility Computation"; Naylor, "Visibility Orderings". Proof: P-06
+/// A BSP tree of all pieces of the scene: every piece, or each part of it, lies on the plane of a node. The plane of
+/// each node is the best of `candidates` random face planes by splits and balance, or, where none balances, an axis
+/// plane through an input vertex. Degenerate: coplanar pieces share a node, with their sense; a piece that touches a
+/// plane is not split. Cost: expected O(n log n) tests where splits are few. Memory: the fragments and what they were
+/// cut from. Exact: as the traits are; the tree ends for any traits. Source: Fuchs, Kedem, Naylor 1980; lecture slides
+/// "Visibility Computation"; Naylor, "Visibility Orderings". Proof: P-06
 template <Partition_traits Traits>
 Bsp_tree<Traits> build_bsp(const Traits& traits, const Bsp_options& options = {}) {
   return bsp_detail::Builder<Traits>(traits, options).build();

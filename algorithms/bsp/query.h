@@ -13,7 +13,7 @@ using Exact_tree = Bsp_tree<Exact_traits>;
 struct Bsp_leaf {
   std::int32_t node = Exact_tree::leaf;  ///< none where the tree is empty
   bool in_front = false;
-  bool on_boundary = false;              ///< the point is in the plane of a node on the way; the front was taken there
+  bool on_boundary = false;  ///< the point is in the plane of a node on the way; the front was taken there
   friend bool operator==(const Bsp_leaf&, const Bsp_leaf&) = default;
 };
 
@@ -46,7 +46,8 @@ class Grid_ray {
   Grid_ray(const Exact_traits& traits, const Exact_ray& ray) : traits_(traits) {
     const Scene& scene = traits.scene();
     const Located_point from = scene.locate(ray.origin);
-    const Exact_point tip{Rational(ray.origin[0] + ray.direction[0]), Rational(ray.origin[1] + ray.direction[1]), Rational(ray.origin[2] + ray.direction[2])};
+    const Exact_point tip{Rational(ray.origin[0] + ray.direction[0]), Rational(ray.origin[1] + ray.direction[1]),
+                          Rational(ray.origin[2] + ray.direction[2])};
     const Located_point to = scene.locate(tip);
     origin_ = {Rational(from.x, from.w), Rational(from.y, from.w), Rational(from.z, from.w)};
     const std::array<Rational, 3> end{Rational(to.x, to.w), Rational(to.y, to.w), Rational(to.z, to.w)};
@@ -69,7 +70,8 @@ class Grid_ray {
     return v;
   }
   /// The parameters t in [low, high] of the ray that a fragment holds, if the ray lies in its plane.
-  std::optional<std::array<Rational, 2>> range_within(const Convex_polygon<Exact_traits>& polygon, Rational low, std::optional<Rational> high) const {
+  std::optional<std::array<Rational, 2>> range_within(const Convex_polygon<Exact_traits>& polygon, Rational low,
+                                                      std::optional<Rational> high) const {
     for (const Corner<Exact_traits>& corner : polygon) {
       const Line_value v = value(corner.edge.bound);
       if (v.slope == 0) {
@@ -83,7 +85,8 @@ class Grid_ray {
     }
     return std::array<Rational, 2>{low, *high};  // a polygon is bounded
   }
-  /// The side of the ray's point at t to the polygon within its plane: POSITIVE inside, ZERO on its boundary, NEGATIVE outside.
+  /// The side of the ray's point at t to the polygon within its plane: POSITIVE inside, ZERO on its boundary, NEGATIVE
+  /// outside.
   Sign side_within(const Convex_polygon<Exact_traits>& polygon, const Rational& t) const {
     Sign all = CGAL::POSITIVE;
     for (const Corner<Exact_traits>& corner : polygon) {
@@ -115,7 +118,8 @@ inline std::optional<int> winding_along(const Exact_traits& traits, const Exact_
       if (t < 0) break;
       const Sign inside = grid.side_within(fragment.polygon, t);
       if (inside == CGAL::ZERO) return std::nullopt;
-      if (inside == CGAL::POSITIVE) winding += (v.slope > 0) == fragment.same_sense ? 1 : -1;  // leaving through a front counts one
+      if (inside == CGAL::POSITIVE)
+        winding += (v.slope > 0) == fragment.same_sense ? 1 : -1;  // leaving through a front counts one
     }
   }
   return winding;
@@ -124,7 +128,8 @@ inline std::optional<int> winding_along(const Exact_traits& traits, const Exact_
 }  // namespace bsp_detail
 
 /// The leaf cell of a point, by descent. Degenerate: in the plane of a node, its front. Cost: O(depth). Exact: yes.
-inline Bsp_leaf find_leaf(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point, Predicate_counts& counts) {
+inline Bsp_leaf find_leaf(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point,
+                          Predicate_counts& counts) {
   Bsp_leaf leaf;
   const Located_point q = traits.eye(point);
   for (std::int32_t next = tree.nodes.empty() ? Exact_tree::leaf : 0; next != Exact_tree::leaf;) {
@@ -136,8 +141,10 @@ inline Bsp_leaf find_leaf(const Exact_traits& traits, const Exact_tree& tree, co
   return leaf;
 }
 
-/// The faces that hold a point, ascending. Faces are closed. Cost: O(depth), times the planes through the point. Exact: yes.
-inline std::vector<Face_id> faces_at(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point, Predicate_counts& counts) {
+/// The faces that hold a point, ascending. Faces are closed. Cost: O(depth), times the planes through the point. Exact:
+/// yes.
+inline std::vector<Face_id> faces_at(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point,
+                                     Predicate_counts& counts) {
   std::vector<Face_id> faces;
   const Located_point q = traits.eye(point);
   std::vector<std::int32_t> stack;
@@ -150,7 +157,8 @@ inline std::vector<Face_id> faces_at(const Exact_traits& traits, const Exact_tre
     if (side != CGAL::POSITIVE && node.behind != Exact_tree::leaf) stack.push_back(node.behind);
     if (side != CGAL::ZERO) continue;
     for (const Fragment<Exact_traits>& fragment : tree.on(node))
-      if (std::all_of(fragment.polygon.begin(), fragment.polygon.end(), [&](const auto& corner) { return traits.side(q, corner.edge.bound, counts) != CGAL::NEGATIVE; }))
+      if (std::all_of(fragment.polygon.begin(), fragment.polygon.end(),
+                      [&](const auto& corner) { return traits.side(q, corner.edge.bound, counts) != CGAL::NEGATIVE; }))
         faces.push_back(traits.face(fragment.polygon.piece));
   }
   std::sort(faces.begin(), faces.end());
@@ -158,11 +166,13 @@ inline std::vector<Face_id> faces_at(const Exact_traits& traits, const Exact_tre
   return faces;
 }
 
-/// Where a point is: on a face, or else inside or outside the solid that the faces bound (inside: winding number not zero).
-/// Degenerate: `undefined` where the scene is not closed (pass closure(scene).closed) and the point is on no face.
-/// Cost: O(depth), and O(n) rational arithmetic for inside or outside. Exact: yes. Proof: P-08
-inline Point_location locate_point(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point, bool closed, Predicate_counts& counts) {
-  Point_location found{Location::undefined, find_leaf(traits, tree, point, counts), faces_at(traits, tree, point, counts)};
+/// Where a point is: on a face, or else inside or outside the solid that the faces bound (inside: winding number not
+/// zero). Degenerate: `undefined` where the scene is not closed (pass closure(scene).closed) and the point is on no
+/// face. Cost: O(depth), and O(n) rational arithmetic for inside or outside. Exact: yes. Proof: P-08
+inline Point_location locate_point(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point,
+                                   bool closed, Predicate_counts& counts) {
+  Point_location found{Location::undefined, find_leaf(traits, tree, point, counts),
+                       faces_at(traits, tree, point, counts)};
   if (!found.faces.empty()) {
     found.location = Location::on;
   } else if (closed) {
@@ -178,21 +188,25 @@ inline Point_location locate_point(const Exact_traits& traits, const Exact_tree&
   return found;
 }
 
-/// The first point of a ray on any face (closed, from both sides; t >= 0), by descent along the ray. Where several fragments hold that point, the one of the
-/// lowest face and number. Degenerate: a ray in a face's plane hits the face where it enters it; an origin on a face is hit at t = 0.
-/// Errors: std::domain_error for a zero direction. Cost: O(nodes along the ray), rational arithmetic. Exact: yes.
+/// The first point of a ray on any face (closed, from both sides; t >= 0), by descent along the ray. Where several
+/// fragments hold that point, the one of the lowest face and number. Degenerate: a ray in a face's plane hits the face
+/// where it enters it; an origin on a face is hit at t = 0. Errors: std::domain_error for a zero direction. Cost:
+/// O(nodes along the ray), rational arithmetic. Exact: yes.
 inline std::optional<Ray_hit> first_hit(const Exact_traits& traits, const Exact_tree& tree, const Exact_ray& ray) {
-  if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0) throw std::domain_error("a ray needs a direction");
+  if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0)
+    throw std::domain_error("a ray needs a direction");
   const bsp_detail::Grid_ray grid(traits, ray);
   std::optional<Ray_hit> best;
   const auto offer = [&](const Rational& t, const Fragment<Exact_traits>& fragment) {
     const Face_id face = traits.face(fragment.polygon.piece);
-    if (!best || t < best->t || (t == best->t && std::pair(face, fragment.number) < std::pair(best->face, best->number))) best = Ray_hit{t, face, fragment.number};
+    if (!best || t < best->t ||
+        (t == best->t && std::pair(face, fragment.number) < std::pair(best->face, best->number)))
+      best = Ray_hit{t, face, fragment.number};
   };
   struct Step {
     std::int32_t node;
-    Rational from;                // the ray's part in the node's closed cell
-    std::optional<Rational> to;   // none: to infinity
+    Rational from;               // the ray's part in the node's closed cell
+    std::optional<Rational> to;  // none: to infinity
   };
   std::vector<Step> stack;
   const auto push = [&](std::int32_t node, const Rational& from, const std::optional<Rational>& to) {

@@ -14,14 +14,15 @@ struct Traversal_counters {
   Predicate_counts predicates;
 };
 
-/// Visits every fragment of the tree so that no fragment obscures, from the eye, any part of one visited before it (front_to_back: after it).
-/// visit(const Fragment&, Sign) also gets the side of the eye to the plane of the fragment's node.
-/// Degenerate: where the eye is in the plane of a node the fragments on it are seen edge-on and neither child obscures the other
-/// (their cones from the eye share no open set); the front child is taken as the nearer one. Coplanar fragments of a node come in the order of the scene.
-/// Cost: O(nodes), one side test each, an explicit stack. Exact: as the traits are.
-/// Source: Naylor, "Visibility Orderings". Proof: P-07
+/// Visits every fragment of the tree so that no fragment obscures, from the eye, any part of one visited before it
+/// (front_to_back: after it). visit(const Fragment&, Sign) also gets the side of the eye to the plane of the fragment's
+/// node. Degenerate: where the eye is in the plane of a node the fragments on it are seen edge-on and neither child
+/// obscures the other (their cones from the eye share no open set); the front child is taken as the nearer one.
+/// Coplanar fragments of a node come in the order of the scene. Cost: O(nodes), one side test each, an explicit stack.
+/// Exact: as the traits are. Source: Naylor, "Visibility Orderings". Proof: P-07
 template <Partition_traits Traits, class Visit>
-Traversal_counters traverse(const Traits& traits, const Bsp_tree<Traits>& tree, const typename Traits::Eye& eye, Direction direction, Visit visit) {
+Traversal_counters traverse(const Traits& traits, const Bsp_tree<Traits>& tree, const typename Traits::Eye& eye,
+                            Direction direction, Visit visit) {
   Traversal_counters counters;
   struct Step {
     std::int32_t node;
@@ -42,7 +43,8 @@ Traversal_counters traverse(const Traits& traits, const Bsp_tree<Traits>& tree, 
     ++counters.nodes;
     const Sign side = traits.side(eye, node.plane, counters.predicates);
     counters.on_planes += side == CGAL::ZERO;
-    std::int32_t first = side == CGAL::NEGATIVE ? node.front : node.behind, last = side == CGAL::NEGATIVE ? node.behind : node.front;
+    std::int32_t first = side == CGAL::NEGATIVE ? node.front : node.behind,
+                 last = side == CGAL::NEGATIVE ? node.behind : node.front;
     if (direction == Direction::front_to_back) std::swap(first, last);
     if (last != Bsp_tree<Traits>::leaf) stack.push_back({last, false, CGAL::ZERO});
     stack.push_back({step.node, true, side});

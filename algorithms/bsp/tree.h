@@ -7,13 +7,13 @@ namespace sightline {
 
 /// What building a tree modelled, and what it cost.
 struct Bsp_counters {
-  std::uint64_t pieces = 0;          ///< polygons given
-  std::uint64_t splits = 0;          ///< polygons cut in two
-  std::uint64_t fragments = 0;       ///< polygons in the tree: pieces + splits, where arithmetic is exact
+  std::uint64_t pieces = 0;                  ///< polygons given
+  std::uint64_t splits = 0;                  ///< polygons cut in two
+  std::uint64_t fragments = 0;               ///< polygons in the tree: pieces + splits, where arithmetic is exact
   std::uint64_t nodes = 0, free_planes = 0;  ///< inner nodes; those on an axis plane instead of a face's
-  std::uint64_t depth = 0;           ///< most nodes on a way from the root
-  std::uint64_t degenerate = 0;      ///< fragments of fewer than three corners that an inexact model made; they are dropped
-  std::uint64_t polygon_tests = 0;   ///< polygons tested against a plane, for choosing planes and for partitioning
+  std::uint64_t depth = 0;                   ///< most nodes on a way from the root
+  std::uint64_t degenerate = 0;  ///< fragments of fewer than three corners that an inexact model made; they are dropped
+  std::uint64_t polygon_tests = 0;  ///< polygons tested against a plane, for choosing planes and for partitioning
   Predicate_counts predicates;
 };
 
@@ -31,8 +31,8 @@ struct Bsp_tree {
   static constexpr std::int32_t leaf = -1;
   struct Node {
     Plane plane;
-    std::int32_t front = leaf, behind = leaf;      ///< children, or leaf
-    std::uint32_t first = 0, count = 0;            ///< its fragments
+    std::int32_t front = leaf, behind = leaf;  ///< children, or leaf
+    std::uint32_t first = 0, count = 0;        ///< its fragments
   };
 
   std::vector<Node> nodes;

@@ -10,8 +10,8 @@
 
 namespace sightline {
 
-/// A convex polygon bounded by lines (a, b, c), interior where a x + b y + c > 0, counterclockwise; vertex i is where line i - 1 meets line i.
-/// The same idea as the kernel's plane-defined polygons, one dimension down. Exact: yes.
+/// A convex polygon bounded by lines (a, b, c), interior where a x + b y + c > 0, counterclockwise; vertex i is where
+/// line i - 1 meets line i. The same idea as the kernel's plane-defined polygons, one dimension down. Exact: yes.
 class Flat_polygon {
  public:
   using Line = std::array<Integer, 3>;
@@ -36,7 +36,8 @@ class Flat_polygon {
     }
     Flat_polygon polygon;
     if (chain.size() < 3) return polygon;
-    for (std::size_t i = 0; i < chain.size(); ++i) polygon.lines_.push_back(line_through(chain[i], chain[(i + 1) % chain.size()]));
+    for (std::size_t i = 0; i < chain.size(); ++i)
+      polygon.lines_.push_back(line_through(chain[i], chain[(i + 1) % chain.size()]));
     return polygon;
   }
 
@@ -73,7 +74,8 @@ class Flat_polygon {
     Flat_polygon rest = *this;
     for (const Line& h : other.lines_) {
       if (rest.empty()) break;
-      if (Flat_polygon outside = rest.clipped({Integer(-h[0]), Integer(-h[1]), Integer(-h[2])}); !outside.empty()) pieces.push_back(std::move(outside));
+      if (Flat_polygon outside = rest.clipped({Integer(-h[0]), Integer(-h[1]), Integer(-h[2])}); !outside.empty())
+        pieces.push_back(std::move(outside));
       rest = rest.clipped(h);
     }
     return pieces;

@@ -7,28 +7,31 @@
 
 namespace sightline {
 
-/// Errors of a back-to-front order against the exact scene. Areas are shares of the area of all faces, each face measured in its projection along
-/// the dominant axis of its normal.
+/// Errors of a back-to-front order against the exact scene. Areas are shares of the area of all faces, each face
+/// measured in its projection along the dominant axis of its normal.
 struct Order_errors {
   std::uint64_t fragments = 0, degenerate = 0;  ///< given; those that have no area on their face
   std::uint64_t pairs = 0;                      ///< compared; 0 where there were too many
-  std::uint64_t wrong = 0;                      ///< the earlier one is nearer somewhere, be it by one rounding error at its rim
-  std::uint64_t wrong_beyond_rounding = 0;      ///< nearer by more than 2^-20 of the distance somewhere
+  std::uint64_t wrong = 0;  ///< the earlier one is nearer somewhere, be it by one rounding error at its rim
+  std::uint64_t wrong_beyond_rounding = 0;  ///< nearer by more than 2^-20 of the distance somewhere
   Rational lost = 0, overlapping = 0, outside = 0;
 };
 
-/// Judges fragments whose vertices may lie off their faces by rounding: each is moved onto the exact plane of its piece along the dominant axis, and
-/// stands for its convex hull there. Pairs are compared as `verify` does it, if there are at most max_fragments of them.
-/// Cost: quadratic in the fragments, and in the fragments of each piece. Exact: yes.
-inline Order_errors order_errors(const Scene& scene, const Exact_point& eye, std::span<const Order_fragment> fragments, std::size_t max_fragments) {
+/// Judges fragments whose vertices may lie off their faces by rounding: each is moved onto the exact plane of its piece
+/// along the dominant axis, and stands for its convex hull there. Pairs are compared as `verify` does it, if there are
+/// at most max_fragments of them. Cost: quadratic in the fragments, and in the fragments of each piece. Exact: yes.
+inline Order_errors order_errors(const Scene& scene, const Exact_point& eye, std::span<const Order_fragment> fragments,
+                                 std::size_t max_fragments) {
   Order_errors errors;
   errors.fragments = fragments.size();
 
   // The plane of each piece in the file's coordinates, and what was drawn of it.
   std::map<std::pair<Face_id, std::uint32_t>, std::size_t> piece_of;
-  for (std::size_t i = 0; i < scene.pieces().size(); ++i) piece_of[{scene.pieces()[i].face, scene.pieces()[i].number}] = i;
+  for (std::size_t i = 0; i < scene.pieces().size(); ++i)
+    piece_of[{scene.pieces()[i].face, scene.pieces()[i].number}] = i;
   std::vector<std::vector<std::size_t>> drawn_of(scene.pieces().size());
-  for (std::size_t i = 0; i < fragments.size(); ++i) drawn_of[piece_of.at({fragments[i].face, fragments[i].piece})].push_back(i);
+  for (std::size_t i = 0; i < fragments.size(); ++i)
+    drawn_of[piece_of.at({fragments[i].face, fragments[i].piece})].push_back(i);
 
   std::vector<std::optional<order_check::Cone>> cones(fragments.size());
   Rational all = 0;

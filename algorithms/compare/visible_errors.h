@@ -10,17 +10,20 @@
 
 namespace sightline {
 
-/// Areas are shares of the sphere of directions, 0 to 1. Visible is what the eye sees from the front; what is shown may be seen from either side.
+/// Areas are shares of the sphere of directions, 0 to 1. Visible is what the eye sees from the front; what is shown may
+/// be seen from either side.
 struct Visible_errors {
-  double wrong = 0;                   ///< another face is shown than the exact one, or none, or one where there is none; pieces of one face are not told apart
-  double tied = 0;                    ///< another face is shown, but one in the same plane that is there too: not wrong
+  double wrong = 0;  ///< another face is shown than the exact one, or none, or one where there is none; pieces of one
+                     ///< face are not told apart
+  double tied = 0;   ///< another face is shown, but one in the same plane that is there too: not wrong
   std::uint64_t wrongly_visible = 0;  ///< faces that the answer calls visible, and that are not
   std::uint64_t wrongly_hidden = 0;   ///< the other way round
   std::uint64_t missing = 0;          ///< faces of the exact surface, seen from the front, that are shown nowhere
   double largest_missing = 0;         ///< the largest area of one of them
-  double gaps = 0;                    ///< directions that no part holds; where there is something to see they are wrong too
-  double overlaps = 0;                ///< directions that two parts hold, counted for each two; where one is wrong they are wrong too
-  std::uint64_t not_finite = 0;       ///< parts or pieces whose numbers say nothing; they are left out, and their area is missing
+  double gaps = 0;      ///< directions that no part holds; where there is something to see they are wrong too
+  double overlaps = 0;  ///< directions that two parts hold, counted for each two; where one is wrong they are wrong too
+  std::uint64_t not_finite =
+      0;  ///< parts or pieces whose numbers say nothing; they are left out, and their area is missing
 };
 
 namespace visible_errors_detail {
@@ -32,7 +35,9 @@ using Image_polygon = std::vector<Image_point>;
 /// What is narrower, in an image of width 2, is rounding and counts as nothing.
 inline constexpr double rounding = 0x1p-46;
 
-inline double cross(const Image_point& a, const Image_point& b, const Image_point& c) { return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]); }
+inline double cross(const Image_point& a, const Image_point& b, const Image_point& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
 
 /// The solid angle of a polygon: of the triangles of a fan, the sign as they turn. Ref: Van Oosterom and Strackee 1983.
 inline double solid_angle(const Image_polygon& p) {
@@ -59,15 +64,19 @@ inline Image_polygon hull(Image_polygon points) {
     if (!chain.empty()) chain.pop_back();
     std::reverse(points.begin(), points.end());
   }
-  const auto close = [](const Image_point& a, const Image_point& b) { return std::hypot(a[0] - b[0], a[1] - b[1]) <= rounding; };
+  const auto close = [](const Image_point& a, const Image_point& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1]) <= rounding;
+  };
   chain.erase(std::unique(chain.begin(), chain.end(), close), chain.end());
   while (chain.size() > 1 && close(chain.front(), chain.back())) chain.pop_back();
   if (chain.size() < 3) chain.clear();
   return chain;
 }
 
-/// The part of a convex polygon to the left of the line from p to q, or to its right. Degenerate: a part that is nowhere farther from the line than rounding is empty.
-inline Image_polygon clipped(const Image_polygon& polygon, const Image_point& p, const Image_point& q, bool left = true) {
+/// The part of a convex polygon to the left of the line from p to q, or to its right. Degenerate: a part that is
+/// nowhere farther from the line than rounding is empty.
+inline Image_polygon clipped(const Image_polygon& polygon, const Image_point& p, const Image_point& q,
+                             bool left = true) {
   const std::size_t n = polygon.size();
   const double length = (left ? 1 : -1) * std::hypot(q[0] - p[0], q[1] - p[1]);
   thread_local std::vector<double> distance;
@@ -87,7 +96,8 @@ inline Image_polygon clipped(const Image_polygon& polygon, const Image_point& p,
     if (a >= 0) part.push_back(polygon[k]);
     if ((a > 0 && b < 0) || (a < 0 && b > 0)) {
       const double t = a / (a - b);
-      part.push_back({polygon[k][0] + t * (polygon[next][0] - polygon[k][0]), polygon[k][1] + t * (polygon[next][1] - polygon[k][1])});
+      part.push_back({polygon[k][0] + t * (polygon[next][0] - polygon[k][0]),
+                      polygon[k][1] + t * (polygon[next][1] - polygon[k][1])});
     }
   }
   return part;
@@ -139,13 +149,15 @@ inline Image_polygon on_side(const std::vector<Ray_direction>& cone, const Cube_
   return image;
 }
 
-// ---- Rays as doubles, the largest coordinate 1: each within 2^-52 of what it stands for --------------------------------------------
+// ---- Rays as doubles, the largest coordinate 1: each within 2^-52 of what it stands for
+// --------------------------------------------
 
 inline Ray_direction direction(const std::array<Rational, 3>& d) {
   Rational size = 0;
   for (const Rational& x : d) size = std::max(size, Rational(abs(x)));
   if (size == 0) return {0, 0, 0};
-  return {nearest_double(Rational(d[0] / size)), nearest_double(Rational(d[1] / size)), nearest_double(Rational(d[2] / size))};
+  return {nearest_double(Rational(d[0] / size)), nearest_double(Rational(d[1] / size)),
+          nearest_double(Rational(d[2] / size))};
 }
 inline Ray_direction direction(const Exact_view& view, const Exact_view::Ray& r) {
   const std::array<Integer, 3> d = view.direction(r);
@@ -171,12 +183,13 @@ Ray_direction direction(const Number_view<FT>&, const typename Number_view<FT>::
   }
 }
 
-// ---- A surface in six images ---------------------------------------------------------------------------------------------------------
+// ---- A surface in six images
+// ---------------------------------------------------------------------------------------------------------
 
 struct Part {
-  std::uint32_t piece;     // or nothing
+  std::uint32_t piece;  // or nothing
   Image_polygon polygon;
-  Image_point low, high;   // its box
+  Image_point low, high;  // its box
 };
 
 /// Parts of an image, and which of them are near a box.
@@ -185,7 +198,8 @@ class Image {
   void add(std::uint32_t piece, Image_polygon polygon) {
     Part part{piece, std::move(polygon), {1, 1}, {-1, -1}};
     for (const Image_point& p : part.polygon)
-      for (std::size_t k = 0; k < 2; ++k) part.low[k] = std::min(part.low[k], p[k]), part.high[k] = std::max(part.high[k], p[k]);
+      for (std::size_t k = 0; k < 2; ++k)
+        part.low[k] = std::min(part.low[k], p[k]), part.high[k] = std::max(part.high[k], p[k]);
     parts_.push_back(std::move(part));
   }
   std::span<const Part> parts() const { return parts_; }
@@ -194,7 +208,8 @@ class Image {
   void make_grid() {
     cells_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(parts_.size()))), 1, 512);
     grid_.assign(cells_ * cells_, {});
-    for (std::uint32_t i = 0; i < parts_.size(); ++i) each_cell(parts_[i], [&](std::vector<std::uint32_t>& cell) { cell.push_back(i); });
+    for (std::uint32_t i = 0; i < parts_.size(); ++i)
+      each_cell(parts_[i], [&](std::vector<std::uint32_t>& cell) { cell.push_back(i); });
     met_.assign(parts_.size(), 0), round_ = 0;
   }
   /// The parts whose boxes meet that of another one. Pre: make_grid().
@@ -206,7 +221,9 @@ class Image {
         if (met_[i] == round_) continue;
         met_[i] = round_;
         const Part& part = parts_[i];
-        if (part.low[0] <= other.high[0] && other.low[0] <= part.high[0] && part.low[1] <= other.high[1] && other.low[1] <= part.high[1]) found.push_back(i);
+        if (part.low[0] <= other.high[0] && other.low[0] <= part.high[0] && part.low[1] <= other.high[1] &&
+            other.low[1] <= part.high[1])
+          found.push_back(i);
       }
     });
     return found;
@@ -215,7 +232,9 @@ class Image {
  private:
   template <class Function>
   void each_cell(const Part& part, Function function) {
-    const auto cell = [&](double v) { return std::min(cells_ - 1, static_cast<std::size_t>((v + 1) / 2 * static_cast<double>(cells_))); };
+    const auto cell = [&](double v) {
+      return std::min(cells_ - 1, static_cast<std::size_t>((v + 1) / 2 * static_cast<double>(cells_)));
+    };
     for (std::size_t y = cell(part.low[1]); y <= cell(part.high[1]); ++y)
       for (std::size_t x = cell(part.low[0]); x <= cell(part.high[0]); ++x) function(grid_[y * cells_ + x]);
   }
@@ -230,12 +249,13 @@ class Image {
 /// A visible surface in the six images of the cube.
 struct Images {
   std::array<Image, 6> sides;
-  std::vector<double> areas;          // of each piece, in steradians
-  std::vector<unsigned char> shown;   // whether a piece is shown
+  std::vector<double> areas;         // of each piece, in steradians
+  std::vector<unsigned char> shown;  // whether a piece is shown
   std::uint64_t not_finite = 0;
 
   template <View V>
-  Images(const V& view, const Visible_surface<V>& surface) : areas(view.scene().pieces().size(), 0.0), shown(areas.size(), 0) {
+  Images(const V& view, const Visible_surface<V>& surface)
+      : areas(view.scene().pieces().size(), 0.0), shown(areas.size(), 0) {
     std::vector<Ray_direction> cone;
     for (const auto& part : surface.parts) {
       cone.clear();
@@ -243,9 +263,11 @@ struct Images {
       for (const typename V::Ray& r : surface.of(part)) {
         Ray_direction d = direction(view, r);
         finite = finite && std::isfinite(d[0] + d[1] + d[2]) && (d[0] != 0 || d[1] != 0 || d[2] != 0);
-        // A ray that rounding turned round is drawn where its line meets the plane in front of the eye, as view.position() has it.
+        // A ray that rounding turned round is drawn where its line meets the plane in front of the eye, as
+        // view.position() has it.
         if constexpr (!V::is_exact)
-          if (part.piece != surface.nothing && view.nearness(part.piece, {d[0], d[1], d[2]}) < 0) d = {-d[0], -d[1], -d[2]};
+          if (part.piece != surface.nothing && view.nearness(part.piece, {d[0], d[1], d[2]}) < 0)
+            d = {-d[0], -d[1], -d[2]};
         cone.push_back(d);
       }
       if (!finite) {
@@ -264,17 +286,20 @@ struct Images {
 
 }  // namespace visible_errors_detail
 
-/// The exact visible surface, ready to be compared with: answers to the same question by other means, over the whole sphere.
-/// All areas are measured in doubles, on the six images of a cube around the eye: solid angles of polygons whose corners are rounded to about 2^-50 of an image. What is narrower than
-/// 2^-46 counts as no difference, so that equal answers differ by 0, or by some 10^-17 where parts are about that narrow; a wrong area is right to about 2^-48 for each part that it
-/// is made of. Nothing else is rounded: which faces are visible, and who is seen in a part, is exact.
-/// Pre: the view and its scene outlive it; the surface covers the whole sphere.
+/// The exact visible surface, ready to be compared with: answers to the same question by other means, over the whole
+/// sphere. All areas are measured in doubles, on the six images of a cube around the eye: solid angles of polygons
+/// whose corners are rounded to about 2^-50 of an image. What is narrower than 2^-46 counts as no difference, so that
+/// equal answers differ by 0, or by some 10^-17 where parts are about that narrow; a wrong area is right to about 2^-48
+/// for each part that it is made of. Nothing else is rounded: which faces are visible, and who is seen in a part, is
+/// exact. Pre: the view and its scene outlive it; the surface covers the whole sphere.
 class Visible_reference {
  public:
-  Visible_reference(const Exact_view& view, const Visible_surface<Exact_view>& surface) : view_(&view), visible_(surface.visible), images_(view, surface) {}
+  Visible_reference(const Exact_view& view, const Visible_surface<Exact_view>& surface)
+      : view_(&view), visible_(surface.visible), images_(view, surface) {}
 
-  /// Of an answer made in other numbers: a partition into cones that may have gaps and overlaps. A cone that rounding made concave stands for its hull in each image.
-  /// Cost: about O(n) for n parts, and what differs. Exact: areas no, see above; counts yes.
+  /// Of an answer made in other numbers: a partition into cones that may have gaps and overlaps. A cone that rounding
+  /// made concave stands for its hull in each image. Cost: about O(n) for n parts, and what differs. Exact: areas no,
+  /// see above; counts yes.
   template <View V>
   Visible_errors errors(const V& view, const Visible_surface<V>& surface) {
     using namespace visible_errors_detail;
@@ -311,21 +336,24 @@ class Visible_reference {
     return e;
   }
 
-  /// Of a depth buffer: each pixel shows its piece all over. Visible are faces with a piece that has a pixel, and that the eye is in front of.
-  /// Cost: O(pixels that each exact part meets). Exact: areas no, see above; counts yes.
+  /// Of a depth buffer: each pixel shows its piece all over. Visible are faces with a piece that has a pixel, and that
+  /// the eye is in front of. Cost: O(pixels that each exact part meets). Exact: areas no, see above; counts yes.
   Visible_errors errors(const Depth_buffer& buffer) {
     using namespace visible_errors_detail;
     Visible_errors e;
     e.not_finite = buffer.not_finite;
     const double size = buffer.size;
     const auto line = [&](std::uint32_t k) { return 2 * k / size - 1; };
-    const auto pixel = [&](double v) { return std::min(buffer.size - 1, static_cast<std::uint32_t>(std::max(0.0, (v + 1) / 2 * size))); };
+    const auto pixel = [&](double v) {
+      return std::min(buffer.size - 1, static_cast<std::uint32_t>(std::max(0.0, (v + 1) / 2 * size)));
+    };
     double wrong = 0;
     for (std::size_t side = 0; side < 6; ++side)
       for (const Part& part : images_.sides[side].parts())
         for (std::uint32_t y = pixel(part.low[1]); y <= pixel(part.high[1]); ++y) {
           const double below = line(y), above = line(y + 1);
-          const Image_polygon row = clipped(clipped(part.polygon, {-1, below}, {1, below}), {-1, above}, {1, above}, false);
+          const Image_polygon row =
+              clipped(clipped(part.polygon, {-1, below}, {1, below}), {-1, above}, {1, above}, false);
           if (row.empty()) continue;
           double least = 1, most = -1;
           for (const Image_point& p : row) least = std::min(least, p[0]), most = std::max(most, p[0]);
@@ -357,10 +385,13 @@ class Visible_reference {
   static_assert(nothing == Visible_surface<Exact_view>::nothing);
 
   Face_id face(std::uint32_t piece) const { return view_->scene().pieces()[piece].face; }
-  bool same(std::uint32_t f, std::uint32_t g) const { return f == g || (f != nothing && g != nothing && face(f) == face(g)); }
+  bool same(std::uint32_t f, std::uint32_t g) const {
+    return f == g || (f != nothing && g != nothing && face(f) == face(g));
+  }
 
   /// The area of a polygon where f is seen and g is shown, less what of it is tied.
-  double wrong_area(std::size_t side, std::uint32_t f, std::uint32_t g, const Image_polygon& polygon, Visible_errors& e) {
+  double wrong_area(std::size_t side, std::uint32_t f, std::uint32_t g, const Image_polygon& polygon,
+                    Visible_errors& e) {
     using namespace visible_errors_detail;
     if (same(f, g)) return 0;
     const double area = solid_angle(polygon);
@@ -386,10 +417,12 @@ class Visible_reference {
   /// `visible`: sorted.
   void count(const std::vector<Face_id>& visible, const std::vector<unsigned char>& shown, Visible_errors& e) const {
     std::vector<Face_id> difference;
-    std::set_difference(visible.begin(), visible.end(), visible_.begin(), visible_.end(), std::back_inserter(difference));
+    std::set_difference(visible.begin(), visible.end(), visible_.begin(), visible_.end(),
+                        std::back_inserter(difference));
     e.wrongly_visible = difference.size();
     difference.clear();
-    std::set_difference(visible_.begin(), visible_.end(), visible.begin(), visible.end(), std::back_inserter(difference));
+    std::set_difference(visible_.begin(), visible_.end(), visible.begin(), visible.end(),
+                        std::back_inserter(difference));
     e.wrongly_hidden = difference.size();
 
     struct Face {

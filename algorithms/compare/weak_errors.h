@@ -12,14 +12,16 @@ struct Weak_errors {
   std::size_t all() const { return wrongly_visible + wrongly_hidden + undecided; }
 };
 
-/// Faces that are said to be visible and are hidden, and so on. Pre: lists as Weak_faces has them, of the same scene. Cost: linear. Exact: yes
+/// Faces that are said to be visible and are hidden, and so on. Pre: lists as Weak_faces has them, of the same scene.
+/// Cost: linear. Exact: yes
 inline Weak_errors weak_errors(const Weak_faces& exact, const Weak_faces& said) {
   const auto common = [](const std::vector<Face_id>& a, const std::vector<Face_id>& b) {
     std::vector<Face_id> both;
     std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
     return both.size();
   };
-  return {common(exact.hidden, said.visible), common(exact.visible, said.hidden), common(exact.visible, said.undecided) + common(exact.hidden, said.undecided), exact.undecided.size()};
+  return {common(exact.hidden, said.visible), common(exact.visible, said.hidden),
+          common(exact.visible, said.undecided) + common(exact.hidden, said.undecided), exact.undecided.size()};
 }
 
 }  // namespace sightline

@@ -1,7 +1,8 @@
 #pragma once
-// Which faces to test in which order, so that the expected number of on-view tests is least: decision trees (Tanimoto 1977, figure 2) for any views and likelihood.
-// Laws, tested: an eye of a listed view ends at that view; a test is made only if both answers are possible; no tree of tests expects fewer; no binary tree is below the
-// bound, which tests of single faces may not reach: a box takes 64/13 tests, the bound and the paper's figure are 62/13.
+// Which faces to test in which order, so that the expected number of on-view tests is least: decision trees (Tanimoto
+// 1977, figure 2) for any views and likelihood. Laws, tested: an eye of a listed view ends at that view; a test is made
+// only if both answers are possible; no tree of tests expects fewer; no binary tree is below the bound, which tests of
+// single faces may not reach: a box takes 64/13 tests, the bound and the paper's figure are 62/13.
 
 #include <sightline/algorithms/cutset/view_cells.h>
 
@@ -10,13 +11,15 @@
 
 namespace sightline {
 
-/// A set of faces that may be on-view together, and how likely that is, up to a factor common to all. 0: it must be told apart, but costs nothing.
+/// A set of faces that may be on-view together, and how likely that is, up to a factor common to all. 0: it must be
+/// told apart, but costs nothing.
 struct Weighted_view {
   std::uint32_t on_view;  ///< bit k: face k
   Rational weight;
 };
 
-/// Tests of faces in a table. It starts at steps[0]; a child is the place of a step, or `leaf` + the place of a view. One view alone has no steps.
+/// Tests of faces in a table. It starts at steps[0]; a child is the place of a step, or `leaf` + the place of a view.
+/// One view alone has no steps.
 struct Decision_tree {
   static constexpr std::uint32_t leaf = 1u << 31;
 
@@ -27,10 +30,12 @@ struct Decision_tree {
   std::vector<Step> steps;           ///< parents first
   std::vector<std::uint32_t> views;  ///< sets of on-view faces, each the end of one path
   Rational expected;                 ///< number of tests
-  Rational bound;                    ///< the least of any binary tree with these weights at its ends (Huffman's), which tests of single faces may not reach
-  std::size_t states = 0;            ///< sets of views that were searched
+  Rational bound;  ///< the least of any binary tree with these weights at its ends (Huffman's), which tests of single
+                   ///< faces may not reach
+  std::size_t states = 0;  ///< sets of views that were searched
 
-  /// The faces that are on-view, found by `test(face)`, which says whether one is; `tests` counts the calls. Pre: the answers are those of one of the views.
+  /// The faces that are on-view, found by `test(face)`, which says whether one is; `tests` counts the calls. Pre: the
+  /// answers are those of one of the views.
   template <class Test>
   std::uint32_t run(Test test, unsigned* tests = nullptr) const {
     std::uint32_t at = steps.empty() ? leaf : 0;
@@ -42,8 +47,8 @@ struct Decision_tree {
   }
 };
 
-/// Each view of an open set of eyes is as likely as any other; one that only eyes in planes have is possible, with weight 0. No face on-view, from the inside of a
-/// convex body, is not possible; with `inside` it is, with weight 0.
+/// Each view of an open set of eyes is as likely as any other; one that only eyes in planes have is possible, with
+/// weight 0. No face on-view, from the inside of a convex body, is not possible; with `inside` it is, with weight 0.
 inline std::vector<Weighted_view> uniform_likelihood(std::span<const View_cell> cells, bool inside = false) {
   std::vector<Weighted_view> views;
   for (const View_cell& cell : cells)
@@ -91,8 +96,9 @@ class Cost_table {
   std::size_t size_ = 0;
 };
 
-/// The search, on integer weights. A set of views that tests lead to is named by two sets of faces: those that all its views have on-view, and those that some have. It
-/// is all views between these two, and the faces of the second that are not in the first are the ones worth a test. Proof: P-53
+/// The search, on integer weights. A set of views that tests lead to is named by two sets of faces: those that all its
+/// views have on-view, and those that some have. It is all views between these two, and the faces of the second that
+/// are not in the first are the ones worth a test. Proof: P-53
 template <class Number>
 class Search {
  public:
@@ -109,14 +115,17 @@ class Search {
     tree.states = costs_.size();
     return views_.size() < 2 ? Number(0) : best(views_).cost;
   }
-  /// The least such sum of any binary tree with these weights at its ends: the two least ends or subtrees are put together again and again. Ref: Huffman 1952.
+  /// The least such sum of any binary tree with these weights at its ends: the two least ends or subtrees are put
+  /// together again and again. Ref: Huffman 1952.
   Number bound() const {
     std::vector<Number> ends, subtrees;
     for (const View& view : views_) ends.push_back(view.weight);
     std::sort(ends.begin(), ends.end());
     Number sum = 0;
     std::size_t e = 0, s = 0;
-    const auto take = [&]() -> const Number& { return s == subtrees.size() || (e < ends.size() && ends[e] <= subtrees[s]) ? ends[e++] : subtrees[s++]; };
+    const auto take = [&]() -> const Number& {
+      return s == subtrees.size() || (e < ends.size() && ends[e] <= subtrees[s]) ? ends[e++] : subtrees[s++];
+    };
     while (subtrees.size() + 1 < ends.size()) {
       Number both = take();
       both += take();
@@ -142,7 +151,10 @@ class Search {
   };
 
   static std::size_t split(Views views, std::uint32_t face) {
-    return static_cast<std::size_t>(std::partition(views.begin(), views.end(), [face](const View& view) { return (view.on_view >> face & 1) != 0; }) - views.begin());
+    return static_cast<std::size_t>(
+        std::partition(views.begin(), views.end(),
+                       [face](const View& view) { return (view.on_view >> face & 1) != 0; }) -
+        views.begin());
   }
 
   /// The cost of a set, and the lowest face that a best tree may test first. Permutes the views. Pre: there are two.
@@ -170,8 +182,9 @@ class Search {
         if (!is_split) split(views, face), is_split = true;
         const Number least = best(on ? views.first(parts[1].count) : views.last(parts[0].count)).cost;
         if (costs_.size() >= most_states_)
-          throw std::length_error("a best decision tree of these views takes a search of more than " + std::to_string(most_states_) +
-                                  " sets of views: leave out views that cannot occur, or group the faces and search a tree for each group");
+          throw std::length_error(
+              "a best decision tree of these views takes a search of more than " + std::to_string(most_states_) +
+              " sets of views: leave out views that cannot occur, or group the faces and search a tree for each group");
         costs_.add(key, least);
         cost += least;
       }
@@ -199,7 +212,8 @@ class Search {
 };
 
 template <class Number, class Convert>
-void fill(Decision_tree& tree, const std::map<std::uint32_t, Integer>& weights, const Integer& total, std::size_t most_states, Convert convert) {
+void fill(Decision_tree& tree, const std::map<std::uint32_t, Integer>& weights, const Integer& total,
+          std::size_t most_states, Convert convert) {
   std::vector<typename Search<Number>::View> views;
   for (const auto& [on_view, weight] : weights) views.push_back({on_view, convert(weight)});
   Search<Number> search(std::move(views), most_states);
@@ -209,25 +223,28 @@ void fill(Decision_tree& tree, const std::map<std::uint32_t, Integer>& weights, 
 
 }  // namespace decision_tree_detail
 
-/// A tree of on-view tests that tells these views apart with the least expected number of tests; of several, at each step, the one that tests the lowest face.
-/// Pre: faces <= 32, all sets are of these, no weight is negative, some weight is positive; else std::invalid_argument.
-/// Degenerate: a view that is given twice counts once, with both weights; one view alone takes no test.
-/// Cost: all sets of views that tests lead to are searched, at most 3^faces, each in O(faces) times its views. Below 1 ms for a box, a hexagonal prism or an
-/// octahedron, 10 ms for a dodecahedron. For all views of a body whose n planes are in general position (g++ -O2):
+/// A tree of on-view tests that tells these views apart with the least expected number of tests; of several, at each
+/// step, the one that tests the lowest face. Pre: faces <= 32, all sets are of these, no weight is negative, some
+/// weight is positive; else std::invalid_argument. Degenerate: a view that is given twice counts once, with both
+/// weights; one view alone takes no test. Cost: all sets of views that tests lead to are searched, at most 3^faces,
+/// each in O(faces) times its views. Below 1 ms for a box, a hexagonal prism or an octahedron, 10 ms for a
+/// dodecahedron. For all views of a body whose n planes are in general position (g++ -O2):
 ///     n         8      12     16     20      22      24
 ///     views     92     298    696    1350    1793    2324
 ///     states    1766   24115  2.1e5  1.8e6   5.7e6   2.0e7
 ///     seconds   0.001  0.02   0.3    5       24      107
 ///     MB                      8      90      200     770
-/// So 20 faces in 10 s, 24 in 1 GB. Weights whose sum has more than 57 bits once they are integers take four times as long. Beyond `most_states` states: std::length_error.
-/// Exact: yes. Proof: P-53
-inline Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces, std::size_t most_states = 25'000'000) {
+/// So 20 faces in 10 s, 24 in 1 GB. Weights whose sum has more than 57 bits once they are integers take four times as
+/// long. Beyond `most_states` states: std::length_error. Exact: yes. Proof: P-53
+inline Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces,
+                                 std::size_t most_states = 25'000'000) {
   if (faces > 32) throw std::invalid_argument("decision trees for " + std::to_string(faces) + " faces: at most 32");
   Integer common = 1, total = 0;
   for (const Weighted_view& view : views) {
     if (sgn(view.weight) < 0) throw std::invalid_argument("a view of weight " + to_string(view.weight));
     const auto width = std::bit_width(view.on_view);
-    if (static_cast<unsigned>(width) > faces) throw std::invalid_argument("a view of face " + std::to_string(width - 1) + ", of " + std::to_string(faces));
+    if (static_cast<unsigned>(width) > faces)
+      throw std::invalid_argument("a view of face " + std::to_string(width - 1) + ", of " + std::to_string(faces));
     common = lcm(common, view.weight.get_den());
   }
   std::map<std::uint32_t, Integer> weights;
@@ -238,8 +255,11 @@ inline Decision_tree least_tests(std::span<const Weighted_view> views, unsigned 
   if (sgn(total) == 0) throw std::invalid_argument("no view has a weight");
   Decision_tree tree;
   if (bit_length(total) <= 57)  // a path has at most 32 tests, so all sums stay below 2^62
-    decision_tree_detail::fill<std::int64_t>(tree, weights, total, most_states, [](const Integer& weight) { return weight.get_si(); });
-  else decision_tree_detail::fill<Integer>(tree, weights, total, most_states, [](const Integer& weight) { return weight; });
+    decision_tree_detail::fill<std::int64_t>(tree, weights, total, most_states,
+                                             [](const Integer& weight) { return weight.get_si(); });
+  else
+    decision_tree_detail::fill<Integer>(tree, weights, total, most_states,
+                                        [](const Integer& weight) { return weight; });
   return tree;
 }
 

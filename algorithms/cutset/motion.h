@@ -5,12 +5,14 @@
 
 namespace sightline {
 
-/// The rigid motion p -> R p + t, with R the rotation of the quaternion w + x i + y j + z k, which may have any length but zero: rational quaternions give rational rotations, with no root.
+/// The rigid motion p -> R p + t, with R the rotation of the quaternion w + x i + y j + z k, which may have any length
+/// but zero: rational quaternions give rational rotations, with no root.
 struct Rigid_motion {
   std::array<Rational, 4> quaternion;  ///< w, x, y, z; 1, 0, 0, 0 turns nothing
   Exact_point translation;
 
-  /// Where a viewpoint is for an object that was moved: R^T (p - t); a direction is turned only. Exact: yes. Errors: std::invalid_argument for the quaternion 0.
+  /// Where a viewpoint is for an object that was moved: R^T (p - t); a direction is turned only. Exact: yes. Errors:
+  /// std::invalid_argument for the quaternion 0.
   Viewpoint seen_from(const Viewpoint& view) const {
     const auto& [w, x, y, z] = quaternion;
     const Rational size = w * w + x * x + y * y + z * z;
@@ -22,7 +24,8 @@ struct Rigid_motion {
                                  {2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)},
                                  {2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z}};
     Viewpoint turned{p, view.at_infinity};
-    for (std::size_t k = 0; k < 3; ++k) turned.at[k] = (rows[0][k] * p[0] + rows[1][k] * p[1] + rows[2][k] * p[2]) / size;
+    for (std::size_t k = 0; k < 3; ++k)
+      turned.at[k] = (rows[0][k] * p[0] + rows[1][k] * p[1] + rows[2][k] * p[2]) / size;
     return turned;
   }
 };

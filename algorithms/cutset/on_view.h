@@ -20,13 +20,14 @@ inline bool operator==(const Viewpoint& a, const Viewpoint& b) {
   return a.at_infinity == b.at_infinity && std::equal(a.at.begin(), a.at.end(), b.at.begin());
 }
 
-/// The on-view predicate over the nodes of a face graph: a viewpoint in a node's plane is off-view, and so is one at infinity along it.
-/// Doubles decide where their bound allows, and tell how far the viewpoint is from the plane; else the traits do. Exact: yes. Proof: P-51
+/// The on-view predicate over the nodes of a face graph: a viewpoint in a node's plane is off-view, and so is one at
+/// infinity along it. Doubles decide where their bound allows, and tell how far the viewpoint is from the plane; else
+/// the traits do. Exact: yes. Proof: P-51
 template <Partition_traits Traits>
-  requires(Traits::is_exact)
-class On_view {
+requires(Traits::is_exact) class On_view {
  public:
-  /// A viewpoint made ready: doubles in the grid's approximate coordinates, each off by at most `error`; a height is off by at most `bound`.
+  /// A viewpoint made ready: doubles in the grid's approximate coordinates, each off by at most `error`; a height is
+  /// off by at most `bound`.
   struct Eye {
     Viewpoint view;
     double x, y, z, w;  ///< w: 1 for a point, 0 for a direction
@@ -43,7 +44,11 @@ class On_view {
   };
 
   /// Pre: graph and traits are of one scene and outlive this.
-  On_view(const Traits& traits, const Face_graph& graph) : traits_(&traits), graph_(&graph), predicates_(graph.scene().predicates()), reach_(2 * graph.scene().points().range()) {}
+  On_view(const Traits& traits, const Face_graph& graph)
+      : traits_(&traits),
+        graph_(&graph),
+        predicates_(graph.scene().predicates()),
+        reach_(2 * graph.scene().points().range()) {}
 
   Row row(std::uint32_t node) const {
     const Prepared_plane h = predicates_.prepare(graph_->plane(node));
@@ -69,7 +74,9 @@ class On_view {
   }
 
   /// The distance from the plane, positive in front, in doubles: off by at most eye.bound.
-  static double height(const Row& row, const Eye& eye) { return row.a * eye.x + row.b * eye.y + row.c * eye.z + row.d * eye.w; }
+  static double height(const Row& row, const Eye& eye) {
+    return row.a * eye.x + row.b * eye.y + row.c * eye.z + row.d * eye.w;
+  }
   /// Pre: the row is the node's.
   Answer test(std::uint32_t node, const Row& row, const Eye& eye, Predicate_counts& counts) const {
     const double value = height(row, eye);
@@ -88,25 +95,31 @@ class On_view {
     return std::sqrt(x * x + y * y + z * z) * (1 + 0x1p-49) + 2 * (from.error + to.error) + 0x1p-500;
   }
 
-  /// Whether the plane's height over the first eye, as a multiple of its depth below the second, is greater for node j than for node i. Pre: the second is behind both planes. Exact: yes
+  /// Whether the plane's height over the first eye, as a multiple of its depth below the second, is greater for node j
+  /// than for node i. Pre: the second is behind both planes. Exact: yes
   bool is_higher(std::uint32_t j, std::uint32_t i, const Eye& over, const Eye& below) const {
     const Row of_i = row(i), of_j = row(j);
     const double hi = height(of_i, over), hj = height(of_j, over), di = -height(of_i, below), dj = -height(of_j, below);
     const double left = hj * di, right = hi * dj;
-    const double bound = over.bound * (std::fabs(di) + std::fabs(dj)) + below.bound * (std::fabs(hi) + std::fabs(hj)) + 4 * over.bound * below.bound + 0x1p-50 * (std::fabs(left) + std::fabs(right)) + 0x1p-1000;
+    const double bound = over.bound * (std::fabs(di) + std::fabs(dj)) + below.bound * (std::fabs(hi) + std::fabs(hj)) +
+                         4 * over.bound * below.bound + 0x1p-50 * (std::fabs(left) + std::fabs(right)) + 0x1p-1000;
     if (left - right > bound) return true;
     if (left - right < -bound) return false;
-    return exact_height(j, over.view) * -exact_height(i, below.view) > exact_height(i, over.view) * -exact_height(j, below.view);
+    return exact_height(j, over.view) * -exact_height(i, below.view) >
+           exact_height(i, over.view) * -exact_height(j, below.view);
   }
 
  private:
-  /// Four terms, each off by a relative 2^-49, three sums of 2^-53, and the viewpoint's own error along a unit normal: 2^-47 and twice the error cover that. P-51
+  /// Four terms, each off by a relative 2^-49, three sums of 2^-53, and the viewpoint's own error along a unit normal:
+  /// 2^-47 and twice the error cover that. P-51
   static double bound(double x, double y, double z, double error, double reach) {
-    return 0x1p-47 * (std::fabs(x) + std::fabs(y) + std::fabs(z) + reach) + 2 * error + 0x1p-900 * (1 + std::fabs(x) + std::fabs(y) + std::fabs(z));
+    return 0x1p-47 * (std::fabs(x) + std::fabs(y) + std::fabs(z) + reach) + 2 * error +
+           0x1p-900 * (1 + std::fabs(x) + std::fabs(y) + std::fabs(z));
   }
   [[gnu::noinline]] bool test_exactly(std::uint32_t node, const Eye& eye, Predicate_counts& counts) const {
     if (!eye.view.at_infinity && !eye.exact) eye.exact = traits_->eye(eye.view.at);
-    if (eye.exact) return traits_->side(*eye.exact, traits_->supporting_plane(graph_->piece(node)), counts) == CGAL::POSITIVE;
+    if (eye.exact)
+      return traits_->side(*eye.exact, traits_->supporting_plane(graph_->piece(node)), counts) == CGAL::POSITIVE;
     ++counts.gmp;
     return exact_height(node, eye.view) > 0;
   }
@@ -118,7 +131,8 @@ class On_view {
   const Traits* traits_;
   const Face_graph* graph_;
   Predicates predicates_;
-  double reach_;  // every |d|: a plane passes through points of the scene, which are within the range in each coordinate
+  double
+      reach_;  // every |d|: a plane passes through points of the scene, which are within the range in each coordinate
 };
 
 }  // namespace sightline

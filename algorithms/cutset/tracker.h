@@ -1,5 +1,6 @@
 #pragma once
-// Tanimoto's cut-set, kept from viewpoint to viewpoint: which faces are on-view, and the edges between those and the rest.
+// Tanimoto's cut-set, kept from viewpoint to viewpoint: which faces are on-view, and the edges between those and the
+// rest.
 
 #include <sightline/algorithms/cutset/on_view.h>
 #include <sightline/algorithms/cutset/watch_list.h>
@@ -12,30 +13,38 @@ namespace sightline {
 /// What a move took.
 struct Cut_set_counters {
   std::uint64_t tests = 0;     ///< on-view predicates
-  std::uint64_t away = 0;      ///< of these, of nodes that were not at the cut-set: what finding births takes, and neighbours of what changed
+  std::uint64_t away = 0;      ///< of these, of nodes that were not at the cut-set: what finding births takes, and
+                               ///< neighbours of what changed
   std::uint64_t exact = 0;     ///< of the tests, what doubles could not decide
   std::uint64_t changed = 0;   ///< nodes that changed
   std::uint64_t births = 0;    ///< clusters of these of which none was at the cut-set
   std::uint64_t searches = 0;  ///< convex bodies that showed no face, searched for one
   std::uint64_t compared = 0;  ///< pairs of faces compared in these searches
   Cut_set_counters& operator+=(const Cut_set_counters& other) {
-    tests += other.tests, away += other.away, exact += other.exact, changed += other.changed, births += other.births, searches += other.searches, compared += other.compared;
+    tests += other.tests, away += other.away, exact += other.exact, changed += other.changed, births += other.births,
+        searches += other.searches, compared += other.compared;
     return *this;
   }
 };
 
-/// The on-view nodes of a face graph and the cut-set, moved from viewpoint to viewpoint. Whatever the move, and wherever the viewpoint is (in planes, inside bodies, at infinity), the
-/// answer is that of testing every node.
-/// A node that was tested stays as it is until the viewpoint has moved as far as it was from the node's plane. On a convex body only nodes at the cut-set are watched: what else changes hangs
-/// together with a change there, but where a body shows no face at all, and then a walk over it finds one or proves the viewpoint inside. All nodes of other components are watched.
-/// Cost of a move: O(watched nodes that ran out + changes and their neighbours + watched nodes / 512), and a walk for each convex body that shows nothing.
-/// Memory: 64 bytes a node, 20 an edge, 52 for each watched node. Exact: yes.
-/// Ref: Tanimoto 1977. Proof: P-50, P-51
+/// The on-view nodes of a face graph and the cut-set, moved from viewpoint to viewpoint. Whatever the move, and
+/// wherever the viewpoint is (in planes, inside bodies, at infinity), the answer is that of testing every node. A node
+/// that was tested stays as it is until the viewpoint has moved as far as it was from the node's plane. On a convex
+/// body only nodes at the cut-set are watched: what else changes hangs together with a change there, but where a body
+/// shows no face at all, and then a walk over it finds one or proves the viewpoint inside. All nodes of other
+/// components are watched. Cost of a move: O(watched nodes that ran out + changes and their neighbours + watched nodes
+/// / 512), and a walk for each convex body that shows nothing. Memory: 64 bytes a node, 20 an edge, 52 for each watched
+/// node. Exact: yes. Ref: Tanimoto 1977. Proof: P-50, P-51
 template <Partition_traits Traits>
 class Cut_set_tracker {
  public:
   /// Before the first move nothing is on-view. Pre: traits and graph are of one scene and outlive the tracker.
-  Cut_set_tracker(const Traits& traits, const Face_graph& graph) : graph_(&graph), tester_(traits, graph), nodes_(graph.size()), place_(graph.edges().size(), nowhere), bodies_(graph.components().size()) {
+  Cut_set_tracker(const Traits& traits, const Face_graph& graph)
+      : graph_(&graph),
+        tester_(traits, graph),
+        nodes_(graph.size()),
+        place_(graph.edges().size(), nowhere),
+        bodies_(graph.components().size()) {
     links_.reserve(2 * graph.edges().size());
     for (std::uint32_t i = 0; i < graph.size(); ++i) {
       Node& node = nodes_[i];
@@ -53,7 +62,8 @@ class Cut_set_tracker {
     }
   }
 
-  /// Moves the viewpoint. Errors: std::invalid_argument for a direction of length zero; the tracker then is where it was.
+  /// Moves the viewpoint. Errors: std::invalid_argument for a direction of length zero; the tracker then is where it
+  /// was.
   const Cut_set_counters& move_to(const Viewpoint& view) {
     typename On_view<Traits>::Eye next = tester_.locate(view);
     last_ = {}, changed_.clear();
@@ -61,8 +71,11 @@ class Cut_set_tracker {
     if (distance == 0) return last_;
     eye_ = std::move(next);
 
-    // A way so long that its last bits are no small steps any more begins anew: 2^77 bounds are 2^30 times the size of scene and viewpoint.
-    if (const double path = std::nextafter(path_ + distance, std::numeric_limits<double>::infinity()); path < Watch_list::far && path < 0x1p77 * eye_->bound) path_ = path;
+    // A way so long that its last bits are no small steps any more begins anew: 2^77 bounds are 2^30 times the size of
+    // scene and viewpoint.
+    if (const double path = std::nextafter(path_ + distance, std::numeric_limits<double>::infinity());
+        path < Watch_list::far && path < 0x1p77 * eye_->bound)
+      path_ = path;
     else forget_all();
 
     // What ran out on the way: tested, and from what changed on to its neighbours.
@@ -114,13 +127,13 @@ class Cut_set_tracker {
   };
   struct alignas(64) Node {  // one line of the cache
     typename On_view<Traits>::Row row;
-    double until = -1;                     // its status holds while the path is no longer than this; of a watched one the list knows it
+    double until = -1;  // its status holds while the path is no longer than this; of a watched one the list knows it
     std::uint32_t first_link = 0, links = 0, component = 0;
-    std::uint32_t cut_edges = 0;           // at it
-    std::uint32_t place = nowhere;         // in the list of what is watched
+    std::uint32_t cut_edges = 0;    // at it
+    std::uint32_t place = nowhere;  // in the list of what is watched
     bool on = false;
-    bool everywhere = false;               // watched wherever the cut-set is
-    bool turned = false;                   // it changed, and that is not settled
+    bool everywhere = false;  // watched wherever the cut-set is
+    bool turned = false;      // it changed, and that is not settled
     Cluster cluster = Cluster::none;
   };
   /// A neighbour and the edge to it.
@@ -131,7 +144,7 @@ class Cut_set_tracker {
   struct Body {
     std::optional<typename On_view<Traits>::Eye> inside;
     std::uint32_t cut_edges = 0, walk_from = 0;
-    bool dark = false;                     // it is in the list of bodies that may show no face
+    bool dark = false;  // it is in the list of bodies that may show no face
   };
 
   // What is read soon is asked for before.
@@ -154,7 +167,8 @@ class Cut_set_tracker {
     changed_.push_back(i);
     fetch(links_.data() + node.first_link);
   }
-  /// Watches a node, or no longer, as its cut edges want it. Pre: its status is known, and `until` too where it is watched and stays so.
+  /// Watches a node, or no longer, as its cut edges want it. Pre: its status is known, and `until` too where it is
+  /// watched and stays so.
   void update_watch(std::uint32_t i) {
     Node& node = nodes_[i];
     if (node.everywhere || node.cut_edges > 0) {
@@ -165,12 +179,14 @@ class Cut_set_tracker {
     }
   }
 
-  /// From what changed, number `begin` on, to its neighbours and on to theirs. Once it was looked at, a node's status is known: an edge to one that did not change comes into the cut-set, or
-  /// leaves it, and an edge between two that changed stays what it was.
+  /// From what changed, number `begin` on, to its neighbours and on to theirs. Once it was looked at, a node's status
+  /// is known: an edge to one that did not change comes into the cut-set, or leaves it, and an edge between two that
+  /// changed stays what it was.
   void settle(std::size_t begin) {
     for (std::size_t k = begin; k < changed_.size(); ++k) {
       if (k + ahead < changed_.size())
-        for (const Link& link : links(nodes_[changed_[k + ahead]])) fetch(&nodes_[link.node]), fetch(&place_[link.edge]);
+        for (const Link& link : links(nodes_[changed_[k + ahead]]))
+          fetch(&nodes_[link.node]), fetch(&place_[link.edge]);
       Node& node = nodes_[changed_[k]];
       Body& body = bodies_[node.component];
       for (const Link& link : links(node)) {
@@ -204,7 +220,8 @@ class Cut_set_tracker {
     }
     entering_.clear(), leaving_.clear();
   }
-  /// Of what changed, clusters that were not at the cut-set. A convex body has none: there all that changes hangs together with a change at the cut-set, but where it showed no face (P-50).
+  /// Of what changed, clusters that were not at the cut-set. A convex body has none: there all that changes hangs
+  /// together with a change at the cut-set, but where it showed no face (P-50).
   void count_births(std::size_t begin) {
     for (std::size_t k = begin; k < changed_.size(); ++k) {
       if (nodes_[changed_[k]].cluster == Cluster::none) continue;
@@ -223,8 +240,9 @@ class Cut_set_tracker {
       last_.births += !at_cut;
     }
   }
-  /// Walks over a convex body, all of whose nodes are held off-view, to an on-view node. False: there is none, the viewpoint is inside or on the body. Each step goes to a node with a higher
-  /// ratio of its height below the viewpoint to its depth above the point inside; one that has no higher neighbour is the highest of all. Proof: P-50
+  /// Walks over a convex body, all of whose nodes are held off-view, to an on-view node. False: there is none, the
+  /// viewpoint is inside or on the body. Each step goes to a node with a higher ratio of its height below the viewpoint
+  /// to its depth above the point inside; one that has no higher neighbour is the highest of all. Proof: P-50
   bool walk(Body& body) {
     ++last_.searches;
     std::uint32_t& at = body.walk_from;
@@ -253,10 +271,10 @@ class Cut_set_tracker {
   const Face_graph* graph_;
   On_view<Traits> tester_;
   std::vector<Node> nodes_;
-  std::vector<Link> links_;                        // of all nodes, one after the other
-  std::vector<std::uint32_t> cut_, place_;        // the cut-set; the place of each edge in it
-  std::vector<Body> bodies_;                      // by component
-  std::vector<std::uint32_t> dark_;               // convex bodies that may show no face
+  std::vector<Link> links_;                 // of all nodes, one after the other
+  std::vector<std::uint32_t> cut_, place_;  // the cut-set; the place of each edge in it
+  std::vector<Body> bodies_;                // by component
+  std::vector<std::uint32_t> dark_;         // convex bodies that may show no face
   std::optional<typename On_view<Traits>::Eye> eye_;
   double path_ = 0;  // at least the way since the start
   Watch_list watched_;

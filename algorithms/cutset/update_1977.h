@@ -1,5 +1,6 @@
 #pragma once
-// The update of the cut-set as it was published in 1977, to compare with, and to show where it fails. Take tracker.h for answers.
+// The update of the cut-set as it was published in 1977, to compare with, and to show where it fails. Take tracker.h
+// for answers.
 
 #include <sightline/algorithms/cutset/on_view.h>
 
@@ -13,18 +14,20 @@ enum class Reading_1977 {
   mended    ///< the edges of every node that changed are compared anew
 };
 
-/// Tanimoto's update for one convex polyhedron: tests both ends of each edge of the cut-set, and searches on from those that changed. Wrong, without notice:
-/// literal: wherever a node that changed has a neighbour that was checked already, as an end of another edge;
-/// mended: where the faces that were on-view all go and the new ones do not touch them, and where no face was on-view before. Proof: P-50
-/// Cost of an update: about two tests for each edge of the cut-set. Each test is exact.
-/// Ref: Tanimoto 1977, section III.
+/// Tanimoto's update for one convex polyhedron: tests both ends of each edge of the cut-set, and searches on from those
+/// that changed. Wrong, without notice: literal: wherever a node that changed has a neighbour that was checked already,
+/// as an end of another edge; mended: where the faces that were on-view all go and the new ones do not touch them, and
+/// where no face was on-view before. Proof: P-50 Cost of an update: about two tests for each edge of the cut-set. Each
+/// test is exact. Ref: Tanimoto 1977, section III.
 template <Partition_traits Traits>
 class Cut_set_1977 {
  public:
   /// Tests every node. Pre: traits and graph are of one scene and outlive this.
-  Cut_set_1977(const Traits& traits, const Face_graph& graph, const Viewpoint& start, Reading_1977 reading) : graph_(&graph), tester_(traits, graph), reading_(reading), on_(graph.size()), checked_(graph.size(), 0) {
+  Cut_set_1977(const Traits& traits, const Face_graph& graph, const Viewpoint& start, Reading_1977 reading)
+      : graph_(&graph), tester_(traits, graph), reading_(reading), on_(graph.size()), checked_(graph.size(), 0) {
     const auto eye = tester_.locate(start);
-    for (std::uint32_t i = 0; i < graph.size(); ++i) rows_.push_back(tester_.row(i)), on_[i] = tester_.test(i, rows_[i], eye, predicates_).on;
+    for (std::uint32_t i = 0; i < graph.size(); ++i)
+      rows_.push_back(tester_.row(i)), on_[i] = tester_.test(i, rows_[i], eye, predicates_).on;
     for (std::uint32_t e = 0; e < graph.edges().size(); ++e)
       if (is_cut(e)) cut_.push_back(e);
   }
@@ -38,12 +41,15 @@ class Cut_set_1977 {
     const auto check = [&](std::uint32_t i) {
       if (checked_[i] == frame_) return;
       checked_[i] = frame_, ++tests;
-      if (const bool on = tester_.test(i, rows_[i], eye, predicates_).on; on != on_[i]) on_[i] = on, changed.push_back(i), stack.push_back(i);
+      if (const bool on = tester_.test(i, rows_[i], eye, predicates_).on; on != on_[i])
+        on_[i] = on, changed.push_back(i), stack.push_back(i);
     };
     for (const std::uint32_t e : cut_) check(graph_->edges()[e].first), check(graph_->edges()[e].second);
     std::vector<bool> is_changed(graph_->size());
     for (const std::uint32_t i : changed) is_changed[i] = true;
-    const auto gone = [&](std::uint32_t e) { return is_changed[graph_->edges()[e].first] || is_changed[graph_->edges()[e].second]; };
+    const auto gone = [&](std::uint32_t e) {
+      return is_changed[graph_->edges()[e].first] || is_changed[graph_->edges()[e].second];
+    };
     if (reading_ == Reading_1977::literal) std::erase_if(cut_, gone);
     while (!stack.empty()) {
       const std::uint32_t i = stack.back();

@@ -1,7 +1,8 @@
 #pragma once
-// Which faces can be on-view together: all sets that viewpoints of space have, found exactly from the faces' planes. Laws, tested: an eye has one of the sets on-view,
-// the sample of a set that set; n planes in general position give 1 + n + n (n - 1) / 2 + n (n - 1) (n - 2) / 6 sets, all of them open; faces of a convex body with an
-// inside have open sets only.
+// Which faces can be on-view together: all sets that viewpoints of space have, found exactly from the faces' planes.
+// Laws, tested: an eye has one of the sets on-view, the sample of a set that set; n planes in general position give 1 +
+// n + n (n - 1) / 2 + n (n - 1) (n - 2) / 6 sets, all of them open; faces of a convex body with an inside have open
+// sets only.
 
 #include <sightline/kernel/scene/polygon_soup.h>
 
@@ -20,11 +21,14 @@ struct View_cell {
   Exact_point sample;     ///< such an eye, strictly off all planes if `open`
 };
 
-/// The faces of the planes a x + b y + c z + d = 0, fronts where that is positive, that an eye has on-view. In the plane counts as off-view. Pre: at most 32. Exact: yes
+/// The faces of the planes a x + b y + c z + d = 0, fronts where that is positive, that an eye has on-view. In the
+/// plane counts as off-view. Pre: at most 32. Exact: yes
 inline std::uint32_t on_view_from(std::span<const std::array<Rational, 4>> planes, const Exact_point& eye) {
   std::uint32_t on_view = 0;
   for (std::size_t k = 0; k < planes.size(); ++k)
-    if (const Rational value = planes[k][0] * eye[0] + planes[k][1] * eye[1] + planes[k][2] * eye[2] + planes[k][3]; sgn(value) > 0) on_view |= 1u << k;
+    if (const Rational value = planes[k][0] * eye[0] + planes[k][1] * eye[1] + planes[k][2] * eye[2] + planes[k][3];
+        sgn(value) > 0)
+      on_view |= 1u << k;
   return on_view;
 }
 
@@ -58,7 +62,8 @@ bool is_zero(const Form<dimension>& form) {
   return is_constant<dimension>(form) && sgn(form[dimension]) == 0;
 }
 
-/// The hyperplane where a form is zero, as a space of its own: the last variable that the form has is eliminated. Pre: the form is not constant.
+/// The hyperplane where a form is zero, as a space of its own: the last variable that the form has is eliminated. Pre:
+/// the form is not constant.
 template <std::size_t dimension>
 class Hyperplane {
  public:
@@ -90,24 +95,28 @@ class Hyperplane {
 template <std::size_t dimension>
 using Cells = std::map<std::uint32_t, Point<dimension>>;
 
-/// A power of two t such that p + t v and p - t v are on p's side of all forms that are not zero at p. Keeps samples short: what they grow from is one dimension lower.
+/// A power of two t such that p + t v and p - t v are on p's side of all forms that are not zero at p. Keeps samples
+/// short: what they grow from is one dimension lower.
 template <std::size_t dimension>
 Rational short_step(std::span<const Form<dimension>> forms, const Point<dimension>& p, const Point<dimension>& v) {
   long exponent = 0;
   for (const Form<dimension>& form : forms) {
     const Rational at_p = value<dimension>(form, p), along_v = slope<dimension>(form, v);
     if (sgn(at_p) == 0 || sgn(along_v) == 0) continue;
-    const Rational reach = abs(at_p) / abs(along_v);  // at least 2^(difference of lengths - 1), and 2^(that - 1) is less
-    exponent = std::min(exponent, static_cast<long>(bit_length(reach.get_num())) - static_cast<long>(bit_length(reach.get_den())) - 2);
+    const Rational reach =
+        abs(at_p) / abs(along_v);  // at least 2^(difference of lengths - 1), and 2^(that - 1) is less
+    exponent = std::min(
+        exponent, static_cast<long>(bit_length(reach.get_num())) - static_cast<long>(bit_length(reach.get_den())) - 2);
   }
   Rational step = 1;
   mpq_div_2exp(step.get_mpq_t(), step.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
   return step;
 }
 
-/// The open cells of an arrangement: the components of what its hyperplanes leave, each by the forms that are positive in it, with a point of it. Constant forms count
-/// by their signs. Hyperplanes are added one at a time. The cells that a new one cuts are those that meet it, and it meets them in the open cells of the earlier ones
-/// within it. Proof: P-52
+/// The open cells of an arrangement: the components of what its hyperplanes leave, each by the forms that are positive
+/// in it, with a point of it. Constant forms count by their signs. Hyperplanes are added one at a time. The cells that
+/// a new one cuts are those that meet it, and it meets them in the open cells of the earlier ones within it. Proof:
+/// P-52
 template <std::size_t dimension>
 Cells<dimension> open_cells(std::span<const Form<dimension>> forms) {
   Cells<dimension> cells;
@@ -143,10 +152,10 @@ Cells<dimension> open_cells(std::span<const Form<dimension>> forms) {
   return cells;
 }
 
-/// The sets of forms that are positive at points of space, with points of open cells where there are some: first the open cells, then those within each hyperplane. A
-/// point of several hyperplanes is met in the order of their forms, so only later ones need be taken. Where no form is positive in some open cell, all sets are those
-/// of open cells.
-/// Proof: P-52
+/// The sets of forms that are positive at points of space, with points of open cells where there are some: first the
+/// open cells, then those within each hyperplane. A point of several hyperplanes is met in the order of their forms, so
+/// only later ones need be taken. Where no form is positive in some open cell, all sets are those of open cells. Proof:
+/// P-52
 template <std::size_t dimension>
 Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t first) {
   Cells<dimension> cells = open_cells<dimension>(forms);
@@ -165,16 +174,19 @@ Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t f
 
 }  // namespace view_cells_detail
 
-/// All sets of faces that viewpoints of space have on-view, in the order of the sets as numbers. The planes (a, b, c, d) of the faces have their fronts where a x + b y
+/// All sets of faces that viewpoints of space have on-view, in the order of the sets as numbers. The planes (a, b, c,
+/// d) of the faces have their fronts where a x + b y
 /// + c z + d > 0.
 /// Errors: std::invalid_argument for a plane without a normal, and for more than most_view_faces planes.
-/// Degenerate: planes may coincide in either sense, be parallel, and meet many at a time; no planes give one cell, which has none on-view. In a plane counts as
-/// off-view, so what only eyes in planes have on-view is listed too, with `open` false.
-/// Cost: O(n^4) rational operations; 24 planes of 26-bit coefficients in general position take 1 s if an open set of eyes has none on-view, else 3 s. Exact: yes.
-/// Proof: P-52
+/// Degenerate: planes may coincide in either sense, be parallel, and meet many at a time; no planes give one cell,
+/// which has none on-view. In a plane counts as off-view, so what only eyes in planes have on-view is listed too, with
+/// `open` false. Cost: O(n^4) rational operations; 24 planes of 26-bit coefficients in general position take 1 s if an
+/// open set of eyes has none on-view, else 3 s. Exact: yes. Proof: P-52
 inline std::vector<View_cell> view_cells(std::span<const std::array<Rational, 4>> planes) {
   using namespace view_cells_detail;
-  if (planes.size() > most_view_faces) throw std::invalid_argument("views of " + std::to_string(planes.size()) + " faces: at most " + std::to_string(most_view_faces));
+  if (planes.size() > most_view_faces)
+    throw std::invalid_argument("views of " + std::to_string(planes.size()) + " faces: at most " +
+                                std::to_string(most_view_faces));
   for (std::size_t k = 0; k < planes.size(); ++k)
     if (is_constant<3>(planes[k])) throw std::invalid_argument("plane " + std::to_string(k) + " has no normal");
   std::vector<View_cell> cells;

@@ -1,5 +1,6 @@
 #pragma once
-// Watched nodes side by side: their planes, and how long each node's status holds. Laws, tested: a move tests what ran out and nothing else; what is not confirmed is handed out, once.
+// Watched nodes side by side: their planes, and how long each node's status holds. Laws, tested: a move tests what ran
+// out and nothing else; what is not confirmed is handed out, once.
 
 #include <algorithm>
 #include <array>
@@ -11,9 +12,11 @@
 
 namespace sightline {
 
-/// Nodes in places, each with its row (see On_view) and the length of path up to which its status holds. Sixteen of them are a block, tested at one go, two doubles at a time; a block, and a group
-/// of blocks, in which nothing ran out is passed over. A place that was given up is the next to be taken.
-/// Cost: of a move O(places / 512 + blocks in which something ran out), else constant. Memory: 52 bytes for each place. Exact: filtered, what doubles leave open is handed out. Proof: P-51
+/// Nodes in places, each with its row (see On_view) and the length of path up to which its status holds. Sixteen of
+/// them are a block, tested at one go, two doubles at a time; a block, and a group of blocks, in which nothing ran out
+/// is passed over. A place that was given up is the next to be taken. Cost: of a move O(places / 512 + blocks in which
+/// something ran out), else constant. Memory: 52 bytes for each place. Exact: filtered, what doubles leave open is
+/// handed out. Proof: P-51
 class Watch_list {
  public:
   static constexpr std::uint32_t nowhere = ~std::uint32_t{0};
@@ -49,7 +52,8 @@ class Watch_list {
   }
   void set_until(std::uint32_t place, double until) {
     blocks_[place / block_size].until[place % block_size / 2][place % 2] = until;
-    for (double* first : {&first_[place / block_size], &first_of_group_[place / (block_size * group_size)]}) *first = std::min(*first, until);
+    for (double* first : {&first_[place / block_size], &first_of_group_[place / (block_size * group_size)]})
+      *first = std::min(*first, until);
   }
   void set_at_cut(std::uint32_t place, bool at_cut) {
     std::uint64_t& bits = blocks_[place / block_size].at_cut;
@@ -72,7 +76,8 @@ class Watch_list {
         if (blocks_[b].node[k] != nowhere) set_until(b * block_size + k, -1);
   }
 
-  /// Tests the nodes whose status held to less than `path`, in doubles. Those that it does not confirm are appended to `open`: set_until(), set() or remove() must follow for each.
+  /// Tests the nodes whose status held to less than `path`, in doubles. Those that it does not confirm are appended to
+  /// `open`: set_until(), set() or remove() must follow for each.
   template <class Eye>
   Confirmed test(const Eye& eye, double path, std::vector<std::uint32_t>& open) {
     Confirmed confirmed;
@@ -83,8 +88,10 @@ class Watch_list {
         if (first_[b] < path) {
           Block& block = blocks_[b];
           const auto [confirmed_bits, open_bits] = test_block(block, eye, path, first_[b]);
-          confirmed.nodes += static_cast<std::uint64_t>(std::popcount(confirmed_bits)), confirmed.away += static_cast<std::uint64_t>(std::popcount(confirmed_bits & ~block.at_cut));
-          for (std::uint64_t bits = open_bits; bits != 0; bits &= bits - 1) open.push_back(block.node[static_cast<std::size_t>(std::countr_zero(bits))]);
+          confirmed.nodes += static_cast<std::uint64_t>(std::popcount(confirmed_bits)),
+              confirmed.away += static_cast<std::uint64_t>(std::popcount(confirmed_bits & ~block.at_cut));
+          for (std::uint64_t bits = open_bits; bits != 0; bits &= bits - 1)
+            open.push_back(block.node[static_cast<std::size_t>(std::countr_zero(bits))]);
         }
         first = std::min(first, first_[b]);
       }
@@ -105,11 +112,12 @@ class Watch_list {
     std::array<Two, block_size / 2> rows{};
     std::array<Doubles, block_size / 2> until;  // never: a free place, or one that test() left open
     std::array<std::uint32_t, block_size> node;
-    std::uint64_t at_cut = 0;                   // bit k: node k
+    std::uint64_t at_cut = 0;  // bit k: node k
     Block() { until.fill(Doubles{never, never}), node.fill(nowhere); }
   };
 
-  /// All nodes of a block, whether they ran out or not; what did not stays what it was. Returns two sets of those that did, confirmed and open; `first` becomes the least that one of the others holds.
+  /// All nodes of a block, whether they ran out or not; what did not stays what it was. Returns two sets of those that
+  /// did, confirmed and open; `first` becomes the least that one of the others holds.
   template <class Eye>
   static std::array<std::uint64_t, 2> test_block(Block& block, const Eye& eye, double path, double& first) {
     const Doubles now{path, path}, latest{far, far}, zero{}, nevers{never, never};
@@ -117,7 +125,8 @@ class Watch_list {
     Bits bit{1, 2}, expired{}, open{};
     for (std::size_t k = 0; k < block_size / 2; ++k) {
       const Two& two = block.rows[k];
-      const Doubles clear = two.a * eye.x + two.b * eye.y + two.c * eye.z + two.d * eye.w - eye.bound, old = block.until[k];
+      const Doubles clear = two.a * eye.x + two.b * eye.y + two.c * eye.z + two.d * eye.w - eye.bound,
+                    old = block.until[k];
       Doubles until = (path + clear) * (1 - 0x1p-52);  // rounded down
       until = until < latest ? until : latest;
       until = until > now ? until : now;

@@ -18,10 +18,13 @@ namespace sightline::generate {
 class Lattice_points {
  public:
   Lattice_points(Polygon_soup& soup, std::array<std::vector<double>, 3> planes)
-      : soup_(soup), planes_(std::move(planes)), ids_(planes_[0].size() * planes_[1].size() * planes_[2].size(), absent) {}
+      : soup_(soup),
+        planes_(std::move(planes)),
+        ids_(planes_[0].size() * planes_[1].size() * planes_[2].size(), absent) {}
 
   /// Adds the rectangle at lattice place p, so many cells wide and high, whose front looks along +axis or -axis.
-  void add_wall(std::array<std::size_t, 3> p, std::size_t axis, bool positive, std::size_t width = 1, std::size_t height = 1) {
+  void add_wall(std::array<std::size_t, 3> p, std::size_t axis, bool positive, std::size_t width = 1,
+                std::size_t height = 1) {
     std::array<std::size_t, 3> q = p, r = p, s = p;
     const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;  // b x c = axis
     q[b] += width, r[b] += width, r[c] += height, s[c] += height;
@@ -29,18 +32,21 @@ class Lattice_points {
     else soup_.add_face({id(p), id(s), id(r), id(q)});
   }
 
-  /// Adds the boundary of a union of cells, each wall between a full and an empty cell once, its front to the empty side.
-  /// Post: closed: every directed edge occurs as often as its opposite.
+  /// Adds the boundary of a union of cells, each wall between a full and an empty cell once, its front to the empty
+  /// side. Post: closed: every directed edge occurs as often as its opposite.
   template <class Is_solid>
   void add_boundary(Is_solid is_solid) {
-    for_each_wall(is_solid, [&](const std::array<std::size_t, 3>& p, std::size_t axis, bool positive) { add_wall(p, axis, positive); });
+    for_each_wall(is_solid, [&](const std::array<std::size_t, 3>& p, std::size_t axis, bool positive) {
+      add_wall(p, axis, positive);
+    });
   }
 
-  /// The same boundary in larger rectangles: from its first corner each grows along one axis as far as it can, then along the other.
-  /// Post: closed as point sets are: rectangles meet in T-junctions.
+  /// The same boundary in larger rectangles: from its first corner each grows along one axis as far as it can, then
+  /// along the other. Post: closed as point sets are: rectangles meet in T-junctions.
   template <class Is_solid>
   void add_merged_boundary(Is_solid is_solid) {
-    std::map<std::tuple<std::size_t, std::size_t, bool>, std::set<std::pair<std::size_t, std::size_t>>> walls;  // by axis, plane, sense: (c, b)
+    std::map<std::tuple<std::size_t, std::size_t, bool>, std::set<std::pair<std::size_t, std::size_t>>>
+        walls;  // by axis, plane, sense: (c, b)
     for_each_wall(is_solid, [&](const std::array<std::size_t, 3>& p, std::size_t axis, bool positive) {
       walls[{axis, p[axis], positive}].emplace(p[(axis + 2) % 3], p[(axis + 1) % 3]);
     });
@@ -107,8 +113,8 @@ inline std::vector<double> unit_planes(std::size_t n) {
   return planes;
 }
 
-/// All 3 n^2 (n + 1) walls of n x n x n unit cells, each a quad of its own whose front looks along its positive axis: many
-/// coplanar faces, up to twelve of them in a point, and no view from one cell into another.
+/// All 3 n^2 (n + 1) walls of n x n x n unit cells, each a quad of its own whose front looks along its positive axis:
+/// many coplanar faces, up to twelve of them in a point, and no view from one cell into another.
 inline Polygon_soup grid(std::size_t n) {
   require(n >= 1 && n <= 500, "grid: size must be in 1 .. 500");
   Polygon_soup soup;
@@ -124,8 +130,8 @@ inline Polygon_soup grid(std::size_t n) {
   return soup;
 }
 
-/// 3 (n + 1) squares, each across the whole cube of n x n x n unit cells: a partition cuts them into the walls of grid(n), and nearly
-/// every test of a vertex against a plane is an incidence.
+/// 3 (n + 1) squares, each across the whole cube of n x n x n unit cells: a partition cuts them into the walls of
+/// grid(n), and nearly every test of a vertex against a plane is an incidence.
 inline Polygon_soup lattice(std::size_t n) {
   require(n >= 1 && n <= 500, "lattice: size must be in 1 .. 500");
   Polygon_soup soup;
@@ -140,8 +146,9 @@ inline Polygon_soup lattice(std::size_t n) {
   return soup;
 }
 
-/// The boundary of the Menger sponge of a level: 2 20^level + 4 8^level unit quads, fronts outwards, coordinates 0 .. 3^level.
-/// `merged`: in fewer, larger rectangles that meet in T-junctions. Post: closed; some edges have four faces. Pre: level <= 5.
+/// The boundary of the Menger sponge of a level: 2 20^level + 4 8^level unit quads, fronts outwards, coordinates 0 ..
+/// 3^level. `merged`: in fewer, larger rectangles that meet in T-junctions. Post: closed; some edges have four faces.
+/// Pre: level <= 5.
 inline Polygon_soup menger_sponge(std::size_t level, bool merged = false) {
   require(level <= 5, "menger_sponge: level must be in 0 .. 5");
   std::size_t side = 1;
@@ -159,10 +166,11 @@ inline Polygon_soup menger_sponge(std::size_t level, bool merged = false) {
   return soup;
 }
 
-/// A town: disjoint boxes of random height on the plane z = 0, one in each unit cell of a square lattice in random order, moved
-/// and sized at random; 5 faces each (no bottom), fronts outwards, and the ground, one face, last. `rotated` turns each box about
-/// its vertical axis by a random rational rotation (from a Pythagorean triple), else all are axis-parallel.
-/// Post: 5 boxes + 1 faces; coordinates are multiples of 1/1024, where rotated of 1/(1024 25 13 17 29).
+/// A town: disjoint boxes of random height on the plane z = 0, one in each unit cell of a square lattice in random
+/// order, moved and sized at random; 5 faces each (no bottom), fronts outwards, and the ground, one face, last.
+/// `rotated` turns each box about its vertical axis by a random rational rotation (from a Pythagorean triple), else all
+/// are axis-parallel. Post: 5 boxes + 1 faces; coordinates are multiples of 1/1024, where rotated of 1/(1024 25 13 17
+/// 29).
 inline Polygon_soup city(std::size_t boxes, std::uint64_t seed, bool rotated = false) {
   require(boxes <= 100000000, "city: at most 10^8 boxes");
   std::size_t side = 1;
@@ -177,7 +185,8 @@ inline Polygon_soup city(std::size_t boxes, std::uint64_t seed, bool rotated = f
   };
   constexpr std::array<Rotation, 5> triples{{{4, 3, 5}, {12, 5, 13}, {15, 8, 17}, {24, 7, 25}, {21, 20, 29}}};
   constexpr std::int64_t unit = 1024;  // of the coordinates below
-  // In the worst case a box reaches 5/16 sqrt(2) + 3/64 < 0.489 or 5/16 + 11/64 < 0.485 from its cell's middle: disjoint.
+  // In the worst case a box reaches 5/16 sqrt(2) + 3/64 < 0.489 or 5/16 + 11/64 < 0.485 from its cell's middle:
+  // disjoint.
   constexpr std::int64_t least_half = unit / 8, most_half = 5 * unit / 16;
   const std::int64_t jitter = rotated ? 3 * unit / 64 : 11 * unit / 64;
 
@@ -185,8 +194,10 @@ inline Polygon_soup city(std::size_t boxes, std::uint64_t seed, bool rotated = f
   soup.file = rotated ? "city_rotated" : "city";
   soup.coordinates.reserve(24 * boxes + 12);
   for (std::size_t k = 0; k < boxes; ++k) {
-    const std::int64_t x = unit * static_cast<std::int64_t>(cells[k] % side) + unit / 2 + random.between(-jitter, jitter);
-    const std::int64_t y = unit * static_cast<std::int64_t>(cells[k] / side) + unit / 2 + random.between(-jitter, jitter);
+    const std::int64_t x =
+        unit * static_cast<std::int64_t>(cells[k] % side) + unit / 2 + random.between(-jitter, jitter);
+    const std::int64_t y =
+        unit * static_cast<std::int64_t>(cells[k] / side) + unit / 2 + random.between(-jitter, jitter);
     const std::int64_t half_x = random.between(least_half, most_half), half_y = random.between(least_half, most_half);
     const std::int64_t height = random.between(unit / 4, random.chance(1, 10) ? 4 * unit : unit);
     Rotation rotation{1, 0, 1};
@@ -220,17 +231,19 @@ inline Polygon_soup city(std::size_t boxes, std::uint64_t seed, bool rotated = f
     soup.add_face({base + 4, base + 5, base + 6, base + 7});
   }
   const double end = static_cast<double>(side) + 1;
-  const Point_id a = soup.add_point(-1.0, -1.0, 0.0), b = soup.add_point(end, -1.0, 0.0), c = soup.add_point(end, end, 0.0), d = soup.add_point(-1.0, end, 0.0);
+  const Point_id a = soup.add_point(-1.0, -1.0, 0.0), b = soup.add_point(end, -1.0, 0.0),
+                 c = soup.add_point(end, end, 0.0), d = soup.add_point(-1.0, end, 0.0);
   soup.add_face({a, b, c, d});
   return soup;
 }
 
-/// A house of nx x ny rooms on one floor: walls, floor and ceiling with thickness, doors (a random spanning tree, so that every
-/// room can be reached, some more, and one to the outside), windows, and a few boxes of furniture, all one solid of lattice cells.
-/// A room is five cells wide, of random widths for each row of rooms. Coordinates are multiples of 1/64 m.
-/// Post: closed: every directed edge occurs as often as its opposite; fronts look into the air.
+/// A house of nx x ny rooms on one floor: walls, floor and ceiling with thickness, doors (a random spanning tree, so
+/// that every room can be reached, some more, and one to the outside), windows, and a few boxes of furniture, all one
+/// solid of lattice cells. A room is five cells wide, of random widths for each row of rooms. Coordinates are multiples
+/// of 1/64 m. Post: closed: every directed edge occurs as often as its opposite; fronts look into the air.
 inline Polygon_soup rooms(std::size_t nx, std::size_t ny, std::uint64_t seed) {
-  require(nx >= 1 && ny >= 1 && nx <= 1000 && ny <= 1000 && nx * ny <= 100000, "rooms: at most 1000 rooms in a row and 10^5 in all");
+  require(nx >= 1 && ny >= 1 && nx <= 1000 && ny <= 1000 && nx * ny <= 100000,
+          "rooms: at most 1000 rooms in a row and 10^5 in all");
   Random random(seed);
   constexpr std::size_t inner = 5, pitch = inner + 1;  // cells of a room, and with one wall
 
@@ -248,16 +261,20 @@ inline Polygon_soup rooms(std::size_t nx, std::size_t ny, std::uint64_t seed) {
   std::array<std::vector<double>, 3> lattice_planes;
   lattice_planes[0] = planes(nx);
   lattice_planes[1] = planes(ny);
-  lattice_planes[2] = {-0.25, 0.0, 0.75, 0.9375, 2.0, 2.5, 2.75};  // slab, furniture, sill, window head, door head, slab
+  lattice_planes[2] = {-0.25, 0.0, 0.75, 0.9375,
+                       2.0,   2.5, 2.75};  // slab, furniture, sill, window head, door head, slab
   enum Level : std::size_t { below_floor, low, breast, eye, head, above_ceiling, levels };
 
   const std::size_t width = nx * pitch + 1, depth = ny * pitch + 1;
   std::vector<bool> solid(width * depth * levels, false);
   const auto at = [&](std::size_t x, std::size_t y, std::size_t z) { return solid[(z * depth + y) * width + x]; };
-  const auto set = [&](std::size_t x, std::size_t y, std::size_t z, bool value) { solid[(z * depth + y) * width + x] = value; };
+  const auto set = [&](std::size_t x, std::size_t y, std::size_t z, bool value) {
+    solid[(z * depth + y) * width + x] = value;
+  };
   for (std::size_t z = 0; z < levels; ++z)
     for (std::size_t y = 0; y < depth; ++y)
-      for (std::size_t x = 0; x < width; ++x) set(x, y, z, z == below_floor || z == above_ceiling || x % pitch == 0 || y % pitch == 0);
+      for (std::size_t x = 0; x < width; ++x)
+        set(x, y, z, z == below_floor || z == above_ceiling || x % pitch == 0 || y % pitch == 0);
 
   // Doors: all inner walls in random order, open where they join two parts of the house, or by chance.
   struct Wall {
@@ -285,7 +302,8 @@ inline Polygon_soup rooms(std::size_t nx, std::size_t ny, std::uint64_t seed) {
     }
   };
   for (const Wall& wall : walls) {
-    const std::size_t here = part_of(wall.y * nx + wall.x), there = part_of(wall.along_y ? wall.y * nx + wall.x - 1 : (wall.y - 1) * nx + wall.x);
+    const std::size_t here = part_of(wall.y * nx + wall.x),
+                      there = part_of(wall.along_y ? wall.y * nx + wall.x - 1 : (wall.y - 1) * nx + wall.x);
     const bool more = random.chance(1, 6);
     if (here != there || more) open(wall, low, eye);
     part[here] = there;
@@ -303,7 +321,8 @@ inline Polygon_soup rooms(std::size_t nx, std::size_t ny, std::uint64_t seed) {
   for (std::size_t y = 0; y < ny; ++y)
     for (std::size_t x = 0; x < nx; ++x)
       for (std::size_t count = random.below(4); count > 0; --count) {
-        const std::size_t cell_x = x * pitch + 2 + random.below(inner - 2), cell_y = y * pitch + 2 + random.below(inner - 2);
+        const std::size_t cell_x = x * pitch + 2 + random.below(inner - 2),
+                          cell_y = y * pitch + 2 + random.below(inner - 2);
         const std::size_t top = random.chance(1, 3) ? eye : low;
         for (std::size_t z = low; z <= top; ++z) set(cell_x, cell_y, z, true);
       }

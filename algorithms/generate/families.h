@@ -1,5 +1,6 @@
 #pragma once
-// Families of scenes with a question: degenerate exactly, by so many ulps to either side, or far from it; anywhere, of any scale. `sightline generate FAMILY`.
+// Families of scenes with a question: degenerate exactly, by so many ulps to either side, or far from it; anywhere, of
+// any scale. `sightline generate FAMILY`.
 
 #include <sightline/algorithms/generate/gap_drafts.h>
 #include <sightline/algorithms/generate/scenes.h>
@@ -13,15 +14,18 @@ namespace sightline::generate {
 /// How far from its degeneracy a scene is.
 enum class Distance { exact, beside, far };
 inline constexpr std::array<Distance, 3> distances{Distance::exact, Distance::beside, Distance::far};
-inline const char* name_of(Distance distance) { return distance == Distance::exact ? "exact" : distance == Distance::beside ? "beside" : "far"; }
+inline const char* name_of(Distance distance) {
+  return distance == Distance::exact ? "exact" : distance == Distance::beside ? "beside" : "far";
+}
 
 /// So many ulps count as far: a gap of 1/256 of the scene's size.
 inline constexpr std::int64_t far_ulps = std::int64_t{1} << 44;
 
 struct Family_parameters {
   std::uint64_t seed = 1;
-  std::size_t size = 0;         ///< what it means is the family's; 0: the family's own
-  std::int64_t ulps = 0;        ///< 0: exactly degenerate; else the gap (or, negative, the overlap) in units of 2^-52 of the scene's size
+  std::size_t size = 0;  ///< what it means is the family's; 0: the family's own
+  std::int64_t ulps =
+      0;  ///< 0: exactly degenerate; else the gap (or, negative, the overlap) in units of 2^-52 of the scene's size
   Exact_point offset{0, 0, 0};  ///< added to all points, after scaling
   Rational scale = 1;           ///< > 0; of all points, about the origin
 };
@@ -31,19 +35,21 @@ struct Posed_scene {
   std::string name;  ///< family and seed
   Polygon_soup soup;
   Exact_point eye{0, 0, 0};
-  Points source;                         ///< strictly convex, counterclockwise seen from the side it looks to; empty: none
+  Points source;  ///< strictly convex, counterclockwise seen from the side it looks to; empty: none
   std::vector<Face_id> visible, hidden;  ///< from the source, by construction; of other faces nothing is known
   Distance distance = Distance::exact;
 };
 
 struct Family {
   std::string name, what;
-  std::string size_means;   ///< what `size` counts
-  std::size_t small_size;   ///< what `size` is where many small scenes are wanted
-  std::function<Posed_scene(const Family_parameters&)> make;  ///< the same parameters give the same scene on every machine
+  std::string size_means;  ///< what `size` counts
+  std::size_t small_size;  ///< what `size` is where many small scenes are wanted
+  std::function<Posed_scene(const Family_parameters&)>
+      make;  ///< the same parameters give the same scene on every machine
 };
 
-// ---- What all of them do ------------------------------------------------------------------------------------------------------------
+// ---- What all of them do
+// ------------------------------------------------------------------------------------------------------------
 
 /// p -> scale p + offset, of all points. Exact: yes
 inline Posed_scene placed(Posed_scene scene, const Family_parameters& parameters) {
@@ -54,8 +60,11 @@ inline Posed_scene placed(Posed_scene scene, const Family_parameters& parameters
     scene.eye = place(scene.eye);
     for (Exact_point& p : scene.source) p = place(p);
   }
-  const std::uint64_t size = parameters.ulps < 0 ? 0 - static_cast<std::uint64_t>(parameters.ulps) : static_cast<std::uint64_t>(parameters.ulps);
-  scene.distance = size == 0 ? Distance::exact : size < static_cast<std::uint64_t>(far_ulps) ? Distance::beside : Distance::far;
+  const std::uint64_t size = parameters.ulps < 0 ? 0 - static_cast<std::uint64_t>(parameters.ulps)
+                                                 : static_cast<std::uint64_t>(parameters.ulps);
+  scene.distance = size == 0                                     ? Distance::exact
+                   : size < static_cast<std::uint64_t>(far_ulps) ? Distance::beside
+                                                                 : Distance::far;
   return scene;
 }
 
@@ -80,7 +89,8 @@ inline int size_bits(const Polygon_soup& soup) {
   return bits;
 }
 
-// ---- One family of each origin -------------------------------------------------------------------------------------------------------
+// ---- One family of each origin
+// -------------------------------------------------------------------------------------------------------
 
 /// Coordinates of the small families are at most 8, before they are turned.
 inline constexpr int small_bits = 3;
@@ -95,7 +105,8 @@ inline Posed_scene with_an_eye(view_drafts::Made made, const Family_parameters& 
   return scene;
 }
 
-/// A degenerate scene of faces with some eyes; beside the degeneracy, one to three of them, faces or the eye, are moved along an axis.
+/// A degenerate scene of faces with some eyes; beside the degeneracy, one to three of them, faces or the eye, are moved
+/// along an axis.
 inline Posed_scene nudged(view_drafts::Made made, const Family_parameters& parameters, Random& random) {
   const Rational gap = ulps_of_size(parameters.ulps, small_bits);
   for (std::size_t count = 1 + random.below(3); count > 0; --count) {
@@ -107,12 +118,15 @@ inline Posed_scene nudged(view_drafts::Made made, const Family_parameters& param
   return with_an_eye(std::move(made), parameters, random);
 }
 
-/// A question of weak visibility; the eye is on the source or before it. More faces than there are: any ones on the lattice, aside.
-inline Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_parameters& parameters, Random& random) {
+/// A question of weak visibility; the eye is on the source or before it. More faces than there are: any ones on the
+/// lattice, aside.
+inline Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_parameters& parameters,
+                                 Random& random) {
   require(parameters.size <= 1000000, "at most 10^6 faces");
   weak_drafts::Draft draft = drafter.draft(random, ulps_of_size(parameters.ulps, small_bits));
   const std::size_t own = draft.faces.size();
-  while (draft.faces.size() < parameters.size) draft.faces.push_back(view_drafts::moved(any_face(random), 32, at(1, 1, 1)));
+  while (draft.faces.size() < parameters.size)
+    draft.faces.push_back(view_drafts::moved(any_face(random), 32, at(1, 1, 1)));
   if (draft.faces.size() > own && draft.targets.size() == own) draft.targets = {0};
   Weak_scene question = weak_drafts::finished(std::move(draft), random);
   Posed_scene scene;
@@ -130,7 +144,8 @@ inline Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Fami
   return scene;
 }
 
-/// A scene of a kind, with an eye anywhere about it: at a corner, beyond one, in the middle, outside. Beside what it is, each coordinate is moved by K ulps, or not, or by -K.
+/// A scene of a kind, with an eye anywhere about it: at a corner, beyond one, in the middle, outside. Beside what it
+/// is, each coordinate is moved by K ulps, or not, or by -K.
 inline Posed_scene of_a_kind(const Kind& kind, const Family_parameters& parameters, Random& random) {
   Posed_scene scene;
   scene.soup = kind.make(parameters.size == 0 ? kind.example_size : parameters.size, parameters.seed);
@@ -159,14 +174,17 @@ inline Posed_scene of_a_kind(const Kind& kind, const Family_parameters& paramete
   return scene;
 }
 
-// ---- The list -------------------------------------------------------------------------------------------------------------------------
+// ---- The list
+// -------------------------------------------------------------------------------------------------------------------------
 
-/// All families: questions of weak visibility, scenes with an eye, tangles, and the kinds of scenes.h. Each name is there once.
+/// All families: questions of weak visibility, scenes with an eye, tangles, and the kinds of scenes.h. Each name is
+/// there once.
 inline const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> list;
     // Each family has random numbers of its own: seed 64 s + number.
-    const auto add = [&](const std::string& name, const std::string& what, const std::string& size_means, std::size_t small_size, std::uint64_t number, auto make) {
+    const auto add = [&](const std::string& name, const std::string& what, const std::string& size_means,
+                         std::size_t small_size, std::uint64_t number, auto make) {
       list.push_back({name, what, size_means, small_size, [name, number, make](const Family_parameters& parameters) {
                         Random random(parameters.seed * 64 + number);
                         Posed_scene scene = make(parameters, random);
@@ -178,18 +196,28 @@ inline const std::vector<Family>& families() {
     const std::string faces = "faces, at least";
     for (std::size_t k = 0; k < weak_drafts::drafters.size(); ++k)
       add(weak_drafts::drafters[k].name, weak_drafts::drafters[k].what, faces, 0, k,
-          [k](const Family_parameters& parameters, Random& random) { return with_a_source(weak_drafts::drafters[k], parameters, random); });
+          [k](const Family_parameters& parameters, Random& random) {
+            return with_a_source(weak_drafts::drafters[k], parameters, random);
+          });
     for (std::size_t k = 0; k < view_drafts::drafters.size(); ++k)
       add(view_drafts::drafters[k].name, view_drafts::drafters[k].what, faces, 0, 20 + k,
-          [k](const Family_parameters& parameters, Random& random) { return nudged(view_drafts::drafters[k].draft(random), parameters, random); });
+          [k](const Family_parameters& parameters, Random& random) {
+            return nudged(view_drafts::drafters[k].draft(random), parameters, random);
+          });
     for (std::size_t k = 0; k < view_drafts::gap_drafters.size(); ++k)
-      add(view_drafts::gap_drafters[k].name, view_drafts::gap_drafters[k].what, faces, 0, 32 + k, [k](const Family_parameters& parameters, Random& random) {
-        return with_an_eye(view_drafts::gap_drafters[k].draft(random, ulps_of_size(parameters.ulps, small_bits)), parameters, random);
-      });
-    add("touching_faces", "convex faces, each placed by another one: in its plane, on its edge or corner, through it", faces, 0, 40,
-        [](const Family_parameters& parameters, Random& random) { return nudged(view_drafts::with_some_eyes(touching_faces(random), random), parameters, random); });
+      add(view_drafts::gap_drafters[k].name, view_drafts::gap_drafters[k].what, faces, 0, 32 + k,
+          [k](const Family_parameters& parameters, Random& random) {
+            return with_an_eye(view_drafts::gap_drafters[k].draft(random, ulps_of_size(parameters.ulps, small_bits)),
+                               parameters, random);
+          });
+    add("touching_faces", "convex faces, each placed by another one: in its plane, on its edge or corner, through it",
+        faces, 0, 40, [](const Family_parameters& parameters, Random& random) {
+          return nudged(view_drafts::with_some_eyes(touching_faces(random), random), parameters, random);
+        });
     add("tangle", "faces on a tiny lattice, also concave, non-planar, repeated and without area", faces, 0, 41,
-        [](const Family_parameters& parameters, Random& random) { return nudged(view_drafts::with_some_eyes(tangle(random), random), parameters, random); });
+        [](const Family_parameters& parameters, Random& random) {
+          return nudged(view_drafts::with_some_eyes(tangle(random), random), parameters, random);
+        });
     for (std::size_t k = 0; k < kinds().size(); ++k) {
       const Kind& kind = kinds()[k];
       add(std::string(kind.name), std::string(kind.what), std::string(kind.size_means), kind.small_size, 42 + k,

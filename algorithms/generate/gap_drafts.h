@@ -1,6 +1,6 @@
 #pragma once
-// Families of small scenes with an eye that are degenerate where a gap is zero: faces without area, planes and edges that coincide, equal depth. A positive gap and a
-// negative one are the two sides of it.
+// Families of small scenes with an eye that are degenerate where a gap is zero: faces without area, planes and edges
+// that coincide, equal depth. A positive gap and a negative one are the two sides of it.
 
 #include <sightline/algorithms/generate/view_drafts.h>
 
@@ -39,7 +39,8 @@ inline Made duplicates(Random& random, const Rational& gap) {
   return with_some_eyes(faces, random);
 }
 
-/// Needles, slivers and caps that are as wide as the gap, so without area where it is zero; also faces that go there and back.
+/// Needles, slivers and caps that are as wide as the gap, so without area where it is zero; also faces that go there
+/// and back.
 inline Made slender(Random& random, const Rational& gap) {
   Faces faces;
   for (std::size_t count = 1 + random.below(5); count > 0; --count) {
@@ -48,11 +49,11 @@ inline Made slender(Random& random, const Rational& gap) {
     const Exact_point end = along(p, 2, u), middle = along(p, ratio(static_cast<long>(random.between(1, 7)), 4), u);
     Points face;
     switch (random.below(5)) {
-      case 0: face = {p, end, along(middle, gap, v)}; break;                  // a cap
-      case 1: face = {p, end, along(end, gap, v)}; break;                     // a needle
-      case 2: face = {p, end, along(end, gap, v), along(p, gap, v)}; break;   // a sliver
-      case 3: face = {p, middle, end, along(middle, gap, v)}; break;          // there and back
-      default: face = {p, along(p, gap, u), along(p, gap, v)};                // next to a point
+      case 0: face = {p, end, along(middle, gap, v)}; break;                 // a cap
+      case 1: face = {p, end, along(end, gap, v)}; break;                    // a needle
+      case 2: face = {p, end, along(end, gap, v), along(p, gap, v)}; break;  // a sliver
+      case 3: face = {p, middle, end, along(middle, gap, v)}; break;         // there and back
+      default: face = {p, along(p, gap, u), along(p, gap, v)};               // next to a point
     }
     faces.push_back(either_way(face, random));
   }
@@ -67,7 +68,8 @@ inline Made near_parallel(Random& random, const Rational& gap) {
   const auto [u, v, w] = axes(random);
   for (std::size_t count = 2 + random.below(5); count > 0; --count) {
     const Exact_point corner = lattice_in_plane(random, origin, u, v, -2, 1);
-    const Exact_point first = along(u, Rational(gap * integer(random, -1, 2)), w), second = along(v, Rational(gap * integer(random, -1, 2)), w);
+    const Exact_point first = along(u, Rational(gap * integer(random, -1, 2)), w),
+                      second = along(v, Rational(gap * integer(random, -1, 2)), w);
     faces.push_back(either_way(in_plane(corner, first, second, outline(random)), random));
   }
   add_any(faces, random.below(4), random);
@@ -88,11 +90,13 @@ inline Made leaves(Random& random, const Rational& gap) {
   }
   add_any(faces, random.below(3), random);
   Made made = with_some_eyes(faces, random, 2);
-  made.eyes.push_back(along(origin, integer(random, 2, 5), w)), made.eyes.push_back(along(origin, integer(random, -5, -2), w));
+  made.eyes.push_back(along(origin, integer(random, 2, 5), w)),
+      made.eyes.push_back(along(origin, integer(random, -5, -2), w));
   return made;
 }
 
-/// Tiles at one depth before the eye, side by side and over each other, each moved by the gap, nearer or farther or not; also crossing one another there.
+/// Tiles at one depth before the eye, side by side and over each other, each moved by the gap, nearer or farther or
+/// not; also crossing one another there.
 inline Made equal_depth(Random& random, const Rational& gap) {
   Faces faces;
   const std::size_t axis = random.below(3);
@@ -119,11 +123,14 @@ inline Made collinear_edges(Random& random, const Rational& gap) {
   for (std::size_t count = 2 + random.below(6); count > 0; --count) {
     const std::int64_t from = random.between(-3, 2), to = random.between(from + 1, 3);
     const Rational sideways = integer(random, -2, 2);
-    const Exact_point across = along(along({0, 0, 0}, sideways, v), integer(random, 1, 2), w), off = random.chance(1, 2) ? v : w;
+    const Exact_point across = along(along({0, 0, 0}, sideways, v), integer(random, 1, 2), w),
+                      off = random.chance(1, 2) ? v : w;
     const Rational apart = Rational(gap * integer(random, -1, 1));
-    const Exact_point a = along(along(origin, apart, off), Rational(static_cast<long>(from)), u), b = along(along(origin, apart, off), Rational(static_cast<long>(to)), u);
+    const Exact_point a = along(along(origin, apart, off), Rational(static_cast<long>(from)), u),
+                      b = along(along(origin, apart, off), Rational(static_cast<long>(to)), u);
     const bool triangle = random.chance(1, 2);
-    faces.push_back(either_way(triangle ? Points{a, b, along(a, 1, across)} : Points{a, b, along(b, 1, across), along(a, 1, across)}, random));
+    faces.push_back(either_way(
+        triangle ? Points{a, b, along(a, 1, across)} : Points{a, b, along(b, 1, across), along(a, 1, across)}, random));
   }
   add_any(faces, random.below(3), random);
   Made made = with_some_eyes(faces, random, 2);
@@ -137,11 +144,13 @@ struct Gap_drafter {
   Made (*draft)(Random& random, const Rational& gap);
 };
 inline constexpr std::array gap_drafters{
-    Gap_drafter{"duplicates", "copies of faces, turned, begun elsewhere, with straight corners; K ulps apart", duplicates},
+    Gap_drafter{"duplicates", "copies of faces, turned, begun elsewhere, with straight corners; K ulps apart",
+                duplicates},
     Gap_drafter{"slender", "needles, slivers and caps, K ulps wide: without area for 0", slender},
     Gap_drafter{"near_parallel", "faces whose planes lean from one plane by K ulps", near_parallel},
     Gap_drafter{"leaves", "stacked thin leaves, K ulps between them", leaves},
-    Gap_drafter{"equal_depth", "tiles at one depth before the eye, each moved K ulps nearer or farther or not", equal_depth},
+    Gap_drafter{"equal_depth", "tiles at one depth before the eye, each moved K ulps nearer or farther or not",
+                equal_depth},
     Gap_drafter{"collinear_edges", "pages with an edge each on one line, moved off it by K ulps", collinear_edges}};
 
 }  // namespace sightline::generate::view_drafts

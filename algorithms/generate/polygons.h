@@ -13,15 +13,19 @@ namespace sightline::generate {
 using Points = std::vector<Exact_point>;  ///< a polygon
 using Faces = std::vector<Points>;
 
-// ---- Vectors ---------------------------------------------------------------------------------------------------------------------
+// ---- Vectors
+// ---------------------------------------------------------------------------------------------------------------------
 
-inline Exact_point minus(const Exact_point& a, const Exact_point& b) { return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])}; }
+inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
+  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
+}
 /// p + t d
 inline Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
   return {Rational(p[0] + t * d[0]), Rational(p[1] + t * d[1]), Rational(p[2] + t * d[2])};
 }
 inline Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]), Rational(a[0] * b[1] - a[1] * b[0])};
+  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
+          Rational(a[0] * b[1] - a[1] * b[0])};
 }
 inline bool is_zero(const Exact_point& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
 inline Exact_point centroid(const Points& points) {
@@ -42,7 +46,8 @@ inline Polygon_soup soup_of(const Faces& faces) {
   return soup;
 }
 
-// ---- By hand -------------------------------------------------------------------------------------------------------------------------
+// ---- By hand
+// -------------------------------------------------------------------------------------------------------------------------
 
 inline Rational ratio(long p, long q) {
   Rational value(p, static_cast<unsigned long>(q));
@@ -55,36 +60,45 @@ inline Points reversed(Points points) {
   return points;
 }
 /// The rectangle [x0, x1] x [y0, y1] at height z, front up.
-inline Points rectangle(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) {
+inline Points rectangle(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1,
+                        const Rational& z) {
   return {at(x0, y0, z), at(x1, y0, z), at(x1, y1, z), at(x0, y1, z)};
 }
 /// Points of the plane through `origin`.
-inline Points in_plane(const Exact_point& origin, const Exact_point& u, const Exact_point& v, const std::vector<std::array<long, 2>>& outline) {
+inline Points in_plane(const Exact_point& origin, const Exact_point& u, const Exact_point& v,
+                       const std::vector<std::array<long, 2>>& outline) {
   Points points;
   for (const std::array<long, 2>& p : outline) points.push_back(along(along(origin, p[0], u), p[1], v));
   return points;
 }
 /// The six faces of a box, fronts outside: those at low and high x, at low and high y, at low and high z.
 inline Faces box(const Exact_point& low, const Exact_point& high) {
-  const auto corner = [&](int bits) { return at(bits & 1 ? high[0] : low[0], bits & 2 ? high[1] : low[1], bits & 4 ? high[2] : low[2]); };
-  static constexpr int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  const auto corner = [&](int bits) {
+    return at(bits & 1 ? high[0] : low[0], bits & 2 ? high[1] : low[1], bits & 4 ? high[2] : low[2]);
+  };
+  static constexpr int faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                      {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   Faces result;
   for (const auto& face : faces) result.push_back({corner(face[0]), corner(face[1]), corner(face[2]), corner(face[3])});
   return result;
 }
 
-// ---- Pieces of scenes --------------------------------------------------------------------------------------------------------------------
+// ---- Pieces of scenes
+// --------------------------------------------------------------------------------------------------------------------
 
 // Numbers are drawn one by one: the order of a call's arguments differs between compilers.
 
-inline Rational integer(Random& random, std::int64_t least, std::int64_t most) { return static_cast<long>(random.between(least, most)); }
+inline Rational integer(Random& random, std::int64_t least, std::int64_t most) {
+  return static_cast<long>(random.between(least, most));
+}
 inline Exact_point lattice(Random& random, std::int64_t reach) {
   Exact_point p{0, 0, 0};
   for (Rational& x : p) x = integer(random, -reach, reach);
   return p;
 }
 /// origin + i u + j v for integers in [least, most].
-inline Exact_point lattice_in_plane(Random& random, const Exact_point& origin, const Exact_point& u, const Exact_point& v, std::int64_t least, std::int64_t most) {
+inline Exact_point lattice_in_plane(Random& random, const Exact_point& origin, const Exact_point& u,
+                                    const Exact_point& v, std::int64_t least, std::int64_t most) {
   const Exact_point p = along(origin, integer(random, least, most), u);
   return along(p, integer(random, least, most), v);
 }
@@ -122,7 +136,10 @@ inline Points any_face(Random& random, std::int64_t reach = 4) {
       const auto [u, v] = directions(random, 3);
       const Exact_point corner = lattice(random, reach);
       face = in_plane(corner, u, v, outline(random));
-      if (std::any_of(face.begin(), face.end(), [&](const Exact_point& p) { return abs(p[0]) > reach || abs(p[1]) > reach || abs(p[2]) > reach; })) continue;
+      if (std::any_of(face.begin(), face.end(), [&](const Exact_point& p) {
+            return abs(p[0]) > reach || abs(p[1]) > reach || abs(p[2]) > reach;
+          }))
+        continue;
     }
     return either_way(face, random);
   }

@@ -10,14 +10,15 @@ namespace sightline::generate {
 
 /// A question of weak visibility.
 struct Weak_scene {
-  std::string name;                 ///< family, seed
-  Polygon_soup soup;                ///< every face has one loop
-  Points source;                    ///< strictly convex, counterclockwise seen from the side it looks to
+  std::string name;   ///< family, seed
+  Polygon_soup soup;  ///< every face has one loop
+  Points source;      ///< strictly convex, counterclockwise seen from the side it looks to
   std::vector<Face_id> targets;
   std::optional<bool> truth;  ///< of every target
 };
 
-// ---- Projective maps ---------------------------------------------------------------------------------------------------------------------
+// ---- Projective maps
+// ---------------------------------------------------------------------------------------------------------------------
 
 /// Of homogeneous coordinates (x, y, z, 1).
 using Projective_map = std::array<std::array<Rational, 4>, 4>;
@@ -43,12 +44,15 @@ inline Rational image_coordinate(const Projective_map& map, std::size_t row, con
 inline Exact_point image(const Projective_map& map, const Exact_point& p) {
   const Rational weight = image_coordinate(map, 3, p);
   if (sgn(weight) <= 0) throw std::invalid_argument("a point goes to infinity, or beyond it");
-  return {Rational(image_coordinate(map, 0, p) / weight), Rational(image_coordinate(map, 1, p) / weight), Rational(image_coordinate(map, 2, p) / weight)};
+  return {Rational(image_coordinate(map, 0, p) / weight), Rational(image_coordinate(map, 1, p) / weight),
+          Rational(image_coordinate(map, 2, p) / weight)};
 }
 
-/// The image of a scene under a projective map of positive weight on all its points, hence on all segments between them: segments go to segments, faces to faces,
-/// and the sign of orient(a, b, c, d) is multiplied by the determinant's. Where that is negative all loops are turned, so fronts stay fronts and the truth stays.
-/// Pre: as said, and a determinant other than 0, or std::invalid_argument; planar faces, as how others are cut depends on where they are.
+/// The image of a scene under a projective map of positive weight on all its points, hence on all segments between
+/// them: segments go to segments, faces to faces, and the sign of orient(a, b, c, d) is multiplied by the
+/// determinant's. Where that is negative all loops are turned, so fronts stay fronts and the truth stays. Pre: as said,
+/// and a determinant other than 0, or std::invalid_argument; planar faces, as how others are cut depends on where they
+/// are.
 inline Weak_scene project(const Weak_scene& scene, const Projective_map& map) {
   std::vector<std::vector<Rational>> rows;
   for (const auto& row : map) rows.emplace_back(row.begin(), row.end());

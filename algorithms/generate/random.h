@@ -9,8 +9,8 @@
 
 namespace sightline::generate {
 
-/// std::mt19937_64, whose output the standard fixes, with integer ranges of its own: the standard's distributions differ
-/// between libraries. The same seed gives the same numbers everywhere.
+/// std::mt19937_64, whose output the standard fixes, with integer ranges of its own: the standard's distributions
+/// differ between libraries. The same seed gives the same numbers everywhere.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -11,9 +11,11 @@ namespace sightline::generate {
 
 using Lattice_point = std::array<std::int64_t, 2>;
 
-/// Point k of n on the circle of a radius, rounded to integers; point 0 is (radius, 0), counterclockwise, about equally spaced.
-/// The same on every machine: integers only. In a quadrant the point at parameter u in [0, 1) is the rational point
-/// ((1 - t^2) / (1 + t^2), 2 t / (1 + t^2)) of the unit circle with t = u (11 + 3 u^2) / 14, which is tan(pi u / 4) within 2%.
+/// Point k of n on the circle of a radius, rounded to integers; point 0 is (radius, 0), counterclockwise, about equally
+/// spaced. The same on every machine: integers only. In a quadrant the point at parameter u in [0, 1) is the rational
+/// point
+/// ((1 - t^2) / (1 + t^2), 2 t / (1 + t^2)) of the unit circle with t = u (11 + 3 u^2) / 14, which is tan(pi u / 4)
+/// within 2%.
 inline Lattice_point circle_point(std::uint64_t k, std::uint64_t n, std::int64_t radius) {
   const std::uint64_t quadrant = 4 * k / n, rest = 4 * k % n;
   const Integer u = static_cast<unsigned long>(rest), v = static_cast<unsigned long>(n);
@@ -34,14 +36,15 @@ inline Lattice_point circle_point(std::uint64_t k, std::uint64_t n, std::int64_t
   }
 }
 
-/// A closed and exactly convex body near the unit sphere, of at least `faces` faces: trapezoids in 2 b rings of 4 a, those at
-/// the poles triangles, fronts outwards; 8 a b is the least such number with b = floor(sqrt(faces / 8)), b >= 1.
-/// The polygon of a ring and the meridian are rounded to a grid of 2^-w, w two more than the least with which both are strictly
-/// convex; a vertex (radius of the ring x point of the polygon, height) is a multiple of 2^-2w, an exact double.
-/// Why it is convex: all rings are scaled copies of one convex polygon, so a face's plane holds two parallel sides of neighbouring
-/// rings, and a linear form m . (x, y) + c z with m normal to those sides is largest on them: in each ring by the polygon's
-/// convexity, among rings by the meridian's. A seed other than 0 shuffles the faces; with 0 they go from the south pole up.
-/// Pre: faces <= 10^7, or std::invalid_argument. Cost: 0.1 s for 10^6 faces. Exact: yes
+/// A closed and exactly convex body near the unit sphere, of at least `faces` faces: trapezoids in 2 b rings of 4 a,
+/// those at the poles triangles, fronts outwards; 8 a b is the least such number with b = floor(sqrt(faces / 8)), b
+/// >= 1. The polygon of a ring and the meridian are rounded to a grid of 2^-w, w two more than the least with which
+/// both are strictly convex; a vertex (radius of the ring x point of the polygon, height) is a multiple of 2^-2w, an
+/// exact double. Why it is convex: all rings are scaled copies of one convex polygon, so a face's plane holds two
+/// parallel sides of neighbouring rings, and a linear form m . (x, y) + c z with m normal to those sides is largest on
+/// them: in each ring by the polygon's convexity, among rings by the meridian's. A seed other than 0 shuffles the
+/// faces; with 0 they go from the south pole up. Pre: faces <= 10^7, or std::invalid_argument. Cost: 0.1 s for 10^6
+/// faces. Exact: yes
 inline Polygon_soup convex_sphere(std::size_t faces, std::uint64_t seed = 0) {
   require(faces <= 10000000, "convex_sphere: at most 10^7 faces");
   std::size_t b = 1;
@@ -62,7 +65,8 @@ inline Polygon_soup convex_sphere(std::size_t faces, std::uint64_t seed = 0) {
     for (std::size_t k = 0; k < slices; ++k) ring.push_back(circle_point(k, slices, radius));
     for (std::size_t k = 0; k <= stacks; ++k) meridian.push_back(circle_point((k + 3 * b) % (4 * b), 4 * b, radius));
     bool convex = true;
-    for (std::size_t k = 0; k < slices; ++k) convex = convex && left_turn(ring[k], ring[(k + 1) % slices], ring[(k + 2) % slices]);
+    for (std::size_t k = 0; k < slices; ++k)
+      convex = convex && left_turn(ring[k], ring[(k + 1) % slices], ring[(k + 2) % slices]);
     for (std::size_t k = 0; k + 1 < meridian.size(); ++k) {
       convex = convex && meridian[k][1] < meridian[k + 1][1] && (k == 0 || meridian[k][0] > 0);
       convex = convex && (k == 0 || left_turn(meridian[k - 1], meridian[k], meridian[k + 1]));
@@ -77,7 +81,8 @@ inline Polygon_soup convex_sphere(std::size_t faces, std::uint64_t seed = 0) {
   const double step = std::ldexp(1.0, -2 * bits);
   const std::int64_t radius = std::int64_t{1} << bits;
   const auto add = [&](std::int64_t r, const Lattice_point& p, std::int64_t z) {
-    soup.add_point(static_cast<double>(r * p[0]) * step, static_cast<double>(r * p[1]) * step, static_cast<double>(radius * z) * step);
+    soup.add_point(static_cast<double>(r * p[0]) * step, static_cast<double>(r * p[1]) * step,
+                   static_cast<double>(radius * z) * step);
   };
   add(0, {0, 0}, meridian[0][1]);
   for (std::size_t i = 1; i < stacks; ++i)
@@ -100,8 +105,8 @@ inline Polygon_soup convex_sphere(std::size_t faces, std::uint64_t seed = 0) {
   return soup;
 }
 
-/// n flat bars along the sides of a convex polygon, each lying over the next at their common corner, the last over the first:
-/// seen from above a cycle of n faces, fronts up, that no order of whole faces resolves. Pre: 3 <= n <= 10^6.
+/// n flat bars along the sides of a convex polygon, each lying over the next at their common corner, the last over the
+/// first: seen from above a cycle of n faces, fronts up, that no order of whole faces resolves. Pre: 3 <= n <= 10^6.
 /// Post: bar k is above bar k + 1 wherever their projections along z meet, and meets no other but k - 1 and k + 1.
 inline Polygon_soup bars(std::size_t n) {
   require(n >= 3 && n <= 1000000, "bars: size must be in 3 .. 10^6");
@@ -112,10 +117,14 @@ inline Polygon_soup bars(std::size_t n) {
   soup.file = "bars";
   for (std::size_t k = 0; k < n; ++k) {
     const Lattice_point from = circle_point(k, n, large), to = circle_point((k + 1) % n, n, large);
-    const std::int64_t x = (to[0] - from[0]) / 16, y = (to[1] - from[1]) / 16;  // a sixteenth of the side: half the width
+    const std::int64_t x = (to[0] - from[0]) / 16,
+                       y = (to[1] - from[1]) / 16;  // a sixteenth of the side: half the width
     // The parallelogram start +- (-y, x), start + (to - from + 4 (x, y)) +- (-y, x), rising from 0 to one radius.
-    const std::int64_t start_x = from[0] - 2 * x, start_y = from[1] - 2 * y, end_x = to[0] + 2 * x, end_y = to[1] + 2 * y;
-    const auto add = [&](std::int64_t px, std::int64_t py, double pz) { return soup.add_point(static_cast<double>(px) * 0x1p-18, static_cast<double>(py) * 0x1p-18, pz); };
+    const std::int64_t start_x = from[0] - 2 * x, start_y = from[1] - 2 * y, end_x = to[0] + 2 * x,
+                       end_y = to[1] + 2 * y;
+    const auto add = [&](std::int64_t px, std::int64_t py, double pz) {
+      return soup.add_point(static_cast<double>(px) * 0x1p-18, static_cast<double>(py) * 0x1p-18, pz);
+    };
     const Point_id first = add(start_x + y, start_y - x, 0.0);
     add(end_x + y, end_y - x, 1.0), add(end_x - y, end_y + x, 1.0), add(start_x - y, start_y + x, 0.0);
     soup.add_face({first, first + 1, first + 2, first + 3});

@@ -20,9 +20,10 @@ inline std::uint64_t cube_root(std::uint64_t n) {
   return root;
 }
 
-/// n random triangles in the unit cube with corners on the grid of step 2^-bits, none of zero area. Each corner is uniform in
-/// an axis-parallel cube of side 3/2 `edge_steps`, so that edges are 0.99 `edge_steps` long on average (the mean distance of
-/// two points of a unit cube is 0.6617). Pre: 4 <= edge_steps, bits <= 30. Cost: 0.3 s and 190 MB for n = 10^6.
+/// n random triangles in the unit cube with corners on the grid of step 2^-bits, none of zero area. Each corner is
+/// uniform in an axis-parallel cube of side 3/2 `edge_steps`, so that edges are 0.99 `edge_steps` long on average (the
+/// mean distance of two points of a unit cube is 0.6617). Pre: 4 <= edge_steps, bits <= 30. Cost: 0.3 s and 190 MB for
+/// n = 10^6.
 inline Polygon_soup soup_on_grid(std::size_t n, std::int64_t edge_steps, std::uint64_t seed, int bits) {
   require(bits >= 4 && bits <= 30, "soup: bits must be in 4 .. 30");
   require(edge_steps >= 4, "soup: the edge must be four steps of the grid or longer");
@@ -54,7 +55,8 @@ inline Polygon_soup soup_on_grid(std::size_t n, std::int64_t edge_steps, std::ui
     } while (!has_area());
     Point_id first = 0;
     for (const Corner& c : corners)
-      first = soup.add_point(static_cast<double>(c[0]) * step, static_cast<double>(c[1]) * step, static_cast<double>(c[2]) * step);
+      first = soup.add_point(static_cast<double>(c[0]) * step, static_cast<double>(c[1]) * step,
+                             static_cast<double>(c[2]) * step);
     soup.add_face({first - 2, first - 1, first});
   }
   return soup;
@@ -63,7 +65,8 @@ inline Polygon_soup soup_on_grid(std::size_t n, std::int64_t edge_steps, std::ui
 /// n random triangles with edges about `edge` long in the unit cube, coordinates on the grid of step 2^-bits.
 /// Pre: edge is at least 4 steps, bits <= 30, or std::invalid_argument. Post: no zero area; three points for each face.
 inline Polygon_soup soup(std::size_t n, double edge, std::uint64_t seed, int bits = 26) {
-  require(std::isfinite(edge) && edge > 0 && bits >= 4 && bits <= 30, "soup: the edge must be positive, bits in 4 .. 30");
+  require(std::isfinite(edge) && edge > 0 && bits >= 4 && bits <= 30,
+          "soup: the edge must be positive, bits in 4 .. 30");
   return soup_on_grid(n, std::llround(std::ldexp(std::min(edge, 1.0), bits)), seed, bits);
 }
 
@@ -77,20 +80,24 @@ inline Polygon_soup soup_constant_density(std::size_t n, std::uint64_t seed) {
   return result;
 }
 
-/// The queries that weak visibility is measured with elsewhere: from the square [-1, 1]^2 at z = 0, face 0, looking up, to the same at z = 10, face 1, looking down, and
-/// between them n random triangles, faces 2 to n + 1, about 2 wide. Query t of size n is drawn from the 32-bit Mersenne twister of seed 1000 n + t (modulo 2^32), in
-/// float arithmetic: u = 2 (draw / 2^32) - 1, the centre (1.2 u, 1.2 u, 5 + 4 u), each corner moved by 1.05 u along each axis, z clamped to [0.1, 9.9].
-/// Post: three points for each triangle, coordinates are floats. A triangle may have no area, with a probability that is none in practice.
+/// The queries that weak visibility is measured with elsewhere: from the square [-1, 1]^2 at z = 0, face 0, looking up,
+/// to the same at z = 10, face 1, looking down, and between them n random triangles, faces 2 to n + 1, about 2 wide.
+/// Query t of size n is drawn from the 32-bit Mersenne twister of seed 1000 n + t (modulo 2^32), in float arithmetic: u
+/// = 2 (draw / 2^32) - 1, the centre (1.2 u, 1.2 u, 5 + 4 u), each corner moved by 1.05 u along each axis, z clamped to
+/// [0.1, 9.9]. Post: three points for each triangle, coordinates are floats. A triangle may have no area, with a
+/// probability that is none in practice.
 inline Polygon_soup triangles_between_squares(std::size_t n, std::uint64_t t) {
   require(n <= 1000000000, "triangles_between_squares: at most 10^9 triangles");
   Polygon_soup soup;
   soup.file = "triangles_between_squares";
   soup.coordinates.reserve(9 * n + 24);
-  for (const auto& [x, y, z] : std::array<std::array<double, 3>, 8>{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 10}, {-1, 1, 10}, {1, 1, 10}, {1, -1, 10}}})
+  for (const auto& [x, y, z] : std::array<std::array<double, 3>, 8>{
+           {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {-1, -1, 10}, {-1, 1, 10}, {1, 1, 10}, {1, -1, 10}}})
     soup.add_point(x, y, z);
   soup.add_face({0, 1, 2, 3}), soup.add_face({4, 5, 6, 7});
   std::mt19937 engine(static_cast<std::uint32_t>(1000 * std::uint64_t{n} + t));
-  // As std::uniform_real_distribution<float>(-1, 1) of libstdc++, where a draw that rounds to 2^32 counts as the float before.
+  // As std::uniform_real_distribution<float>(-1, 1) of libstdc++, where a draw that rounds to 2^32 counts as the float
+  // before.
   const auto u = [&] { return std::min(static_cast<float>(engine()) * 0x1p-32f, 1 - 0x1p-24f) * 2 - 1; };
   for (std::size_t k = 0; k < n; ++k) {
     const std::array<float, 3> draws{u(), u(), u()}, centre{1.2f * draws[0], 1.2f * draws[1], 5 + 4 * draws[2]};
@@ -105,9 +112,9 @@ inline Polygon_soup triangles_between_squares(std::size_t n, std::uint64_t t) {
   return soup;
 }
 
-/// A landscape of at least n triangles over a square lattice of step 2^-10, front up: two for each of m x m cells, m the least.
-/// Heights are multiples of 2^-20, the sum of octaves whose amplitude and wave length halve. Post: a height field, every
-/// inner edge in two triangles, diagonals in random directions.
+/// A landscape of at least n triangles over a square lattice of step 2^-10, front up: two for each of m x m cells, m
+/// the least. Heights are multiples of 2^-20, the sum of octaves whose amplitude and wave length halve. Post: a height
+/// field, every inner edge in two triangles, diagonals in random directions.
 inline Polygon_soup terrain(std::size_t n, std::uint64_t seed) {
   require(n <= 1000000000, "terrain: at most 10^9 triangles");
   std::size_t m = 1;
@@ -129,7 +136,8 @@ inline Polygon_soup terrain(std::size_t n, std::uint64_t seed) {
       for (std::size_t i = 0; i < row; ++i) {
         const std::int64_t u = static_cast<std::int64_t>(i % wave), v = static_cast<std::int64_t>(j % wave);
         const std::int32_t* at = &node[(j / wave) * nodes + i / wave];
-        const std::int64_t sum = (w - u) * (w - v) * at[0] + u * (w - v) * at[1] + (w - u) * v * at[nodes] + u * v * at[nodes + 1];
+        const std::int64_t sum =
+            (w - u) * (w - v) * at[0] + u * (w - v) * at[1] + (w - u) * v * at[nodes] + u * v * at[nodes + 1];
         height[j * row + i] += sum / (w * w);
       }
   }
@@ -139,7 +147,8 @@ inline Polygon_soup terrain(std::size_t n, std::uint64_t seed) {
   soup.coordinates.reserve(3 * row * row);
   for (std::size_t j = 0; j < row; ++j)
     for (std::size_t i = 0; i < row; ++i)
-      soup.add_point(static_cast<double>(i) * 0x1p-10, static_cast<double>(j) * 0x1p-10, static_cast<double>(height[j * row + i]) * 0x1p-20);
+      soup.add_point(static_cast<double>(i) * 0x1p-10, static_cast<double>(j) * 0x1p-10,
+                     static_cast<double>(height[j * row + i]) * 0x1p-20);
   for (std::size_t j = 0; j < m; ++j)
     for (std::size_t i = 0; i < m; ++i) {
       const Point_id a = static_cast<Point_id>(j * row + i), b = a + 1, d = a + static_cast<Point_id>(row), c = d + 1;

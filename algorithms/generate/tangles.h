@@ -5,11 +5,17 @@
 
 namespace sightline::generate {
 
-/// A few faces on a tiny lattice: coplanar, touching, interpenetrating, repeated, turned, concave, non-planar, without area.
+/// A few faces on a tiny lattice: coplanar, touching, interpenetrating, repeated, turned, concave, non-planar, without
+/// area.
 inline Faces tangle(Random& random, std::size_t most_faces = 7) {
   static const std::vector<std::vector<std::array<int, 2>>> outlines{
-      {{0, 0}, {1, 0}, {0, 1}}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
-      {{-1, -1}, {2, -1}, {2, 2}, {1, 2}, {1, 0}, {0, 0}, {0, 2}, {-1, 2}}, {{0, 0}, {2, -1}, {1, 0}, {2, 1}}, {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}};
+      {{0, 0}, {1, 0}, {0, 1}},
+      {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+      {{0, 0}, {2, 0}, {2, 1}, {0, 1}},
+      {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}},
+      {{-1, -1}, {2, -1}, {2, 2}, {1, 2}, {1, 0}, {0, 0}, {0, 2}, {-1, 2}},
+      {{0, 0}, {2, -1}, {1, 0}, {2, 1}},
+      {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}};
   Faces faces;
   const std::size_t count = 1 + random.below(most_faces);
   while (faces.size() < count) {
@@ -32,12 +38,14 @@ inline Faces tangle(Random& random, std::size_t most_faces = 7) {
         const Exact_point origin = lattice(random, 2);
         Exact_point u{0, 0, 0}, v{0, 0, 0};
         u[(axis + 1) % 3] = v[(axis + 2) % 3] = 1;
-        for (const auto& [a, b] : outlines[random.below(outlines.size())]) loop.push_back(along(along(origin, a, u), b, v));
+        for (const auto& [a, b] : outlines[random.below(outlines.size())])
+          loop.push_back(along(along(origin, a, u), b, v));
         break;
       }
       default: {  // an outline in any plane of the lattice
         const Exact_point origin = lattice(random, 2), u = lattice(random, 1), v = lattice(random, 1);
-        for (const auto& [a, b] : outlines[random.below(outlines.size())]) loop.push_back(along(along(origin, a, u), b, v));
+        for (const auto& [a, b] : outlines[random.below(outlines.size())])
+          loop.push_back(along(along(origin, a, u), b, v));
       }
     }
     faces.push_back(loop);
@@ -45,8 +53,9 @@ inline Faces tangle(Random& random, std::size_t most_faces = 7) {
   return faces;
 }
 
-/// Two to eight triangles and parallelograms on a small lattice, most of them placed by an earlier one: in its plane (either sense), parallel to it,
-/// on one of its edges, on a corner, with a corner on its edge or inside, or through it. Every face is planar and convex.
+/// Two to eight triangles and parallelograms on a small lattice, most of them placed by an earlier one: in its plane
+/// (either sense), parallel to it, on one of its edges, on a corner, with a corner on its edge or inside, or through
+/// it. Every face is planar and convex.
 inline Faces touching_faces(Random& random) {
   Faces faces;
   const auto parallelogram = [](const Exact_point& p, const Exact_point& u, const Exact_point& v) {

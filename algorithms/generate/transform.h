@@ -35,7 +35,8 @@ inline Polygon_soup translated(const Polygon_soup& soup, const Exact_point& offs
   });
 }
 
-/// The soup scaled from the origin. Keeps every answer. Pre: factor > 0 (others would turn fronts), or std::invalid_argument. Exact: yes
+/// The soup scaled from the origin. Keeps every answer. Pre: factor > 0 (others would turn fronts), or
+/// std::invalid_argument. Exact: yes
 inline Polygon_soup scaled(const Polygon_soup& soup, const Rational& factor) {
   require(sgn(factor) > 0, "scaled: the factor must be positive");
   return mapped(soup, [&](Point_id, Exact_point p) {
@@ -75,8 +76,8 @@ inline Polygon_soup rotated(const Polygon_soup& soup, const Rational_matrix& mat
   });
 }
 
-/// A soup with the same points whose face k is face order[k] of the given one; with `reverse`, every loop runs backwards.
-/// Pre: order holds face ids, or std::out_of_range. (Faces may be left out or repeated.)
+/// A soup with the same points whose face k is face order[k] of the given one; with `reverse`, every loop runs
+/// backwards. Pre: order holds face ids, or std::out_of_range. (Faces may be left out or repeated.)
 inline Polygon_soup with_faces(const Polygon_soup& soup, const std::vector<Face_id>& order, bool reverse = false) {
   Polygon_soup result;
   result.file = soup.file;
@@ -103,8 +104,11 @@ inline std::vector<Face_id> random_order(std::size_t n, std::uint64_t seed) {
   return order;
 }
 
-/// The soup with its faces in random order: face k of the result is face random_order(face_count, seed)[k] of the given one.
-inline Polygon_soup faces_permuted(const Polygon_soup& soup, std::uint64_t seed) { return with_faces(soup, random_order(soup.face_count(), seed)); }
+/// The soup with its faces in random order: face k of the result is face random_order(face_count, seed)[k] of the given
+/// one.
+inline Polygon_soup faces_permuted(const Polygon_soup& soup, std::uint64_t seed) {
+  return with_faces(soup, random_order(soup.face_count(), seed));
+}
 
 /// The soup with every face turned round: fronts become backs.
 inline Polygon_soup faces_reversed(const Polygon_soup& soup) {
@@ -113,9 +117,9 @@ inline Polygon_soup faces_reversed(const Polygon_soup& soup) {
   return with_faces(soup, order, true);
 }
 
-/// The soup with every coordinate rounded to the nearest double and then, at random, kept or moved to the double next below or
-/// next above: faces with four or more corners are rarely planar after it, triangles in a plane rarely coplanar.
-/// Pre: coordinates within the range of doubles, or std::domain_error.
+/// The soup with every coordinate rounded to the nearest double and then, at random, kept or moved to the double next
+/// below or next above: faces with four or more corners are rarely planar after it, triangles in a plane rarely
+/// coplanar. Pre: coordinates within the range of doubles, or std::domain_error.
 inline Polygon_soup one_ulp_perturbed(const Polygon_soup& soup, std::uint64_t seed) {
   Random random(seed);
   return mapped(soup, [&](Point_id, Exact_point p) {

@@ -5,7 +5,8 @@
 
 namespace sightline::generate::view_drafts {
 
-/// A point that some face makes special, or none does: beyond an edge on its line, in a plane, on the line from one corner through another, anywhere.
+/// A point that some face makes special, or none does: beyond an edge on its line, in a plane, on the line from one
+/// corner through another, anywhere.
 inline Exact_point some_eye(const Faces& faces, Random& random) {
   const Points &f = faces[random.below(faces.size())], &g = faces[random.below(faces.size())];
   const std::size_t k = random.below(f.size());
@@ -34,7 +35,8 @@ inline Made with_some_eyes(Faces faces, Random& random, std::size_t count = 3) {
   return made;
 }
 
-// ---- Families --------------------------------------------------------------------------------------------------------------------------------
+// ---- Families
+// --------------------------------------------------------------------------------------------------------------------------------
 
 inline Made uniform(Random& random) {
   Faces faces;
@@ -70,7 +72,8 @@ inline Made cyclic(Random& random) {
     const std::array<long, 2>&p = round[k], &q = round[(k + 1) % round.size()];
     const Exact_point from = at(p[0], p[1], 0), step = at(q[0] - p[0], q[1] - p[1], 2);
     const Exact_point across = at((p[1] - q[1]) * width / 2, (q[0] - p[0]) * width / 2, 0);
-    const Exact_point low = along(along(from, ratio(-1, 4), step), ratio(-1, 2), across), high = along(along(from, ratio(5, 4), step), ratio(-1, 2), across);
+    const Exact_point low = along(along(from, ratio(-1, 4), step), ratio(-1, 2), across),
+                      high = along(along(from, ratio(5, 4), step), ratio(-1, 2), across);
     faces.push_back(either_way({low, high, along(high, 1, across), along(low, 1, across)}, random));
   }
   add_any(faces, random.below(4), random);
@@ -119,7 +122,8 @@ inline Made joined(Random& random) {
                                                             {{0, cut - 2}, {1, cut - 2}, {1, 2}, {0, 2}},
                                                             {{1, cut - 2}, {2, cut - 2}, {2, 2}, {1, 2}}};
   for (const auto& tile : tiles)
-    if (random.chance(4, 5)) faces.push_back(random.chance(1, 5) ? reversed(in_plane(origin, u, v, tile)) : in_plane(origin, u, v, tile));
+    if (random.chance(4, 5))
+      faces.push_back(random.chance(1, 5) ? reversed(in_plane(origin, u, v, tile)) : in_plane(origin, u, v, tile));
   if (faces.empty()) faces.push_back(in_plane(origin, u, v, tiles[0]));
   for (std::size_t count = random.below(4); count > 0; --count) {
     const Points& other = faces[random.below(faces.size())];
@@ -131,7 +135,8 @@ inline Made joined(Random& random) {
       case 1: faces.push_back(either_way({centroid({a, b}), a, apex}, random)); break;  // on half the edge
       default: faces.push_back(either_way({b, a, along(a, 1, apex), along(b, 1, apex)}, random));
     }
-    if (is_zero(cross(minus(faces.back()[1], faces.back()[0]), minus(faces.back()[2], faces.back()[0])))) faces.pop_back();
+    if (is_zero(cross(minus(faces.back()[1], faces.back()[0]), minus(faces.back()[2], faces.back()[0]))))
+      faces.pop_back();
   }
   add_any(faces, random.below(4), random);
   return with_some_eyes(faces, random, 4);
@@ -141,14 +146,17 @@ inline Made boxes(Random& random) {
   const auto size = [&] { return Exact_point{integer(random, 1, 3), integer(random, 1, 3), integer(random, 1, 3)}; };
   const Exact_point low = lattice(random, 2), high = along(low, 1, size());
   Faces faces = box(low, high);
-  Exact_point next_low = at(low[0], low[1], high[2]), next_high = at(high[0], high[1], Rational(high[2] + 1));  // a storey of the same plan
+  Exact_point next_low = at(low[0], low[1], high[2]),
+              next_high = at(high[0], high[1], Rational(high[2] + 1));  // a storey of the same plan
   switch (random.below(4)) {
     case 0: break;
     case 1:
       next_low[0] += integer(random, -1, 1), next_low[1] += integer(random, -1, 1);
       next_high = along(next_low, 1, size());
       break;
-    case 2: next_low = at(high[0], low[1], low[2]), next_high = along(next_low, 1, size()); break;  // beside it, on one plane
+    case 2:
+      next_low = at(high[0], low[1], low[2]), next_high = along(next_low, 1, size());
+      break;                                                                         // beside it, on one plane
     default: next_low = lattice(random, 2), next_high = along(next_low, 1, size());  // anywhere, perhaps into it
   }
   add(faces, box(next_low, next_high));
@@ -156,7 +164,8 @@ inline Made boxes(Random& random) {
     const std::size_t k = random.below(6);
     const Points wall = faces[k];
     const Rational share = ratio(random.between(1, 4), 5);
-    const Exact_point p = along(wall[0], share, minus(wall[1], wall[0])), q = along(wall[3], share, minus(wall[2], wall[3]));
+    const Exact_point p = along(wall[0], share, minus(wall[1], wall[0])),
+                      q = along(wall[3], share, minus(wall[2], wall[3]));
     faces[k] = {wall[0], p, q, wall[3]};
     faces.push_back({p, wall[1], wall[2], q});
   }
@@ -179,7 +188,8 @@ inline Made edge_on(Random& random) {
   if (random.chance(1, 2)) {  // an edge on a line through the eye, of a face that need not be edge-on otherwise
     const auto [u, v] = directions(random, 2);
     faces.push_back(either_way({along(eye, 1, u), along(eye, 3, u), along(along(eye, 2, u), 1, v)}, random));
-    faces.push_back(either_way({along(eye, 2, u), along(eye, 3, u), along(along(eye, 2, u), 1, lattice(random, 3))}, random));
+    faces.push_back(
+        either_way({along(eye, 2, u), along(eye, 3, u), along(along(eye, 2, u), 1, lattice(random, 3))}, random));
     if (is_zero(cross(u, minus(faces.back()[2], eye)))) faces.pop_back();
   }
   add_any(faces, 1 + random.below(5), random);
@@ -200,7 +210,9 @@ inline Made touching(Random& random) {
     switch (random.below(3)) {
       case 0: faces.push_back(either_way({eye, along(eye, 1, u), along(eye, 1, v)}, random)); break;
       case 1: faces.push_back(either_way({along(eye, -1, u), along(eye, 1, u), along(eye, 1, v)}, random)); break;
-      default: faces.push_back(either_way({along(eye, -1, u), along(along(eye, 1, u), -1, v), along(along(eye, 1, u), 1, v)}, random));
+      default:
+        faces.push_back(
+            either_way({along(eye, -1, u), along(along(eye, 1, u), -1, v), along(along(eye, 1, u), 1, v)}, random));
     }
   }
   shuffle(faces, random);
@@ -227,10 +239,13 @@ inline Made inside(Random& random) {
 }
 
 inline Rational factor(Random& random) {
-  static const std::array<Rational, 8> factors{ratio(1, 2), ratio(2, 3), ratio(3, 2), ratio(2, 1), ratio(3, 1), ratio(-1, 1), ratio(4, 3), ratio(1, 1)};
+  static const std::array<Rational, 8> factors{ratio(1, 2), ratio(2, 3),  ratio(3, 2), ratio(2, 1),
+                                               ratio(3, 1), ratio(-1, 1), ratio(4, 3), ratio(1, 1)};
   return factors[random.below(factors.size())];
 }
-inline Exact_point scaled_about(const Exact_point& eye, const Rational& scale, const Exact_point& p) { return along(eye, scale, minus(p, eye)); }
+inline Exact_point scaled_about(const Exact_point& eye, const Rational& scale, const Exact_point& p) {
+  return along(eye, scale, minus(p, eye));
+}
 
 inline Made aligned(Random& random) {
   const Exact_point eye = lattice(random, 5);
@@ -250,7 +265,9 @@ inline Made aligned(Random& random) {
         shift = ratio(random.between(-2, 2), 2);
         for (Exact_point& p : face) p = along(scaled_about(eye, scale, p), shift, edge);
         break;
-      case 2: face = {scaled_about(eye, scale, face[0]), scaled_about(eye, Rational(2 * scale), face[1]), lattice(random, 4)}; break;  // one edge in common, to the eye
+      case 2:
+        face = {scaled_about(eye, scale, face[0]), scaled_about(eye, Rational(2 * scale), face[1]), lattice(random, 4)};
+        break;  // one edge in common, to the eye
       default:
         for (Exact_point& p : face) p = scaled_about(eye, scale, p);
     }
@@ -274,7 +291,9 @@ inline Made concurrent(Random& random) {
       case 1: faces.push_back({along(p, -1, u), along(p, 1, u), along(p, 1, v)}); break;
       case 2: faces.push_back(in_plane(p, u, v, {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})); break;
       case 3: faces.push_back(in_plane(p, u, v, {{0, 0}, {1, 0}, {1, 1}, {0, 1}})); break;
-      default: faces.push_back(in_plane(p, u, v, {{0, 0}, {1, 0}, {1, 1}, {-1, 1}, {-1, -1}, {0, -1}}));  // a re-entrant corner
+      default:
+        faces.push_back(
+            in_plane(p, u, v, {{0, 0}, {1, 0}, {1, 1}, {-1, 1}, {-1, -1}, {0, -1}}));  // a re-entrant corner
     }
     faces.back() = either_way(faces.back(), random);
   }
@@ -297,7 +316,8 @@ inline constexpr std::array drafters{
     Drafter{"edge_on", "faces in planes through the eye, edges on lines through it", edge_on},
     Drafter{"touching", "the eye at a corner, on an edge, or on a face", touching},
     Drafter{"inside", "the eye in a closed or open box, also at its walls", inside},
-    Drafter{"aligned", "faces scaled about the eye: edges and outlines that coincide in the view, equal depth", aligned},
+    Drafter{"aligned", "faces scaled about the eye: edges and outlines that coincide in the view, equal depth",
+            aligned},
     Drafter{"concurrent", "corners, edges and faces on one line of sight", concurrent}};
 
 }  // namespace sightline::generate::view_drafts

@@ -1,6 +1,7 @@
 #pragma once
-// What families of questions of weak visibility are made of: a shaft with a source at its bottom and a target at its top, and polygons that come as near to closing it
-// as a gap says. A gap of 0 lets faces just touch, a positive one leaves so much between them, a negative one makes them overlap.
+// What families of questions of weak visibility are made of: a shaft with a source at its bottom and a target at its
+// top, and polygons that come as near to closing it as a gap says. A gap of 0 lets faces just touch, a positive one
+// leaves so much between them, a negative one makes them overlap.
 
 #include <sightline/algorithms/generate/projective.h>
 
@@ -17,8 +18,11 @@ struct Draft {
   bool bodies = false;  ///< whether the faces' fronts are to stay, and the source is one of them
 };
 
-/// The shaft [-1, 1]^2 x [0, height]: source at its bottom, target at its top, each looking at the other. Every line between them stays in it.
-inline Draft shaft(const Rational& height) { return {{reversed(rectangle(-1, 1, -1, 1, height))}, rectangle(-1, 1, -1, 1, 0), std::nullopt}; }
+/// The shaft [-1, 1]^2 x [0, height]: source at its bottom, target at its top, each looking at the other. Every line
+/// between them stays in it.
+inline Draft shaft(const Rational& height) {
+  return {{reversed(rectangle(-1, 1, -1, 1, height))}, rectangle(-1, 1, -1, 1, 0), std::nullopt};
+}
 
 /// A convex face drawn in towards its centroid (gap > 0) or blown up (gap < 0), in its plane.
 inline Points shrunk(const Points& face, const Rational& gap) {
@@ -32,7 +36,8 @@ inline void shrink_one(Faces& faces, std::size_t first, const Rational& gap, Ran
   face = shrunk(face, gap);
 }
 
-/// The parallelogram with the edge `on` - u .. `on` + u that extends from it by w, front up if w is left of u seen from above.
+/// The parallelogram with the edge `on` - u .. `on` + u that extends from it by w, front up if w is left of u seen from
+/// above.
 inline Points plate(const Exact_point& on, const Exact_point& u, const Exact_point& w) {
   const Exact_point a = along(on, -1, u), b = along(on, 1, u);
   return {a, b, along(b, 1, w), along(a, 1, w)};

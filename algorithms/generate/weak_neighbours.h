@@ -1,14 +1,17 @@
 #pragma once
-// Families of questions of weak visibility: source and target with edges, corners or planes in common, closed bodies, and faces anywhere.
+// Families of questions of weak visibility: source and target with edges, corners or planes in common, closed bodies,
+// and faces anywhere.
 
 #include <sightline/algorithms/generate/weak_draft.h>
 
 namespace sightline::generate::weak_drafts {
 
-// ---- Families: source and target with edges, corners, planes in common -------------------------------------------------------------------------------
+// ---- Families: source and target with edges, corners, planes in common
+// -------------------------------------------------------------------------------
 
-/// A floor and a wall that share an edge or a corner, and a plate in the plane x = z between them. Lines from (a, y) on the floor to (b, y') on the wall cross it at
-/// x = a b / (a + b), at most 1; where both are triangles of half-width a / 2, b / 2 at |y| <= x.
+/// A floor and a wall that share an edge or a corner, and a plate in the plane x = z between them. Lines from (a, y) on
+/// the floor to (b, y') on the wall cross it at x = a b / (a + b), at most 1; where both are triangles of half-width a
+/// / 2, b / 2 at |y| <= x.
 inline Draft hinged(Random& random, const Rational& gap) {
   Draft draft;
   const Rational near = Rational(1 - gap);
@@ -17,8 +20,12 @@ inline Draft hinged(Random& random, const Rational& gap) {
     draft.faces = {{at(0, -1, 0), at(0, 1, 0), at(0, 1, 2), at(0, -1, 2)}};
     const Rational end = integer(random, 1, 2), side = integer(random, 1, 2);
     switch (random.below(3)) {
-      case 0: draft.faces.push_back({at(gap, -1, gap), at(end, Rational(-side), end), at(end, side, end), at(gap, 1, gap)}); break;
-      case 1: draft.faces.push_back({at(0, -1, 0), at(near, Rational(-side), near), at(near, side, near), at(0, 1, 0)}); break;
+      case 0:
+        draft.faces.push_back({at(gap, -1, gap), at(end, Rational(-side), end), at(end, side, end), at(gap, 1, gap)});
+        break;
+      case 1:
+        draft.faces.push_back({at(0, -1, 0), at(near, Rational(-side), near), at(near, side, near), at(0, 1, 0)});
+        break;
       default: draft.faces.push_back({at(0, -1, 0), at(end, -1, end), at(end, near, end), at(0, near, 0)});
     }
   } else {
@@ -37,18 +44,26 @@ inline Draft hinged(Random& random, const Rational& gap) {
 /// Planes that cut the other polygon, or nearly: nothing between, and little in front.
 inline Draft facing(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
-  const Rational low = integer(random, -2, 1), high = Rational(low + integer(random, 1, 2)), back = integer(random, -3, -1);
+  const Rational low = integer(random, -2, 1), high = Rational(low + integer(random, 1, 2)),
+                 back = integer(random, -3, -1);
   draft.truth = sgn(gap) > 0;
   switch (random.below(6)) {
-    case 0: draft.faces = {{at(-1, low, back), at(-1, high, back), at(-1, high, gap), at(-1, low, gap)}}; break;   // a wall behind the source's plane but for its top
-    case 1: draft.faces = {{at(-1, low, 1), at(-1, high, back), at(-1, high, gap)}}, draft.truth = true; break;     // across it
-    case 2:  // a wall, and the source behind it but for its rim
+    case 0:
+      draft.faces = {{at(-1, low, back), at(-1, high, back), at(-1, high, gap), at(-1, low, gap)}};
+      break;  // a wall behind the source's plane but for its top
+    case 1:
+      draft.faces = {{at(-1, low, 1), at(-1, high, back), at(-1, high, gap)}}, draft.truth = true;
+      break;  // across it
+    case 2:   // a wall, and the source behind it but for its rim
       draft.source = rectangle(back, gap, -1, 1, 0);
       draft.faces = {{at(0, low, 0), at(0, high, 0), at(0, high, 2), at(0, low, 2)}};
       break;
-    case 3: draft.faces = {reversed(rectangle(low, high, low, high, gap))}; break;                                         // parallel, or in one plane
-    case 4: draft.faces = {rectangle(low, high, low, high, Rational(4 + gap))}, draft.truth = false; break;                // turned away
-    default:  // a triangle that is hardly steeper than the source's plane: in front of it is p where gap (2 (x - low) - (high - low) y) > 0
+    case 3: draft.faces = {reversed(rectangle(low, high, low, high, gap))}; break;  // parallel, or in one plane
+    case 4:
+      draft.faces = {rectangle(low, high, low, high, Rational(4 + gap))}, draft.truth = false;
+      break;  // turned away
+    default:  // a triangle that is hardly steeper than the source's plane: in front of it is p where gap (2 (x - low) -
+              // (high - low) y) > 0
       draft.faces = {{at(low, -1, Rational(-gap)), at(high, 1, Rational(-gap)), at(low, 1, gap)}};
       draft.truth = sgn(gap) > 0 || (sgn(gap) < 0 && 2 * (-1 - low) < high - low);
   }
@@ -72,19 +87,25 @@ inline Draft valley(Random& random, const Rational& gap) {
   const std::uint64_t where = random.below(3);  // the gap: on the source, at the far end, at the side
   const long chosen = random.chance(1, 2) ? 1 : -1;
   for (const long side : {-1, 1}) {
-    const Rational steepness = ratio(random.between(1, 7), 4), deep = ratio(random.between(0, 2), 4), mine = side == chosen ? gap : Rational(0);
+    const Rational steepness = ratio(random.between(1, 7), 4), deep = ratio(random.between(0, 2), 4),
+                   mine = side == chosen ? gap : Rational(0);
     const Rational from = where == 0 ? Rational(middle + side * mine) : Rational(middle - side * deep);
-    const Rational to = Rational(side * (where == 1 ? Rational(1 - mine) : Rational(1))), low = -1, high = where == 2 ? Rational(1 - mine) : Rational(1);
+    const Rational to = Rational(side * (where == 1 ? Rational(1 - mine) : Rational(1))), low = -1,
+                   high = where == 2 ? Rational(1 - mine) : Rational(1);
     const auto height = [&](const Rational& x) { return Rational(side * steepness * (x - middle)); };
-    draft.faces.push_back({at(from, low, height(from)), at(to, low, height(to)), at(to, high, height(to)), at(from, high, height(from))});
+    draft.faces.push_back(
+        {at(from, low, height(from)), at(to, low, height(to)), at(to, high, height(to)), at(from, high, height(from))});
   }
   draft.truth = sgn(gap) > 0;
   return draft;
 }
 
-// ---- Families: closed bodies, and no truth -----------------------------------------------------------------------------------------------------------
+// ---- Families: closed bodies, and no truth
+// -----------------------------------------------------------------------------------------------------------
 
-inline Exact_point box_size(Random& random) { return {integer(random, 1, 3), integer(random, 1, 3), integer(random, 1, 3)}; }
+inline Exact_point box_size(Random& random) {
+  return {integer(random, 1, 3), integer(random, 1, 3), integer(random, 1, 3)};
+}
 inline void all_are_targets(Draft& draft) {
   draft.targets.clear();
   for (std::size_t k = 0; k < draft.faces.size(); ++k) draft.targets.push_back(k);
@@ -96,7 +117,8 @@ inline Draft boxes(Random& random, const Rational& gap) {
   const Exact_point low = lattice(random, 1), high = along(low, 1, box_size(random));
   switch (random.below(4)) {
     case 0: {  // one on the other: the upper one's bottom from the lower one's top
-      const Exact_point base{Rational(low[0] + ratio(random.between(-1, 1), 2)), Rational(low[1] + ratio(random.between(-1, 1), 2)), Rational(high[2] + gap)};
+      const Exact_point base{Rational(low[0] + ratio(random.between(-1, 1), 2)),
+                             Rational(low[1] + ratio(random.between(-1, 1), 2)), Rational(high[2] + gap)};
       draft.faces = box(low, high);
       draft.source = draft.faces[5];
       add(draft.faces, box(base, along(base, 1, box_size(random))));
@@ -158,9 +180,12 @@ inline Draft triangles(Random& random, const Rational& gap) {
     for (Exact_point& p : *square) p[0] *= narrow, p[1] *= narrow;
   const std::size_t count = 3 + random.below(10);
   while (draft.faces.size() < count) {
-    const Exact_point centre{ratio(random.between(-3, 3), 4), ratio(random.between(-3, 3), 4), ratio(random.between(4, 12), 4)};
+    const Exact_point centre{ratio(random.between(-3, 3), 4), ratio(random.between(-3, 3), 4),
+                             ratio(random.between(4, 12), 4)};
     Points corners(3, centre);
-    for (Exact_point& p : corners) p = along(p, ratio(1, 4), Exact_point{integer(random, -12, 12), integer(random, -12, 12), integer(random, -3, 3)});
+    for (Exact_point& p : corners)
+      p = along(p, ratio(1, 4),
+                Exact_point{integer(random, -12, 12), integer(random, -12, 12), integer(random, -3, 3)});
     if (!is_zero(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))) draft.faces.push_back(corners);
   }
   move_a_face(draft, 1, gap, random);

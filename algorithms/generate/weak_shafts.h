@@ -1,13 +1,15 @@
 #pragma once
-// Families of questions of weak visibility: a shaft that surfaces close, or edges that one line meets. Each has a truth known by construction.
+// Families of questions of weak visibility: a shaft that surfaces close, or edges that one line meets. Each has a truth
+// known by construction.
 
 #include <sightline/algorithms/generate/weak_draft.h>
 
 namespace sightline::generate::weak_drafts {
 
-// ---- Families: surfaces that close the shaft -----------------------------------------------------------------------------------------------------
-// A surface over all of [-1, 1]^2 between the heights of source and target hides the target: the height above it of a point that goes along a line changes sign.
-// A piece of it missing is seen through along the vertical.
+// ---- Families: surfaces that close the shaft
+// ----------------------------------------------------------------------------------------------------- A surface over
+// all of [-1, 1]^2 between the heights of source and target hides the target: the height above it of a point that goes
+// along a line changes sign. A piece of it missing is seen through along the vertical.
 
 /// Triangles around a point, corners at any height: they share edges, some fold steeply.
 inline Draft shared_edges(Random& random, const Rational& gap) {
@@ -16,10 +18,12 @@ inline Draft shared_edges(Random& random, const Rational& gap) {
   for (const Exact_point& corner : rectangle(-1, 1, -1, 1, 0)) rim.push_back(corner);
   for (std::size_t count = random.below(4); count > 0; --count) {
     const std::size_t k = random.below(rim.size());
-    rim.insert(rim.begin() + static_cast<std::ptrdiff_t>(k) + 1, along(rim[k], share(random), minus(rim[(k + 1) % rim.size()], rim[k])));
+    rim.insert(rim.begin() + static_cast<std::ptrdiff_t>(k) + 1,
+               along(rim[k], share(random), minus(rim[(k + 1) % rim.size()], rim[k])));
   }
   for (Exact_point& p : rim) p[2] = ratio(random.between(1, 7), 2);
-  const Exact_point middle{ratio(random.between(-3, 3), 4), ratio(random.between(-3, 3), 4), ratio(random.between(1, 7), 2)};
+  const Exact_point middle{ratio(random.between(-3, 3), 4), ratio(random.between(-3, 3), 4),
+                           ratio(random.between(1, 7), 2)};
   for (std::size_t k = 0; k < rim.size(); ++k) draft.faces.push_back({rim[k], rim[(k + 1) % rim.size()], middle});
   shrink_one(draft.faces, 1, gap, random);
   draft.truth = sgn(gap) > 0;
@@ -29,15 +33,16 @@ inline Draft shared_edges(Random& random, const Rational& gap) {
 /// Two slopes that meet in a ridge, each cut across at places of its own: along the ridge no edge is shared as a whole.
 inline Draft cracks(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
-  const Rational ridge = ratio(random.between(-2, 2), 3), start = ratio(random.between(3, 5), 2), rise = ratio(random.between(-2, 2), 4);
+  const Rational ridge = ratio(random.between(-2, 2), 3), start = ratio(random.between(3, 5), 2),
+                 rise = ratio(random.between(-2, 2), 4);
   for (const long side : {-1, 1}) {
     const Rational slope = ratio(random.between(-4, 4), 4);
     const std::size_t inner = random.below(3);
     const std::vector<Rational> cuts = subdivided(-1, 1, inner, random);
     for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
       const Rational low = Rational(start + rise * cuts[k]), high = Rational(start + rise * cuts[k + 1]);
-      draft.faces.push_back(
-          {at(ridge, cuts[k], low), at(ridge, cuts[k + 1], high), at(side, cuts[k + 1], Rational(high + slope)), at(side, cuts[k], Rational(low + slope))});
+      draft.faces.push_back({at(ridge, cuts[k], low), at(ridge, cuts[k + 1], high),
+                             at(side, cuts[k + 1], Rational(high + slope)), at(side, cuts[k], Rational(low + slope))});
     }
   }
   shrink_one(draft.faces, 1, gap, random);
@@ -50,9 +55,12 @@ inline Draft t_junctions(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
   Faces tiles{rectangle(-1, 1, -1, 1, integer(random, 1, 3))};
   for (std::size_t count = 1 + random.below(6); count > 0; --count) {
-    const std::size_t tile = random.below(tiles.size()), n = tiles[tile].size(), first = random.below(n), other = first + 1 + random.below(n - 1);
+    const std::size_t tile = random.below(tiles.size()), n = tiles[tile].size(), first = random.below(n),
+                      other = first + 1 + random.below(n - 1);
     const Points whole = tiles[tile];
-    const auto on_edge = [&](std::size_t k) { return along(whole[k % n], share(random), minus(whole[(k + 1) % n], whole[k % n])); };
+    const auto on_edge = [&](std::size_t k) {
+      return along(whole[k % n], share(random), minus(whole[(k + 1) % n], whole[k % n]));
+    };
     const Exact_point p = on_edge(first), q = on_edge(other);
     Points left{p}, right{q};
     for (std::size_t k = first + 1; k <= other; ++k) left.push_back(whole[k % n]);
@@ -75,31 +83,37 @@ inline Draft coplanar_overlap(Random& random, const Rational& gap) {
   const auto add_strip = [&](Rational from, Rational to, bool left_of_seam) {
     if (left_of_seam) to = std::min(to, cuts[seam]);
     else from = std::max(from, Rational(cuts[seam] + gap));
-    const Rational low = Rational(-1 - ratio(random.between(0, 2), 2)), high = Rational(1 + ratio(random.between(0, 2), 2));
+    const Rational low = Rational(-1 - ratio(random.between(0, 2), 2)),
+                   high = Rational(1 + ratio(random.between(0, 2), 2));
     draft.faces.push_back(rectangle(from, to, low, high, height));
   };
   for (std::size_t k = 0; k + 1 < cuts.size(); ++k) {
     const Rational before = ratio(random.between(0, 3), 4), after = ratio(random.between(0, 3), 4);
-    add_strip(k == seam ? Rational(cuts[k] + gap) : Rational(cuts[k] - before), Rational(cuts[k + 1] + after), k < seam);
+    add_strip(k == seam ? Rational(cuts[k] + gap) : Rational(cuts[k] - before), Rational(cuts[k + 1] + after),
+              k < seam);
   }
   draft.truth = sgn(gap) > 0;
   return draft;
 }
 
-// ---- Families: edges that one line meets -----------------------------------------------------------------------------------------------------------
-// Plates that reach out of the shaft on one side of an edge: a line is free if its side of each edge has the right sign. Where the Pluecker coordinates of the edges,
-// each with its sign, have a positive combination that is zero, no line has all signs right, whatever the plates' planes. One plate drawn back by a gap frees those lines
-// that met all edges.
+// ---- Families: edges that one line meets
+// ----------------------------------------------------------------------------------------------------------- Plates
+// that reach out of the shaft on one side of an edge: a line is free if its side of each edge has the right sign. Where
+// the Pluecker coordinates of the edges, each with its sign, have a positive combination that is zero, no line has all
+// signs right, whatever the plates' planes. One plate drawn back by a gap frees those lines that met all edges.
 
-/// A plane through an edge of the source, edges in it of a plate left of it and then of one right of it: a line would have to cross the plane twice.
+/// A plane through an edge of the source, edges in it of a plate left of it and then of one right of it: a line would
+/// have to cross the plane twice.
 inline Draft coplanar_edges(Random& random, const Rational& gap, bool parallel) {
   Draft draft = shaft(4);
   const Rational lean = ratio(random.between(1, 7), 16);  // the plane x = 1 - lean z
   Rational heights[2][2];                                 // of either plate's edge, at y = -4 and at y = 4
   for (std::size_t k = 0; k < 2; ++k)
-    for (Rational& z : heights[k]) z = Rational(1 + static_cast<long>(k) + (parallel ? ratio(1, 2) : ratio(random.between(1, 7), 8)));
+    for (Rational& z : heights[k])
+      z = Rational(1 + static_cast<long>(k) + (parallel ? ratio(1, 2) : ratio(random.between(1, 7), 8)));
   for (std::size_t k = 0; k < 2; ++k) {
-    Exact_point a = at(Rational(1 - lean * heights[k][0]), -4, heights[k][0]), b = at(Rational(1 - lean * heights[k][1]), 4, heights[k][1]);
+    Exact_point a = at(Rational(1 - lean * heights[k][0]), -4, heights[k][0]),
+                b = at(Rational(1 - lean * heights[k][1]), 4, heights[k][1]);
     if (k == 1) a[0] += gap, b[0] += gap;
     const Rational slope = parallel ? Rational(0) : ratio(random.between(-1, 1), 16);
     const Exact_point w = at(k == 0 ? -4 : 4, 0, slope);
@@ -136,13 +150,15 @@ inline Draft concurrent_edges(Random& random, const Rational& gap) {
     for (long x = -5; x <= 5; ++x)
       for (long y = -5; y <= 5; ++y) {
         bool free = true;
-        for (std::size_t k = 0; k < directions.size(); ++k) free = free && (k == drawn_back || sgn(directions[k][0] * x + directions[k][1] * y) > 0);
+        for (std::size_t k = 0; k < directions.size(); ++k)
+          free = free && (k == drawn_back || sgn(directions[k][0] * x + directions[k][1] * y) > 0);
         if (free) draft.truth = true;
       }
   return draft;
 }
 
-/// Four rulings of y = k x (z - 2), at four heights. On a line y - k x (z - 2) is a quadratic in z: its sign can change twice, not thrice.
+/// Four rulings of y = k x (z - 2), at four heights. On a line y - k x (z - 2) is a quadratic in z: its sign can change
+/// twice, not thrice.
 inline Draft regulus(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
   const Rational steepness = ratio(random.between(1, 4), 4);
@@ -164,11 +180,13 @@ inline Draft regulus(Random& random, const Rational& gap) {
   return draft;
 }
 
-/// Rulings y = c x, z = c at c_1 < c_2 < c_3, and the line through (0, 0, c_4) in direction (1, c_4, v), which is tangent to y = x z there: the z axis meets all
-/// four and is a double root. Lines are x = a + alpha z, y = b + beta z; f(z) = y - x z on them is b + (beta - a) z - alpha z^2, and must be > 0, < 0, > 0 at the first
-/// three, f(c_4) < v (alpha b - beta a) at the fourth. By interpolation f(c_4) = sum |L_k f(c_k)| > 0, and alpha b - beta a <= discriminant(f) / 4 <= 5/4 |f|^2
-/// for the largest coefficient |f| <= 3, itself at most max 2 / |(c_k - c_i) (c_k - c_j)| times sum |f(c_k)|. So it is hidden for small v > 0;
-/// for v < 0 lines near x = 1/2, y = z / 2 are free, which pass the fourth edge by gap - v / 4.
+/// Rulings y = c x, z = c at c_1 < c_2 < c_3, and the line through (0, 0, c_4) in direction (1, c_4, v), which is
+/// tangent to y = x z there: the z axis meets all four and is a double root. Lines are x = a + alpha z, y = b + beta z;
+/// f(z) = y - x z on them is b + (beta - a) z - alpha z^2, and must be > 0, < 0, > 0 at the first three, f(c_4) < v
+/// (alpha b - beta a) at the fourth. By interpolation f(c_4) = sum |L_k f(c_k)| > 0, and alpha b - beta a <=
+/// discriminant(f) / 4 <= 5/4 |f|^2 for the largest coefficient |f| <= 3, itself at most max 2 / |(c_k - c_i) (c_k -
+/// c_j)| times sum |f(c_k)|. So it is hidden for small v > 0; for v < 0 lines near x = 1/2, y = z / 2 are free, which
+/// pass the fourth edge by gap - v / 4.
 inline Draft tangent(Random& random, const Rational& gap) {
   Draft draft = shaft(1);
   const std::vector<Rational> cuts = subdivided(0, 1, 4, random);
@@ -181,17 +199,20 @@ inline Draft tangent(Random& random, const Rational& gap) {
     most = std::max(most, Rational(2 / abs(across)));
   }
   const bool turned = random.chance(1, 4);
-  Rational v = std::min(Rational(least / (ratio(15, 4) * most * integer(random, 1, 2))), Rational((1 - c[3]) / 4));  // plates stay below z = 1
+  Rational v = std::min(Rational(least / (ratio(15, 4) * most * integer(random, 1, 2))),
+                        Rational((1 - c[3]) / 4));  // plates stay below z = 1
   if (turned) v = -v;
-  for (std::size_t k = 0; k < 3; ++k) draft.faces.push_back(plate(at(0, 0, c[k]), at(2, Rational(2 * c[k]), 0), at(0, k % 2 == 0 ? -6 : 6, 0)));
+  for (std::size_t k = 0; k < 3; ++k)
+    draft.faces.push_back(plate(at(0, 0, c[k]), at(2, Rational(2 * c[k]), 0), at(0, k % 2 == 0 ? -6 : 6, 0)));
   draft.faces.push_back(plate(at(0, gap, c[3]), at(2, Rational(2 * c[3]), Rational(2 * v)), at(0, 6, 0)));
   if (!turned) draft.truth = sgn(gap) > 0;
   else if (gap > v / 4) draft.truth = true;
   return draft;
 }
 
-/// Five horizontal edges that a line meets, in general position but for that: free lines (a, b), a + b z at height z, have n_k . (a + b z_k) > d_k. Hidden iff the
-/// one linear relation of the vectors (n_k, z_k n_k) has coefficients of one sign.
+/// Five horizontal edges that a line meets, in general position but for that: free lines (a, b), a + b z at height z,
+/// have n_k . (a + b z_k) > d_k. Hidden iff the one linear relation of the vectors (n_k, z_k n_k) has coefficients of
+/// one sign.
 inline Draft five_edges(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
   const std::size_t drawn_back = random.below(5);
@@ -215,10 +236,12 @@ inline Draft five_edges(Random& random, const Rational& gap) {
     const bool hidden = positive == 5 || negative == 5;
     if (positive + negative == 5 && hidden == wants_hidden) break;
   }
-  const Exact_point from{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 0}, to{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 4};
+  const Exact_point from{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 0},
+      to{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 4};
   for (std::size_t k = 0; k < 5; ++k) {
     const Exact_point n = at(normals[k][0], normals[k][1], 0), on = along(from, heights[k + 1] / 4, minus(to, from));
-    draft.faces.push_back(plate(along(on, k == drawn_back ? Rational(-gap) : Rational(0), n), at(Rational(-3 * n[1]), Rational(3 * n[0]), 0), scaled(-3, n)));
+    draft.faces.push_back(plate(along(on, k == drawn_back ? Rational(-gap) : Rational(0), n),
+                                at(Rational(-3 * n[1]), Rational(3 * n[0]), 0), scaled(-3, n)));
   }
   if (wants_hidden) draft.truth = sgn(gap) > 0;
   else if (sgn(gap) >= 0) draft.truth = true;  // a wide overlap may close what is free
@@ -229,7 +252,8 @@ inline Draft five_edges(Random& random, const Rational& gap) {
 inline Draft apertures(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
   const std::size_t plates = 1 + random.below(3), closed = random.below(plates);
-  const Exact_point from{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 0}, to{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 4};
+  const Exact_point from{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 0},
+      to{ratio(random.between(-2, 2), 4), ratio(random.between(-2, 2), 4), 4};
   for (std::size_t k = 0; k < plates; ++k) {
     const Exact_point on = along(from, ratio(static_cast<std::int64_t>(k) + 1, 4), minus(to, from));
     static constexpr unsigned long exponents[] = {1, 2, 5, 10, 20, 30, 40, 50, 60};
@@ -241,8 +265,10 @@ inline Draft apertures(Random& random, const Rational& gap) {
       draft.faces.push_back(plate(along(on, half, across), scaled(4, u), scaled(4, across)));
       draft.faces.push_back(plate(along(on, Rational(-half), across), scaled(4, u), scaled(-4, across)));
     } else {  // four rectangles, each beside the next
-      const Rational x0 = Rational(on[0] - half), x1 = Rational(on[0] + half), y0 = Rational(on[1] - other), y1 = Rational(on[1] + other), &z = on[2];
-      add(draft.faces, {rectangle(-1, x0, -1, y1, z), rectangle(-1, x1, y1, 1, z), rectangle(x1, 1, y0, 1, z), rectangle(x0, 1, -1, y0, z)});
+      const Rational x0 = Rational(on[0] - half), x1 = Rational(on[0] + half), y0 = Rational(on[1] - other),
+                     y1 = Rational(on[1] + other), &z = on[2];
+      add(draft.faces, {rectangle(-1, x0, -1, y1, z), rectangle(-1, x1, y1, 1, z), rectangle(x1, 1, y0, 1, z),
+                        rectangle(x0, 1, -1, y0, z)});
     }
   }
   draft.truth = sgn(gap) > 0;

@@ -19,7 +19,8 @@ inline std::vector<Viewpoint> path_to_the_eye(const Posed_scene& posed, Random& 
   const std::size_t points = posed.soup.point_count();
   Exact_point here = posed.eye;
   for (std::size_t count = points == 0 ? 0 : 6; count > 0; --count) {
-    const Exact_point p = posed.soup.point(static_cast<Point_id>(random.below(points))), q = posed.soup.point(static_cast<Point_id>(random.below(points)));
+    const Exact_point p = posed.soup.point(static_cast<Point_id>(random.below(points))),
+                      q = posed.soup.point(static_cast<Point_id>(random.below(points)));
     switch (random.below(4)) {
       case 0: here = p; break;
       case 1: here = along(p, integer(random, -2, 3), minus(q, p)); break;
@@ -38,7 +39,8 @@ inline std::vector<Viewpoint> path_to_the_eye(const Posed_scene& posed, Random& 
 inline bool is_on_view(const generate::Points& corners, const Viewpoint& view) {
   using namespace generate;
   Exact_point normal{0, 0, 0};
-  for (std::size_t k = 0; k < corners.size(); ++k) normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
   const Exact_point d = view.at_infinity ? view.at : minus(view.at, corners[0]);
   return sgn(Rational(normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2])) > 0;
 }
@@ -50,7 +52,8 @@ std::string flaw_along(const Scene& scene, const Traits& traits, const std::vect
   Cut_set_tracker<Traits> tracker(traits, graph);
   std::vector<generate::Points> nodes(graph.size());
   for (std::uint32_t i = 0; i < graph.size(); ++i)
-    for (const Piece_corner& corner : scene.corners(scene.pieces()[graph.piece(i)])) nodes[i].push_back(scene.position(corner.point));
+    for (const Piece_corner& corner : scene.corners(scene.pieces()[graph.piece(i)]))
+      nodes[i].push_back(scene.position(corner.point));
   for (std::size_t frame = 0; frame < path.size(); ++frame) {
     tracker.move_to(path[frame]);
     std::vector<bool> on(graph.size()), in_cut(graph.edges().size());
@@ -58,9 +61,12 @@ std::string flaw_along(const Scene& scene, const Traits& traits, const std::vect
     for (const std::uint32_t e : tracker.cut_edges()) in_cut[e] = true;
     const std::string where = "frame " + std::to_string(frame) + ": ";
     for (std::uint32_t i = 0; i < graph.size(); ++i)
-      if (tracker.on_view(i) != on[i]) return where + "the tracker says that " + face_name(scene.pieces()[graph.piece(i)].face) + " is " + (on[i] ? "off" : "on") + "-view, the definition that it is not";
+      if (tracker.on_view(i) != on[i])
+        return where + "the tracker says that " + face_name(scene.pieces()[graph.piece(i)].face) + " is " +
+               (on[i] ? "off" : "on") + "-view, the definition that it is not";
     for (std::size_t e = 0; e < in_cut.size(); ++e)
-      if (in_cut[e] != (on[graph.edges()[e].first] != on[graph.edges()[e].second])) return where + "edge " + std::to_string(e) + (in_cut[e] ? " is" : " is not") + " in the cut-set";
+      if (in_cut[e] != (on[graph.edges()[e].first] != on[graph.edges()[e].second]))
+        return where + "edge " + std::to_string(e) + (in_cut[e] ? " is" : " is not") + " in the cut-set";
   }
   return {};
 }
@@ -97,9 +103,14 @@ inline Subject cutset() {
   subject.name = "cutset", subject.what = "on-view faces and the cut-set along paths, against the definition";
   subject.answer = cutset_subject::answer;
   subject.checks = {
-      {"path", "each frame of a path is as the definition says", [](const Posed_scene& posed, const Answer&, Random& random) { return along_a_path(posed, random, [](const Scene& scene) { return Exact_traits(scene); }); }},
-      {"gmpq", "the same by Cartesian<Gmpq>",
-       [](const Posed_scene& posed, const Answer&, Random& random) { return along_a_path(posed, random, [](const Scene& scene) { return Point_traits<CGAL::Cartesian<CGAL::Gmpq>>(scene); }); }}};
+      {"path", "each frame of a path is as the definition says",
+       [](const Posed_scene& posed, const Answer&, Random& random) {
+         return along_a_path(posed, random, [](const Scene& scene) { return Exact_traits(scene); });
+       }},
+      {"gmpq", "the same by Cartesian<Gmpq>", [](const Posed_scene& posed, const Answer&, Random& random) {
+         return along_a_path(posed, random,
+                             [](const Scene& scene) { return Point_traits<CGAL::Cartesian<CGAL::Gmpq>>(scene); });
+       }}};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
   return subject;
 }

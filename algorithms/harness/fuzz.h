@@ -9,7 +9,8 @@
 
 namespace sightline::harness {
 
-/// A scene of a family, by name: "FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER", scaled by 2^POWER and then moved by (X, Y, Z). What follows the seed may be left out.
+/// A scene of a family, by name: "FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER", scaled by 2^POWER and then moved by (X, Y, Z).
+/// What follows the seed may be left out.
 struct Fuzz_case {
   std::string family;
   generate::Family_parameters parameters;
@@ -18,8 +19,9 @@ struct Fuzz_case {
 
 inline std::string to_string(const Fuzz_case& c) {
   const auto& p = c.parameters;
-  return c.family + ':' + std::to_string(p.seed) + ':' + std::to_string(p.size) + ':' + std::to_string(p.ulps) + ':' + sightline::to_string(p.offset[0]) + ',' + sightline::to_string(p.offset[1]) + ',' + sightline::to_string(p.offset[2]) + ':' +
-         std::to_string(c.power);
+  return c.family + ':' + std::to_string(p.seed) + ':' + std::to_string(p.size) + ':' + std::to_string(p.ulps) + ':' +
+         sightline::to_string(p.offset[0]) + ',' + sightline::to_string(p.offset[1]) + ',' +
+         sightline::to_string(p.offset[2]) + ':' + std::to_string(c.power);
 }
 
 /// The case of that name, or std::invalid_argument that says what is wrong with it.
@@ -29,7 +31,10 @@ inline Fuzz_case parse_case(std::string_view text) {
     if (c == ':') parts.emplace_back();
     else parts.back() += c;
   }
-  const auto fail = [&](const std::string& why) { throw std::invalid_argument("'" + std::string(text) + "' is no case: " + why + "; it is FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER"); };
+  const auto fail = [&](const std::string& why) {
+    throw std::invalid_argument("'" + std::string(text) + "' is no case: " + why +
+                                "; it is FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER");
+  };
   const auto number = [&](std::size_t k, auto& value) {
     if (k >= parts.size()) return;
     const std::string& part = parts[k];
@@ -49,7 +54,9 @@ inline Fuzz_case parse_case(std::string_view text) {
       else ++axis;
     }
     for (std::size_t k = 0; k < 3; ++k)
-      if (axis != 2 || axes[k].empty() || c.parameters.offset[k].set_str(axes[k], 10) != 0 || sgn(c.parameters.offset[k].get_den()) == 0) fail("'" + parts[4] + "' is no X,Y,Z of integers or fractions");
+      if (axis != 2 || axes[k].empty() || c.parameters.offset[k].set_str(axes[k], 10) != 0 ||
+          sgn(c.parameters.offset[k].get_den()) == 0)
+        fail("'" + parts[4] + "' is no X,Y,Z of integers or fractions");
     for (Rational& x : c.parameters.offset) x.canonicalize();
   }
   if (c.power < -1100 || c.power > 1100) fail("the power is not between -1100 and 1100");
@@ -59,7 +66,8 @@ inline Fuzz_case parse_case(std::string_view text) {
 
 inline Posed_scene make(const Fuzz_case& c) { return generate::family(c.family).make(c.parameters); }
 
-// ---- One scene ---------------------------------------------------------------------------------------------------------------------------
+// ---- One scene
+// ---------------------------------------------------------------------------------------------------------------------------
 
 /// How often a check was run, and what came of it.
 struct Tally {
@@ -71,10 +79,12 @@ struct Disagreement {
   std::string check, what;
 };
 
-/// Runs the subject and all its checks (or the named one) on a scene, in order, up to the first that fails. Answers are checked by themselves first: "certificate". An exception is a failure.
-/// `seed` is of the checks' random choices; `tell(check, outcome)` is told of each.
+/// Runs the subject and all its checks (or the named one) on a scene, in order, up to the first that fails. Answers are
+/// checked by themselves first: "certificate". An exception is a failure. `seed` is of the checks' random choices;
+/// `tell(check, outcome)` is told of each.
 template <class Tell>
-std::optional<Disagreement> first_disagreement(const Subject& subject, const Posed_scene& scene, std::uint64_t seed, const std::string& only, Tell tell) {
+std::optional<Disagreement> first_disagreement(const Subject& subject, const Posed_scene& scene, std::uint64_t seed,
+                                               const std::string& only, Tell tell) {
   std::string at = "certificate";
   try {
     const Answer answer = subject.verified ? subject.verified(scene) : subject.answer(scene);
@@ -94,30 +104,35 @@ std::optional<Disagreement> first_disagreement(const Subject& subject, const Pos
   }
   return std::nullopt;
 }
-inline std::optional<Disagreement> first_disagreement(const Subject& subject, const Posed_scene& scene, std::uint64_t seed, const std::string& only = {}) {
+inline std::optional<Disagreement> first_disagreement(const Subject& subject, const Posed_scene& scene,
+                                                      std::uint64_t seed, const std::string& only = {}) {
   return first_disagreement(subject, scene, seed, only, [](const std::string&, const Outcome&) {});
 }
 
-/// The same scene, smaller, for which the same check fails; where an exception was the failure, by one of the same words.
-inline Reduced reduce(const Subject& subject, const Posed_scene& scene, std::uint64_t seed, const Disagreement& found, const Reduce_options& options = {}) {
+/// The same scene, smaller, for which the same check fails; where an exception was the failure, by one of the same
+/// words.
+inline Reduced reduce(const Subject& subject, const Posed_scene& scene, std::uint64_t seed, const Disagreement& found,
+                      const Reduce_options& options = {}) {
   const bool throws = found.what.starts_with("throws:");
   const auto fails = [&](const Posed_scene& smaller) {
     if (subject.wants_source && smaller.source.size() < 3) return false;
     const std::optional<Disagreement> other = first_disagreement(subject, smaller, seed, found.check);
-    return other && other->check == found.check && (throws ? other->what == found.what : !other->what.starts_with("throws:"));
+    return other && other->check == found.check &&
+           (throws ? other->what == found.what : !other->what.starts_with("throws:"));
   };
   return reduce(scene, fails, options);
 }
 
-// ---- Many ----------------------------------------------------------------------------------------------------------------------------------
+// ---- Many
+// ----------------------------------------------------------------------------------------------------------------------------------
 
 struct Fuzz_options {
   std::uint64_t seed = 1;
-  std::size_t scenes = 0;         ///< 0: no limit
-  std::string family;             ///< empty: any
-  std::size_t most_faces = 40;    ///< scenes of more faces are passed over
-  std::function<bool()> out_of_time;                   ///< asked before each scene
-  std::function<void(const Fuzz_case&)> begin;         ///< told before each scene
+  std::size_t scenes = 0;                       ///< 0: no limit
+  std::string family;                           ///< empty: any
+  std::size_t most_faces = 40;                  ///< scenes of more faces are passed over
+  std::function<bool()> out_of_time;            ///< asked before each scene
+  std::function<void(const Fuzz_case&)> begin;  ///< told before each scene
 };
 
 struct Fuzz_summary {
@@ -131,7 +146,8 @@ struct Finding {
   Posed_scene scene;
 };
 
-/// Half of the cases are exactly degenerate, most of the others a few ulps beside it; one in five is moved, one in five is scaled.
+/// Half of the cases are exactly degenerate, most of the others a few ulps beside it; one in five is moved, one in five
+/// is scaled.
 inline Fuzz_case draw_case(const generate::Family& family, Random& random) {
   Fuzz_case c;
   c.family = family.name;
@@ -152,7 +168,8 @@ inline Fuzz_case draw_case(const generate::Family& family, Random& random) {
   return c;
 }
 
-/// Draws cases until one fails or time is over. One seed is one sequence of cases, whatever the machine; how far it gets is a matter of time. The seed of a case's checks is the case's.
+/// Draws cases until one fails or time is over. One seed is one sequence of cases, whatever the machine; how far it
+/// gets is a matter of time. The seed of a case's checks is the case's.
 inline std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& options, Fuzz_summary& summary) {
   std::vector<const generate::Family*> families;
   for (const generate::Family& f : generate::families())
@@ -166,7 +183,10 @@ inline std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& o
     if (options.begin) options.begin(which);
     const Posed_scene scene = make(which);
     if (scene.soup.face_count() > options.most_faces || (subject.wants_source && scene.source.empty())) {
-      if (++unfit > 10000) throw std::invalid_argument("no scene of '" + options.family + "' fits '" + subject.name + "': it has no source polygon, or more than " + std::to_string(options.most_faces) + " faces");
+      if (++unfit > 10000)
+        throw std::invalid_argument("no scene of '" + options.family + "' fits '" + subject.name +
+                                    "': it has no source polygon, or more than " + std::to_string(options.most_faces) +
+                                    " faces");
       continue;
     }
     unfit = 0;
@@ -180,7 +200,8 @@ inline std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& o
       summary.cases += outcome.state != Outcome::State::not_applicable;
       summary.undecided += outcome.state == Outcome::State::undecided;
     };
-    if (auto found = first_disagreement(subject, scene, which.parameters.seed, {}, tell)) return Finding{which, *found, scene};
+    if (auto found = first_disagreement(subject, scene, which.parameters.seed, {}, tell))
+      return Finding{which, *found, scene};
   }
   return std::nullopt;
 }

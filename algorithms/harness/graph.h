@@ -45,7 +45,9 @@ inline Outcome by_explicit(const Posed_scene& posed, const Answer& answer) {
   const Priority_components found = components(graph);
   for (std::uint32_t i = 0; i < faces.size(); ++i)
     for (std::uint32_t j = 0; j < faces.size(); ++j)
-      if (graph.has_arc(i, j) && found.h(i) > found.h(j)) return Outcome::failed("explicit: an arc from piece " + std::to_string(i) + " to piece " + std::to_string(j) + ", of higher priority");
+      if (graph.has_arc(i, j) && found.h(i) > found.h(j))
+        return Outcome::failed("explicit: an arc from piece " + std::to_string(i) + " to piece " + std::to_string(j) +
+                               ", of higher priority");
   return compared(answer, answer_of(posed.soup, scene, found), "implicit", "explicit");
 }
 
@@ -55,10 +57,13 @@ inline Outcome by_explicit(const Posed_scene& posed, const Answer& answer) {
 inline Subject graph() {
   using namespace graph_subject;
   Subject subject;
-  subject.name = "graph", subject.what = "components of the priority graph: implicit and explicit, answers checked by verify";
+  subject.name = "graph",
+  subject.what = "components of the priority graph: implicit and explicit, answers checked by verify";
   subject.answer = [](const Posed_scene& posed) { return by_implicit(posed, false); };
   subject.verified = [](const Posed_scene& posed) { return by_implicit(posed, true); };
-  subject.checks = {{"explicit", "the same components from all arcs", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }}};
+  subject.checks = {
+      {"explicit", "the same components from all arcs",
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }}};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn"});
   return subject;
 }

@@ -15,8 +15,9 @@ struct Image {
 /// Where a law applies. The others keep everything that is asked, whatever it is.
 enum class Law_kind {
   renamed,  ///< faces have other names
-  moved,    ///< points have other coordinates: the scene must be planar, as how other faces are cut depends on where they are
-  changed   ///< faces are cut or added: what is known of pairs of faces need not stay
+  moved,  ///< points have other coordinates: the scene must be planar, as how other faces are cut depends on where they
+          ///< are
+  changed  ///< faces are cut or added: what is known of pairs of faces need not stay
 };
 
 struct Law {
@@ -25,7 +26,8 @@ struct Law {
   std::optional<Image> (*apply)(const Posed_scene&, Random&);  ///< none: this scene has nothing to apply it to
 };
 
-// ---- How they are made -----------------------------------------------------------------------------------------------------------------
+// ---- How they are made
+// -----------------------------------------------------------------------------------------------------------------
 
 inline std::vector<std::optional<Face_id>> same_faces(const Polygon_soup& soup) {
   std::vector<std::optional<Face_id>> faces(soup.face_count());
@@ -33,7 +35,8 @@ inline std::vector<std::optional<Face_id>> same_faces(const Polygon_soup& soup) 
   return faces;
 }
 
-/// A map of points that keeps faces planar and segments free: of the scene, the eye and the source. `mirrors`: it turns loops round, and they are turned back.
+/// A map of points that keeps faces planar and segments free: of the scene, the eye and the source. `mirrors`: it turns
+/// loops round, and they are turned back.
 template <class Map>
 Image moved_by(const Posed_scene& scene, Map map, bool mirrors = false) {
   Image image{scene, same_faces(scene.soup)};
@@ -55,7 +58,9 @@ inline generate::Points convex_corners(const Polygon_soup& soup, Face_id face) {
   for (const Point_id p : soup.loop(face)) corners.push_back(soup.point(p));
   const std::size_t n = corners.size();
   if (n < 3) return {};
-  const auto dot = [](const Exact_point& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); };
+  const auto dot = [](const Exact_point& a, const Exact_point& b) {
+    return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+  };
   const Exact_point normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t j = 0; j < n; ++j) {
@@ -66,7 +71,8 @@ inline generate::Points convex_corners(const Polygon_soup& soup, Face_id face) {
   return corners;
 }
 
-// ---- The laws --------------------------------------------------------------------------------------------------------------------------
+// ---- The laws
+// --------------------------------------------------------------------------------------------------------------------------
 
 inline std::optional<Image> permuted(const Posed_scene& scene, Random& random) {
   const std::vector<Face_id> order = generate::random_order(scene.soup.face_count(), random.below(1u << 30));
@@ -165,21 +171,22 @@ inline std::optional<Image> with_a_bystander(const Posed_scene& scene, Random& r
 }
 
 inline const std::vector<Law>& laws() {
-  static const std::vector<Law> all{
-      {"permute", "faces in another order", Law_kind::renamed, permuted},
-      {"translate", "moved by integers up to 10^8", Law_kind::moved, translated},
-      {"scale", "scaled by a power of two from 2^-60 to 2^60", Law_kind::moved, scaled},
-      {"rotate", "turned by a rational rotation", Law_kind::moved, rotated},
-      {"mirror", "mirrored, faces turned back", Law_kind::moved, mirrored},
-      {"turn", "all faces turned round: fronts are backs", Law_kind::moved, turned},
-      {"cut", "a convex face cut in two", Law_kind::changed, cut},
-      {"bystander", "a face more, out of sight", Law_kind::changed, with_a_bystander}};
+  static const std::vector<Law> all{{"permute", "faces in another order", Law_kind::renamed, permuted},
+                                    {"translate", "moved by integers up to 10^8", Law_kind::moved, translated},
+                                    {"scale", "scaled by a power of two from 2^-60 to 2^60", Law_kind::moved, scaled},
+                                    {"rotate", "turned by a rational rotation", Law_kind::moved, rotated},
+                                    {"mirror", "mirrored, faces turned back", Law_kind::moved, mirrored},
+                                    {"turn", "all faces turned round: fronts are backs", Law_kind::moved, turned},
+                                    {"cut", "a convex face cut in two", Law_kind::changed, cut},
+                                    {"bystander", "a face more, out of sight", Law_kind::changed, with_a_bystander}};
   return all;
 }
 
-// ---- As checks -------------------------------------------------------------------------------------------------------------------------
+// ---- As checks
+// -------------------------------------------------------------------------------------------------------------------------
 
-/// An answer to an image, as one to the scene: a face's label is the union of the labels of its parts; `none` where one of them has none. Pre: each face of the scene is in the image.
+/// An answer to an image, as one to the scene: a face's label is the union of the labels of its parts; `none` where one
+/// of them has none. Pre: each face of the scene is in the image.
 inline Answer pulled_back(const Image& image, const Answer& of_image, std::size_t faces) {
   Answer answer = of_image;
   answer.labels.assign(faces, 0);
@@ -187,7 +194,8 @@ inline Answer pulled_back(const Image& image, const Answer& of_image, std::size_
     if (!image.face_of[k]) continue;
     std::uint32_t& label = answer.labels[*image.face_of[k]];
     std::uint32_t own = of_image.labels[k];
-    if (own != Answer::none && image.sides_swapped && !answer.is_partition) own = (own & ~3u) | (own & 1) << 1 | (own & 2) >> 1;
+    if (own != Answer::none && image.sides_swapped && !answer.is_partition)
+      own = (own & ~3u) | (own & 1) << 1 | (own & 2) >> 1;
     label = label == Answer::none || own == Answer::none ? Answer::none : answer.is_partition ? own : label | own;
   }
   return answer;
@@ -195,7 +203,8 @@ inline Answer pulled_back(const Image& image, const Answer& of_image, std::size_
 
 /// That the subject's answer to the image of a scene is the image of its answer.
 /// Where there are certificates, that of every fourth image is checked.
-inline Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& answer, const std::function<Answer(const Posed_scene&)>& verified = {}) {
+inline Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& answer,
+                      const std::function<Answer(const Posed_scene&)>& verified = {}) {
   return {law.name, law.what, [law, answer, verified](const Posed_scene& scene, const Answer& own, Random& random) {
             const bool verify = verified && random.chance(1, 4);
             if (law.kind != Law_kind::renamed && !own.planar) return Outcome::not_applicable();
@@ -204,14 +213,16 @@ inline Check check_of(const Law& law, const std::function<Answer(const Posed_sce
             if (!image) return Outcome::not_applicable();
             const Answer other = verify ? verified(image->scene) : answer(image->scene);
             if (!other.flaw.empty()) return Outcome::failed("after '" + law.name + "': " + other.flaw);
-            return compared(own, pulled_back(*image, other, scene.soup.face_count()), "the scene", "after '" + law.name + "'");
+            return compared(own, pulled_back(*image, other, scene.soup.face_count()), "the scene",
+                            "after '" + law.name + "'");
           }};
 }
 
 /// Appends the laws of these names to a subject's checks.
 inline void add_laws(Subject& subject, const std::vector<std::string>& names) {
   for (const Law& law : laws())
-    if (std::find(names.begin(), names.end(), law.name) != names.end()) subject.checks.push_back(check_of(law, subject.answer, subject.verified));
+    if (std::find(names.begin(), names.end(), law.name) != names.end())
+      subject.checks.push_back(check_of(law, subject.answer, subject.verified));
 }
 
 }  // namespace sightline::harness

@@ -52,19 +52,22 @@ class Order {
 
 /// By a BSP tree. Labels: 1 where the eye is in front of the face, 2 behind, 4 in its plane.
 template <class Traits>
-Answer by_tree(const Posed_scene& posed, const Scene& scene, const Traits& traits, bool verify, Bsp_counters* counters = nullptr) {
+Answer by_tree(const Posed_scene& posed, const Scene& scene, const Traits& traits, bool verify,
+               Bsp_counters* counters = nullptr) {
   const Bsp_tree<Traits> tree = build_bsp(traits, serial());
   if (counters != nullptr) *counters = tree.counters;
   Answer answer;
   answer.labels.assign(posed.soup.face_count(), Answer::none);
   answer.planar = scene.non_planar().empty();
   Order order(scene, posed.eye);
-  traverse(traits, tree, traits.eye(posed.eye), Direction::back_to_front, [&](const Fragment<Traits>& fragment, Sign node_side) {
-    const Sign side = fragment.same_sense ? node_side : -node_side;
-    std::uint32_t& label = answer.labels[scene.pieces()[fragment.polygon.piece].face];
-    label = (label == Answer::none ? 0u : label) | (side == CGAL::POSITIVE ? 1u : side == CGAL::NEGATIVE ? 2u : 4u);
-    if (verify) order.draw(traits, fragment.polygon);
-  });
+  traverse(
+      traits, tree, traits.eye(posed.eye), Direction::back_to_front,
+      [&](const Fragment<Traits>& fragment, Sign node_side) {
+        const Sign side = fragment.same_sense ? node_side : -node_side;
+        std::uint32_t& label = answer.labels[scene.pieces()[fragment.polygon.piece].face];
+        label = (label == Answer::none ? 0u : label) | (side == CGAL::POSITIVE ? 1u : side == CGAL::NEGATIVE ? 2u : 4u);
+        if (verify) order.draw(traits, fragment.polygon);
+      });
   if (verify) answer.flaw = order.flaw(posed.soup);
   return answer;
 }
@@ -76,7 +79,9 @@ Outcome by_kernel(const Posed_scene& posed, const Answer& answer, const std::str
   Bsp_counters here, there;
   by_tree(posed, scene, Exact_traits(scene), false, &here);
   const Answer other = by_tree(posed, scene, Point_traits<Kernel>(scene), false, &there);
-  const auto differ = [&](const char* what, std::uint64_t a, std::uint64_t b) { return Outcome::failed(std::string(what) + ": exact " + std::to_string(a) + ", " + name + ' ' + std::to_string(b)); };
+  const auto differ = [&](const char* what, std::uint64_t a, std::uint64_t b) {
+    return Outcome::failed(std::string(what) + ": exact " + std::to_string(a) + ", " + name + ' ' + std::to_string(b));
+  };
   if (here.nodes != there.nodes) return differ("nodes", here.nodes, there.nodes);
   if (here.splits != there.splits) return differ("splits", here.splits, there.splits);
   if (here.fragments != there.fragments) return differ("fragments", here.fragments, there.fragments);
@@ -105,7 +110,8 @@ inline Outcome by_definition(const Posed_scene& posed, const Answer& answer) {
     Points corners;
     for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
     Exact_point normal{0, 0, 0};
-    for (std::size_t k = 0; k < corners.size(); ++k) normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
     const Exact_point d = minus(posed.eye, corners[0]);
     const int side = sgn(Rational(normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2]));
     std::uint32_t& label = truth.labels[piece.face];
@@ -120,7 +126,8 @@ inline Outcome by_definition(const Posed_scene& posed, const Answer& answer) {
 inline Subject order() {
   using namespace order_subject;
   Subject subject;
-  subject.name = "order", subject.what = "back-to-front orders: BSP trees by two exact kernels, priority trees, orders checked by verify";
+  subject.name = "order",
+  subject.what = "back-to-front orders: BSP trees by two exact kernels, priority trees, orders checked by verify";
   const auto exactly = [](const Posed_scene& posed, bool verify) {
     const Scene scene(posed.soup);
     return by_tree(posed, scene, Exact_traits(scene), verify);
@@ -128,10 +135,15 @@ inline Subject order() {
   subject.answer = [exactly](const Posed_scene& posed) { return exactly(posed, false); };
   subject.verified = [exactly](const Posed_scene& posed) { return exactly(posed, true); };
   subject.checks = {
-      {"definition", "the sides of faces, from their corners", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_definition(posed, answer); }},
-      {"graph", "an order by the priority graph is accepted", [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, false); }},
-      {"graph two-sided", "an order of both sides by the priority graph is accepted", [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, true); }},
-      {"gmpq", "the same tree by Cartesian<Gmpq>", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_kernel<CGAL::Cartesian<CGAL::Gmpq>>(posed, answer, "gmpq"); }}};
+      {"definition", "the sides of faces, from their corners",
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_definition(posed, answer); }},
+      {"graph", "an order by the priority graph is accepted",
+       [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, false); }},
+      {"graph two-sided", "an order of both sides by the priority graph is accepted",
+       [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, true); }},
+      {"gmpq", "the same tree by Cartesian<Gmpq>", [](const Posed_scene& posed, const Answer& answer, Random&) {
+         return by_kernel<CGAL::Cartesian<CGAL::Gmpq>>(posed, answer, "gmpq");
+       }}};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }

@@ -1,19 +1,30 @@
 #pragma once
-// What is asked of a scene of a family, and what is known of the answer, as JSON: `sightline generate --query` writes it, `fuzz` and `reduce` read it.
+// What is asked of a scene of a family, and what is known of the answer, as JSON: `sightline generate --query` writes
+// it, `fuzz` and `reduce` read it.
 
 #include <sightline/algorithms/generate/families.h>
 #include <sightline/algorithms/judge/protocol.h>
 
 namespace sightline::harness {
 
-/// {"format": "sightline query 1", "name", "seed", "distance": "exact", "beside" or "far", "eye": [x, y, z], "source": [[x, y, z], ...], "visible": [faces], "hidden": [faces]}; numbers are exact
-/// strings, p or p/q; JSON numbers are read too, as the doubles that they are. No source: an empty list. `visible` and `hidden` are what is known by construction of what the source sees; of other faces nothing is known. `seed` is of a checker's choices.
+/// {"format": "sightline query 1", "name", "seed", "distance": "exact", "beside" or "far", "eye": [x, y, z], "source":
+/// [[x, y, z], ...], "visible": [faces], "hidden": [faces]}; numbers are exact strings, p or p/q; JSON numbers are read
+/// too, as the doubles that they are. No source: an empty list. `visible` and `hidden` are what is known by
+/// construction of what the source sees; of other faces nothing is known. `seed` is of a checker's choices.
 inline nlohmann::ordered_json query_json(const generate::Posed_scene& scene, std::uint64_t seed) {
-  const auto point_json = [](const Exact_point& p) -> nlohmann::ordered_json { return {sightline::to_string(p[0]), sightline::to_string(p[1]), sightline::to_string(p[2])}; };
+  const auto point_json = [](const Exact_point& p) -> nlohmann::ordered_json {
+    return {sightline::to_string(p[0]), sightline::to_string(p[1]), sightline::to_string(p[2])};
+  };
   nlohmann::ordered_json source = nlohmann::ordered_json::array();
   for (const Exact_point& p : scene.source) source.push_back(point_json(p));
-  return {{"format", "sightline query 1"}, {"name", scene.name}, {"seed", seed}, {"distance", generate::name_of(scene.distance)}, {"eye", point_json(scene.eye)}, {"source", std::move(source)},
-          {"visible", scene.visible}, {"hidden", scene.hidden}};
+  return {{"format", "sightline query 1"},
+          {"name", scene.name},
+          {"seed", seed},
+          {"distance", generate::name_of(scene.distance)},
+          {"eye", point_json(scene.eye)},
+          {"source", std::move(source)},
+          {"visible", scene.visible},
+          {"hidden", scene.hidden}};
 }
 
 struct Posed_query {
@@ -21,8 +32,9 @@ struct Posed_query {
   std::uint64_t seed = 1;
 };
 
-/// The query that a JSON value holds, about a scene of so many faces. All but "format" and "eye" may be left out. The source is taken as it is: its convexity is for weak_source() to ask.
-/// Errors: std::invalid_argument that says in one line what is wrong. Exact: yes.
+/// The query that a JSON value holds, about a scene of so many faces. All but "format" and "eye" may be left out. The
+/// source is taken as it is: its convexity is for weak_source() to ask. Errors: std::invalid_argument that says in one
+/// line what is wrong. Exact: yes.
 inline Posed_query query_from_json(const nlohmann::json& value, std::size_t faces) {
   const auto fail = [](const std::string& what) { throw std::invalid_argument("query: " + what); };
   const auto member = [&](const char* key) -> const nlohmann::json* {
@@ -35,13 +47,15 @@ inline Posed_query query_from_json(const nlohmann::json& value, std::size_t face
     if (given == nullptr) return list;
     if (!given->is_array()) fail(std::string("\"") + key + "\" is no list of faces");
     for (const nlohmann::json& face : *given) {
-      if (!face.is_number_unsigned() || face.get<std::uint64_t>() >= faces) fail(std::string("\"") + key + "\" names a face that is not one of the scene's " + std::to_string(faces));
+      if (!face.is_number_unsigned() || face.get<std::uint64_t>() >= faces)
+        fail(std::string("\"") + key + "\" names a face that is not one of the scene's " + std::to_string(faces));
       list.push_back(face.get<Face_id>());
     }
     return list;
   };
   if (!value.is_object()) fail("expected an object");
-  if (const nlohmann::json* const format = member("format"); format == nullptr || *format != "sightline query 1") fail("\"format\" is not \"sightline query 1\"");
+  if (const nlohmann::json* const format = member("format"); format == nullptr || *format != "sightline query 1")
+    fail("\"format\" is not \"sightline query 1\"");
   Posed_query query;
   if (const nlohmann::json* const name = member("name")) {
     if (!name->is_string()) fail("\"name\" is no string");
@@ -52,14 +66,16 @@ inline Posed_query query_from_json(const nlohmann::json& value, std::size_t face
     query.seed = seed->get<std::uint64_t>();
   }
   if (const nlohmann::json* const distance = member("distance")) {
-    const auto known = std::find_if(generate::distances.begin(), generate::distances.end(), [&](generate::Distance d) { return *distance == generate::name_of(d); });
+    const auto known = std::find_if(generate::distances.begin(), generate::distances.end(),
+                                    [&](generate::Distance d) { return *distance == generate::name_of(d); });
     if (known == generate::distances.end()) fail("\"distance\" is neither \"exact\" nor \"beside\" nor \"far\"");
     query.scene.distance = *known;
   }
   const nlohmann::json* const eye = member("eye");
   if (eye == nullptr) fail("no \"eye\"");
   query.scene.eye = judge::point_from_json(*eye, "query: eye");
-  if (const nlohmann::json* const source = member("source")) query.scene.source = judge::points_from_json(*source, "query: source");
+  if (const nlohmann::json* const source = member("source"))
+    query.scene.source = judge::points_from_json(*source, "query: source");
   query.scene.visible = list_of_faces("visible"), query.scene.hidden = list_of_faces("hidden");
   return query;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The smallest scene that still fails: a delta debugger. It removes faces and corners and rounds coordinates as long as somebody says that the rest still fails.
+// The smallest scene that still fails: a delta debugger. It removes faces and corners and rounds coordinates as long as
+// somebody says that the rest still fails.
 
 #include <sightline/algorithms/generate/families.h>
 
@@ -9,15 +10,15 @@ using generate::Posed_scene;
 
 struct Reduce_options {
   std::size_t most_tests = 20000;
-  std::function<bool()> out_of_time;                                            ///< asked before each test
-  std::function<void(std::size_t tests, std::size_t faces)> progress;           ///< told after each step that was kept
+  std::function<bool()> out_of_time;                                   ///< asked before each test
+  std::function<void(std::size_t tests, std::size_t faces)> progress;  ///< told after each step that was kept
 };
 
 struct Reduced {
   Posed_scene scene;
-  std::size_t tests = 0;   ///< how often it was asked whether a scene fails
-  std::size_t kept = 0;    ///< steps that were kept
-  bool finished = false;   ///< no step is left; else tests or time ran out
+  std::size_t tests = 0;  ///< how often it was asked whether a scene fails
+  std::size_t kept = 0;   ///< steps that were kept
+  bool finished = false;  ///< no step is left; else tests or time ran out
 };
 
 namespace reduce_detail {
@@ -67,7 +68,9 @@ struct Draft {
 };
 
 /// How long a number is, written down; less is rounder.
-inline std::size_t length_of(const Rational& x) { return sgn(x) == 0 ? 0 : bit_length(x.get_num()) + 2 * bit_length(x.get_den()) - 1 + (sgn(x) < 0); }
+inline std::size_t length_of(const Rational& x) {
+  return sgn(x) == 0 ? 0 : bit_length(x.get_num()) + 2 * bit_length(x.get_den()) - 1 + (sgn(x) < 0);
+}
 
 /// Rounder numbers near x, the roundest first.
 inline std::vector<Rational> rounder(const Rational& x) {
@@ -142,13 +145,18 @@ class Reducer {
   }
   void remove_loops_and_corners() {
     for (std::size_t f = 0; f < draft_.faces.size(); ++f) {
-      for (std::size_t k = draft_.faces[f].size(); k-- > 1;) attempt([&](Draft& draft) { draft.faces[f].erase(draft.faces[f].begin() + static_cast<std::ptrdiff_t>(k)); });
+      for (std::size_t k = draft_.faces[f].size(); k-- > 1;)
+        attempt([&](Draft& draft) { draft.faces[f].erase(draft.faces[f].begin() + static_cast<std::ptrdiff_t>(k)); });
       for (std::size_t k = 0; k < draft_.faces[f].size(); ++k)
         for (std::size_t c = draft_.faces[f][k].size(); c-- > 0;)
-          if (draft_.faces[f][k].size() > 3) attempt([&](Draft& draft) { draft.faces[f][k].erase(draft.faces[f][k].begin() + static_cast<std::ptrdiff_t>(c)); });
+          if (draft_.faces[f][k].size() > 3)
+            attempt([&](Draft& draft) {
+              draft.faces[f][k].erase(draft.faces[f][k].begin() + static_cast<std::ptrdiff_t>(c));
+            });
     }
     for (std::size_t c = draft_.source.size(); c-- > 0;)
-      if (draft_.source.size() > 3) attempt([&](Draft& draft) { draft.source.erase(draft.source.begin() + static_cast<std::ptrdiff_t>(c)); });
+      if (draft_.source.size() > 3)
+        attempt([&](Draft& draft) { draft.source.erase(draft.source.begin() + static_cast<std::ptrdiff_t>(c)); });
   }
 
   std::size_t length() {
@@ -158,7 +166,8 @@ class Reducer {
     });
     return sum;
   }
-  /// Maps of all points, kept where the numbers become shorter: a corner to the origin, no denominators, no common factor, on each axis small integers in the same order.
+  /// Maps of all points, kept where the numbers become shorter: a corner to the origin, no denominators, no common
+  /// factor, on each axis small integers in the same order.
   void move_all() {
     const auto map_all = [&](auto map) {
       Draft other = draft_;
@@ -180,7 +189,8 @@ class Reducer {
     draft_.for_each_point([&](const Exact_point& p) {
       for (const Rational& x : p) factor = gcd(factor, x.get_num());
     });
-    if (factor > 1) map_all([&](const Exact_point& p) { return generate::along({0, 0, 0}, Rational(Integer(1), factor), p); });
+    if (factor > 1)
+      map_all([&](const Exact_point& p) { return generate::along({0, 0, 0}, Rational(Integer(1), factor), p); });
     for (std::size_t axis = 0; axis < 3; ++axis) {
       std::map<Rational, long> rank;
       draft_.for_each_point([&](const Exact_point& p) { rank[p[axis]] = 0; });
@@ -240,10 +250,13 @@ class Reducer {
 
 }  // namespace reduce_detail
 
-/// A scene, as small and as round as steps of one at a time make it, for which `fails` still says true: fewer faces, fewer corners, rounder coordinates of faces, eye and
-/// source. Where even the scene with its points renumbered does not fail, it is returned as it is, and `kept` is 0. Pre: fails(scene). What is known of the scene's answers
-/// is lost. Cost: tests of about (faces + corners + 3 x 8 points) a round, and as many rounds as still help. Ref: Zeller and Hildebrandt 2002
-inline Reduced reduce(const Posed_scene& scene, const std::function<bool(const Posed_scene&)>& fails, const Reduce_options& options = {}) {
+/// A scene, as small and as round as steps of one at a time make it, for which `fails` still says true: fewer faces,
+/// fewer corners, rounder coordinates of faces, eye and source. Where even the scene with its points renumbered does
+/// not fail, it is returned as it is, and `kept` is 0. Pre: fails(scene). What is known of the scene's answers is lost.
+/// Cost: tests of about (faces + corners + 3 x 8 points) a round, and as many rounds as still help. Ref: Zeller and
+/// Hildebrandt 2002
+inline Reduced reduce(const Posed_scene& scene, const std::function<bool(const Posed_scene&)>& fails,
+                      const Reduce_options& options = {}) {
   return reduce_detail::Reducer(scene, fails, options).run();
 }
 

@@ -59,7 +59,9 @@ inline Subject see() {
   subject.name = "see", subject.what = "visible surfaces from a point by two exact kernels, answers checked by verify";
   subject.answer = [](const Posed_scene& posed) { return exactly(posed, false); };
   subject.verified = [](const Posed_scene& posed) { return exactly(posed, true); };
-  subject.checks = {{"gmpq", "the same faces by Gmpq", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_numbers<CGAL::Gmpq>(posed, answer, "gmpq"); }}};
+  subject.checks = {{"gmpq", "the same faces by Gmpq", [](const Posed_scene& posed, const Answer& answer, Random&) {
+                       return by_numbers<CGAL::Gmpq>(posed, answer, "gmpq");
+                     }}};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// What a harness runs: a subject answers questions about a scene, and checks compare its answers with everything else that is known.
+// What a harness runs: a subject answers questions about a scene, and checks compare its answers with everything else
+// that is known.
 
 #include <sightline/algorithms/generate/families.h>
 
@@ -13,16 +14,17 @@ namespace sightline::harness {
 using generate::Posed_scene;
 using generate::Random;
 
-/// What a method says of the faces of a scene. A label is a set of bits, and what they mean is the subject's: the label of a face that is cut in two is the union of both.
+/// What a method says of the faces of a scene. A label is a set of bits, and what they mean is the subject's: the label
+/// of a face that is cut in two is the union of both.
 struct Answer {
   static constexpr std::uint32_t none = ~std::uint32_t{0};  ///< the face was set aside, or nothing is decided about it
 
   std::vector<std::uint32_t> labels;  ///< by face, or `none`
   bool is_partition = false;          ///< labels only say which faces are together
-  bool planar = true;                 ///< whether no face had to be triangulated, so that the scene is the same wherever it is
-  bool whole = true;                  ///< whether each kept face is one convex piece
-  std::size_t undecided = 0;          ///< faces
-  std::string flaw;                   ///< what is wrong with the answer by itself: its certificate was rejected; empty: nothing
+  bool planar = true;         ///< whether no face had to be triangulated, so that the scene is the same wherever it is
+  bool whole = true;          ///< whether each kept face is one convex piece
+  std::size_t undecided = 0;  ///< faces
+  std::string flaw;           ///< what is wrong with the answer by itself: its certificate was rejected; empty: nothing
 };
 
 /// What became of a check.
@@ -44,9 +46,10 @@ struct Check {
 /// A command under test.
 struct Subject {
   std::string name, what;
-  bool wants_source = false;                           ///< only scenes with a source polygon
-  std::function<Answer(const Posed_scene&)> answer;    ///< by the method that the command uses unless told otherwise
-  std::function<Answer(const Posed_scene&)> verified;  ///< the same, its certificate checked, which takes longer; empty: there is none
+  bool wants_source = false;                         ///< only scenes with a source polygon
+  std::function<Answer(const Posed_scene&)> answer;  ///< by the method that the command uses unless told otherwise
+  std::function<Answer(const Posed_scene&)>
+      verified;  ///< the same, its certificate checked, which takes longer; empty: there is none
   std::vector<Check> checks;
 };
 
@@ -56,20 +59,28 @@ inline std::string face_name(std::size_t face) { return "face " + std::to_string
 inline std::vector<std::uint32_t> first_of_its_kind(const std::vector<std::uint32_t>& labels) {
   std::map<std::uint32_t, std::uint32_t> first;
   std::vector<std::uint32_t> names;
-  for (std::size_t k = 0; k < labels.size(); ++k) names.push_back(labels[k] == Answer::none ? Answer::none : first.try_emplace(labels[k], static_cast<std::uint32_t>(k)).first->second);
+  for (std::size_t k = 0; k < labels.size(); ++k)
+    names.push_back(labels[k] == Answer::none
+                        ? Answer::none
+                        : first.try_emplace(labels[k], static_cast<std::uint32_t>(k)).first->second);
   return names;
 }
 
-/// Whether two answers to one question agree on all faces that both of them label. `one` and `other` say whose they are.
+/// Whether two answers to one question agree on all faces that both of them label. `one` and `other` say whose they
+/// are.
 inline Outcome compared(const Answer& a, const Answer& b, const std::string& one, const std::string& other) {
-  if (a.labels.size() != b.labels.size()) return Outcome::failed(other + " answers about " + std::to_string(b.labels.size()) + " faces, not " + std::to_string(a.labels.size()));
+  if (a.labels.size() != b.labels.size())
+    return Outcome::failed(other + " answers about " + std::to_string(b.labels.size()) + " faces, not " +
+                           std::to_string(a.labels.size()));
   std::vector<std::uint32_t> mine = a.labels, theirs = b.labels;
   bool open = false;
   for (std::size_t k = 0; k < mine.size(); ++k)
     if (mine[k] == Answer::none || theirs[k] == Answer::none) mine[k] = theirs[k] = Answer::none, open = true;
   if (a.is_partition) mine = first_of_its_kind(mine), theirs = first_of_its_kind(theirs);
   for (std::size_t k = 0; k < mine.size(); ++k)
-    if (mine[k] != theirs[k]) return Outcome::failed(face_name(k) + ": " + one + " says " + std::to_string(mine[k]) + ", " + other + ' ' + std::to_string(theirs[k]));
+    if (mine[k] != theirs[k])
+      return Outcome::failed(face_name(k) + ": " + one + " says " + std::to_string(mine[k]) + ", " + other + ' ' +
+                             std::to_string(theirs[k]));
   if (open && a.undecided + b.undecided > 0) return Outcome::undecided();
   return {};
 }

@@ -43,8 +43,12 @@ inline Outcome by_events(const Posed_scene& posed, const Answer& answer) {
   if (scene.pieces().size() > most_pieces) return Outcome::not_applicable();
   const Occluders occluders(scene);
   Events_options options;
-  options.threads = 1, options.events = most_events, options.rays = 0;  // else lines at random decide most of what is visible
-  return compared(answer, labels_of(posed.soup, scene, weakly_visible_by_events(occluders, {weak_source(occluders, posed.source)}, options)), "lines", "events");
+  options.threads = 1, options.events = most_events,
+  options.rays = 0;  // else lines at random decide most of what is visible
+  return compared(answer,
+                  labels_of(posed.soup, scene,
+                            weakly_visible_by_events(occluders, {weak_source(occluders, posed.source)}, options)),
+                  "lines", "events");
 }
 
 inline Outcome as_constructed(const Posed_scene& posed, const Answer& answer) {
@@ -66,7 +70,8 @@ inline Outcome grown(const Posed_scene& posed, const Answer& answer) {
   const Answer more = by_lines(larger, true);
   if (!more.flaw.empty()) return Outcome::failed("from a larger source: " + more.flaw);
   for (std::size_t f = 0; f < answer.labels.size(); ++f)
-    if (answer.labels[f] == 1 && more.labels[f] == 0) return Outcome::failed(face_name(f) + " is visible from the source, but not from one that holds it");
+    if (answer.labels[f] == 1 && more.labels[f] == 0)
+      return Outcome::failed(face_name(f) + " is visible from the source, but not from one that holds it");
   return answer.undecided + more.undecided > 0 ? Outcome::undecided() : Outcome{};
 }
 
@@ -84,9 +89,12 @@ inline Outcome reversed(const Posed_scene& posed, const Answer& answer, Random& 
   const Face_id source = back.soup.add_face(ids);
   const Answer other = by_lines(back, true);
   if (!other.flaw.empty()) return Outcome::failed("with source and target in each other's place: " + other.flaw);
-  if (other.labels[source] == Answer::none) return other.undecided > 0 ? Outcome::undecided() : Outcome::not_applicable();  // or it is a duplicate
+  if (other.labels[source] == Answer::none)
+    return other.undecided > 0 ? Outcome::undecided() : Outcome::not_applicable();  // or it is a duplicate
   if (other.labels[source] != answer.labels[chosen])
-    return Outcome::failed("the source " + std::string(answer.labels[chosen] ? "sees " : "does not see ") + face_name(chosen) + ", which " + (other.labels[source] ? "sees" : "does not see") + " the source");
+    return Outcome::failed("the source " + std::string(answer.labels[chosen] ? "sees " : "does not see ") +
+                           face_name(chosen) + ", which " + (other.labels[source] ? "sees" : "does not see") +
+                           " the source");
   return {};
 }
 
@@ -96,14 +104,19 @@ inline Outcome reversed(const Posed_scene& posed, const Answer& answer, Random& 
 inline Subject weak() {
   using namespace weak_subject;
   Subject subject;
-  subject.name = "weak", subject.what = "weak visibility from a polygon by lines and by events, answers by lines checked by verify";
+  subject.name = "weak",
+  subject.what = "weak visibility from a polygon by lines and by events, answers by lines checked by verify";
   subject.wants_source = true;
   subject.answer = [](const Posed_scene& posed) { return by_lines(posed, false); };
   subject.verified = [](const Posed_scene& posed) { return by_lines(posed, true); };
-  subject.checks = {{"construction", "what the family knows", [](const Posed_scene& posed, const Answer& answer, Random&) { return as_constructed(posed, answer); }},
-                    {"events", "the same faces by events", [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer); }},
-                    {"grow", "a larger source sees no less", [](const Posed_scene& posed, const Answer& answer, Random&) { return grown(posed, answer); }},
-                    {"reverse", "source and target in each other's place", weak_subject::reversed}};
+  subject.checks = {
+      {"construction", "what the family knows",
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return as_constructed(posed, answer); }},
+      {"events", "the same faces by events",
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer); }},
+      {"grow", "a larger source sees no less",
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return grown(posed, answer); }},
+      {"reverse", "source and target in each other's place", weak_subject::reversed}};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
   return subject;
 }

@@ -8,32 +8,45 @@
 
 namespace sightline::judge {
 
-/// What is wrong with an answer. Lists are sorted. Faces that nothing is known about, or that are no faces (of zero area, doubles of others), are in none of them.
+/// What is wrong with an answer. Lists are sorted. Faces that nothing is known about, or that are no faces (of zero
+/// area, doubles of others), are in none of them.
 struct Grade {
-  std::vector<Face_id> wrong_visible;  ///< shown although hidden; in an order: painted over a face that is nearer there, or outside of itself
-  std::vector<Face_id> wrong_hidden;   ///< hidden although visible; in an order: painted over by a face that is farther there, or missing, or in part
+  std::vector<Face_id> wrong_visible;  ///< shown although hidden; in an order: painted over a face that is nearer
+                                       ///< there, or outside of itself
+  std::vector<Face_id> wrong_hidden;   ///< hidden although visible; in an order: painted over by a face that is farther
+                                       ///< there, or missing, or in part
   std::vector<Face_id> abstained;      ///< no answer
-  std::vector<std::array<Face_id, 2>> wrong_pairs;  ///< of an order: drawn earlier but nearer somewhere, and what is drawn over it
-  std::size_t judged = 0;              ///< faces about which something is known
+  std::vector<std::array<Face_id, 2>>
+      wrong_pairs;         ///< of an order: drawn earlier but nearer somewhere, and what is drawn over it
+  std::size_t judged = 0;  ///< faces about which something is known
 
   bool wrong() const { return !wrong_visible.empty() || !wrong_hidden.empty(); }
 };
 
-/// What a program promises: no wrong faces; never to hide a visible one; never to show a hidden one. Abstaining breaks none of them.
+/// What a program promises: no wrong faces; never to hide a visible one; never to show a hidden one. Abstaining breaks
+/// none of them.
 enum class Contract { exact, conservative, aggressive };
 inline constexpr std::array<std::string_view, 3> contract_names{"exact", "conservative", "aggressive"};
 
 inline bool keeps(Contract contract, const Grade& grade) {
-  return (contract == Contract::aggressive || grade.wrong_hidden.empty()) && (contract == Contract::conservative || grade.wrong_visible.empty());
+  return (contract == Contract::aggressive || grade.wrong_hidden.empty()) &&
+         (contract == Contract::conservative || grade.wrong_visible.empty());
 }
 
-/// What became of a case, the worst first. An answer is `wrong` where any face is, `abstained` where none is but some are left open.
+/// What became of a case, the worst first. An answer is `wrong` where any face is, `abstained` where none is but some
+/// are left open.
 enum class Mark { crashed, invalid, wrong, out_of_memory, timed_out, abstained, right };
-inline constexpr std::array<std::string_view, 7> mark_names{"crashed", "invalid", "wrong", "out of memory", "timed out", "abstained", "right"};
+inline constexpr std::array<std::string_view, 7> mark_names{"crashed",   "invalid",   "wrong", "out of memory",
+                                                            "timed out", "abstained", "right"};
 
-inline Mark mark_of(const Grade& grade) { return grade.wrong() ? Mark::wrong : grade.abstained.empty() ? Mark::right : Mark::abstained; }
+inline Mark mark_of(const Grade& grade) {
+  return grade.wrong() ? Mark::wrong : grade.abstained.empty() ? Mark::right : Mark::abstained;
+}
 
-/// Whether a case breaks the contract: by a wrong face that it forbids, by an answer outside of the protocol, or by a crash. To run out of time or memory breaks nothing: the judge sets the limits.
-inline bool breaks(Contract contract, Mark mark, const Grade& grade) { return mark == Mark::crashed || mark == Mark::invalid || (mark == Mark::wrong && !keeps(contract, grade)); }
+/// Whether a case breaks the contract: by a wrong face that it forbids, by an answer outside of the protocol, or by a
+/// crash. To run out of time or memory breaks nothing: the judge sets the limits.
+inline bool breaks(Contract contract, Mark mark, const Grade& grade) {
+  return mark == Mark::crashed || mark == Mark::invalid || (mark == Mark::wrong && !keeps(contract, grade));
+}
 
 }  // namespace sightline::judge

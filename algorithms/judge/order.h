@@ -9,12 +9,15 @@
 
 namespace sightline::judge {
 
-/// A scene and an eye, ready to judge orders. Whole faces are compared exactly, by the code of `verify`. A part has rounded corners as a rule, so it is moved onto its face's exact plane along the dominant
-/// axis, stands for its convex hull there, and is compared smaller by 2^-20 about its middle, or not at all where it has less than 2^-20 of its face's area.
-/// Pre: all faces are planar. Degenerate: faces in whose plane the eye is may stand anywhere, or be missing; contact is no overlap; equal distance is in order both ways. Exact: yes.
+/// A scene and an eye, ready to judge orders. Whole faces are compared exactly, by the code of `verify`. A part has
+/// rounded corners as a rule, so it is moved onto its face's exact plane along the dominant axis, stands for its convex
+/// hull there, and is compared smaller by 2^-20 about its middle, or not at all where it has less than 2^-20 of its
+/// face's area. Pre: all faces are planar. Degenerate: faces in whose plane the eye is may stand anywhere, or be
+/// missing; contact is no overlap; equal distance is in order both ways. Exact: yes.
 class Order_truth {
  public:
-  Order_truth(const Scene& scene, const Exact_point& eye, bool two_sided) : eye_(eye), faces_(scene.counters().faces_read) {
+  Order_truth(const Scene& scene, const Exact_point& eye, bool two_sided)
+      : eye_(eye), faces_(scene.counters().faces_read) {
     for (const Piece& piece : scene.pieces()) {
       Face& face = faces_[piece.face];
       if (face.pieces.empty()) face.set_plane(scene.file_coefficients(piece.support));
@@ -45,7 +48,7 @@ class Order_truth {
   struct Face {
     std::vector<order_check::Polygon> pieces;  // none: it is set aside
     std::array<Rational, 4> plane;
-    std::size_t axis = 0;                      // the dominant one of the normal
+    std::size_t axis = 0;  // the dominant one of the normal
     bool required = false;
 
     void set_plane(const std::array<Rational, 4>& coefficients) {
@@ -72,7 +75,8 @@ class Order_truth {
         for (std::size_t k = 0; k < 2; ++k) middle[k] += part.vertex(i)[k] / static_cast<long>(points.size());
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Flat_polygon::Point at = part.vertex(i);
-        points[i][x] = at[0] + (middle[0] - at[0]) / (1 << tolerance_bits), points[i][y] = at[1] + (middle[1] - at[1]) / (1 << tolerance_bits);
+        points[i][x] = at[0] + (middle[0] - at[0]) / (1 << tolerance_bits),
+        points[i][y] = at[1] + (middle[1] - at[1]) / (1 << tolerance_bits);
         points[i][axis] = -(plane[x] * points[i][x] + plane[y] * points[i][y] + plane[3]) / plane[axis];
       }
       return points;
@@ -99,7 +103,8 @@ class Order_truth {
     each_pair(cones, [&](std::size_t i, std::size_t j) {
       if (owner[i] != owner[j] && check.nearer_somewhere(cones[i], cones[j])) over[owner[j]].insert(owner[i]);
     });
-    // Draw what nothing undrawn must come before; where nothing is left to draw but faces are, they are in cycles or over such.
+    // Draw what nothing undrawn must come before; where nothing is left to draw but faces are, they are in cycles or
+    // over such.
     std::vector<std::size_t> before(faces_.size());
     for (const auto& above : over)
       for (const Face_id f : above) ++before[f];
@@ -125,7 +130,8 @@ class Order_truth {
       if (face.pieces.empty()) continue;
       if (drawn.part.empty()) {
         for (const order_check::Polygon& polygon : face.pieces) cones.emplace_back(polygon, eye_), place.push_back(i);
-      } else if (const Flat_polygon part = face.flat(drawn.part); Rational(part.area() * (1 << tolerance_bits)) > face.area()) {
+      } else if (const Flat_polygon part = face.flat(drawn.part);
+                 Rational(part.area() * (1 << tolerance_bits)) > face.area()) {
         cones.emplace_back(face.shrunk(part), eye_), place.push_back(i);
       }
     }
@@ -158,7 +164,8 @@ class Order_truth {
         continue;
       }
       std::vector<Flat_polygon> missing, outside = parts[f];
-      for (const order_check::Polygon& polygon : face.pieces) outside = without(outside, missing.emplace_back(face.flat(polygon)));
+      for (const order_check::Polygon& polygon : face.pieces)
+        outside = without(outside, missing.emplace_back(face.flat(polygon)));
       for (const Flat_polygon& part : parts[f]) missing = without(missing, part);
       const auto beyond_rounding = [&](const std::vector<Flat_polygon>& polygons) {
         Rational sum = 0;

@@ -1,5 +1,6 @@
 #pragma once
-// How a program that is judged is asked, and how it answers: the query is JSON, the answer JSON or plain lines. The format is described on the page of this folder.
+// How a program that is judged is asked, and how it answers: the query is JSON, the answer JSON or plain lines. The
+// format is described on the page of this folder.
 
 #include <sightline/kernel/scene/polygon_soup.h>
 
@@ -37,9 +38,9 @@ struct Drawn_face {
 
 /// What a program answered. A face that is neither visible nor abstained from is hidden.
 struct Answer {
-  std::vector<Face_id> visible;   ///< of see and weak; sorted
-  std::vector<Drawn_face> order;  ///< of order: farthest first
-  std::vector<Face_id> abstained; ///< sorted
+  std::vector<Face_id> visible;    ///< of see and weak; sorted
+  std::vector<Drawn_face> order;   ///< of order: farthest first
+  std::vector<Face_id> abstained;  ///< sorted
 };
 
 namespace protocol_detail {
@@ -56,7 +57,8 @@ inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number
 
 }  // namespace protocol_detail
 
-/// A number of JSON, as the double that it reads as, or a string "p/q". Errors of this and the next two: std::invalid_argument that says what is wrong, in one line that begins with `at`. Exact: yes.
+/// A number of JSON, as the double that it reads as, or a string "p/q". Errors of this and the next two:
+/// std::invalid_argument that says what is wrong, in one line that begins with `at`. Exact: yes.
 inline Rational number_from_json(const nlohmann::json& value, const std::string& at) {
   if (value.is_number_unsigned()) return Rational(value.get<std::uint64_t>());
   if (value.is_number_integer()) return Rational(value.get<std::int64_t>());
@@ -99,7 +101,8 @@ class Answer_reader {
     abstains_from_all_ = from_all;
     if (abstained != value.end() && !from_all) {
       if (!abstained->is_array()) fail("\"abstained\" is neither a list of faces nor \"all\"");
-      for (std::size_t i = 0; i < abstained->size(); ++i) answer_.abstained.push_back(face((*abstained)[i], "abstained[" + std::to_string(i) + ']'));
+      for (std::size_t i = 0; i < abstained->size(); ++i)
+        answer_.abstained.push_back(face((*abstained)[i], "abstained[" + std::to_string(i) + ']'));
     }
     if (const auto list = value.find(key); list != value.end()) {
       if (!list->is_array()) fail('"' + key + "\" is no list");
@@ -133,7 +136,8 @@ class Answer_reader {
       }
       std::uint64_t number = 0;
       const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-      if (error != std::errc() || end != word.data() + word.size()) fail(at + ": " + quoted(word) + " is no face; write its number, from 0");
+      if (error != std::errc() || end != word.data() + word.size())
+        fail(at + ": " + quoted(word) + " is no face; write its number, from 0");
       const Face_id id = face(number, at);
       if (abstains) answer_.abstained.push_back(id);
       else take_whole(id);
@@ -143,7 +147,9 @@ class Answer_reader {
 
  private:
   Face_id face(std::uint64_t number, const std::string& at) const {
-    if (number >= faces_) fail(at + " names face " + std::to_string(number) + "; the scene has faces 0 to " + std::to_string(static_cast<std::int64_t>(faces_) - 1));
+    if (number >= faces_)
+      fail(at + " names face " + std::to_string(number) + "; the scene has faces 0 to " +
+           std::to_string(static_cast<std::int64_t>(faces_) - 1));
     return static_cast<Face_id>(number);
   }
   Face_id face(const nlohmann::json& value, const std::string& at) const {
@@ -152,9 +158,11 @@ class Answer_reader {
   }
   void take(const nlohmann::json& value, const std::string& at) {
     if (question_ != Question::order || !value.is_object()) return take_whole(face(value, at));
-    if (!value.contains("face") || !value.contains("vertices")) fail(at + " is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
+    if (!value.contains("face") || !value.contains("vertices"))
+      fail(at + " is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
     Drawn_face part{face(value["face"], at + ".face"), points_from_json(value["vertices"], at + ".vertices")};
-    if (part.part.size() < 3) fail(at + " has fewer than three vertices; give the corners of a convex part of the face");
+    if (part.part.size() < 3)
+      fail(at + " has fewer than three vertices; give the corners of a convex part of the face");
     in_parts_.insert(part.face);
     answer_.order.push_back(std::move(part));
   }
@@ -177,7 +185,10 @@ class Answer_reader {
       std::sort(list->begin(), list->end());
       list->erase(std::unique(list->begin(), list->end()), list->end());
     }
-    const auto claimed = [&](Face_id id) { return std::binary_search(answer_.visible.begin(), answer_.visible.end(), id) || whole_.contains(id) || in_parts_.contains(id); };
+    const auto claimed = [&](Face_id id) {
+      return std::binary_search(answer_.visible.begin(), answer_.visible.end(), id) || whole_.contains(id) ||
+             in_parts_.contains(id);
+    };
     for (const Face_id id : answer_.abstained)
       if (claimed(id)) fail("face " + std::to_string(id) + " is both answered and abstained from");
     return std::move(answer_);
@@ -192,8 +203,9 @@ class Answer_reader {
 
 }  // namespace protocol_detail
 
-/// The query as a program gets it: {"query": "see", "eye": [0.5, 2, 1], "two_sided": false}, or "source" with a list of points for weak.
-/// Coordinates are JSON numbers where they are doubles, in which case they read as those doubles, else strings "p/q". Exact: yes.
+/// The query as a program gets it: {"query": "see", "eye": [0.5, 2, 1], "two_sided": false}, or "source" with a list of
+/// points for weak. Coordinates are JSON numbers where they are doubles, in which case they read as those doubles, else
+/// strings "p/q". Exact: yes.
 inline Json to_json(const Query& query) {
   Json value{{"query", question_names[static_cast<std::size_t>(query.question)]}};
   if (query.question == Question::weak) {
@@ -215,8 +227,10 @@ inline Query query_from_json(const nlohmann::json& value) {
   };
   Query query;
   const nlohmann::json& name = member("query");
-  const auto known = std::find_if(question_names.begin(), question_names.end(), [&](std::string_view question) { return name == question; });
-  if (known == question_names.end()) protocol_detail::fail("query: \"query\" is neither \"order\" nor \"see\" nor \"weak\"");
+  const auto known = std::find_if(question_names.begin(), question_names.end(),
+                                  [&](std::string_view question) { return name == question; });
+  if (known == question_names.end())
+    protocol_detail::fail("query: \"query\" is neither \"order\" nor \"see\" nor \"weak\"");
   query.question = static_cast<Question>(known - question_names.begin());
   if (query.question == Question::weak) query.source = points_from_json(member("source"), "source");
   else query.eye = point_from_json(member("eye"), "eye");
@@ -225,8 +239,9 @@ inline Query query_from_json(const nlohmann::json& value) {
   return query;
 }
 
-/// What a program wrote, about a scene of so many faces. Text that begins with { is JSON, all other text has a face a line; an empty one sees nothing.
-/// Errors: std::invalid_argument that says in one line what is wrong: unknown faces, a face twice in an order, one both answered and abstained from. Exact: yes.
+/// What a program wrote, about a scene of so many faces. Text that begins with { is JSON, all other text has a face a
+/// line; an empty one sees nothing. Errors: std::invalid_argument that says in one line what is wrong: unknown faces, a
+/// face twice in an order, one both answered and abstained from. Exact: yes.
 inline Answer read_answer(const std::string& text, Question question, std::size_t faces) {
   protocol_detail::Answer_reader reader(question, faces);
   const std::size_t first = text.find_first_not_of(" \t\r\n");

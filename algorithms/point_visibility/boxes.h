@@ -1,5 +1,6 @@
 #pragma once
-// A tree of boxes around the pieces of a scene: what lies wholly behind something, or outside of a field of view, is never looked at piece by piece.
+// A tree of boxes around the pieces of a scene: what lies wholly behind something, or outside of a field of view, is
+// never looked at piece by piece.
 
 #include <sightline/kernel/scene/scene.h>
 
@@ -10,8 +11,9 @@
 
 namespace sightline {
 
-/// Boxes in the grid's approximate coordinates, rounded outwards, halved at the median of their longest side. It serves any number of eyes.
-/// Cost: O(n log n), in parallel. Exact: no, conservative; nothing is decided by a box but that all in it is away.
+/// Boxes in the grid's approximate coordinates, rounded outwards, halved at the median of their longest side. It serves
+/// any number of eyes. Cost: O(n log n), in parallel. Exact: no, conservative; nothing is decided by a box but that all
+/// in it is away.
 class Piece_boxes {
  public:
   struct Box {
@@ -47,8 +49,10 @@ class Piece_boxes {
     for (std::size_t k = 0; k < 3; ++k) value += n[k] * (n[k] > 0 ? box.high[k] : box.low[k]);
     return value < -2 * h.bound;
   }
-  /// Whether all of a box is strictly behind a plane through the eye, for certain. `size`: of its normal; each entry is within `error`.
-  static bool is_behind(const Box& box, const std::array<double, 3>& n, double size, double error, const Located_point& eye) {
+  /// Whether all of a box is strictly behind a plane through the eye, for certain. `size`: of its normal; each entry is
+  /// within `error`.
+  static bool is_behind(const Box& box, const std::array<double, 3>& n, double size, double error,
+                        const Located_point& eye) {
     const std::array<double, 3> e{eye.ax, eye.ay, eye.az};
     double value = 0, reach = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -83,7 +87,8 @@ class Piece_boxes {
       const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[i]);
       for (std::size_t from = 1; from + 1 < corners.size();) {
         const std::size_t to = std::min(corners.size(), from + chunk_size - 1);  // slices have an edge in common
-        Entry& entry = entries.emplace_back(Entry{{}, i, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from)});
+        Entry& entry =
+            entries.emplace_back(Entry{{}, i, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from)});
         Box& box = entry.box;
         box.low.fill(std::numeric_limits<double>::infinity()), box.high.fill(-std::numeric_limits<double>::infinity());
         const auto include = [&](std::uint32_t point) {
@@ -100,9 +105,11 @@ class Piece_boxes {
     return entries;
   }
 
-  /// How many nodes a tree of so many chunks has: of each two halves at most two sizes differ, so this takes a step for each level.
+  /// How many nodes a tree of so many chunks has: of each two halves at most two sizes differ, so this takes a step for
+  /// each level.
   static std::uint32_t nodes_for(std::uint32_t count) {
-    std::uint32_t nodes = 0, smaller = 1, larger = 0;  // of the subtrees of a level: how many hold `count` chunks, and how many count + 1
+    std::uint32_t nodes = 0, smaller = 1,
+                  larger = 0;  // of the subtrees of a level: how many hold `count` chunks, and how many count + 1
     for (;; count /= 2) {
       nodes += smaller + larger;
       if (count + (larger > 0) <= leaf_size) return nodes;
@@ -116,7 +123,8 @@ class Piece_boxes {
     const auto begin = entries.begin() + first, end = begin + count;
     Box all = begin->box;
     for (auto e = begin; e != end; ++e)
-      for (std::size_t k = 0; k < 3; ++k) all.low[k] = std::min(all.low[k], e->box.low[k]), all.high[k] = std::max(all.high[k], e->box.high[k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        all.low[k] = std::min(all.low[k], e->box.low[k]), all.high[k] = std::max(all.high[k], e->box.high[k]);
     nodes_[at] = {all, first, count, 0};
     if (count <= leaf_size) return;
     std::size_t axis = 0;

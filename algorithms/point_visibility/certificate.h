@@ -8,9 +8,10 @@
 
 namespace sightline {
 
-/// What verify_visible() checks: all pieces, which parts of them are seen, and the cones in which nothing is. Pre: `field` are the rays that the view was made with,
-/// none for the whole sphere. Exact: yes
-inline Visible_certificate visible_certificate(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Exact_point& eye, const std::vector<Exact_point>& field = {}) {
+/// What verify_visible() checks: all pieces, which parts of them are seen, and the cones in which nothing is. Pre:
+/// `field` are the rays that the view was made with, none for the whole sphere. Exact: yes
+inline Visible_certificate visible_certificate(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                                               const Exact_point& eye, const std::vector<Exact_point>& field = {}) {
   Visible_certificate certificate;
   certificate.eye = eye, certificate.field = field;
   add_all(certificate, view.scene());

@@ -55,24 +55,29 @@ inline std::vector<Scene_edge> scene_edges(const Scene& scene) {
 inline Edge_class classify(const Exact_view& view, const Scene_edge& edge) {
   if (edge.pieces.size() == 1) return Edge_class::boundary;
   const auto on_view = [&](std::uint32_t i) { return view.eye_side(i) == CGAL::POSITIVE; };
-  const bool some = std::any_of(edge.pieces.begin(), edge.pieces.end(), on_view), all = std::all_of(edge.pieces.begin(), edge.pieces.end(), on_view);
+  const bool some = std::any_of(edge.pieces.begin(), edge.pieces.end(), on_view),
+             all = std::all_of(edge.pieces.begin(), edge.pieces.end(), on_view);
   if (some && !all) return Edge_class::silhouette;
-  return edge.pieces.size() == 2 && view.same_plane(edge.pieces[0], edge.pieces[1]) ? Edge_class::smooth : Edge_class::crease;
+  return edge.pieces.size() == 2 && view.same_plane(edge.pieces[0], edge.pieces[1]) ? Edge_class::smooth
+                                                                                    : Edge_class::crease;
 }
 
-/// Finds the visible parts of edges in a surface that one eye sees. A point q of an edge is visible iff the open segment from the eye to q meets no closed piece: grazing hides, and what q
-/// lies on does not. Up to finitely many points of each edge. Exact: yes. Proof: P-64
+/// Finds the visible parts of edges in a surface that one eye sees. A point q of an edge is visible iff the open
+/// segment from the eye to q meets no closed piece: grazing hides, and what q lies on does not. Up to finitely many
+/// points of each edge. Exact: yes. Proof: P-64
 class Hidden_lines {
  public:
   /// Pre: the surface is the view's, and both outlive this.
-  Hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface) : view_(view), surface_(surface), predicates_(view.scene().predicates()) {
+  Hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface)
+      : view_(view), surface_(surface), predicates_(view.scene().predicates()) {
     const std::vector<Piece>& pieces = view.scene().pieces();
     for (std::uint32_t i = 0; i < pieces.size(); ++i)
       if (view.eye_side(i) == CGAL::ZERO) edge_on_[pieces[i].support.id()].push_back(i);
   }
 
-  /// The parts of an edge within the surface's cones, one after the other. Degenerate: none where the eye is on the edge's line.
-  /// Cost: O(depth of the surface) for each region along the edge; edges in the plane of edge-on pieces are held to each of these.
+  /// The parts of an edge within the surface's cones, one after the other. Degenerate: none where the eye is on the
+  /// edge's line. Cost: O(depth of the surface) for each region along the edge; edges in the plane of edge-on pieces
+  /// are held to each of these.
   std::vector<Line_part> parts(std::uint32_t p, std::uint32_t q) const {
     const Exact_view::Plane along = view_.edge(p, q);
     if (along.size == 0) return {};
@@ -98,7 +103,8 @@ class Hidden_lines {
     Predicate_counts counts;
   };
 
-  // ---- Down the trees ------------------------------------------------------------------------------------------------------------
+  // ---- Down the trees
+  // ------------------------------------------------------------------------------------------------------------
 
   /// The parts in front of a plane and behind it; both where the arc is in the plane.
   std::array<std::optional<Arc>, 2> cut(Walk& walk, const Arc& arc, const Exact_view::Plane& w) const {
@@ -107,7 +113,8 @@ class Hidden_lines {
     if (from != CGAL::NEGATIVE && to != CGAL::NEGATIVE) return {arc, std::nullopt};
     if (from != CGAL::POSITIVE && to != CGAL::POSITIVE) return {std::nullopt, arc};
     // An arc turns around the normal of its plane, so it leaves the front of w along the product of the two normals.
-    const Ray between = from == CGAL::POSITIVE ? view_.meet(walk.plane, w, walk.counts) : view_.meet(w, walk.plane, walk.counts);
+    const Ray between =
+        from == CGAL::POSITIVE ? view_.meet(walk.plane, w, walk.counts) : view_.meet(w, walk.plane, walk.counts);
     if (from == CGAL::POSITIVE) return {Arc{arc.from, between}, Arc{between, arc.to}};
     return {Arc{between, arc.to}, Arc{arc.from, between}};
   }
@@ -153,7 +160,8 @@ class Hidden_lines {
   Rational height(std::uint32_t piece, std::uint32_t point) const {
     const std::array<Integer, 4> h = predicates_.coefficients(view_.scene().pieces()[piece].support);
     const Grid_points& points = view_.scene().points();
-    return Rational(h[0] * points.integer(point, 0) + h[1] * points.integer(point, 1) + h[2] * points.integer(point, 2) + h[3]);
+    return Rational(h[0] * points.integer(point, 0) + h[1] * points.integer(point, 1) +
+                    h[2] * points.integer(point, 2) + h[3]);
   }
   /// Where on the edge a ray of its plane meets it: s with p + s (q - p) along the ray, p and q as seen from the eye.
   Rational parameter(const Walk& walk, const Ray& r) const {
@@ -172,16 +180,20 @@ class Hidden_lines {
     return 0;  // not reached: the edge does not run towards the eye
   }
 
-  // ---- Pieces that are edge-on ---------------------------------------------------------------------------------------------------
+  // ---- Pieces that are edge-on
+  // ---------------------------------------------------------------------------------------------------
 
   /// They hide nothing but edges in their own plane.
   void hide_behind_edge_on(Walk& walk) const {
     for (const auto& [plane, pieces] : edge_on_) {
-      if (view_.side(pieces[0], walk.p, walk.counts) != CGAL::ZERO || view_.side(pieces[0], walk.q, walk.counts) != CGAL::ZERO) continue;
+      if (view_.side(pieces[0], walk.p, walk.counts) != CGAL::ZERO ||
+          view_.side(pieces[0], walk.q, walk.counts) != CGAL::ZERO)
+        continue;
       for (const std::uint32_t piece : pieces) hide_behind_edge_on(walk, piece);
     }
   }
-  /// In the plane of the eye and the edge a point is eye + x (p - eye) + y (q - eye); it is in front of the edge iff x, y >= 0 and 0 < x + y < 1, at s = y / (x + y).
+  /// In the plane of the eye and the edge a point is eye + x (p - eye) + y (q - eye); it is in front of the edge iff x,
+  /// y >= 0 and 0 < x + y < 1, at s = y / (x + y).
   void hide_behind_edge_on(Walk& walk, std::uint32_t piece) const {
     using Flat = std::array<Rational, 2>;
     const std::array<Integer, 3>&p = walk.to_p, &q = walk.to_q;
@@ -198,7 +210,9 @@ class Hidden_lines {
     }
     // Clipped to x >= 0, y >= 0, x + y <= 1.
     for (int side = 0; side < 3; ++side) {
-      const auto value = [&](const Flat& at) -> Rational { return side == 2 ? Rational(1 - at[0] - at[1]) : at[static_cast<std::size_t>(side)]; };
+      const auto value = [&](const Flat& at) -> Rational {
+        return side == 2 ? Rational(1 - at[0] - at[1]) : at[static_cast<std::size_t>(side)];
+      };
       std::vector<Flat> kept;
       for (std::size_t n = 0; n < polygon.size(); ++n) {
         const Flat &a = polygon[n], &b = polygon[n + 1 == polygon.size() ? 0 : n + 1];
@@ -211,7 +225,8 @@ class Hidden_lines {
       }
       polygon = std::move(kept);
     }
-    // What is left is convex: it spans the directions between those of its corners, and is in front of the edge unless all of it is on the edge.
+    // What is left is convex: it spans the directions between those of its corners, and is in front of the edge unless
+    // all of it is on the edge.
     Line_part part{1, 0, piece};
     bool in_front = false;
     for (const Flat& at : polygon) {
@@ -220,16 +235,21 @@ class Hidden_lines {
       in_front = in_front || sum < 1;
       part.from = std::min(part.from, Rational(at[1] / sum)), part.to = std::max(part.to, Rational(at[1] / sum));
     }
-    const bool around_eye = std::any_of(polygon.begin(), polygon.end(), [](const Flat& at) { return at[0] == 0 && at[1] == 0; });
+    const bool around_eye =
+        std::any_of(polygon.begin(), polygon.end(), [](const Flat& at) { return at[0] == 0 && at[1] == 0; });
     if ((in_front || around_eye) && part.from < part.to) walk.hidden.push_back(std::move(part));
   }
 
-  // ---- Together --------------------------------------------------------------------------------------------------------------
+  // ---- Together
+  // --------------------------------------------------------------------------------------------------------------
 
   /// What is within the cones, cut where what hides it changes.
   static std::vector<Line_part> in_order(Walk& walk) {
-    const auto by_place = [](const Line_part& a, const Line_part& b) { return a.from != b.from ? a.from < b.from : a.to != b.to ? b.to < a.to : a.hidden_by < b.hidden_by; };
-    std::sort(walk.within.begin(), walk.within.end(), by_place), std::sort(walk.hidden.begin(), walk.hidden.end(), by_place);
+    const auto by_place = [](const Line_part& a, const Line_part& b) {
+      return a.from != b.from ? a.from < b.from : a.to != b.to ? b.to < a.to : a.hidden_by < b.hidden_by;
+    };
+    std::sort(walk.within.begin(), walk.within.end(), by_place),
+        std::sort(walk.hidden.begin(), walk.hidden.end(), by_place);
     std::vector<Line_part> parts;
     const auto add = [&](const Rational& from, const Rational& to, std::uint32_t by) {
       if (!(from < to)) return;
@@ -267,14 +287,18 @@ struct Drawn_edge {
 
 /// All edges of a scene with their parts within the surface's cones, by their points. Pre: the surface is the view's.
 /// Threads: 0: as many as there are processors; the result is the same for any number. Exact: yes. Proof: P-64
-inline std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads = 0) {
+inline std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                                            int threads = 0) {
   std::vector<Drawn_edge> drawn;
   for (Scene_edge& edge : scene_edges(view.scene())) {
     const Edge_class kind = classify(view, edge);
     drawn.push_back({std::move(edge), kind, {}});
   }
   const Hidden_lines lines(view, surface);
-  run_with_threads(threads, [&] { oneapi::tbb::parallel_for(std::size_t{0}, drawn.size(), [&](std::size_t i) { drawn[i].parts = lines.parts(drawn[i].edge.p, drawn[i].edge.q); }); });
+  run_with_threads(threads, [&] {
+    oneapi::tbb::parallel_for(std::size_t{0}, drawn.size(),
+                              [&](std::size_t i) { drawn[i].parts = lines.parts(drawn[i].edge.p, drawn[i].edge.q); });
+  });
   return drawn;
 }
 

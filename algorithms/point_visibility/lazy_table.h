@@ -9,9 +9,9 @@
 
 namespace sightline {
 
-/// Rows in blocks of `block`, each made as a whole by the first thread that asks for one of its rows. What a row holds must follow from its number alone: where two threads
-/// make the same block at once, one of them is thrown away. References stay valid.
-/// Cost: O(n / block) to begin with, then O(1) a row, and a block where one is made.
+/// Rows in blocks of `block`, each made as a whole by the first thread that asks for one of its rows. What a row holds
+/// must follow from its number alone: where two threads make the same block at once, one of them is thrown away.
+/// References stay valid. Cost: O(n / block) to begin with, then O(1) a row, and a block where one is made.
 template <class Row, std::size_t block>
 class Lazy_table {
  public:
@@ -30,7 +30,8 @@ class Lazy_table {
   template <class Make>
   const Row& at(std::size_t i, const Make& make) const {
     const Row* rows = blocks_[i / block].load(std::memory_order_acquire);
-    if (rows == nullptr) rows = fill(i / block, make);  // one expression with ?: and [] goes wrong in g++ 12 under sanitizers
+    if (rows == nullptr)
+      rows = fill(i / block, make);  // one expression with ?: and [] goes wrong in g++ 12 under sanitizers
     return rows[i % block];
   }
 

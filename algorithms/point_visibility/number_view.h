@@ -7,8 +7,9 @@
 
 namespace sightline {
 
-/// All values are computed in FT from the file's coordinates rounded to FT, and signs are believed; a plane is known to hold only the rays that it made.
-/// Exact: for CGAL's Gmpq and Lazy_exact_nt, yes; for float and double, no: the result may have gaps, overlaps and wrong faces, and corners that are no numbers (position() throws).
+/// All values are computed in FT from the file's coordinates rounded to FT, and signs are believed; a plane is known to
+/// hold only the rays that it made. Exact: for CGAL's Gmpq and Lazy_exact_nt, yes; for float and double, no: the result
+/// may have gaps, overlaps and wrong faces, and corners that are no numbers (position() throws).
 template <class FT>
 class Number_view {
  public:
@@ -22,9 +23,11 @@ class Number_view {
     Eye_plane_name p, q;
   };
 
-  Number_view(const Scene& scene, const Exact_point& eye) : scene_(&scene), eye_point_(eye), directions_(scene.points().size()), forms_(scene.pieces().size()) {
+  Number_view(const Scene& scene, const Exact_point& eye)
+      : scene_(&scene), eye_point_(eye), directions_(scene.points().size()), forms_(scene.pieces().size()) {
     for (std::size_t k = 0; k < 3; ++k) eye_[k] = number::from(eye[k]);
-    Rational units = (scene.position({1, 0, 0, 1})[0] - scene.position({0, 0, 0, 1})[0]) * scene.points().divisor();  // of a grid step
+    Rational units = (scene.position({1, 0, 0, 1})[0] - scene.position({0, 0, 0, 1})[0]) *
+                     scene.points().divisor();  // of a grid step
     mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(scene.points().shift()));
     box_units_ = nearest_double(Rational(1 / units));
   }
@@ -33,14 +36,19 @@ class Number_view {
   const Exact_point& eye() const { return eye_point_; }
   Sign eye_side(std::uint32_t piece) const { return form(piece).eye_side; }
 
-  Plane edge(std::uint32_t p, std::uint32_t q) const { return {cross(direction(p), direction(q)), Eye_plane_name::edge(p, q)}; }
+  Plane edge(std::uint32_t p, std::uint32_t q) const {
+    return {cross(direction(p), direction(q)), Eye_plane_name::edge(p, q)};
+  }
   Plane axis(std::uint32_t k) const { return {unit(k, FT(1)), Eye_plane_name::axis(k)}; }
   Plane crossing(std::uint32_t f, std::uint32_t g) const {
-    const Vector &m = form(f).q, &n = form(g).q;  // a difference of numbers is the same both ways but for its sign, rounded too
+    const Vector &m = form(f).q,
+                 &n = form(g).q;  // a difference of numbers is the same both ways but for its sign, rounded too
     return {{m[0] - n[0], m[1] - n[1], m[2] - n[2]}, Eye_plane_name::crossing(f, g)};
   }
   Plane opposite(const Plane& w) const { return {{-w.n[0], -w.n[1], -w.n[2]}, w.name}; }
-  Ray axis_ray(std::uint32_t k, bool positive) const { return {unit(k, positive ? FT(1) : FT(-1)), Eye_plane_name::axis((k + 1) % 3), Eye_plane_name::axis((k + 2) % 3)}; }
+  Ray axis_ray(std::uint32_t k, bool positive) const {
+    return {unit(k, positive ? FT(1) : FT(-1)), Eye_plane_name::axis((k + 1) % 3), Eye_plane_name::axis((k + 2) % 3)};
+  }
   Ray meet(const Plane& p, const Plane& q, Predicate_counts&) const { return {cross(p.n, q.n), p.name, q.name}; }
 
   Sign side(const Plane& w, const Ray& r, Predicate_counts& counts) const {
@@ -75,7 +83,8 @@ class Number_view {
   }
   double farthest(std::uint32_t piece, const Ray& r) const {
     const Approximate_vector m = approximate(form(piece).q), v = approximate(r.v);
-    const double near = m.x * v.x + m.y * v.y + m.z * v.z, far = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z) / near * box_units_ * (1 + 8 * slack);
+    const double near = m.x * v.x + m.y * v.y + m.z * v.z,
+                 far = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z) / near * box_units_ * (1 + 8 * slack);
     return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
   }
   /// Errors: std::domain_error where the numbers overflowed.
@@ -96,14 +105,21 @@ class Number_view {
   };
   static constexpr double slack = std::is_same_v<FT, float> ? 0x1p-20 : 0x1p-49;
 
-  static Vector cross(const Vector& a, const Vector& b) { return {FT(a[1] * b[2] - a[2] * b[1]), FT(a[2] * b[0] - a[0] * b[2]), FT(a[0] * b[1] - a[1] * b[0])}; }
+  static Vector cross(const Vector& a, const Vector& b) {
+    return {FT(a[1] * b[2] - a[2] * b[1]), FT(a[2] * b[0] - a[0] * b[2]), FT(a[0] * b[1] - a[1] * b[0])};
+  }
   static FT dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Sign sign(const FT& value) {
-    if constexpr (std::is_floating_point_v<FT>) return value > 0 ? CGAL::POSITIVE : value < 0 ? CGAL::NEGATIVE : CGAL::ZERO;  // no number is zero
+    if constexpr (std::is_floating_point_v<FT>)
+      return value > 0 ? CGAL::POSITIVE : value < 0 ? CGAL::NEGATIVE : CGAL::ZERO;  // no number is zero
     else return CGAL::sign(value);
   }
-  static Vector unit(std::uint32_t k, const FT& length) { return {k == 0 ? length : FT(0), k == 1 ? length : FT(0), k == 2 ? length : FT(0)}; }
-  static Approximate_vector approximate(const Vector& v) { return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), CGAL::to_double(v[2])}; }
+  static Vector unit(std::uint32_t k, const FT& length) {
+    return {k == 0 ? length : FT(0), k == 1 ? length : FT(0), k == 2 ? length : FT(0)};
+  }
+  static Approximate_vector approximate(const Vector& v) {
+    return {CGAL::to_double(v[0]), CGAL::to_double(v[1]), CGAL::to_double(v[2])};
+  }
 
   const Vector& direction(std::uint32_t point) const {
     return directions_.at(point, [&](std::size_t p) {
@@ -121,7 +137,9 @@ class Number_view {
     const Vector normal = cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]});
     const FT value = dot(normal, a);
     const Sign side = sign(-value);
-    return {side == CGAL::ZERO ? Vector{FT(0), FT(0), FT(0)} : Vector{normal[0] / value, normal[1] / value, normal[2] / value}, side};
+    return {side == CGAL::ZERO ? Vector{FT(0), FT(0), FT(0)}
+                               : Vector{normal[0] / value, normal[1] / value, normal[2] / value},
+            side};
   }
 
   const Scene* scene_;

@@ -22,7 +22,14 @@ class Solver {
 
   using Region = typename Surface::Cone;
 
-  Solver(const V& view, const Piece_boxes& boxes, const Visible_options& options) : view_(view), boxes_(boxes), options_(options), predicates_(view.scene().predicates()), eye_(view.scene().locate(view.eye())), edges_(boxes.chunks().size()), seen_(view.scene().counters().faces_read) {}
+  Solver(const V& view, const Piece_boxes& boxes, const Visible_options& options)
+      : view_(view),
+        boxes_(boxes),
+        options_(options),
+        predicates_(view.scene().predicates()),
+        eye_(view.scene().locate(view.eye())),
+        edges_(boxes.chunks().size()),
+        seen_(view.scene().counters().faces_read) {}
 
   Surface solve(std::vector<Region> fields) {
     std::vector<Output> outputs(fields.size());
@@ -37,9 +44,11 @@ class Solver {
   }
 
  private:
-  // ---- What a region holds -----------------------------------------------------------------------------------------------------
+  // ---- What a region holds
+  // -----------------------------------------------------------------------------------------------------
 
-  /// A chunk that may meet the region, with a bit for each edge plane that has parts of the region on both sides (none: it covers the region).
+  /// A chunk that may meet the region, with a bit for each edge plane that has parts of the region on both sides (none:
+  /// it covers the region).
   struct Item {
     std::uint32_t chunk, active;
   };
@@ -52,7 +61,9 @@ class Solver {
   struct Closed_box {
     std::uint32_t node;
     double distance;  // from the eye
-    friend bool operator<(const Closed_box& a, const Closed_box& b) { return a.distance != b.distance ? a.distance > b.distance : a.node > b.node; }  // a heap has the nearest first
+    friend bool operator<(const Closed_box& a, const Closed_box& b) {
+      return a.distance != b.distance ? a.distance > b.distance : a.node > b.node;
+    }  // a heap has the nearest first
   };
   struct Task {
     Region region;
@@ -99,7 +110,8 @@ class Solver {
     return p.face != q.face ? p.face < q.face : p.number <= q.number;
   }
 
-  // ---- Tests ---------------------------------------------------------------------------------------------------------------
+  // ---- Tests
+  // ---------------------------------------------------------------------------------------------------------------
 
   /// Updates which edges of a chunk cut the region. Returns whether it may still meet it.
   bool update(Item& item, const Region& region, Predicate_counts& counts) const {
@@ -128,7 +140,8 @@ class Solver {
     return Piece_boxes::is_behind(node.box, a.normal, a.size, a.error, eye_);
   }
   bool is_outside(std::uint32_t chunk, const Region& region, Predicate_counts& counts) const {
-    return std::any_of(region.sides.begin(), region.sides.end(), [&](const Plane& w) { return is_behind(chunk, w, counts); });
+    return std::any_of(region.sides.begin(), region.sides.end(),
+                       [&](const Plane& w) { return is_behind(chunk, w, counts); });
   }
   bool is_outside(const Piece_boxes::Node& node, const Region& region) const {
     return std::any_of(region.sides.begin(), region.sides.end(), [&](const Plane& w) { return is_behind(node, w); });
@@ -147,20 +160,24 @@ class Solver {
     }
     return farther ? Depth::farther : Depth::nearer;
   }
-  /// Whether chunk g is behind f, which covers the region, although their planes cross there: no corner of it is on the eye's side of f's plane.
+  /// Whether chunk g is behind f, which covers the region, although their planes cross there: no corner of it is on the
+  /// eye's side of f's plane.
   bool is_beyond(std::uint32_t f, std::uint32_t g, Predicate_counts& counts) const {
     const std::span<const std::uint32_t> points = points_of(g);
-    return std::all_of(points.begin(), points.end(), [&](std::uint32_t p) { return view_.beyond(piece_of(f), p, counts) != CGAL::NEGATIVE; });
+    return std::all_of(points.begin(), points.end(),
+                       [&](std::uint32_t p) { return view_.beyond(piece_of(f), p, counts) != CGAL::NEGATIVE; });
   }
 
-  // ---- One region ------------------------------------------------------------------------------------------------------------
+  // ---- One region
+  // ------------------------------------------------------------------------------------------------------------
 
   /// Drops what is hidden in the region, opens boxes, and returns the plane to cut it by; none where it is settled.
   std::optional<Plane> settle(Task& task, Output& out) const {
     std::size_t checked = 0;  // items before this have been compared with the cover
     std::optional<Hiding> hiding;
     for (;;) {
-      if (find_cover(task, checked, out.counters) || (!hiding && task.cover != nothing)) drop_hidden_boxes(task, hiding.emplace(hiding_in(task)), out.counters);
+      if (find_cover(task, checked, out.counters) || (!hiding && task.cover != nothing))
+        drop_hidden_boxes(task, hiding.emplace(hiding_in(task)), out.counters);
       drop_hidden(task, checked, out.counters);
       checked = task.items.size();
       if (task.boxes.empty() || has_enough(task)) break;
@@ -169,7 +186,8 @@ class Solver {
     if (task.items.empty()) return std::nullopt;
     return choose(task, out);
   }
-  /// Keeps the nearest of what covers the region, apart from the items. Others stay there only where they cross it. Returns whether another one is it.
+  /// Keeps the nearest of what covers the region, apart from the items. Others stay there only where they cross it.
+  /// Returns whether another one is it.
   bool find_cover(Task& task, std::size_t& checked, Visible_counters& counters) const {
     bool changed = false;
     for (std::size_t i = checked; i < task.items.size();) {
@@ -178,7 +196,8 @@ class Solver {
         ++i;
         continue;
       }
-      const Depth depth = task.cover == nothing ? Depth::farther : compare(task.cover, item.chunk, task.region, counters.predicates);
+      const Depth depth =
+          task.cover == nothing ? Depth::farther : compare(task.cover, item.chunk, task.region, counters.predicates);
       if (depth == Depth::crossing && !has_side(task.region, crossing_of(task.cover, item.chunk))) {
         ++i;
         continue;
@@ -186,7 +205,8 @@ class Solver {
       remove(task.items, i);
       if (depth == Depth::tied) task.tied.push_back(item.chunk);
       if (depth != Depth::farther) continue;
-      if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.chunk))) task.tied.push_back(task.cover);
+      if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.chunk)))
+        task.tied.push_back(task.cover);
       else task.tied.clear();
       task.cover = item.chunk, checked = i = 0, changed = true;  // all others once more
     }
@@ -196,17 +216,21 @@ class Solver {
   struct Hiding {
     double farthest;
     Prepared_plane plane;  // the eye in front
-    bool hides(const Piece_boxes::Box& box, double distance) const { return distance > farthest || Piece_boxes::is_behind(box, plane); }
+    bool hides(const Piece_boxes::Box& box, double distance) const {
+      return distance > farthest || Piece_boxes::is_behind(box, plane);
+    }
   };
   Hiding hiding_in(const Task& task) const {
     const std::uint32_t cover = piece_of(task.cover);
     double farthest = 0;  // of a polygon, so at a corner
     for (const Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
     const sightline::Plane support = view_.scene().pieces()[cover].support;
-    return {farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900, predicates_.prepare(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite())};
+    return {farthest * (1 + 0x1p-40) + 4 * eye_.error + 0x1p-900,
+            predicates_.prepare(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite())};
   }
   void drop_hidden_boxes(Task& task, const Hiding& hiding, Visible_counters& counters) const {
-    counters.hidden_boxes += std::erase_if(task.boxes, [&](const Closed_box& box) { return hiding.hides(node(box).box, box.distance); });
+    counters.hidden_boxes +=
+        std::erase_if(task.boxes, [&](const Closed_box& box) { return hiding.hides(node(box).box, box.distance); });
     std::make_heap(task.boxes.begin(), task.boxes.end());
   }
   /// Drops what is behind the cover.
@@ -215,7 +239,9 @@ class Solver {
     for (std::size_t i = checked; i < task.items.size();) {
       const Item item = task.items[i];
       const Depth depth = compare(task.cover, item.chunk, task.region, counters.predicates);
-      const bool drop = depth == Depth::nearer || depth == Depth::tied || (depth == Depth::crossing && item.active != 0 && is_beyond(task.cover, item.chunk, counters.predicates));
+      const bool drop =
+          depth == Depth::nearer || depth == Depth::tied ||
+          (depth == Depth::crossing && item.active != 0 && is_beyond(task.cover, item.chunk, counters.predicates));
       if (depth == Depth::tied) task.tied.push_back(item.chunk);
       counters.hidden += drop;
       if (drop) remove(task.items, i);
@@ -225,7 +251,8 @@ class Solver {
   /// Whether there are pieces enough to choose a cut from; one that covers the region offers no edge.
   static bool has_enough(const Task& task) {
     constexpr std::ptrdiff_t enough = 6;
-    return std::count_if(task.items.begin(), task.items.end(), [](const Item& item) { return item.active != 0; }) >= enough;
+    return std::count_if(task.items.begin(), task.items.end(), [](const Item& item) { return item.active != 0; }) >=
+           enough;
   }
   void open_nearest(Task& task, const std::optional<Hiding>& hiding, Visible_counters& counters) const {
     std::pop_heap(task.boxes.begin(), task.boxes.end());
@@ -255,7 +282,9 @@ class Solver {
     }
   }
 
-  Eye_plane_name crossing_of(std::uint32_t f, std::uint32_t g) const { return Eye_plane_name::crossing(piece_of(f), piece_of(g)); }
+  Eye_plane_name crossing_of(std::uint32_t f, std::uint32_t g) const {
+    return Eye_plane_name::crossing(piece_of(f), piece_of(g));
+  }
   static bool has_side(const Region& region, Eye_plane_name name) {
     return std::any_of(region.sides.begin(), region.sides.end(), [&](const Plane& w) { return w.name == name; });
   }
@@ -269,8 +298,8 @@ class Solver {
     }
     return sum;
   }
-  /// The plane to cut a region by: of the edges of the piece that is nearest in the middle of it, the one that shares out the rest best; where nothing but pieces that cover
-  /// the region is left, and two of them cross, their line.
+  /// The plane to cut a region by: of the edges of the piece that is nearest in the middle of it, the one that shares
+  /// out the rest best; where nothing but pieces that cover the region is left, and two of them cross, their line.
   Plane choose(const Task& task, Output& out) const {
     double nearest = -std::numeric_limits<double>::infinity();
     const Item* best = nullptr;
@@ -293,13 +322,17 @@ class Solver {
     }
     return *cheapest;
   }
-  /// What a cut costs: pieces and boxes that it does not keep on one side, and how unequal the sides become. A box counts as the square root of its pieces: most of them will be hidden.
+  /// What a cut costs: pieces and boxes that it does not keep on one side, and how unequal the sides become. A box
+  /// counts as the square root of its pieces: most of them will be hidden.
   double cost_of(const Plane& w, const Task& task, Predicate_counts& counts) const {
     constexpr double price = 3;
     const Plane against = view_.opposite(w);
     double front = 0, behind = 0, both = 0;
-    const auto weigh = [&](bool in_front, bool at_back, double weight) { (in_front && at_back ? both : in_front ? front : behind) += weight; };
-    for (const Closed_box& box : task.boxes) weigh(!is_behind(node(box), w), !is_behind(node(box), against), std::sqrt(static_cast<double>(node(box).count)));
+    const auto weigh = [&](bool in_front, bool at_back, double weight) {
+      (in_front && at_back ? both : in_front ? front : behind) += weight;
+    };
+    for (const Closed_box& box : task.boxes)
+      weigh(!is_behind(node(box), w), !is_behind(node(box), against), std::sqrt(static_cast<double>(node(box).count)));
     for (const Item& item : task.items) {
       bool in_front = false, at_back = false;
       for (const std::uint32_t p : points_of(item.chunk)) {
@@ -319,11 +352,16 @@ class Solver {
     const Plane against = view_.opposite(w);
     for (std::size_t k = 0; k < n; ++k) {
       const Sign from = sides[k], to = sides[k + 1 == n ? 0 : k + 1];
-      const auto add = [&](std::size_t part, const Ray& ray, const Plane& side) { parts[part].rays.push_back(ray), parts[part].sides.push_back(side); };
-      if (from != CGAL::NEGATIVE) add(0, region.rays[k], from == CGAL::POSITIVE || to == CGAL::POSITIVE ? region.sides[k] : w);
-      if (from != CGAL::POSITIVE) add(1, region.rays[k], from == CGAL::NEGATIVE || to == CGAL::NEGATIVE ? region.sides[k] : against);
+      const auto add = [&](std::size_t part, const Ray& ray, const Plane& side) {
+        parts[part].rays.push_back(ray), parts[part].sides.push_back(side);
+      };
+      if (from != CGAL::NEGATIVE)
+        add(0, region.rays[k], from == CGAL::POSITIVE || to == CGAL::POSITIVE ? region.sides[k] : w);
+      if (from != CGAL::POSITIVE)
+        add(1, region.rays[k], from == CGAL::NEGATIVE || to == CGAL::NEGATIVE ? region.sides[k] : against);
       if (from * to >= 0) continue;
-      const Ray crossing = from == CGAL::POSITIVE ? view_.meet(region.sides[k], w, counts) : view_.meet(w, region.sides[k], counts);
+      const Ray crossing =
+          from == CGAL::POSITIVE ? view_.meet(region.sides[k], w, counts) : view_.meet(w, region.sides[k], counts);
       add(0, crossing, from == CGAL::POSITIVE ? w : region.sides[k]);
       add(1, crossing, from == CGAL::POSITIVE ? region.sides[k] : against);
     }
@@ -339,7 +377,8 @@ class Solver {
       const std::uint32_t f = piece_of(task.cover), g = piece_of(task.items.front().chunk);
       const Region& near = regions[0];
       for (std::size_t k = 0; k < near.rays.size(); ++k)
-        if (near.sides[k].name == w.name) out.crossings.push_back({f, g, near.rays[k], near.rays[k + 1 == near.rays.size() ? 0 : k + 1]});
+        if (near.sides[k].name == w.name)
+          out.crossings.push_back({f, g, near.rays[k], near.rays[k + 1 == near.rays.size() ? 0 : k + 1]});
     }
     std::array<Task, 2> tasks;
     for (std::size_t part = 0; part < 2; ++part) {
@@ -351,12 +390,15 @@ class Solver {
         if (!is_behind(node(box), side)) to.boxes.push_back(box);
       std::make_heap(to.boxes.begin(), to.boxes.end());
       for (Item item : task.items)
-        if (item.active == 0 || (!is_behind(item.chunk, side, counters.predicates) && update(item, to.region, counters.predicates))) to.items.push_back(item);
+        if (item.active == 0 ||
+            (!is_behind(item.chunk, side, counters.predicates) && update(item, to.region, counters.predicates)))
+          to.items.push_back(item);
     }
     return tasks;
   }
 
-  // ---- All of them -----------------------------------------------------------------------------------------------------------
+  // ---- All of them
+  // -----------------------------------------------------------------------------------------------------------
 
   static constexpr std::uint32_t parallel_depth = 10;
 
@@ -399,7 +441,8 @@ class Solver {
       }
       const std::optional<Plane> w = settle(step.task, out);
       if (!w) {
-        done.push_back(finish(step.task, std::ldexp(share, -static_cast<int>(std::min(step.task.depth - depth, 1000u))), out));
+        done.push_back(
+            finish(step.task, std::ldexp(share, -static_cast<int>(std::min(step.task.depth - depth, 1000u))), out));
         continue;
       }
       std::array<Task, 2> tasks = divide(step.task, *w, out);
@@ -455,7 +498,8 @@ class Solver {
     const auto parts = static_cast<std::int32_t>(to.parts.size()), nodes = static_cast<std::int32_t>(to.nodes.size());
     const auto moved = [&](std::int32_t c) { return c == Surface::no_child ? c : c < 0 ? c - parts : c + nodes; };
     for (typename Surface::Part part : from.parts) part.first += to.rays.size(), to.parts.push_back(part);
-    for (const typename Surface::Node& node : from.nodes) to.nodes.push_back({node.plane, moved(node.front), moved(node.behind)});
+    for (const typename Surface::Node& node : from.nodes)
+      to.nodes.push_back({node.plane, moved(node.front), moved(node.behind)});
     to.rays.insert(to.rays.end(), from.rays.begin(), from.rays.end());
     to.crossings.insert(to.crossings.end(), from.crossings.begin(), from.crossings.end());
     to.counters += from.counters;
@@ -463,17 +507,23 @@ class Solver {
   }
 
   static constexpr unsigned char from_front = 1, from_behind = 2;
-  unsigned char side_bit(std::uint32_t piece) const { return view_.eye_side(piece) == CGAL::POSITIVE ? from_front : from_behind; }
-  void note(std::uint32_t piece) {
-    if (!is_noted(piece)) seen_[view_.scene().pieces()[piece].face].fetch_or(side_bit(piece), std::memory_order_relaxed);
+  unsigned char side_bit(std::uint32_t piece) const {
+    return view_.eye_side(piece) == CGAL::POSITIVE ? from_front : from_behind;
   }
-  bool is_noted(std::uint32_t piece) const { return (seen_[view_.scene().pieces()[piece].face].load(std::memory_order_relaxed) & side_bit(piece)) != 0; }
+  void note(std::uint32_t piece) {
+    if (!is_noted(piece))
+      seen_[view_.scene().pieces()[piece].face].fetch_or(side_bit(piece), std::memory_order_relaxed);
+  }
+  bool is_noted(std::uint32_t piece) const {
+    return (seen_[view_.scene().pieces()[piece].face].load(std::memory_order_relaxed) & side_bit(piece)) != 0;
+  }
 
   void report(double share) {
     if (!options_.progress) return;
     constexpr double all = 0x1p20;
     const double done = done_.fetch_add(share * all, std::memory_order_relaxed);
-    if (std::floor(done + share * all) != std::floor(done) || ++silent_ % 1024 == 0) options_.progress(static_cast<std::size_t>(std::min(done, all)), static_cast<std::size_t>(all));
+    if (std::floor(done + share * all) != std::floor(done) || ++silent_ % 1024 == 0)
+      options_.progress(static_cast<std::size_t>(std::min(done, all)), static_cast<std::size_t>(all));
   }
 
   Surface gathered(const std::vector<Output>& outputs) const {
@@ -492,7 +542,7 @@ class Solver {
   const Visible_options& options_;
   Predicates predicates_;
   Located_point eye_;
-  Lazy_table<std::vector<Plane>, 1> edges_;  // of chunks
+  Lazy_table<std::vector<Plane>, 1> edges_;       // of chunks
   std::vector<std::atomic<unsigned char>> seen_;  // of each face, from_front and from_behind
   std::atomic<double> done_{0};
   std::atomic<unsigned> silent_{0};

@@ -9,34 +9,42 @@ namespace sightline {
 
 struct Visible_options {
   int threads = 0;  ///< 0: as many as there are processors; the result is the same for any number
-  std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< directions done, of 2^20; called from any thread
+  std::function<void(std::size_t done, std::size_t all)> progress =
+      {};  ///< directions done, of 2^20; called from any thread
 };
 
 /// What was modelled, and what was not.
 struct Visible_counters {
-  std::uint64_t pieces = 0;                   ///< of the scene
-  std::uint64_t opened = 0, looked_at = 0;    ///< boxes opened; pieces that were looked at in a region, each time
-  std::uint64_t hidden = 0, hidden_boxes = 0; ///< pieces and boxes dropped behind what covers a region
-  std::uint64_t regions = 0, splits = 0, crossings = 0, merged = 0;  ///< leaves; cuts, of them along a line where two pieces cross; pairs of leaves put together again
+  std::uint64_t pieces = 0;                    ///< of the scene
+  std::uint64_t opened = 0, looked_at = 0;     ///< boxes opened; pieces that were looked at in a region, each time
+  std::uint64_t hidden = 0, hidden_boxes = 0;  ///< pieces and boxes dropped behind what covers a region
+  std::uint64_t
+      regions = 0,
+      splits = 0, crossings = 0,
+      merged = 0;  ///< leaves; cuts, of them along a line where two pieces cross; pairs of leaves put together again
   std::uint64_t depth = 0;
   Predicate_counts predicates;
   Visible_counters& operator+=(const Visible_counters& o) {
     opened += o.opened, looked_at += o.looked_at, hidden += o.hidden, hidden_boxes += o.hidden_boxes;
-    regions += o.regions, splits += o.splits, crossings += o.crossings, merged += o.merged, depth = std::max(depth, o.depth), predicates += o.predicates;
+    regions += o.regions, splits += o.splits, crossings += o.crossings, merged += o.merged,
+        depth = std::max(depth, o.depth), predicates += o.predicates;
     return *this;
   }
 };
 
-/// A partition of the directions around an eye (of a field of view) into convex cones, in each of which one piece is seen, or none.
+/// A partition of the directions around an eye (of a field of view) into convex cones, in each of which one piece is
+/// seen, or none.
 template <View V>
 struct Visible_surface {
   static constexpr std::uint32_t nothing = ~std::uint32_t{0};
   struct Part {
     std::uint32_t piece;  ///< what is seen, from its front or from behind, or `nothing`
     std::uint32_t size;
-    std::size_t first;    ///< rays [first, first + size): each positive determinant of two consecutive ones and one inside
+    std::size_t
+        first;  ///< rays [first, first + size): each positive determinant of two consecutive ones and one inside
   };
-  /// A cut of a cone, as in a BSP tree: a child is a node, or ~part where it is negative, or `no_child` (of inexact kernels only).
+  /// A cut of a cone, as in a BSP tree: a child is a node, or ~part where it is negative, or `no_child` (of inexact
+  /// kernels only).
   struct Node {
     typename V::Plane plane;
     std::int32_t front, behind;
@@ -58,8 +66,9 @@ struct Visible_surface {
   std::vector<Cone> cones;          ///< that one began with
   std::vector<std::int32_t> roots;  ///< of their trees
   std::vector<Crossing> crossings;
-  std::vector<Face_id> visible;     ///< sorted: faces of which the eye sees an open part from the front by the law, ties included
-  std::vector<Face_id> from_behind; ///< the same from behind
+  std::vector<Face_id>
+      visible;  ///< sorted: faces of which the eye sees an open part from the front by the law, ties included
+  std::vector<Face_id> from_behind;  ///< the same from behind
   Visible_counters counters;
 
   std::span<const typename V::Ray> of(const Part& part) const { return {rays.data() + part.first, part.size}; }

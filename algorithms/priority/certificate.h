@@ -8,9 +8,10 @@
 
 namespace sightline {
 
-/// What verify_graph() checks: pieces by component, highest priority first, and arcs that hold each component together. Pre: components and trees are of one
-/// search of all faces' relation. Exact: yes
-inline Graph_certificate graph_certificate(const Scene& scene, const Priority_relation<Exact_traits>& faces, const Priority_components& components, const Component_trees& trees) {
+/// What verify_graph() checks: pieces by component, highest priority first, and arcs that hold each component together.
+/// Pre: components and trees are of one search of all faces' relation. Exact: yes
+inline Graph_certificate graph_certificate(const Scene& scene, const Priority_relation<Exact_traits>& faces,
+                                           const Priority_components& components, const Component_trees& trees) {
   Graph_certificate certificate;
   std::vector<std::size_t> place(faces.size());
   for (std::size_t c = 0; c < components.size(); ++c) {
@@ -22,7 +23,9 @@ inline Graph_certificate graph_certificate(const Scene& scene, const Priority_re
   }
   Predicate_counts counts;
   const auto add = [&](std::uint32_t from, std::uint32_t to) {
-    if (from != to) certificate.arcs.push_back({place[from], place[to], faces.find_corner(from, CGAL::POSITIVE, to, counts), faces.find_corner(to, CGAL::NEGATIVE, from, counts)});
+    if (from != to)
+      certificate.arcs.push_back({place[from], place[to], faces.find_corner(from, CGAL::POSITIVE, to, counts),
+                                  faces.find_corner(to, CGAL::NEGATIVE, from, counts)});
   };
   for (std::uint32_t i = 0; i < faces.size(); ++i) add(trees.from[i], i), add(i, trees.to[i]);
   add_pieces(certificate, scene);

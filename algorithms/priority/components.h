@@ -9,14 +9,15 @@
 
 namespace sightline {
 
-/// The strongly connected components U_1 .. U_m of a priority graph in a consistent enumeration f: an arc from a member of U_a to one of U_b, a != b, has a < b.
-/// So the lowest number has the highest priority, and h(r) = the number of r's component is the partial enumeration of the faces.
-/// Post: members of a component ascend.
+/// The strongly connected components U_1 .. U_m of a priority graph in a consistent enumeration f: an arc from a member
+/// of U_a to one of U_b, a != b, has a < b. So the lowest number has the highest priority, and h(r) = the number of r's
+/// component is the partial enumeration of the faces. Post: members of a component ascend.
 class Priority_components {
  public:
   Priority_components() = default;
   /// Pre: h(r) < count for each face r, each number taken.
-  Priority_components(std::vector<std::uint32_t> h, std::uint32_t count) : h_(std::move(h)), begin_(count + std::size_t{1}), members_(h_.size()) {
+  Priority_components(std::vector<std::uint32_t> h, std::uint32_t count)
+      : h_(std::move(h)), begin_(count + std::size_t{1}), members_(h_.size()) {
     for (const std::uint32_t c : h_) ++begin_[c + std::size_t{1}];
     for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
     std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
@@ -24,7 +25,9 @@ class Priority_components {
   }
 
   std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
-  std::span<const std::uint32_t> operator[](std::size_t c) const { return {members_.data() + begin_[c], begin_[c + 1] - begin_[c]}; }
+  std::span<const std::uint32_t> operator[](std::size_t c) const {
+    return {members_.data() + begin_[c], begin_[c + 1] - begin_[c]};
+  }
   /// The partial enumeration: 0-based, lower obscures higher.
   std::uint32_t h(std::uint32_t face) const { return h_[face]; }
   std::size_t faces() const { return h_.size(); }

@@ -1,5 +1,6 @@
 #pragma once
-// The priority graph with all its arcs written out, as a Boost graph. Quadratic: the oracle of the implicit one, and what DOT is made of.
+// The priority graph with all its arcs written out, as a Boost graph. Quadratic: the oracle of the implicit one, and
+// what DOT is made of.
 
 #include <sightline/algorithms/priority/components.h>
 #include <sightline/algorithms/priority/relation.h>
@@ -14,7 +15,8 @@
 namespace sightline {
 
 /// A Boost graph: vertex i is face i.
-using Arc_graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property, boost::no_property, std::uint32_t, std::uint64_t>;
+using Arc_graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property, boost::no_property,
+                                                     boost::no_property, std::uint32_t, std::uint64_t>;
 
 /// The components of any graph of arcs in an order of priority. Cost: linear. Exact: yes.
 inline Priority_components components(const Arc_graph& graph) {
@@ -22,12 +24,14 @@ inline Priority_components components(const Arc_graph& graph) {
   std::vector<std::uint32_t> component(n);
   if (n == 0) return {};
   const auto index = boost::get(boost::vertex_index, graph);
-  const std::uint32_t count = boost::strong_components(graph, boost::make_iterator_property_map(component.begin(), index), boost::vertex_index_map(index));
+  const std::uint32_t count = boost::strong_components(
+      graph, boost::make_iterator_property_map(component.begin(), index), boost::vertex_index_map(index));
   for (std::uint32_t& c : component) c = count - 1 - c;  // Boost numbers a component after those that it leads to
   return {std::move(component), count};
 }
 
-/// The arcs between components: G' of the paper, acyclic. Vertex c is component c; an arc a -> b has a < b, once. Cost: O(arcs log arcs).
+/// The arcs between components: G' of the paper, acyclic. Vertex c is component c; an arc a -> b has a < b, once. Cost:
+/// O(arcs log arcs).
 inline Arc_graph condensation(const Arc_graph& graph, const Priority_components& components) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
   for (const auto& arc : boost::make_iterator_range(boost::edges(graph))) {
@@ -44,7 +48,8 @@ class Explicit_priority_graph {
  public:
   /// Cost: O(n^2) pairs, and memory for the arcs (4 bytes each). Exact: as the relation is.
   template <class Relation>
-  explicit Explicit_priority_graph(const Relation& relation, const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
+  explicit Explicit_priority_graph(const Relation& relation,
+                                   const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
     const std::uint32_t n = relation.size();
     for (std::uint32_t i = 0; i < n; ++i) {

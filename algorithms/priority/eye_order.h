@@ -8,11 +8,13 @@ namespace sightline {
 
 /// What ordering took.
 struct Eye_order_counters {
-  std::uint64_t off_view = 0, edge_on = 0;    ///< polygons of the tree that the eye is behind; in whose plane it is
-  std::uint64_t searched = 0;                 ///< on-view polygons in cycles of the tree, ordered by a search for this eye
-  std::uint64_t cycles = 0, in_cycles = 0;    ///< of those, cycles from this eye, and the polygons in them: the only ones that are cut
-  std::uint64_t splits = 0;                   ///< how often
-  std::uint64_t fragments = 0;                ///< polygons drawn
+  std::uint64_t off_view = 0, edge_on = 0;  ///< polygons of the tree that the eye is behind; in whose plane it is
+  std::uint64_t searched = 0;  ///< on-view polygons in cycles of the tree, ordered by a search for this eye
+  std::uint64_t cycles = 0,
+                in_cycles =
+                    0;       ///< of those, cycles from this eye, and the polygons in them: the only ones that are cut
+  std::uint64_t splits = 0;  ///< how often
+  std::uint64_t fragments = 0;  ///< polygons drawn
   Index_counters search;
   Predicate_counts predicates;
 };
@@ -25,9 +27,11 @@ struct Eye_order {
   std::vector<Polygon_store<Traits>> memory;  ///< what some of the polygons point into, the others the tree
 };
 
-/// Calls `polygon(i)` for each polygon of the tree and `cycle(slots)` for each of its cycles, the farthest from the eye first; on-view or not. Cost: linear in the tree. Exact: yes.
+/// Calls `polygon(i)` for each polygon of the tree and `cycle(slots)` for each of its cycles, the farthest from the eye
+/// first; on-view or not. Cost: linear in the tree. Exact: yes.
 template <class Traits, class On_polygon, class On_cycle>
-void walk_back_to_front(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye, Predicate_counts& counts, On_polygon polygon, On_cycle cycle) {
+void walk_back_to_front(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye,
+                        Predicate_counts& counts, On_polygon polygon, On_cycle cycle) {
   using Tree = Priority_tree<Traits>;
   const typename Traits::Eye viewpoint = traits.eye(eye);
   std::vector<typename Tree::Slot> stack{tree.slots[0]};
@@ -66,12 +70,16 @@ class Eye_walk {
 
   using Progress = std::function<void(std::size_t done, std::size_t all)>;
 
-  Eye_walk(const Traits& traits, const Exact_point& eye, const Progress& progress) : traits_(traits), eye_(eye), viewpoint_(traits.eye(eye)), progress_(progress) {}
+  Eye_walk(const Traits& traits, const Exact_point& eye, const Progress& progress)
+      : traits_(traits), eye_(eye), viewpoint_(traits.eye(eye)), progress_(progress) {}
 
   /// Appends what the tree holds, farthest first.
   void walk(const Tree& tree) {
     walk_back_to_front(
-        traits_, tree, eye_, order_.counters.predicates, [&](std::uint32_t i) { if (is_drawn(tree, i)) draw(tree, i); },
+        traits_, tree, eye_, order_.counters.predicates,
+        [&](std::uint32_t i) {
+          if (is_drawn(tree, i)) draw(tree, i);
+        },
         [&](std::span<const typename Tree::Slot> slots) { search(tree, slots); });
   }
 
@@ -88,14 +96,18 @@ class Eye_walk {
     order_.counters.off_view += side == CGAL::NEGATIVE, order_.counters.edge_on += side == CGAL::ZERO;
     return side == CGAL::POSITIVE || (side == CGAL::ZERO && tree.two_sided && !tree.turned[i]);
   }
-  void draw(const Tree& tree, std::uint32_t i) { order_.polygons.push_back(tree.turned[i] ? turned_round(tree.polygons[i], store_) : tree.polygons[i]); }
+  void draw(const Tree& tree, std::uint32_t i) {
+    order_.polygons.push_back(tree.turned[i] ? turned_round(tree.polygons[i], store_) : tree.polygons[i]);
+  }
 
-  /// A cycle of the tree: the graph of this eye on what is on-view. A component of it that is one face is drawn whole, any other cut.
+  /// A cycle of the tree: the graph of this eye on what is on-view. A component of it that is one face is drawn whole,
+  /// any other cut.
   void search(const Tree& tree, std::span<const typename Tree::Slot> slots) {
     std::vector<std::uint32_t> members;
     std::vector<Convex_polygon<Traits>> polygons;
     for (const typename Tree::Slot slot : slots)
-      if (const std::uint32_t i = static_cast<std::uint32_t>(slot); is_drawn(tree, i)) members.push_back(i), polygons.push_back(tree.polygons[i]);
+      if (const std::uint32_t i = static_cast<std::uint32_t>(slot); is_drawn(tree, i))
+        members.push_back(i), polygons.push_back(tree.polygons[i]);
     order_.counters.searched += members.size();
     const Priority_relation<Traits> faces(traits_, polygons);
     const Region_relation<Traits> relation(faces, View_region::eye(eye_));
@@ -128,12 +140,15 @@ class Eye_walk {
 
 }  // namespace priority_detail
 
-/// The on-view polygons of a tree so that none obscures one drawn after it; of a tree of both sides, every piece once. Whole, but where the tree was built to cut, and where
-/// faces of one of its cycles overlap in a cycle from this eye: these are cut. Degenerate: pieces seen edge-on are off-view; they have no place, and stand anywhere in an
-/// order of both sides. `progress` is called while cycles are searched and cut. Cost: linear in the tree, and a search of each of its cycles. Exact: yes. Pre: exact traits; the tree outlives the order.
-/// Source: Fuchs, Kedem, Naylor 1979; Naylor, "Visibility Orderings". Proof: P-35, P-37
+/// The on-view polygons of a tree so that none obscures one drawn after it; of a tree of both sides, every piece once.
+/// Whole, but where the tree was built to cut, and where faces of one of its cycles overlap in a cycle from this eye:
+/// these are cut. Degenerate: pieces seen edge-on are off-view; they have no place, and stand anywhere in an order of
+/// both sides. `progress` is called while cycles are searched and cut. Cost: linear in the tree, and a search of each
+/// of its cycles. Exact: yes. Pre: exact traits; the tree outlives the order. Source: Fuchs, Kedem, Naylor 1979;
+/// Naylor, "Visibility Orderings". Proof: P-35, P-37
 template <Bounded_traits Traits>
-Eye_order<Traits> back_to_front(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye, const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
+Eye_order<Traits> back_to_front(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye,
+                                const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
   priority_detail::Eye_walk<Traits> walk(traits, eye, progress);
   walk.walk(tree);
   return walk.take();

@@ -1,5 +1,6 @@
 #pragma once
-// The priority graph without its arcs: components by depth-first search over an index that forgets what the search has visited.
+// The priority graph without its arcs: components by depth-first search over an index that forgets what the search has
+// visited.
 
 #include <sightline/algorithms/priority/components.h>
 #include <sightline/algorithms/priority/index.h>
@@ -9,14 +10,16 @@
 
 namespace sightline {
 
-/// Why the faces of a component are in it: arcs of two trees over each component, both rooted at its first discovered face.
-/// Every face but the root can be reached from the root over `from`, and reaches the root over `to`. The roots have themselves.
+/// Why the faces of a component are in it: arcs of two trees over each component, both rooted at its first discovered
+/// face. Every face but the root can be reached from the root over `from`, and reaches the root over `to`. The roots
+/// have themselves.
 struct Component_trees {
   std::vector<std::uint32_t> from;  ///< by face: a face of its component that may obscure it
   std::vector<std::uint32_t> to;    ///< by face: a face of its component that it may obscure
 };
 
-/// The graph of a relation, implicit. `Relation` is a Priority_relation, or a relation of fewer arcs on the same faces, with faces() for the whole one.
+/// The graph of a relation, implicit. `Relation` is a Priority_relation, or a relation of fewer arcs on the same faces,
+/// with faces() for the whole one.
 template <class Relation>
 class Implicit_priority_graph {
  public:
@@ -29,10 +32,13 @@ class Implicit_priority_graph {
   bool has_arc(std::uint32_t i, std::uint32_t j) const { return relation_->may_obscure(i, j, counters_.relation); }
   const Index_counters& counters() const { return counters_; }
 
-  /// The components by two depth-first searches (Kosaraju, Sharir): along the arcs for the order in which faces are finished, then against them
-  /// from the last finished one on. Each search asks the index for a live face only, and removes what it visits. A face that is a tree of its own in the first search is a component.
-  /// Cost: up to 2n hits and 2n misses, each a descent of the index where its boxes rule out well; O(n) memory, no recursion. Exact: as the relation is. Proof: P-32
-  Priority_components find_components(Component_trees* trees = nullptr, const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
+  /// The components by two depth-first searches (Kosaraju, Sharir): along the arcs for the order in which faces are
+  /// finished, then against them from the last finished one on. Each search asks the index for a live face only, and
+  /// removes what it visits. A face that is a tree of its own in the first search is a component. Cost: up to 2n hits
+  /// and 2n misses, each a descent of the index where its boxes rule out well; O(n) memory, no recursion. Exact: as the
+  /// relation is. Proof: P-32
+  Priority_components find_components(Component_trees* trees = nullptr,
+                                      const std::function<void(std::size_t done, std::size_t all)>& progress = {}) {
     const std::uint32_t n = static_cast<std::uint32_t>(size());
     std::vector<std::uint32_t> finished;
     finished.reserve(n);
@@ -44,10 +50,12 @@ class Implicit_priority_graph {
     std::vector<char> alone(n);  // trees of one face
     for (std::uint32_t root = 0; root < n; ++root) {
       const std::size_t before = finished.size();
-      search(root, Follow::obscured, trees == nullptr ? nullptr : &trees->from, [&](std::uint32_t) {}, [&](std::uint32_t face) {
-        finished.push_back(face);
-        if (progress && finished.size() % 64 == 0) progress(finished.size(), 2 * std::size_t{n});
-      });
+      search(
+          root, Follow::obscured, trees == nullptr ? nullptr : &trees->from, [&](std::uint32_t) {},
+          [&](std::uint32_t face) {
+            finished.push_back(face);
+            if (progress && finished.size() % 64 == 0) progress(finished.size(), 2 * std::size_t{n});
+          });
       alone[root] = finished.size() == before + 1;
     }
 
@@ -65,7 +73,8 @@ class Implicit_priority_graph {
         enter(face);
         if (trees != nullptr) trees->to[face] = face;
         ++count;
-      } else if (search(face, Follow::obscuring, trees == nullptr ? nullptr : &trees->to, enter, [](std::uint32_t) {})) {
+      } else if (search(face, Follow::obscuring, trees == nullptr ? nullptr : &trees->to, enter,
+                        [](std::uint32_t) {})) {
         ++count;
       }
     }
@@ -93,7 +102,8 @@ class Implicit_priority_graph {
       Step& step = stack_.back();
       const std::uint32_t i = step.face;
       const auto accept = [&](std::uint32_t j) {
-        return follow == Follow::obscured ? relation_->may_obscure(i, j, counters_.relation) : relation_->may_obscure(j, i, counters_.relation);
+        return follow == Follow::obscured ? relation_->may_obscure(i, j, counters_.relation)
+                                          : relation_->may_obscure(j, i, counters_.relation);
       };
       if (const auto j = index_.next(i, follow, step.from, counters_, accept)) {
         visit(*j, i);
@@ -119,6 +129,8 @@ class Implicit_priority_graph {
 };
 
 template <class Relation>
-Priority_components components(Implicit_priority_graph<Relation>& graph) { return graph.find_components(); }
+Priority_components components(Implicit_priority_graph<Relation>& graph) {
+  return graph.find_components();
+}
 
 }  // namespace sightline

@@ -1,5 +1,6 @@
 #pragma once
-// A spatial index of oriented faces for one question: is there a live face that face i may obscure (or that may obscure it)?
+// A spatial index of oriented faces for one question: is there a live face that face i may obscure (or that may obscure
+// it)?
 
 #include <sightline/algorithms/priority/relation.h>
 
@@ -25,8 +26,9 @@ struct Index_counters {
 /// Which arcs of a face to follow.
 enum class Follow { obscured, obscuring };  ///< faces j with i < j; faces j with j < i
 
-/// A tree of boxes over the faces' corners; each node also bounds its faces' planes, and counts the faces that are live.
-/// A node is passed over only where doubles prove that none of its faces can have the arc (P-31); faces are asked exactly.
+/// A tree of boxes over the faces' corners; each node also bounds its faces' planes, and counts the faces that are
+/// live. A node is passed over only where doubles prove that none of its faces can have the arc (P-31); faces are asked
+/// exactly.
 template <Bounded_traits Traits>
 class Priority_index {
  public:
@@ -49,7 +51,8 @@ class Priority_index {
     for (std::uint32_t p = 0; p < except.size(); ++p) dead_[p] = except[order_[p]];
     for (std::size_t k = nodes_.size(); k-- > 0;) {
       Node& node = nodes_[k];
-      if (node.right == none) node.live = static_cast<std::uint32_t>(std::count(dead_.begin() + node.begin, dead_.begin() + node.end, 0));
+      if (node.right == none)
+        node.live = static_cast<std::uint32_t>(std::count(dead_.begin() + node.begin, dead_.begin() + node.end, 0));
       else node.live = nodes_[k + 1].live + nodes_[node.right].live;
       tighten(node);
     }
@@ -65,10 +68,12 @@ class Priority_index {
     }
   }
 
-  /// The first live face from place `from` on that `accept` takes, of those that doubles cannot rule out; sets `from` to the place after it, so that
-  /// a later call goes on there. Nothing where there is none. `accept(j)` decides exactly.
+  /// The first live face from place `from` on that `accept` takes, of those that doubles cannot rule out; sets `from`
+  /// to the place after it, so that a later call goes on there. Nothing where there is none. `accept(j)` decides
+  /// exactly.
   template <class Accept>
-  std::optional<std::uint32_t> next(std::uint32_t i, Follow follow, std::uint32_t& from, Index_counters& counters, Accept accept) const {
+  std::optional<std::uint32_t> next(std::uint32_t i, Follow follow, std::uint32_t& from, Index_counters& counters,
+                                    Accept accept) const {
     if (nodes_.empty()) return std::nullopt;
     std::array<std::uint32_t, 64> stack;
     std::size_t top = 0;
@@ -85,7 +90,8 @@ class Priority_index {
         continue;
       }
       for (std::uint32_t p = std::max(node.begin, from); p < node.end; ++p)
-        if (dead_[p] == 0 && order_[p] != i && !(forth ? plane_rules_out<1>(p, i) : plane_rules_out<-1>(p, i)) && accept(order_[p])) {
+        if (dead_[p] == 0 && order_[p] != i && !(forth ? plane_rules_out<1>(p, i) : plane_rules_out<-1>(p, i)) &&
+            accept(order_[p])) {
           from = p + 1;
           ++counters.hits;
           return order_[p];
@@ -105,7 +111,7 @@ class Priority_index {
 
   /// In preorder; the left child of a node follows it.
   struct Node {
-    Triple low, high;                ///< of corners
+    Triple low, high;  ///< of corners
     Triple centre;
     Triple normal_low, normal_high;  ///< of planes scaled to largest normal entry 1
     double offset_low, offset_high;  ///< of their values at the centre
@@ -116,12 +122,13 @@ class Priority_index {
     std::uint32_t right, parent, live;
   };
   struct Oriented_plane {
-    Triple normal;   ///< largest entry 1
+    Triple normal;  ///< largest entry 1
     double offset;
-    double slack;    ///< how far its computed values may be off; below 0 where their signs are right
+    double slack;  ///< how far its computed values may be off; below 0 where their signs are right
   };
 
-  // ---- The faces in doubles -------------------------------------------------------------------------------------------------
+  // ---- The faces in doubles
+  // -------------------------------------------------------------------------------------------------
 
   void measure() {
     const std::uint32_t n = relation_->size();
@@ -147,23 +154,29 @@ class Priority_index {
     }
     first_[n] = static_cast<std::uint32_t>(corners_.size());
     usable_ = usable_ && range < 0x1p900 && error < infinity;
-    // Normal entries are at most 1: corners are to blame for 3 error, planes for 7 range 2^-50, sums for 19 range 24 x 2^-53. P-31
+    // Normal entries are at most 1: corners are to blame for 3 error, planes for 7 range 2^-50, sums for 19 range 24 x
+    // 2^-53. P-31
     slack_ = 4 * error + 0x1p-42 * range + 0x1p-900;
     for (std::uint32_t i = 0; i < n; ++i) planes_[i].slack = is_axis_plane[i] && error == 0 ? right_sign : slack_;
     for (const Oriented_plane& h : planes_)
       if (!(std::fabs(h.offset) <= 4 * range + 0x1p-900)) usable_ = false;  // it does not pass where its corners are
   }
 
-  // ---- The tree -------------------------------------------------------------------------------------------------------------
+  // ---- The tree
+  // -------------------------------------------------------------------------------------------------------------
 
   void build() {
     const std::uint32_t n = static_cast<std::uint32_t>(order_.size());
     leaf_of_.resize(n);
     // Faces that look the same way are together, so that the bounds of their planes are tight.
-    std::stable_sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) { return heading(a) < heading(b); });
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return heading(a) < heading(b); });
     std::array<std::uint32_t, 7> first_of{};
     for (std::uint32_t h = 0; h < 7; ++h)
-      first_of[h] = static_cast<std::uint32_t>(std::lower_bound(order_.begin(), order_.end(), h, [&](std::uint32_t face, std::uint32_t heading_of) { return heading(face) < heading_of; }) - order_.begin());
+      first_of[h] = static_cast<std::uint32_t>(
+          std::lower_bound(order_.begin(), order_.end(), h,
+                           [&](std::uint32_t face, std::uint32_t heading_of) { return heading(face) < heading_of; }) -
+          order_.begin());
 
     struct Range {
       std::uint32_t begin, end, parent;
@@ -182,7 +195,8 @@ class Priority_index {
         std::fill(leaf_of_.begin() + range.begin, leaf_of_.begin() + range.end, number);
         continue;
       }
-      const std::uint32_t middle = from == to ? range.begin + (range.end - range.begin) / 2 : first_of[(from + to + 1) / 2];
+      const std::uint32_t middle =
+          from == to ? range.begin + (range.end - range.begin) / 2 : first_of[(from + to + 1) / 2];
       if (from == to) divide(range.begin, middle, range.end);
       stack.push_back({middle, range.end, number, true});
       stack.push_back({range.begin, middle, number, false});
@@ -196,8 +210,10 @@ class Priority_index {
     return static_cast<std::uint32_t>(2 * k + (v[k] > 0));
   }
 
-  /// Divides at the median: of the planes, where all are parallel, else along the axis on which the centres of the faces' boxes are spread most. Parallel planes in their order make one of the two
-  /// conditions of an arc all or nothing in all but two nodes of a level, and the other one is then as good as its bound: no search is led astray. Divided by place, a city's would be, √n times.
+  /// Divides at the median: of the planes, where all are parallel, else along the axis on which the centres of the
+  /// faces' boxes are spread most. Parallel planes in their order make one of the two conditions of an arc all or
+  /// nothing in all but two nodes of a level, and the other one is then as good as its bound: no search is led astray.
+  /// Divided by place, a city's would be, √n times.
   void divide(std::uint32_t begin, std::uint32_t middle, std::uint32_t end) {
     Triple low = nowhere(1), high = nowhere(-1);
     for (std::uint32_t p = begin; p < end; ++p)
@@ -209,32 +225,41 @@ class Priority_index {
     for (std::size_t k = 1; k < 3; ++k)
       if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
     const Oriented_plane& first = planes_[order_[begin]];
-    const bool parallel = std::all_of(order_.begin() + begin, order_.begin() + end, [&](std::uint32_t face) { return planes_[face].normal == first.normal; });
-    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, [&](std::uint32_t a, std::uint32_t b) {
-      if (parallel && planes_[a].offset != planes_[b].offset) return planes_[a].offset < planes_[b].offset;
-      const double x = centre_of(a, axis), y = centre_of(b, axis);
-      return x != y ? x < y : a < b;
-    });
+    const bool parallel = std::all_of(order_.begin() + begin, order_.begin() + end,
+                                      [&](std::uint32_t face) { return planes_[face].normal == first.normal; });
+    std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                     [&](std::uint32_t a, std::uint32_t b) {
+                       if (parallel && planes_[a].offset != planes_[b].offset)
+                         return planes_[a].offset < planes_[b].offset;
+                       const double x = centre_of(a, axis), y = centre_of(b, axis);
+                       return x != y ? x < y : a < b;
+                     });
   }
   double centre_of(std::uint32_t face, std::size_t axis) const {
     double low = infinity, high = -infinity;
-    for (std::uint32_t c = first_[face]; c < first_[face + 1]; ++c) low = std::min(low, corners_[c][axis]), high = std::max(high, corners_[c][axis]);
+    for (std::uint32_t c = first_[face]; c < first_[face + 1]; ++c)
+      low = std::min(low, corners_[c][axis]), high = std::max(high, corners_[c][axis]);
     return low + (high - low) / 2;
   }
 
   Node bounds(std::uint32_t begin, std::uint32_t end) const {
-    Node node{nowhere(1), nowhere(-1), {}, nowhere(1), nowhere(-1), infinity, -infinity, {}, infinity, -infinity, right_sign, begin, end, none, none, 0};
+    Node node{nowhere(1), nowhere(-1), {},         nowhere(1), nowhere(-1), infinity, -infinity, {},
+              infinity,   -infinity,   right_sign, begin,      end,         none,     none,      0};
     for (std::uint32_t p = begin; p < end; ++p)
       for (std::uint32_t c = first_[order_[p]]; c < first_[order_[p] + 1]; ++c)
-        for (std::size_t k = 0; k < 3; ++k) node.low[k] = std::min(node.low[k], corners_[c][k]), node.high[k] = std::max(node.high[k], corners_[c][k]);
-    for (std::uint32_t p = begin; p < end; ++p) node.slack = std::max(node.slack, planes_[order_[p]].normal == planes_[order_[begin]].normal ? planes_[order_[p]].slack : slack_);
+        for (std::size_t k = 0; k < 3; ++k)
+          node.low[k] = std::min(node.low[k], corners_[c][k]), node.high[k] = std::max(node.high[k], corners_[c][k]);
+    for (std::uint32_t p = begin; p < end; ++p)
+      node.slack = std::max(
+          node.slack, planes_[order_[p]].normal == planes_[order_[begin]].normal ? planes_[order_[p]].slack : slack_);
     if (node.slack > 0)  // else values are to have the right sign, which they have at the origin
       for (std::size_t k = 0; k < 3; ++k) node.centre[k] = node.low[k] + (node.high[k] - node.low[k]) / 2;
     for (std::uint32_t p = begin; p < end; ++p) {
       const Oriented_plane& h = planes_[order_[p]];
       double at_centre = h.offset;
       for (std::size_t k = 0; k < 3; ++k) {
-        node.normal_low[k] = std::min(node.normal_low[k], h.normal[k]), node.normal_high[k] = std::max(node.normal_high[k], h.normal[k]);
+        node.normal_low[k] = std::min(node.normal_low[k], h.normal[k]),
+        node.normal_high[k] = std::max(node.normal_high[k], h.normal[k]);
         at_centre += h.normal[k] * node.centre[k];
       }
       node.offset_low = std::min(node.offset_low, at_centre), node.offset_high = std::max(node.offset_high, at_centre);
@@ -248,20 +273,23 @@ class Priority_index {
     return node;
   }
 
-  /// Bounds the live faces of a node only; slab, and offsets at a centre, stay as they were for all. Returns whether anything changed.
-  /// Pre: the children are tight. Post: the same bounds whichever order faces died in.
+  /// Bounds the live faces of a node only; slab, and offsets at a centre, stay as they were for all. Returns whether
+  /// anything changed. Pre: the children are tight. Post: the same bounds whichever order faces died in.
   bool tighten(Node& node) {
     Triple low = nowhere(1), high = nowhere(-1), normal_low = nowhere(1), normal_high = nowhere(-1);
     double offset_low = infinity, offset_high = -infinity;
     const auto join = [](Triple& least, Triple& most, const Triple& least_of, const Triple& most_of) {
-      for (std::size_t k = 0; k < 3; ++k) least[k] = std::min(least[k], least_of[k]), most[k] = std::max(most[k], most_of[k]);
+      for (std::size_t k = 0; k < 3; ++k)
+        least[k] = std::min(least[k], least_of[k]), most[k] = std::max(most[k], most_of[k]);
     };
     if (node.right == none) {
       for (std::uint32_t p = node.begin; p < node.end; ++p) {
         if (dead_[p] != 0) continue;
-        for (std::uint32_t c = first_[order_[p]]; c < first_[order_[p] + 1]; ++c) join(low, high, corners_[c], corners_[c]);
+        for (std::uint32_t c = first_[order_[p]]; c < first_[order_[p] + 1]; ++c)
+          join(low, high, corners_[c], corners_[c]);
         join(normal_low, normal_high, placed_planes_[p].normal, placed_planes_[p].normal);
-        offset_low = std::min(offset_low, placed_planes_[p].offset), offset_high = std::max(offset_high, placed_planes_[p].offset);
+        offset_low = std::min(offset_low, placed_planes_[p].offset),
+        offset_high = std::max(offset_high, placed_planes_[p].offset);
       }
     } else {
       for (const Node* child : {&node + 1, &nodes_[node.right]}) {
@@ -271,7 +299,8 @@ class Priority_index {
       }
     }
     const bool at_origin = node.slack < 0;
-    const bool changed = low != node.low || high != node.high || normal_low != node.normal_low || normal_high != node.normal_high ||
+    const bool changed = low != node.low || high != node.high || normal_low != node.normal_low ||
+                         normal_high != node.normal_high ||
                          (at_origin && (offset_low != node.offset_low || offset_high != node.offset_high));
     node.low = low, node.high = high, node.normal_low = normal_low, node.normal_high = normal_high;
     if (at_origin) node.offset_low = offset_low, node.offset_high = offset_high;
@@ -279,10 +308,11 @@ class Priority_index {
   }
   static Triple nowhere(int sign) { return {sign * infinity, sign * infinity, sign * infinity}; }
 
-  // ---- Ruling out -----------------------------------------------------------------------------------------------------------
+  // ---- Ruling out
+  // -----------------------------------------------------------------------------------------------------------
 
-  /// Whether no face j of the node can have i < j (S = 1) or j < i (S = -1): no corner of the node is on side -S of i's plane, or
-  /// no corner of i on side S of any plane of the node. Proof: P-31
+  /// Whether no face j of the node can have i < j (S = 1) or j < i (S = -1): no corner of the node is on side -S of i's
+  /// plane, or no corner of i on side S of any plane of the node. Proof: P-31
   template <int S>
   bool ruled_out(const Node& node, std::uint32_t i) const {
     if (!usable_) return false;
@@ -290,9 +320,13 @@ class Priority_index {
     if (S * h.offset + least_in_box<S>(node, h.normal) > h.slack) return true;
     if (is_behind<S>(node, i)) return true;
     // The least of S h over the meet of the box with the slab, by h = share lean + rest, for any share.
-    const double share = std::clamp(dot(h.normal, node.lean) / dot(node.lean, node.lean), -2.0, 2.0);  // where lean is 0, nothing is ruled out
-    const Triple rest{h.normal[0] - share * node.lean[0], h.normal[1] - share * node.lean[1], h.normal[2] - share * node.lean[2]};
-    return S * h.offset + std::min(S * share * node.slab_low, S * share * node.slab_high) + least_in_box<S>(node, rest) > slack_;
+    const double share = std::clamp(dot(h.normal, node.lean) / dot(node.lean, node.lean), -2.0,
+                                    2.0);  // where lean is 0, nothing is ruled out
+    const Triple rest{h.normal[0] - share * node.lean[0], h.normal[1] - share * node.lean[1],
+                      h.normal[2] - share * node.lean[2]};
+    return S * h.offset + std::min(S * share * node.slab_low, S * share * node.slab_high) +
+               least_in_box<S>(node, rest) >
+           slack_;
   }
 
   /// Whether no corner of i is on side S of any plane of the node.
@@ -333,10 +367,10 @@ class Priority_index {
   std::vector<std::uint32_t> first_;
   std::vector<Oriented_plane> planes_, placed_planes_;  // by face, by place
   double slack_ = 0;
-  bool usable_ = true;                 // doubles bound everything
-  std::vector<std::uint32_t> order_;   // faces by place
-  std::vector<std::uint32_t> place_;   // and back
-  std::vector<std::uint32_t> leaf_of_; // node of each leaf_size places
+  bool usable_ = true;                  // doubles bound everything
+  std::vector<std::uint32_t> order_;    // faces by place
+  std::vector<std::uint32_t> place_;    // and back
+  std::vector<std::uint32_t> leaf_of_;  // node of each leaf_size places
   std::vector<char> dead_;
   std::vector<Node> nodes_;
 };

@@ -1,7 +1,8 @@
 #pragma once
-// The codes of a cyclic component: for each two of its faces, which one is nearer along a ray that pierces both, without computing where it does
-// (figure 9 of Fuchs, Kedem and Naylor, for any component). Laws, tested: along a ray that pierces some faces from the front, no two of which cross, the codes of
-// each two of them are an order, that of the ray (P-38); so a component has codes for every pixel, whatever cycles its graph has.
+// The codes of a cyclic component: for each two of its faces, which one is nearer along a ray that pierces both,
+// without computing where it does (figure 9 of Fuchs, Kedem and Naylor, for any component). Laws, tested: along a ray
+// that pierces some faces from the front, no two of which cross, the codes of each two of them are an order, that of
+// the ray (P-38); so a component has codes for every pixel, whatever cycles its graph has.
 
 #include <sightline/algorithms/priority/rational_geometry.h>
 #include <sightline/algorithms/priority/relation.h>
@@ -29,9 +30,11 @@ struct Normal_and_point {
 
 struct Pair_code {
   Precedence precedence;
-  std::optional<priority_detail::Normal_and_point> plane = std::nullopt;  ///< the first face is not behind it, the second not in front
+  std::optional<priority_detail::Normal_and_point> plane =
+      std::nullopt;  ///< the first face is not behind it, the second not in front
 
-  /// Whether the first is nearer. Nothing where neither is known to be, or where the eye is in the plane, from which no ray pierces both. Pre: not `crossing`.
+  /// Whether the first is nearer. Nothing where neither is known to be, or where the eye is in the plane, from which no
+  /// ray pierces both. Pre: not `crossing`.
   std::optional<bool> first_is_nearer(const Exact_point& eye) const {
     if (precedence == Precedence::first || precedence == Precedence::second) return precedence == Precedence::first;
     if (precedence == Precedence::never) return std::nullopt;
@@ -42,9 +45,12 @@ struct Pair_code {
 
 namespace priority_detail {
 
-/// A plane with p on its closed front side and q on its closed back side, neither all on it. If there is one, there is one through an edge of one and a corner of the other.
-inline std::optional<Normal_and_point> plane_between(const std::vector<Exact_point>& p, const std::vector<Exact_point>& q) {
-  const auto side = [](const std::vector<Exact_point>& points, const Exact_point& normal, const Exact_point& origin) -> std::optional<int> {
+/// A plane with p on its closed front side and q on its closed back side, neither all on it. If there is one, there is
+/// one through an edge of one and a corner of the other.
+inline std::optional<Normal_and_point> plane_between(const std::vector<Exact_point>& p,
+                                                     const std::vector<Exact_point>& q) {
+  const auto side = [](const std::vector<Exact_point>& points, const Exact_point& normal,
+                       const Exact_point& origin) -> std::optional<int> {
     int found = 0;
     for (const Exact_point& point : points) {
       const int s = sgn(dot(normal, minus(point, origin)));
@@ -70,13 +76,17 @@ inline std::optional<Normal_and_point> plane_between(const std::vector<Exact_poi
 
 }  // namespace priority_detail
 
-/// The code of two faces of a relation. Degenerate: faces that touch have a plane between them; faces of one plane never hide one another. Cost: that of two arcs, and where both
-/// hold, a search of the planes through an edge of one and a corner of the other in rational arithmetic. Exact: yes. Pre: exact traits. Proof: P-38
+/// The code of two faces of a relation. Degenerate: faces that touch have a plane between them; faces of one plane
+/// never hide one another. Cost: that of two arcs, and where both hold, a search of the planes through an edge of one
+/// and a corner of the other in rational arithmetic. Exact: yes. Pre: exact traits. Proof: P-38
 template <class Traits>
-Pair_code pair_code(const Priority_relation<Traits>& faces, std::uint32_t i, std::uint32_t j, Relation_counters& counters) {
+Pair_code pair_code(const Priority_relation<Traits>& faces, std::uint32_t i, std::uint32_t j,
+                    Relation_counters& counters) {
   const Arcs arcs = faces.arcs(i, j, counters);
-  if (!arcs.forth || !arcs.back) return {arcs.forth ? Precedence::first : arcs.back ? Precedence::second : Precedence::never};
-  const auto plane = priority_detail::plane_between(priority_detail::positions(faces.traits(), faces[i]), priority_detail::positions(faces.traits(), faces[j]));
+  if (!arcs.forth || !arcs.back)
+    return {arcs.forth ? Precedence::first : arcs.back ? Precedence::second : Precedence::never};
+  const auto plane = priority_detail::plane_between(priority_detail::positions(faces.traits(), faces[i]),
+                                                    priority_detail::positions(faces.traits(), faces[j]));
   if (!plane) return {Precedence::crossing};
   return {Precedence::by_plane, plane};
 }

@@ -1,6 +1,6 @@
 #pragma once
-// The statistics that the authors wanted: at each pixel of an image, how many faces a ray pierces from the front (S), and how many of them the priorities leave to choose
-// from (S^ of the paper: those of highest priority).
+// The statistics that the authors wanted: at each pixel of an image, how many faces a ray pierces from the front (S),
+// and how many of them the priorities leave to choose from (S^ of the paper: those of highest priority).
 
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/priority/rational_geometry.h>
@@ -10,8 +10,8 @@
 
 namespace sightline {
 
-/// A pinhole image. The ray of pixel (x, y), 0-based from the top left, goes in the direction look + (2 (x + 1/2) / width - 1) right + (1 - 2 (y + 1/2) / height) up, as
-/// rounded to doubles and then taken exactly.
+/// A pinhole image. The ray of pixel (x, y), 0-based from the top left, goes in the direction look + (2 (x + 1/2) /
+/// width - 1) right + (1 - 2 (y + 1/2) / height) up, as rounded to doubles and then taken exactly.
 struct Pixel_view {
   Exact_point eye;
   std::array<double, 3> look{}, right{}, up{};
@@ -31,7 +31,9 @@ struct Pixel_sets {
   std::uint64_t rays = 0, exact = 0;  ///< rays against polygons; signs that doubles did not decide
 
   std::size_t size() const { return begin.size() - 1; }
-  std::span<const std::uint32_t> operator[](std::size_t pixel) const { return std::span(members).subspan(begin[pixel], begin[pixel + 1] - begin[pixel]); }
+  std::span<const std::uint32_t> operator[](std::size_t pixel) const {
+    return std::span(members).subspan(begin[pixel], begin[pixel + 1] - begin[pixel]);
+  }
 };
 
 namespace priority_detail {
@@ -66,8 +68,9 @@ struct Pixel_cone {
 
 }  // namespace priority_detail
 
-/// The sets S of an image. Degenerate: a ray through an edge or a corner pierces no inside; faces that are edge-on or off-view are never pierced. Cost: for each on-view
-/// polygon the pixels of its bounding rectangle, or all of them where it reaches behind the eye. Exact: yes. Pre: finite directions. Proof: P-40
+/// The sets S of an image. Degenerate: a ray through an edge or a corner pierces no inside; faces that are edge-on or
+/// off-view are never pierced. Cost: for each on-view polygon the pixels of its bounding rectangle, or all of them
+/// where it reaches behind the eye. Exact: yes. Pre: finite directions. Proof: P-40
 template <class Traits>
 Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& view) {
   const Traits& traits = faces.traits();
@@ -75,11 +78,18 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   Predicate_counts counts;
   Pixel_sets sets;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // pixel, polygon
-  const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) { return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; };
-  const std::array<double, 3> forth = cross(view.right, view.up), across = cross(view.up, view.look), upwards = cross(view.look, view.right);
+  const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  };
+  const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
+    return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const std::array<double, 3> forth = cross(view.right, view.up), across = cross(view.up, view.look),
+                              upwards = cross(view.look, view.right);
   const double volume = dot(view.look, forth);
-  const bool skewed = !(volume * volume > 1e-6 * dot(view.look, view.look) * dot(view.right, view.right) * dot(view.up, view.up)) || !std::isfinite(volume);
+  const bool skewed =
+      !(volume * volume > 1e-6 * dot(view.look, view.look) * dot(view.right, view.right) * dot(view.up, view.up)) ||
+      !std::isfinite(volume);
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     if (traits.side(viewpoint, faces.plane(i), counts) != CGAL::POSITIVE) continue;
     const priority_detail::Pixel_cone cone(priority_detail::positions(traits, faces[i]), view.eye);
@@ -89,20 +99,26 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
     bool in_front = !skewed;
     for (const Exact_point& arm : cone.arms) {
       const std::array<double, 3> a{nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])};
-      const double z = dot(a, forth) / volume, x = dot(a, across) / volume / z, y = dot(a, upwards) / volume / z;  // a = z (look + x right + y up)
+      const double z = dot(a, forth) / volume, x = dot(a, across) / volume / z,
+                   y = dot(a, upwards) / volume / z;  // a = z (look + x right + y up)
       in_front = in_front && z > 1e-6 * std::sqrt(dot(a, a) / dot(view.look, view.look)) && std::isfinite(x + y);
       box = {std::min(box[0], x), std::max(box[1], x), std::min(box[2], y), std::max(box[3], y)};
     }
     if (!in_front) box = {-1, 1, -1, 1};
-    const auto pixel = [](double place, std::uint32_t count) { return static_cast<std::int64_t>(std::floor(std::clamp((place + 1) / 2 * count, -2.0, count + 2.0))); };
-    const std::int64_t left = std::max<std::int64_t>(0, pixel(box[0], view.width) - 1), right = std::min<std::int64_t>(view.width - std::int64_t{1}, pixel(box[1], view.width) + 1);
-    const std::int64_t top = std::max<std::int64_t>(0, pixel(-box[3], view.height) - 1), bottom = std::min<std::int64_t>(view.height - std::int64_t{1}, pixel(-box[2], view.height) + 1);
+    const auto pixel = [](double place, std::uint32_t count) {
+      return static_cast<std::int64_t>(std::floor(std::clamp((place + 1) / 2 * count, -2.0, count + 2.0)));
+    };
+    const std::int64_t left = std::max<std::int64_t>(0, pixel(box[0], view.width) - 1),
+                       right = std::min<std::int64_t>(view.width - std::int64_t{1}, pixel(box[1], view.width) + 1);
+    const std::int64_t top = std::max<std::int64_t>(0, pixel(-box[3], view.height) - 1),
+                       bottom = std::min<std::int64_t>(view.height - std::int64_t{1}, pixel(-box[2], view.height) + 1);
 
     // 2. Their rays.
     for (std::int64_t y = top; y <= bottom; ++y)
       for (std::int64_t x = left; x <= right; ++x) {
         ++sets.rays;
-        if (cone.holds(view.ray(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sets)) found.emplace_back(static_cast<std::uint32_t>(y * view.width + x), i);
+        if (cone.holds(view.ray(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)), sets))
+          found.emplace_back(static_cast<std::uint32_t>(y * view.width + x), i);
       }
   }
 
@@ -113,8 +129,8 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   return sets;
 }
 
-/// Numbers for a tree's polygons as seen from an eye, the nearest lowest; those of one cycle share theirs, and what was cut has the highest. What h is for all viewpoints, the tree is for this one.
-/// Cost: linear. Exact: yes. Proof: P-37
+/// Numbers for a tree's polygons as seen from an eye, the nearest lowest; those of one cycle share theirs, and what was
+/// cut has the highest. What h is for all viewpoints, the tree is for this one. Cost: linear. Exact: yes. Proof: P-37
 template <class Traits>
 std::vector<std::uint32_t> priorities(const Traits& traits, const Priority_tree<Traits>& tree, const Exact_point& eye) {
   using Slot = typename Priority_tree<Traits>::Slot;
@@ -132,10 +148,10 @@ std::vector<std::uint32_t> priorities(const Traits& traits, const Priority_tree<
 
 /// What the priorities leave at the pixels of an image.
 struct Pixel_statistics {
-  std::uint64_t covered = 0;   ///< pixels whose ray pierces a face: |S| >= 1
-  std::uint64_t several = 0;   ///< |S| >= 2
-  std::uint64_t single = 0;    ///< |S^| = 1
-  std::uint64_t faces = 0, left = 0;  ///< sums of |S| and |S^|
+  std::uint64_t covered = 0;                        ///< pixels whose ray pierces a face: |S| >= 1
+  std::uint64_t several = 0;                        ///< |S| >= 2
+  std::uint64_t single = 0;                         ///< |S^| = 1
+  std::uint64_t faces = 0, left = 0;                ///< sums of |S| and |S^|
   std::vector<std::vector<std::uint64_t>> by_size;  ///< by_size[s][l]: pixels with |S| = s >= 1 and |S^| = l
   std::vector<std::uint32_t> image;                 ///< |S^| by pixel, row by row
 };
@@ -148,10 +164,12 @@ inline Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const
     const std::span<const std::uint32_t> all = sets[pixel];
     std::uint32_t best = std::numeric_limits<std::uint32_t>::max();
     for (const std::uint32_t i : all) best = std::min(best, priority[i]);
-    const std::size_t left = static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](std::uint32_t i) { return priority[i] == best; }));
+    const std::size_t left = static_cast<std::size_t>(
+        std::count_if(all.begin(), all.end(), [&](std::uint32_t i) { return priority[i] == best; }));
     found.image.push_back(static_cast<std::uint32_t>(left));
     if (all.empty()) continue;
-    ++found.covered, found.several += all.size() > 1, found.single += left == 1, found.faces += all.size(), found.left += left;
+    ++found.covered, found.several += all.size() > 1, found.single += left == 1, found.faces += all.size(),
+        found.left += left;
     if (found.by_size.size() <= all.size()) found.by_size.resize(all.size() + 1);
     if (found.by_size[all.size()].size() <= left) found.by_size[all.size()].resize(left + 1);
     ++found.by_size[all.size()][left];

@@ -12,10 +12,13 @@ namespace sightline {
 
 namespace priority_detail {
 
-inline Exact_point minus(const Exact_point& a, const Exact_point& b) { return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])}; }
+inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
+  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
+}
 inline Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]), Rational(a[0] * b[1] - a[1] * b[0])};
+  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
+          Rational(a[0] * b[1] - a[1] * b[0])};
 }
 
 /// The corners of a polygon.
@@ -26,7 +29,8 @@ std::vector<Exact_point> positions(const Traits& traits, const Convex_polygon<Tr
   return points;
 }
 
-/// The plane through a viewpoint and two points, given by the vectors to them, in doubles that are each within a relative 2^-53.
+/// The plane through a viewpoint and two points, given by the vectors to them, in doubles that are each within a
+/// relative 2^-53.
 struct Rounded_plane {
   using Triple = std::array<double, 3>;
   Triple normal, size;
@@ -38,11 +42,13 @@ struct Rounded_plane {
       normal[k] = a[p] * b[q] - a[q] * b[p], size[k] = std::fabs(a[p] * b[q]) + std::fabs(a[q] * b[p]);
     }
   }
-  /// The side of a direction of that kind: 1, -1, or 0 where doubles do not tell. Products of two are off by 3 x 2^-53 of their size, their difference by 4, a product with the
-  /// direction by 6, the sum of three by 8: 2^-49 covers that; the last term is for underflow. What is beyond doubles is not told. Proof: P-33
+  /// The side of a direction of that kind: 1, -1, or 0 where doubles do not tell. Products of two are off by 3 x 2^-53
+  /// of their size, their difference by 4, a product with the direction by 6, the sum of three by 8: 2^-49 covers that;
+  /// the last term is for underflow. What is beyond doubles is not told. Proof: P-33
   int side(const Triple& d) const {
     const double value = normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2];
-    const double bound = 0x1p-49 * (size[0] * std::fabs(d[0]) + size[1] * std::fabs(d[1]) + size[2] * std::fabs(d[2])) + 0x1p-900;
+    const double bound =
+        0x1p-49 * (size[0] * std::fabs(d[0]) + size[1] * std::fabs(d[1]) + size[2] * std::fabs(d[2])) + 0x1p-900;
     return value > bound ? 1 : value < -bound ? -1 : 0;
   }
 };

@@ -1,8 +1,10 @@
 #pragma once
 // The priority relation of Fuchs, Kedem and Naylor: which face may obscure which, from anywhere.
-// r1 < r2 ("r1 may obscure r2"): from some eye strictly in front of both planes some ray meets r1 strictly before r2. Laws, tested:
-//   r1 < r2  iff  some corner of r1 is strictly in front of r2's plane and some corner of r2 strictly behind r1's (P-30);
-//   never r < r; with both faces turned round, r1 < r2 becomes r2 < r1; coplanar faces, and faces back to back or face to face, have no arc.
+// r1 < r2 ("r1 may obscure r2"): from some eye strictly in front of both planes some ray meets r1 strictly before r2.
+// Laws, tested:
+//   r1 < r2  iff  some corner of r1 is strictly in front of r2's plane and some corner of r2 strictly behind r1's
+//   (P-30); never r < r; with both faces turned round, r1 < r2 becomes r2 < r1; coplanar faces, and faces back to back
+//   or face to face, have no arc.
 
 #include <sightline/algorithms/priority/bimodal.h>
 
@@ -24,7 +26,8 @@ struct Arcs {
   bool back = false;   ///< b < a
 };
 
-/// Convex polygons as members of the relation: the pieces of a scene, or what they were cut into. Polygons are 0-based in the order added.
+/// Convex polygons as members of the relation: the pieces of a scene, or what they were cut into. Polygons are 0-based
+/// in the order added.
 template <Partition_traits Model>
 class Priority_relation {
  public:
@@ -55,12 +58,14 @@ class Priority_relation {
   Plane plane(std::uint32_t i) const { return polygons_[i].support; }
   const typename Traits::Cutter& cutter(std::uint32_t i) const { return cutters_[i]; }
 
-  /// Whether i < j. Degenerate: a corner in the other's plane is neither in front nor behind; faces that touch or cross are judged the same way,
-  /// and faces that cross obscure each other. Cost: O(corners), ends at the first corner that decides; O(log corners) where there are many. Exact: as the traits are.
-  /// Source: Fuchs, Kedem, Naylor 1979, Theorem. Proof: P-30
+  /// Whether i < j. Degenerate: a corner in the other's plane is neither in front nor behind; faces that touch or cross
+  /// are judged the same way, and faces that cross obscure each other. Cost: O(corners), ends at the first corner that
+  /// decides; O(log corners) where there are many. Exact: as the traits are. Source: Fuchs, Kedem, Naylor 1979,
+  /// Theorem. Proof: P-30
   bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
     ++counters.pairs;
-    return !known_coplanar(i, j) && has_corner(j, CGAL::NEGATIVE, i, counters) && has_corner(i, CGAL::POSITIVE, j, counters);
+    return !known_coplanar(i, j) && has_corner(j, CGAL::NEGATIVE, i, counters) &&
+           has_corner(i, CGAL::POSITIVE, j, counters);
   }
 
   /// Both i < j and j < i, in one look at each corner.
@@ -74,15 +79,17 @@ class Priority_relation {
     return {(at & in_front) != 0 && (to & behind) != 0, (at & behind) != 0 && (to & in_front) != 0};
   }
 
-  /// Some corner of polygon i strictly on the given side of polygon j's plane: the witness of half an arc. Returns its place, or i's size.
-  /// Pre: side != ZERO.
+  /// Some corner of polygon i strictly on the given side of polygon j's plane: the witness of half an arc. Returns its
+  /// place, or i's size. Pre: side != ZERO.
   std::uint32_t find_corner(std::uint32_t i, Sign side, std::uint32_t j, Predicate_counts& counts) const {
     const Polygon& polygon = polygons_[i];
     if constexpr (Slope_traits<Traits>)
       if (has_many_corners(i)) {
-        const typename Traits::Cutter cutter = side == CGAL::POSITIVE ? cutters_[j] : traits_->prepare(plane(j).opposite());
+        const typename Traits::Cutter cutter =
+            side == CGAL::POSITIVE ? cutters_[j] : traits_->prepare(plane(j).opposite());
         const std::uint32_t highest = highest_corner(*traits_, polygon, cutter, counts);
-        return traits_->side(*polygon.corners[highest].vertex, cutter, counts) == CGAL::POSITIVE ? highest : polygon.size;
+        return traits_->side(*polygon.corners[highest].vertex, cutter, counts) == CGAL::POSITIVE ? highest
+                                                                                                 : polygon.size;
       }
     for (std::uint32_t k = 0; k < polygon.size; ++k)
       if (traits_->side(*polygon.corners[k].vertex, cutters_[j], counts) == side) return k;
@@ -90,9 +97,12 @@ class Priority_relation {
   }
 
  private:
-  static constexpr unsigned in_front = static_cast<unsigned>(Position::in_front), behind = static_cast<unsigned>(Position::behind);
+  static constexpr unsigned in_front = static_cast<unsigned>(Position::in_front),
+                            behind = static_cast<unsigned>(Position::behind);
 
-  static constexpr std::uint32_t many_corners = 160;  // from here on bisection was faster than looking at all (measured: 128 corners 272 ns against 308, 512 corners 940 against 371)
+  static constexpr std::uint32_t many_corners =
+      160;  // from here on bisection was faster than looking at all (measured: 128 corners 272 ns against 308, 512
+            // corners 940 against 371)
   bool has_many_corners(std::uint32_t i) const { return Slope_traits<Traits> && polygons_[i].size > many_corners; }
   bool known_coplanar(std::uint32_t i, std::uint32_t j) const { return traits_->same_plane(plane(i), plane(j)); }
   bool has_corner(std::uint32_t i, Sign side, std::uint32_t j, Relation_counters& counters) const {

@@ -1,6 +1,7 @@
 #pragma once
-// The priority relation within a scope: viewpoints in a convex region, one viewpoint, one ray. Laws, tested: a region's relation is part of the whole
-// one and of that of each larger region; an eye's is part of each region's that holds it; a ray's of its eye's.
+// The priority relation within a scope: viewpoints in a convex region, one viewpoint, one ray. Laws, tested: a region's
+// relation is part of the whole one and of that of each larger region; an eye's is part of each region's that holds it;
+// a ray's of its eye's.
 
 #include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -16,17 +17,21 @@
 
 namespace sightline {
 
-/// The convex hull of some points, of any dimension: a polyhedron of viewpoints; one point is one viewpoint, no point no viewpoint.
+/// The convex hull of some points, of any dimension: a polyhedron of viewpoints; one point is one viewpoint, no point
+/// no viewpoint.
 struct View_region {
   std::vector<Exact_point> points;
 
   static View_region eye(const Exact_point& p) { return {{p}}; }
-  /// All points between two corners. Degenerate: empty where `low` is above `high` on some axis; a rectangle, segment or point where they agree.
+  /// All points between two corners. Degenerate: empty where `low` is above `high` on some axis; a rectangle, segment
+  /// or point where they agree.
   static View_region box(const Exact_point& low, const Exact_point& high) {
     View_region region;
     for (std::size_t k = 0; k < 3; ++k)
       if (high[k] < low[k]) return region;
-    for (unsigned corner = 0; corner < 8; ++corner) region.points.push_back({(corner & 1 ? high : low)[0], (corner & 2 ? high : low)[1], (corner & 4 ? high : low)[2]});
+    for (unsigned corner = 0; corner < 8; ++corner)
+      region.points.push_back(
+          {(corner & 1 ? high : low)[0], (corner & 2 ? high : low)[1], (corner & 4 ? high : low)[2]});
     std::sort(region.points.begin(), region.points.end());
     region.points.erase(std::unique(region.points.begin(), region.points.end()), region.points.end());
     return region;
@@ -37,7 +42,9 @@ namespace priority_detail {
 
 using Grid_point = std::array<Integer, 3>;
 
-inline Grid_point difference(const Grid_point& a, const Grid_point& b) { return {Integer(a[0] - b[0]), Integer(a[1] - b[1]), Integer(a[2] - b[2])}; }
+inline Grid_point difference(const Grid_point& a, const Grid_point& b) {
+  return {Integer(a[0] - b[0]), Integer(a[1] - b[1]), Integer(a[2] - b[2])};
+}
 inline Integer dot(const Grid_point& a, const Grid_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Grid_point cross(const Grid_point& a, const Grid_point& b) {
   return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]), Integer(a[0] * b[1] - a[1] * b[0])};
@@ -57,13 +64,15 @@ struct Grid_scene {
   Integer scale = 1;
 
   template <class Traits>
-  Grid_scene(const Priority_relation<Traits>& relation, const std::vector<Exact_point>& further) : faces(relation.size()) {
+  Grid_scene(const Priority_relation<Traits>& relation, const std::vector<Exact_point>& further)
+      : faces(relation.size()) {
     std::vector<std::vector<Exact_point>> corners(relation.size());
     const auto see = [&](const Exact_point& p) {
       for (const Rational& x : p) scale = lcm(scale, x.get_den());
     };
     for (std::uint32_t i = 0; i < relation.size(); ++i)
-      for (const Corner<Traits>& corner : relation[i]) corners[i].push_back(relation.traits().position(*corner.vertex)), see(corners[i].back());
+      for (const Corner<Traits>& corner : relation[i])
+        corners[i].push_back(relation.traits().position(*corner.vertex)), see(corners[i].back());
     std::for_each(further.begin(), further.end(), see);
     const auto scaled = [&](const Exact_point& p) {
       Grid_point q;
@@ -75,7 +84,8 @@ struct Grid_scene {
       Grid_face& face = faces[i];
       for (const Exact_point& p : corners[i]) face.corners.push_back(scaled(p));
       for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {  // the sum over a fan, as corners may be straight
-        const Grid_point part = cross(difference(face.corners[k], face.corners[0]), difference(face.corners[k + 1], face.corners[0]));
+        const Grid_point part =
+            cross(difference(face.corners[k], face.corners[0]), difference(face.corners[k + 1], face.corners[0]));
         for (std::size_t axis = 0; axis < 3; ++axis) face.normal[axis] += part[axis];
       }
     }
@@ -84,18 +94,21 @@ struct Grid_scene {
 
 }  // namespace priority_detail
 
-/// r1 < r2 from a region: some eye of the (closed) region, strictly in front of both planes, sends a ray through the inside of r1 and then the inside of r2.
-/// With A the part of r1 in front of r2's plane and B the part of r2 behind r1's, such eyes are the inside of conv A + cone {a - b}: a linear program, solved
-/// exactly, where the whole relation has the arc and the region a point in front of both planes. Pre: exact traits.
+/// r1 < r2 from a region: some eye of the (closed) region, strictly in front of both planes, sends a ray through the
+/// inside of r1 and then the inside of r2. With A the part of r1 in front of r2's plane and B the part of r2 behind
+/// r1's, such eyes are the inside of conv A + cone {a - b}: a linear program, solved exactly, where the whole relation
+/// has the arc and the region a point in front of both planes. Pre: exact traits.
 template <class Model>
 class Region_relation {
  public:
   using Traits = Model;
 
   /// Pre: `faces` outlives it. Cost: a side for each face and point of the region.
-  Region_relation(const Priority_relation<Traits>& faces, const View_region& region) : faces_(&faces), grid_(faces, region.points), seen_(faces.size()) {
+  Region_relation(const Priority_relation<Traits>& faces, const View_region& region)
+      : faces_(&faces), grid_(faces, region.points), seen_(faces.size()) {
     for (std::uint32_t i = 0; i < faces.size(); ++i)
-      seen_[i] = std::any_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& p) { return sgn(grid_.faces[i].height(p)) > 0; });
+      seen_[i] = std::any_of(grid_.points.begin(), grid_.points.end(),
+                             [&](const Grid_point& p) { return sgn(grid_.faces[i].height(p)) > 0; });
     if (grid_.points.size() == 1)
       for (const Grid_face& face : grid_.faces) arms_.push_back(arms_of(face)), cones_.push_back(cone_of(arms_.back()));
   }
@@ -105,17 +118,21 @@ class Region_relation {
   /// Whether the face is on-view from some point of the region.
   bool on_view(std::uint32_t i) const { return seen_[i]; }
 
-  /// Whether i < j from the region. Degenerate: an empty region, or one that no arc's eyes reach but with their boundary, has no arc; an eye in a face's plane
-  /// does not see it; a region that faces cut is all its points, inside solids too. Exact: yes. Cost: a linear program of 6 rows, where no corner of the region
-  /// and no edge of the faces tells; from one viewpoint only for faces that cross. Proof: P-33
-  bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const { return arcs(i, j, counters).forth; }
+  /// Whether i < j from the region. Degenerate: an empty region, or one that no arc's eyes reach but with their
+  /// boundary, has no arc; an eye in a face's plane does not see it; a region that faces cut is all its points, inside
+  /// solids too. Exact: yes. Cost: a linear program of 6 rows, where no corner of the region and no edge of the faces
+  /// tells; from one viewpoint only for faces that cross. Proof: P-33
+  bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
+    return arcs(i, j, counters).forth;
+  }
   Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
     if (!seen_[i] || !seen_[j] || (!cones_.empty() && cones_[i].apart_from(cones_[j]))) return {};
     const Arcs whole = faces_->arcs(i, j, counters);
     if (!whole.forth && !whole.back) return {};
     if (!cones_.empty()) return arcs_of_eye(i, j, whole);
     const Grid_face &a = grid_.faces[i], &b = grid_.faces[j];
-    // Where one corner of the region sees the one face before the other, or one edge keeps them apart for all corners, that is the answer.
+    // Where one corner of the region sees the one face before the other, or one edge keeps them apart for all corners,
+    // that is the answer.
     if (apart_for_all(a, b) || apart_for_all(b, a)) return {};
     if ((!whole.forth || !whole.back) && overlap_from_some(a, b)) return whole;
     return {whole.forth && meets(a, b), whole.back && meets(b, a)};
@@ -125,20 +142,24 @@ class Region_relation {
   using Grid_face = priority_detail::Grid_face;
   using Grid_point = priority_detail::Grid_point;
 
-  // ---- One viewpoint ------------------------------------------------------------------------------------------------------------
+  // ---- One viewpoint
+  // ------------------------------------------------------------------------------------------------------------
 
-  /// Arcs of the one viewpoint, in front of both: if the cones overlap, a plane between the faces says which is nearer; only faces that cross need more.
+  /// Arcs of the one viewpoint, in front of both: if the cones overlap, a plane between the faces says which is nearer;
+  /// only faces that cross need more.
   Arcs arcs_of_eye(std::uint32_t i, std::uint32_t j, Arcs whole) const {
     if (separable(i, j)) return {};
     if (!whole.forth || !whole.back) return whole;
     const auto exact_corners = [&](std::uint32_t face) {
       std::vector<Exact_point> points;
-      for (const Grid_point& p : grid_.faces[face].corners) points.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
+      for (const Grid_point& p : grid_.faces[face].corners)
+        points.push_back({Rational(p[0]), Rational(p[1]), Rational(p[2])});
       return points;
     };
     const Grid_point& eye = grid_.points[0];
     if (const auto plane = priority_detail::plane_between(exact_corners(i), exact_corners(j))) {
-      const std::optional<bool> first = Pair_code{Precedence::by_plane, plane}.first_is_nearer({Rational(eye[0]), Rational(eye[1]), Rational(eye[2])});
+      const std::optional<bool> first = Pair_code{Precedence::by_plane, plane}.first_is_nearer(
+          {Rational(eye[0]), Rational(eye[1]), Rational(eye[2])});
       return {first == true, first == false};
     }
     return {meets(grid_.faces[i], grid_.faces[j]), meets(grid_.faces[j], grid_.faces[i])};
@@ -150,13 +171,15 @@ class Region_relation {
     std::vector<Triple> arms;
     for (const Grid_point& p : face.corners) {
       const Grid_point arm = priority_detail::difference(p, grid_.points[0]);
-      arms.push_back({nearest_double(Rational(arm[0])), nearest_double(Rational(arm[1])), nearest_double(Rational(arm[2]))});
+      arms.push_back(
+          {nearest_double(Rational(arm[0])), nearest_double(Rational(arm[1])), nearest_double(Rational(arm[2]))});
     }
     return arms;
   }
   static constexpr unsigned in_front = 1, behind = 2, unknown = 4;
   /// On which sides of the plane some of the arms are: bits of the constants above. One place is left out.
-  static unsigned sides_of(const std::vector<Triple>& arms, const priority_detail::Rounded_plane& plane, std::size_t out = ~std::size_t{0}) {
+  static unsigned sides_of(const std::vector<Triple>& arms, const priority_detail::Rounded_plane& plane,
+                           std::size_t out = ~std::size_t{0}) {
     unsigned found = 0;
     for (std::size_t c = 0; c < arms.size(); ++c) {
       if (c == out) continue;
@@ -166,25 +189,32 @@ class Region_relation {
     return found;
   }
 
-  /// Whether a plane through the one viewpoint has face i on one side and face j on the other: in doubles where these tell, else exactly.
+  /// Whether a plane through the one viewpoint has face i on one side and face j on the other: in doubles where these
+  /// tell, else exactly.
   bool separable(std::uint32_t i, std::uint32_t j) const {
     using priority_detail::Rounded_plane;
     for (const auto& [a, b] : {std::pair(i, j), std::pair(j, i)})
       for (std::size_t k = 0; k < arms_[a].size(); ++k) {
-        const unsigned sides = sides_of(arms_[b], Rounded_plane(arms_[a][k], arms_[a][k + 1 == arms_[a].size() ? 0 : k + 1]));
-        if ((sides & behind) == 0 && ((sides & unknown) == 0 || apart(grid_.points[0], grid_.faces[a], k, grid_.faces[b]))) return true;
+        const unsigned sides =
+            sides_of(arms_[b], Rounded_plane(arms_[a][k], arms_[a][k + 1 == arms_[a].size() ? 0 : k + 1]));
+        if ((sides & behind) == 0 &&
+            ((sides & unknown) == 0 || apart(grid_.points[0], grid_.faces[a], k, grid_.faces[b])))
+          return true;
       }
     for (std::size_t k = 0; k < arms_[i].size(); ++k)
       for (std::size_t l = 0; l < arms_[j].size(); ++l) {
         const Rounded_plane plane(arms_[i][k], arms_[j][l]);
-        const unsigned of_i = sides_of(arms_[i], plane, k), of_j = sides_of(arms_[j], plane, l), both = in_front | behind;
+        const unsigned of_i = sides_of(arms_[i], plane, k), of_j = sides_of(arms_[j], plane, l),
+                       both = in_front | behind;
         if ((of_i & both) == both || (of_j & both) == both || (of_i & of_j & both) != 0) continue;
-        if (((of_i | of_j) & unknown) == 0 || divides(grid_.points[0], grid_.faces[i], k, grid_.faces[j], l)) return true;
+        if (((of_i | of_j) & unknown) == 0 || divides(grid_.points[0], grid_.faces[i], k, grid_.faces[j], l))
+          return true;
       }
     return false;
   }
 
-  /// A round cone, narrower than a half-space, of all directions from the one eye to a face, in doubles; or, with a cosine of 0, nothing known.
+  /// A round cone, narrower than a half-space, of all directions from the one eye to a face, in doubles; or, with a
+  /// cosine of 0, nothing known.
   struct Round_cone {
     Triple axis{};
     double cosine = 0, sine = 1;
@@ -207,31 +237,41 @@ class Region_relation {
     }
     normalize(cone.axis);
     double least = 1;
-    for (const auto& d : directions) least = std::min(least, cone.axis[0] * d[0] + cone.axis[1] * d[1] + cone.axis[2] * d[2]);
+    for (const auto& d : directions)
+      least = std::min(least, cone.axis[0] * d[0] + cone.axis[1] * d[1] + cone.axis[2] * d[2]);
     if (!(least > 0x1p-20)) return {};  // also where a number is beyond doubles
     cone.cosine = least - 0x1p-48, cone.sine = std::sqrt(1 - cone.cosine * cone.cosine);
     return cone;
   }
 
-  // ---- Any viewpoint --------------------------------------------------------------------------------------------------------------
+  // ---- Any viewpoint
+  // --------------------------------------------------------------------------------------------------------------
 
   /// Whether the plane through an eye and edge k of a has b on its outer side. Pre: the eye is in front of a.
   static bool apart(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b) {
     using namespace priority_detail;
-    const Grid_point edge = cross(difference(a.corners[k], eye), difference(a.corners[(k + 1) % a.corners.size()], eye));  // a is where it is negative
-    return std::all_of(b.corners.begin(), b.corners.end(), [&](const Grid_point& p) { return sgn(dot(edge, difference(p, eye))) >= 0; });
+    const Grid_point edge = cross(difference(a.corners[k], eye),
+                                  difference(a.corners[(k + 1) % a.corners.size()], eye));  // a is where it is negative
+    return std::all_of(b.corners.begin(), b.corners.end(),
+                       [&](const Grid_point& p) { return sgn(dot(edge, difference(p, eye))) >= 0; });
   }
-  /// Whether one edge of a does so for all points of the region: then for all eyes in it, as the sign is that of a linear form in the eye.
+  /// Whether one edge of a does so for all points of the region: then for all eyes in it, as the sign is that of a
+  /// linear form in the eye.
   bool apart_for_all(const Grid_face& a, const Grid_face& b) const {
     for (std::size_t k = 0; k < a.corners.size(); ++k)
-      if (std::all_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& eye) { return apart(eye, a, k, b); })) return true;
+      if (std::all_of(grid_.points.begin(), grid_.points.end(),
+                      [&](const Grid_point& eye) { return apart(eye, a, k, b); }))
+        return true;
     return false;
   }
   /// Whether from some point of the region, in front of both, the cones of the insides meet.
   bool overlap_from_some(const Grid_face& a, const Grid_face& b) const {
-    return std::any_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& eye) { return sgn(a.height(eye)) > 0 && sgn(b.height(eye)) > 0 && !separable(eye, a, b); });
+    return std::any_of(grid_.points.begin(), grid_.points.end(), [&](const Grid_point& eye) {
+      return sgn(a.height(eye)) > 0 && sgn(b.height(eye)) > 0 && !separable(eye, a, b);
+    });
   }
-  /// Whether a plane through the eye has a on one side and b on the other. If there is one, there is one through two corners: of one edge, or of a and of b.
+  /// Whether a plane through the eye has a on one side and b on the other. If there is one, there is one through two
+  /// corners: of one edge, or of a and of b.
   static bool separable(const Grid_point& eye, const Grid_face& a, const Grid_face& b) {
     using namespace priority_detail;
     for (std::size_t k = 0; k < a.corners.size(); ++k)
@@ -249,13 +289,16 @@ class Region_relation {
     const Grid_point normal = cross(difference(a.corners[k], eye), difference(b.corners[l], eye));
     if (sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0) return false;
     const auto on_side = [&](const Grid_face& face, int side) {
-      return std::all_of(face.corners.begin(), face.corners.end(), [&](const Grid_point& p) { return side * sgn(dot(normal, difference(p, eye))) >= 0; });
+      return std::all_of(face.corners.begin(), face.corners.end(),
+                         [&](const Grid_point& p) { return side * sgn(dot(normal, difference(p, eye))) >= 0; });
     };
     return (on_side(a, 1) && on_side(b, -1)) || (on_side(a, -1) && on_side(b, 1));
   }
 
-  /// Whether the region holds an eye from which the inside of a may obscure that of b: are there alpha, beta >= 1 and gamma >= 0 with
-  ///   sum alpha (a_k, 1) - sum beta (b_l, 1) = sum gamma (p_m, 1),  sum alpha height_b(a_k) >= 1,  sum beta height_a(b_l) <= -1?
+  /// Whether the region holds an eye from which the inside of a may obscure that of b: are there alpha, beta >= 1 and
+  /// gamma >= 0 with
+  ///   sum alpha (a_k, 1) - sum beta (b_l, 1) = sum gamma (p_m, 1),  sum alpha height_b(a_k) >= 1,  sum beta
+  ///   height_a(b_l) <= -1?
   bool meets(const Grid_face& a, const Grid_face& b) const {
     using Wide = CGAL::Gmpz;
     const auto number = [](const Integer& x) { return Wide(x.get_mpz_t()); };
@@ -283,18 +326,22 @@ class Region_relation {
   std::vector<std::vector<Triple>> arms_;
 };
 
-/// r1 < r2 along one ray from one eye: both are on-view, and the ray goes through the inside of r1 and then through the inside of r2.
-/// Degenerate: a ray through an edge or a corner goes through no inside. Pre: exact traits; direction != 0. Exact: yes.
+/// r1 < r2 along one ray from one eye: both are on-view, and the ray goes through the inside of r1 and then through the
+/// inside of r2. Degenerate: a ray through an edge or a corner goes through no inside. Pre: exact traits; direction !=
+/// 0. Exact: yes.
 template <class Model>
 class Ray_relation {
  public:
   using Traits = Model;
 
   /// Pre: `faces` outlives it. Errors: std::domain_error for a zero direction. Cost: linear in the corners.
-  Ray_relation(const Priority_relation<Traits>& faces, const Exact_point& eye, const Exact_point& direction) : faces_(&faces), pierced_(faces.size()) {
-    if (sgn(direction[0]) == 0 && sgn(direction[1]) == 0 && sgn(direction[2]) == 0) throw std::domain_error("a ray needs a direction");
+  Ray_relation(const Priority_relation<Traits>& faces, const Exact_point& eye, const Exact_point& direction)
+      : faces_(&faces), pierced_(faces.size()) {
+    if (sgn(direction[0]) == 0 && sgn(direction[1]) == 0 && sgn(direction[2]) == 0)
+      throw std::domain_error("a ray needs a direction");
     const priority_detail::Grid_scene grid(faces, {eye, direction});
-    for (std::uint32_t i = 0; i < faces.size(); ++i) pierced_[i] = pierced(grid.faces[i], grid.points[0], grid.points[1]);
+    for (std::uint32_t i = 0; i < faces.size(); ++i)
+      pierced_[i] = pierced(grid.faces[i], grid.points[0], grid.points[1]);
   }
 
   std::uint32_t size() const { return faces_->size(); }
@@ -302,17 +349,24 @@ class Ray_relation {
   /// Where the ray goes through the face's inside, if it does and the eye is in front: eye + t direction.
   const std::optional<Rational>& parameter(std::uint32_t i) const { return pierced_[i]; }
 
-  bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters&) const { return pierced_[i] && pierced_[j] && *pierced_[i] < *pierced_[j]; }
-  Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const { return {may_obscure(i, j, counters), may_obscure(j, i, counters)}; }
+  bool may_obscure(std::uint32_t i, std::uint32_t j, Relation_counters&) const {
+    return pierced_[i] && pierced_[j] && *pierced_[i] < *pierced_[j];
+  }
+  Arcs arcs(std::uint32_t i, std::uint32_t j, Relation_counters& counters) const {
+    return {may_obscure(i, j, counters), may_obscure(j, i, counters)};
+  }
 
  private:
-  static std::optional<Rational> pierced(const priority_detail::Grid_face& face, const priority_detail::Grid_point& eye, const priority_detail::Grid_point& direction) {
+  static std::optional<Rational> pierced(const priority_detail::Grid_face& face, const priority_detail::Grid_point& eye,
+                                         const priority_detail::Grid_point& direction) {
     using namespace priority_detail;
     const Integer height = face.height(eye), slope = dot(face.normal, direction);
     if (sgn(height) <= 0 || sgn(slope) >= 0) return std::nullopt;  // off-view, or never there
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
-      const Grid_point from = difference(face.corners[k], eye), to = difference(face.corners[(k + 1) % face.corners.size()], eye);
-      if (sgn(dot(cross(from, to), direction)) >= 0) return std::nullopt;  // seen from the front the corners run counterclockwise
+      const Grid_point from = difference(face.corners[k], eye),
+                       to = difference(face.corners[(k + 1) % face.corners.size()], eye);
+      if (sgn(dot(cross(from, to), direction)) >= 0)
+        return std::nullopt;  // seen from the front the corners run counterclockwise
     }
     Rational t(height, -slope);
     t.canonicalize();

@@ -1,5 +1,6 @@
 #pragma once
-// Planes that have polygons on both sides and cut none: what lets each side be ordered alone (Schumacker's clusters, Naylor's inter-object trees).
+// Planes that have polygons on both sides and cut none: what lets each side be ordered alone (Schumacker's clusters,
+// Naylor's inter-object trees).
 
 #include <sightline/kernel/partition_traits.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -13,7 +14,8 @@
 
 namespace sightline {
 
-/// The plane of a face, or a plane with coefficients in doubles, in the coordinates of the file, that has a gap around it.
+/// The plane of a face, or a plane with coefficients in doubles, in the coordinates of the file, that has a gap around
+/// it.
 struct Separating_plane {
   Plane face;                    ///< valid where it is a face's
   std::array<double, 4> free{};  ///< a x + b y + c z + d otherwise; in front where that is positive
@@ -23,7 +25,8 @@ struct Separating_plane {
 
 /// The side of an eye. Exact: yes.
 template <class Traits>
-Sign side_of(const Traits& traits, const Separating_plane& plane, const Exact_point& eye, const typename Traits::Eye& viewpoint, Predicate_counts& counts) {
+Sign side_of(const Traits& traits, const Separating_plane& plane, const Exact_point& eye,
+             const typename Traits::Eye& viewpoint, Predicate_counts& counts) {
   if (!plane.is_free()) return traits.side(viewpoint, plane.face, counts);
   Rational value = exact(plane.free[3]);
   for (std::size_t k = 0; k < 3; ++k) value += exact(plane.free[k]) * eye[k];
@@ -33,7 +36,8 @@ Sign side_of(const Traits& traits, const Separating_plane& plane, const Exact_po
 
 /// position(), but a polygon's own plane holds it without a look at its corners.
 template <class Traits>
-Position position_to(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter, Plane plane, Predicate_counts& counts) {
+Position position_to(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter,
+                     Plane plane, Predicate_counts& counts) {
   return traits.same_plane(polygon.support, plane) ? Position::on : position(traits, polygon, cutter, counts);
 }
 
@@ -65,18 +69,22 @@ class Separation_finder {
     normals_.push_back(normal(begin_.size() - 2));
   }
 
-  /// A plane that cuts no member and leaves at least `least` of them strictly on each side: the one found that leaves the fewest on its larger side. Across each of
-  /// the three axes and of up to `directions` normals of members it looks at all faces' planes and all gaps. Nothing where those have no such plane; others
-  /// may. Degenerate: members that touch the plane are on their side of it; members in it are on it. Cost: O(n log n) a direction. Exact: yes.
-  std::optional<Separation> find(std::span<const std::uint32_t> members, std::size_t least, std::size_t directions, Predicate_counts& counts) {
+  /// A plane that cuts no member and leaves at least `least` of them strictly on each side: the one found that leaves
+  /// the fewest on its larger side. Across each of the three axes and of up to `directions` normals of members it looks
+  /// at all faces' planes and all gaps. Nothing where those have no such plane; others may. Degenerate: members that
+  /// touch the plane are on their side of it; members in it are on it. Cost: O(n log n) a direction. Exact: yes.
+  std::optional<Separation> find(std::span<const std::uint32_t> members, std::size_t least, std::size_t directions,
+                                 Predicate_counts& counts) {
     if (!std::isfinite(4 * range_)) return std::nullopt;
     candidates_.clear();
     collect_directions(members, directions);
     for (const Triple& direction : directions_) sweep(members, direction, least);
-    std::stable_sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) { return a.larger < b.larger; });
+    std::stable_sort(candidates_.begin(), candidates_.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.larger < b.larger; });
     if (candidates_.size() > tried) candidates_.resize(tried);
     for (const Candidate& candidate : candidates_)
-      if (std::optional<Separation> found = candidate.plane.is_free() ? divided_by_gap(members, candidate) : divided_by_face(members, candidate, counts);
+      if (std::optional<Separation> found = candidate.plane.is_free() ? divided_by_gap(members, candidate)
+                                                                      : divided_by_face(members, candidate, counts);
           found && std::min(found->sides[1].size(), found->sides[2].size()) >= least)
         return found;
     return std::nullopt;
@@ -94,7 +102,9 @@ class Separation_finder {
     double place;  // where it stands in the sweep
   };
 
-  std::span<const Triple> corners(std::uint32_t i) const { return std::span(corners_).subspan(begin_[i], begin_[i + std::size_t{1}] - begin_[i]); }
+  std::span<const Triple> corners(std::uint32_t i) const {
+    return std::span(corners_).subspan(begin_[i], begin_[i + std::size_t{1}] - begin_[i]);
+  }
 
   /// Scaled to largest entry 1, that entry being positive; zero where doubles do not tell.
   Triple normal(std::size_t i) const {
@@ -115,19 +125,23 @@ class Separation_finder {
   void collect_directions(std::span<const std::uint32_t> members, std::size_t most) {
     directions_ = {Triple{1, 0, 0}, Triple{0, 1, 0}, Triple{0, 0, 1}};
     seen_.clear();
-    const auto key = [](const Triple& d) { return std::array<long, 3>{std::lrint(d[0] * 0x1p24), std::lrint(d[1] * 0x1p24), std::lrint(d[2] * 0x1p24)}; };
+    const auto key = [](const Triple& d) {
+      return std::array<long, 3>{std::lrint(d[0] * 0x1p24), std::lrint(d[1] * 0x1p24), std::lrint(d[2] * 0x1p24)};
+    };
     for (const Triple& d : directions_) seen_.insert(key(d));
     // From all over the list, as neighbours in it tend to be alike.
     const std::size_t n = members.size(), stride = most > 0 && n > 2 * most ? n / most | 1 : 1;
     std::size_t looked = 0;
-    for (std::size_t k = 0; looked < n && looked < 4 * most && directions_.size() < most + 3; ++looked, k = (k + stride) % n) {
+    for (std::size_t k = 0; looked < n && looked < 4 * most && directions_.size() < most + 3;
+         ++looked, k = (k + stride) % n) {
       const Triple& d = normals_[members[k]];
       if (d != Triple{} && seen_.insert(key(d)).second) directions_.push_back(d);
     }
   }
 
   static double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-  /// Three products of a coordinate, off by 2^-53 of the range, with an entry of at most 1, and two sums: each of the eight roundings is below 2^-53 x 3 range.
+  /// Three products of a coordinate, off by 2^-53 of the range, with an entry of at most 1, and two sums: each of the
+  /// eight roundings is below 2^-53 x 3 range.
   double projection_error() const { return 0x1p-48 * range_ + 0x1p-1000; }
 
   Extent extent(std::uint32_t member, const Triple& direction) const {
@@ -145,9 +159,12 @@ class Separation_finder {
     extents_.clear();
     for (const std::uint32_t member : members) {
       Extent& e = extents_.emplace_back(extent(member, direction));
-      e.place = is_flat(e, direction) ? e.low - 8 * error : e.low;  // before what touches it from the front, however that is rounded
+      e.place = is_flat(e, direction) ? e.low - 8 * error
+                                      : e.low;  // before what touches it from the front, however that is rounded
     }
-    std::sort(extents_.begin(), extents_.end(), [](const Extent& a, const Extent& b) { return a.place != b.place ? a.place < b.place : a.high != b.high ? a.high < b.high : a.member < b.member; });
+    std::sort(extents_.begin(), extents_.end(), [](const Extent& a, const Extent& b) {
+      return a.place != b.place ? a.place < b.place : a.high != b.high ? a.high < b.high : a.member < b.member;
+    });
     const std::size_t n = extents_.size();
     double reached = -std::numeric_limits<double>::infinity(), last_face = reached;
     std::array<std::optional<Candidate>, 2> best;  // gap, face
@@ -165,7 +182,8 @@ class Separation_finder {
       if (reached <= e.low + 4 * error && e.low > last_face + 4 * error && is_flat(e, direction)) {
         std::size_t next = k + 1;
         while (next < n && extents_[next].high <= e.high + 4 * error) ++next;
-        if (next == n || extents_[next].low >= e.high - 4 * error) offer(k, n - next, {polygons_[e.member].support, {}});
+        if (next == n || extents_[next].low >= e.high - 4 * error)
+          offer(k, n - next, {polygons_[e.member].support, {}});
         last_face = e.low;
       }
       reached = std::max(reached, e.high);
@@ -174,7 +192,9 @@ class Separation_finder {
       if (candidate) candidates_.push_back(*candidate);
   }
   /// Whether a member's plane is across the direction, as far as doubles tell.
-  bool is_flat(const Extent& e, const Triple& direction) const { return e.high - e.low <= 4 * projection_error() && parallel(normals_[e.member], direction); }
+  bool is_flat(const Extent& e, const Triple& direction) const {
+    return e.high - e.low <= 4 * projection_error() && parallel(normals_[e.member], direction);
+  }
   static bool parallel(const Triple& a, const Triple& b) {
     return a != Triple{} && std::fabs(a[0] - b[0]) + std::fabs(a[1] - b[1]) + std::fabs(a[2] - b[2]) < 0x1p-20;
   }
@@ -192,7 +212,8 @@ class Separation_finder {
     }
     return found;
   }
-  std::optional<Separation> divided_by_face(std::span<const std::uint32_t> members, const Candidate& candidate, Predicate_counts& counts) const {
+  std::optional<Separation> divided_by_face(std::span<const std::uint32_t> members, const Candidate& candidate,
+                                            Predicate_counts& counts) const {
     const auto cutter = traits_->prepare(candidate.plane.face);
     Separation found{candidate.plane, {}};
     for (const std::uint32_t member : members) {

@@ -1,6 +1,6 @@
 #pragma once
-// A visibility order for all eyes at once, of whole faces wherever there is one: fixed priorities, planes that cut nothing, and, where neither helps, faces
-// that are searched from each eye or cut beforehand.
+// A visibility order for all eyes at once, of whole faces wherever there is one: fixed priorities, planes that cut
+// nothing, and, where neither helps, faces that are searched from each eye or cut beforehand.
 
 #include <sightline/algorithms/priority/explicit_graph.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
@@ -24,17 +24,18 @@ struct Priority_tree_counters {
   std::uint64_t by_number = 0;  ///< settled by h: alone in a component
   std::uint64_t by_plane = 0;   ///< settled as lying in a separating plane
   std::uint64_t left = 0;       ///< in components that no plane separates: searched from each eye
-  std::uint64_t sequences = 0, planes = 0, cycles = 0;    ///< nodes by kind
-  std::uint64_t free_planes = 0, cutting_planes = 0;     ///< of the planes: those that are no face's; those that cut faces
+  std::uint64_t sequences = 0, planes = 0, cycles = 0;  ///< nodes by kind
+  std::uint64_t free_planes = 0, cutting_planes = 0;  ///< of the planes: those that are no face's; those that cut faces
   std::uint64_t depth = 0;
-  std::uint64_t splits = 0;     ///< cuts
-  std::uint64_t graphs = 0;     ///< components searched for
+  std::uint64_t splits = 0;  ///< cuts
+  std::uint64_t graphs = 0;  ///< components searched for
   Index_counters search;
   Predicate_counts predicates;  ///< of planes and cuts
 };
 
-/// Nodes of three kinds. `sequence`: children whose order is the same from every eye, highest priority first (h of the paper). `plane`: what is behind, what is in front, what lies on
-/// it; the eye's side tells which is nearer. `cycle`: a strongly connected component that no plane found separates.
+/// Nodes of three kinds. `sequence`: children whose order is the same from every eye, highest priority first (h of the
+/// paper). `plane`: what is behind, what is in front, what lies on it; the eye's side tells which is nearer. `cycle`: a
+/// strongly connected component that no plane found separates.
 template <class Traits>
 struct Priority_tree {
   enum class Kind : std::uint8_t { sequence, plane, cycle };
@@ -44,26 +45,30 @@ struct Priority_tree {
 
   struct Node {
     Kind kind;
-    Separating_plane plane;      ///< of a plane node
-    std::uint32_t first, count;  ///< its slots; of a plane node the one behind, the one in front, then the polygons on it
+    Separating_plane plane;  ///< of a plane node
+    std::uint32_t first,
+        count;  ///< its slots; of a plane node the one behind, the one in front, then the polygons on it
   };
 
   std::vector<Node> nodes;
-  std::vector<Slot> slots{nothing};                 ///< slots[0] is the root
-  std::vector<Convex_polygon<Traits>> polygons;     ///< counterclockwise seen from the side that counts; those that were cut stay, in no slot
-  std::vector<char> turned;                         ///< by polygon: whether that is the back of its piece
-  bool two_sided = false;                           ///< whether it holds backs
+  std::vector<Slot> slots{nothing};  ///< slots[0] is the root
+  std::vector<Convex_polygon<Traits>>
+      polygons;              ///< counterclockwise seen from the side that counts; those that were cut stay, in no slot
+  std::vector<char> turned;  ///< by polygon: whether that is the back of its piece
+  bool two_sided = false;    ///< whether it holds backs
   Priority_tree_counters counters;
-  std::vector<Polygon_store<Traits>> memory;        ///< what the polygons point into
+  std::vector<Polygon_store<Traits>> memory;  ///< what the polygons point into
 
   std::span<const Slot> slots_of(const Node& n) const { return std::span(slots).subspan(n.first, n.count); }
 };
 
-/// The same polygon seen from behind: corners in the opposite order, each with the edge that now follows it, and the opposite plane.
+/// The same polygon seen from behind: corners in the opposite order, each with the edge that now follows it, and the
+/// opposite plane.
 template <class Traits>
 Convex_polygon<Traits> turned_round(const Convex_polygon<Traits>& polygon, Polygon_store<Traits>& store) {
   std::vector<Corner<Traits>> corners;
-  for (std::uint32_t k = polygon.size; k-- > 0;) corners.push_back({polygon.corners[k].vertex, polygon.corners[k == 0 ? polygon.size - 1 : k - 1].edge});
+  for (std::uint32_t k = polygon.size; k-- > 0;)
+    corners.push_back({polygon.corners[k].vertex, polygon.corners[k == 0 ? polygon.size - 1 : k - 1].edge});
   return store.keep(corners, polygon.piece, polygon.support.opposite());
 }
 
@@ -76,7 +81,8 @@ class Tree_builder {
   using Tree = Priority_tree<Traits>;
   using Members = std::vector<std::uint32_t>;
 
-  Tree_builder(const Traits& traits, const Priority_tree_options& options) : traits_(traits), options_(options), finder_(traits) {}
+  Tree_builder(const Traits& traits, const Priority_tree_options& options)
+      : traits_(traits), options_(options), finder_(traits) {}
 
   void add(const Polygon& polygon, bool turned) {
     tree_.polygons.push_back(polygon), tree_.turned.push_back(turned);
@@ -128,18 +134,23 @@ class Tree_builder {
   typename Tree::Node& add_node(const Job& job, typename Tree::Kind kind, std::size_t slots) {
     tree_.slots[job.slot] = Tree::node(tree_.nodes.size());
     tree_.counters.depth = std::max(tree_.counters.depth, job.depth);
-    tree_.nodes.push_back({kind, {}, static_cast<std::uint32_t>(tree_.slots.size()), static_cast<std::uint32_t>(slots)});
+    tree_.nodes.push_back(
+        {kind, {}, static_cast<std::uint32_t>(tree_.slots.size()), static_cast<std::uint32_t>(slots)});
     tree_.slots.resize(tree_.slots.size() + slots, Tree::nothing);
     return tree_.nodes.back();
   }
 
-  /// Planes that cut nothing and divide well first, as they are cheaper to find than the graph's components; then these; then planes again, however they divide; then cuts.
+  /// Planes that cut nothing and divide well first, as they are cheaper to find than the graph's components; then
+  /// these; then planes again, however they divide; then cuts.
   void settle(Job job) {
     const std::size_t n = job.members.size();
     if (!job.strong && n > many)
-      if (auto found = finder_.find(job.members, n / 8, some_directions, tree_.counters.predicates)) return divide(job, std::move(*found));
+      if (auto found = finder_.find(job.members, n / 8, some_directions, tree_.counters.predicates))
+        return divide(job, std::move(*found));
     if (!job.strong && !enumerate(job)) return;
-    if (auto found = finder_.find(job.members, 1, std::max<std::size_t>(some_directions, effort / n), tree_.counters.predicates)) return divide(job, std::move(*found));
+    if (auto found =
+            finder_.find(job.members, 1, std::max<std::size_t>(some_directions, effort / n), tree_.counters.predicates))
+      return divide(job, std::move(*found));
     if (!options_.split) return leave(job);
     divide(job, divided(job.members));
   }
@@ -157,7 +168,8 @@ class Tree_builder {
       push({std::move(found.sides[1 + side]), first + side, job.depth + 1, false});
   }
 
-  /// The node of the components of the graph, highest priority first. Returns whether they are one, in which case there is no node.
+  /// The node of the components of the graph, highest priority first. Returns whether they are one, in which case there
+  /// is no node.
   bool enumerate(Job& job) {
     const Priority_components found = components_of(job.members);
     if (found.size() == 1) return job.strong = true;
@@ -190,7 +202,8 @@ class Tree_builder {
   void leave(const Job& job) {
     const std::size_t first = add_node(job, Tree::Kind::cycle, job.members.size()).first;
     ++tree_.counters.cycles;
-    for (std::size_t k = 0; k < job.members.size(); ++k) tree_.slots[first + k] = static_cast<typename Tree::Slot>(job.members[k]);
+    for (std::size_t k = 0; k < job.members.size(); ++k)
+      tree_.slots[first + k] = static_cast<typename Tree::Slot>(job.members[k]);
     settled(tree_.counters.left, job.members.size());
   }
 
@@ -204,7 +217,8 @@ class Tree_builder {
     return {next, next + 1};
   }
 
-  /// The members divided by the plane of one of them, those across it cut: the plane tried that cuts fewest, and of those the one that divides best.
+  /// The members divided by the plane of one of them, those across it cut: the plane tried that cuts fewest, and of
+  /// those the one that divides best.
   Separation divided(const Members& members) {
     const std::size_t n = members.size(), tries = std::min(n, std::max<std::size_t>(64, effort / n));
     std::size_t best_cost = std::numeric_limits<std::size_t>::max();
@@ -216,9 +230,12 @@ class Tree_builder {
       const auto cutter = traits_.prepare(plane);
       std::array<std::size_t, 4> at{};
       for (std::size_t k = 0; k < n && split_cost * at[3] < best_cost; ++k) {
-        ++at[static_cast<std::size_t>(position_to(traits_, tree_.polygons[members[k]], cutter, plane, tree_.counters.predicates))];
+        ++at[static_cast<std::size_t>(
+            position_to(traits_, tree_.polygons[members[k]], cutter, plane, tree_.counters.predicates))];
       }
-      if (const std::size_t cost = split_cost * at[3] + std::max(at[1], at[2]) - std::min(at[1], at[2]); cost < best_cost) best_cost = cost, best = plane;
+      if (const std::size_t cost = split_cost * at[3] + std::max(at[1], at[2]) - std::min(at[1], at[2]);
+          cost < best_cost)
+        best_cost = cost, best = plane;
     }
 
     Separation found{{best, {}}, {}};
@@ -238,8 +255,9 @@ class Tree_builder {
     return found;
   }
 
-  static constexpr std::size_t few = 24;              // members; up to here comparing all pairs is faster than an index
-  static constexpr std::size_t many = 128;            // members; above, a plane that divides well is looked for before the graph is searched
+  static constexpr std::size_t few = 24;  // members; up to here comparing all pairs is faster than an index
+  static constexpr std::size_t many =
+      128;  // members; above, a plane that divides well is looked for before the graph is searched
   static constexpr std::size_t some_directions = 16;  // to look along for planes that divide well
   static constexpr std::size_t effort = 1 << 20;      // projections or tests for one plane, about, where any will do
   static constexpr std::size_t split_cost = 4;        // a cut costs as much as an imbalance of this many polygons
@@ -256,8 +274,9 @@ class Tree_builder {
 
 }  // namespace priority_detail
 
-/// A tree of all pieces of the scene. Degenerate: coplanar pieces lie on one node together; pieces that cross stay in a cycle, or, with `split`, are cut. Cost: a search of
-/// the graph for every few levels; without `split` no face is cut. Pre: exact traits. Exact: yes. Proof: P-37
+/// A tree of all pieces of the scene. Degenerate: coplanar pieces lie on one node together; pieces that cross stay in a
+/// cycle, or, with `split`, are cut. Cost: a search of the graph for every few levels; without `split` no face is cut.
+/// Pre: exact traits. Exact: yes. Proof: P-37
 template <Bounded_traits Traits>
 Priority_tree<Traits> build_priority_tree(const Traits& traits, const Priority_tree_options& options = {}) {
   priority_detail::Tree_builder<Traits> builder(traits, options);
@@ -268,9 +287,11 @@ Priority_tree<Traits> build_priority_tree(const Traits& traits, const Priority_t
   }
   return builder.build();
 }
-/// A tree of these polygons, `turned` those that are the backs of their pieces. Pre: what the polygons point into outlives the tree.
+/// A tree of these polygons, `turned` those that are the backs of their pieces. Pre: what the polygons point into
+/// outlives the tree.
 template <Bounded_traits Traits>
-Priority_tree<Traits> build_priority_tree(const Traits& traits, std::span<const Convex_polygon<Traits>> polygons, std::span<const char> turned, const Priority_tree_options& options = {}) {
+Priority_tree<Traits> build_priority_tree(const Traits& traits, std::span<const Convex_polygon<Traits>> polygons,
+                                          std::span<const char> turned, const Priority_tree_options& options = {}) {
   priority_detail::Tree_builder<Traits> builder(traits, options);
   for (std::size_t i = 0; i < polygons.size(); ++i) builder.add(polygons[i], turned[i] != 0);
   return builder.build();

@@ -20,7 +20,9 @@ inline constexpr const char* graph_format = "sightline graph 1";
 inline constexpr const char* see_format = "sightline see 1";
 inline constexpr const char* weak_format = "sightline weak 1";
 
-[[noreturn]] inline void fail(const std::string& place, const std::string& what) { throw std::invalid_argument("certificate: " + place + ": " + what); }
+[[noreturn]] inline void fail(const std::string& place, const std::string& what) {
+  throw std::invalid_argument("certificate: " + place + ": " + what);
+}
 
 inline const nlohmann::json& member(const nlohmann::json& object, const char* key, const std::string& place) {
   if (!object.is_object()) fail(place, "expected an object");
@@ -33,7 +35,8 @@ inline const nlohmann::json& array(const nlohmann::json& value, const std::strin
   return value;
 }
 inline std::uint32_t number32(const nlohmann::json& value, const std::string& place) {
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX) fail(place, "expected an integer from 0 to 4294967295");
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX)
+    fail(place, "expected an integer from 0 to 4294967295");
   return value.get<std::uint32_t>();
 }
 inline Rational exact_number(const nlohmann::json& value, const std::string& place) {
@@ -51,10 +54,13 @@ std::array<Rational, n> exact_numbers(const nlohmann::json& value, const std::st
   for (std::size_t k = 0; k < n; ++k) result[k] = exact_number(value[k], place);
   return result;
 }
-inline Exact_point point(const nlohmann::json& value, const std::string& place) { return exact_numbers<3>(value, place); }
+inline Exact_point point(const nlohmann::json& value, const std::string& place) {
+  return exact_numbers<3>(value, place);
+}
 inline std::vector<Exact_point> points(const nlohmann::json& value, const std::string& place) {
   std::vector<Exact_point> result;
-  for (const nlohmann::json& p : array(value, place)) result.push_back(point(p, place + '[' + std::to_string(result.size()) + ']'));
+  for (const nlohmann::json& p : array(value, place))
+    result.push_back(point(p, place + '[' + std::to_string(result.size()) + ']'));
   return result;
 }
 /// {face, piece, vertices}: a fragment or a piece.
@@ -63,7 +69,8 @@ std::vector<Part> parts(const nlohmann::json& certificate, const char* key) {
   std::vector<Part> result;
   for (const nlohmann::json& entry : array(member(certificate, key, "top level"), key)) {
     const std::string place = key + ('[' + std::to_string(result.size()) + ']');
-    result.push_back({number32(member(entry, "face", place), place + ".face"), number32(member(entry, "piece", place), place + ".piece"),
+    result.push_back({number32(member(entry, "face", place), place + ".face"),
+                      number32(member(entry, "piece", place), place + ".piece"),
                       points(member(entry, "vertices", place), place + ".vertices")});
   }
   return result;
@@ -94,15 +101,17 @@ inline void read_covering(const nlohmann::json& value, Covering& covering) {
 }
 
 /// The kinds of nodes, by the words that they begin with.
-inline constexpr std::array<std::pair<const char*, Weak_certificate::Node::Kind>, 6> node_words{{{"line", Weak_certificate::Node::Kind::line},
-                                                                                                {"cut source", Weak_certificate::Node::Kind::cut_source},
-                                                                                                {"cut target", Weak_certificate::Node::Kind::cut_target},
-                                                                                                {"blocked", Weak_certificate::Node::Kind::blocked},
-                                                                                                {"empty", Weak_certificate::Node::Kind::empty},
-                                                                                                {"away", Weak_certificate::Node::Kind::away}}};
+inline constexpr std::array<std::pair<const char*, Weak_certificate::Node::Kind>, 6> node_words{
+    {{"line", Weak_certificate::Node::Kind::line},
+     {"cut source", Weak_certificate::Node::Kind::cut_source},
+     {"cut target", Weak_certificate::Node::Kind::cut_target},
+     {"blocked", Weak_certificate::Node::Kind::blocked},
+     {"empty", Weak_certificate::Node::Kind::empty},
+     {"away", Weak_certificate::Node::Kind::away}}};
 
 /// [line, factor] or [line, factor, {"source": form, "target": form}].
-inline Weak_certificate::Term term(const nlohmann::json& value, const Weak_certificate& certificate, const std::string& at) {
+inline Weak_certificate::Term term(const nlohmann::json& value, const Weak_certificate& certificate,
+                                   const std::string& at) {
   if (array(value, at).size() != 2 && value.size() != 3) fail(at, "expected [line, factor] or [line, factor, forms]");
   Weak_certificate::Term result;
   result.line = place(value[0], certificate.lines.size(), at + "[0]");
@@ -115,20 +124,26 @@ inline Weak_certificate::Term term(const nlohmann::json& value, const Weak_certi
 }
 
 /// [word], or [word, what it is about].
-inline Weak_certificate::Node node(const nlohmann::json& value, const Weak_certificate& certificate, const std::string& at) {
+inline Weak_certificate::Node node(const nlohmann::json& value, const Weak_certificate& certificate,
+                                   const std::string& at) {
   using Kind = Weak_certificate::Node::Kind;
   if (array(value, at).empty() || !value[0].is_string()) fail(at, "expected an array that begins with a word");
-  const auto found = std::find_if(node_words.begin(), node_words.end(), [&](const auto& known) { return value[0].get_ref<const std::string&>() == known.first; });
-  if (found == node_words.end()) fail(at + "[0]", "expected \"line\", \"cut source\", \"cut target\", \"blocked\", \"empty\" or \"away\"");
+  const auto found = std::find_if(node_words.begin(), node_words.end(), [&](const auto& known) {
+    return value[0].get_ref<const std::string&>() == known.first;
+  });
+  if (found == node_words.end())
+    fail(at + "[0]", "expected \"line\", \"cut source\", \"cut target\", \"blocked\", \"empty\" or \"away\"");
   Weak_certificate::Node result;
   result.kind = found->second;
   const std::size_t size = result.kind == Kind::away ? 1 : 2;
   if (value.size() != size) fail(at, "expected " + std::to_string(size) + (size == 1 ? " entry" : " entries"));
   if (result.kind == Kind::line) result.index = place(value[1], certificate.lines.size(), at + "[1]");
   if (result.kind == Kind::blocked) result.index = place(value[1], certificate.fragments.size(), at + "[1]");
-  if (result.kind == Kind::cut_source || result.kind == Kind::cut_target) result.plane = exact_numbers<4>(value[1], at + "[1]");
+  if (result.kind == Kind::cut_source || result.kind == Kind::cut_target)
+    result.plane = exact_numbers<4>(value[1], at + "[1]");
   if (result.kind == Kind::empty)
-    for (const nlohmann::json& entry : array(value[1], at + "[1]")) result.terms.push_back(term(entry, certificate, at + "[1][" + std::to_string(result.terms.size()) + ']'));
+    for (const nlohmann::json& entry : array(value[1], at + "[1]"))
+      result.terms.push_back(term(entry, certificate, at + "[1][" + std::to_string(result.terms.size()) + ']'));
   return result;
 }
 
@@ -167,7 +182,8 @@ nlohmann::json write(const std::vector<Part>& all) {
 
 inline nlohmann::json write(const Weak_certificate::Node& node) {
   using Kind = Weak_certificate::Node::Kind;
-  const auto word = std::find_if(node_words.begin(), node_words.end(), [&](const auto& known) { return node.kind == known.second; });
+  const auto word =
+      std::find_if(node_words.begin(), node_words.end(), [&](const auto& known) { return node.kind == known.second; });
   nlohmann::json result = nlohmann::json::array({word->first});
   if (node.kind == Kind::line || node.kind == Kind::blocked) result.push_back(node.index);
   if (node.kind == Kind::cut_source || node.kind == Kind::cut_target) result.push_back(write(node.plane));
@@ -187,14 +203,17 @@ inline nlohmann::json write(const Weak_certificate::Node& node) {
 inline nlohmann::json write(const char* format, const Covering& covering) {
   nlohmann::json set_aside = nlohmann::json::array();
   for (const auto& entry : covering.set_aside) set_aside.push_back({{"face", entry.face}, {"why", entry.why}});
-  return {{"format", format}, {"fragments", write(covering.fragments)}, {"pieces", write(covering.pieces)}, {"set_aside", std::move(set_aside)}};
+  return {{"format", format},
+          {"fragments", write(covering.fragments)},
+          {"pieces", write(covering.pieces)},
+          {"set_aside", std::move(set_aside)}};
 }
 
 }  // namespace certificate_json
 
-/// The certificate that a JSON value holds. "on_view" (false), "pieces" and "set_aside" may be left out where there are none; further keys are
-/// passed over. Throws std::invalid_argument, one line that says where, if the value does not have the format; whether the
-/// certificate is right is for verify_order() to say. Exact: yes
+/// The certificate that a JSON value holds. "on_view" (false), "pieces" and "set_aside" may be left out where there are
+/// none; further keys are passed over. Throws std::invalid_argument, one line that says where, if the value does not
+/// have the format; whether the certificate is right is for verify_order() to say. Exact: yes
 inline Order_certificate order_certificate_from_json(const nlohmann::json& value) {
   using namespace certificate_json;
   if (!has_format(value, order_format)) fail("format", std::string("expected \"") + order_format + '"');
@@ -218,7 +237,8 @@ inline Graph_certificate graph_certificate_from_json(const nlohmann::json& value
     const std::string at = "arcs[" + std::to_string(certificate.arcs.size()) + ']';
     if (array(arc, at).size() != 4) fail(at, "expected [from, to, corner of from, corner of to]");
     const std::size_t from = place(arc[0], count, at), to = place(arc[1], count, at);
-    certificate.arcs.push_back({from, to, place(arc[2], certificate.fragments[from].vertices.size(), at), place(arc[3], certificate.fragments[to].vertices.size(), at)});
+    certificate.arcs.push_back({from, to, place(arc[2], certificate.fragments[from].vertices.size(), at),
+                                place(arc[3], certificate.fragments[to].vertices.size(), at)});
   }
   return certificate;
 }
@@ -234,7 +254,8 @@ inline Visible_certificate visible_certificate_from_json(const nlohmann::json& v
   for (const nlohmann::json& entry : array(member(value, "parts", "top level"), "parts")) {
     const std::string at = "parts[" + std::to_string(certificate.parts.size()) + ']';
     const std::size_t fragment = place(member(entry, "fragment", at), certificate.fragments.size(), at + ".fragment");
-    certificate.parts.push_back({fragment, points(member(entry, "vertices", at), at + ".vertices"), point(member(entry, "ray", at), at + ".ray")});
+    certificate.parts.push_back({fragment, points(member(entry, "vertices", at), at + ".vertices"),
+                                 point(member(entry, "ray", at), at + ".ray")});
   }
   for (const nlohmann::json& cone : array(member(value, "empty", "top level"), "empty"))
     certificate.empty.push_back(points(cone, "empty[" + std::to_string(certificate.empty.size()) + ']'));
@@ -260,8 +281,10 @@ inline Weak_certificate weak_certificate_from_json(const nlohmann::json& value) 
   }
   for (const nlohmann::json& entry : array(member(value, "visible", "top level"), "visible")) {
     const std::string at = "visible[" + std::to_string(certificate.visible.size()) + ']';
-    const std::size_t fragment = place(member(entry, "fragment", at), fragments, at + ".fragment"), source = place(member(entry, "source", at), sources, at + ".source");
-    certificate.visible.push_back({fragment, source, point(member(entry, "from", at), at + ".from"), point(member(entry, "to", at), at + ".to")});
+    const std::size_t fragment = place(member(entry, "fragment", at), fragments, at + ".fragment"),
+                      source = place(member(entry, "source", at), sources, at + ".source");
+    certificate.visible.push_back(
+        {fragment, source, point(member(entry, "from", at), at + ".from"), point(member(entry, "to", at), at + ".to")});
   }
   for (const nlohmann::json& entry : array(member(value, "hidden", "top level"), "hidden")) {
     const std::string at = "hidden[" + std::to_string(certificate.hidden.size()) + ']';
@@ -277,8 +300,11 @@ inline Weak_certificate weak_certificate_from_json(const nlohmann::json& value) 
   return certificate;
 }
 
-/// Reads a certificate from JSON text. Throws std::invalid_argument where the text is not JSON or not a certificate of that kind.
-inline Order_certificate read_order_certificate(std::istream& in) { return order_certificate_from_json(certificate_json::parse(in)); }
+/// Reads a certificate from JSON text. Throws std::invalid_argument where the text is not JSON or not a certificate of
+/// that kind.
+inline Order_certificate read_order_certificate(std::istream& in) {
+  return order_certificate_from_json(certificate_json::parse(in));
+}
 
 using Certificate = std::variant<Order_certificate, Graph_certificate, Visible_certificate, Weak_certificate>;
 
@@ -291,7 +317,8 @@ inline Certificate read_certificate(std::istream& in) {
   return order_certificate_from_json(value);
 }
 
-/// The certificate as a JSON value, numbers as strings "p" or "p/q". Post: order_certificate_from_json() gives it back. Exact: yes
+/// The certificate as a JSON value, numbers as strings "p" or "p/q". Post: order_certificate_from_json() gives it back.
+/// Exact: yes
 inline nlohmann::json to_json(const Order_certificate& certificate) {
   nlohmann::json value = certificate_json::write(certificate_json::order_format, certificate);
   value["eye"] = certificate_json::write(certificate.eye);
@@ -303,7 +330,8 @@ inline nlohmann::json to_json(const Order_certificate& certificate) {
 inline nlohmann::json to_json(const Graph_certificate& certificate) {
   nlohmann::json value = certificate_json::write(certificate_json::graph_format, certificate);
   nlohmann::json arcs = nlohmann::json::array();
-  for (const Graph_certificate::Arc& arc : certificate.arcs) arcs.push_back({arc.from, arc.to, arc.corner_from, arc.corner_to});
+  for (const Graph_certificate::Arc& arc : certificate.arcs)
+    arcs.push_back({arc.from, arc.to, arc.corner_from, arc.corner_to});
   value["sizes"] = certificate.sizes, value["arcs"] = std::move(arcs);
   return value;
 }
@@ -313,7 +341,8 @@ inline nlohmann::json to_json(const Visible_certificate& certificate) {
   using namespace certificate_json;
   nlohmann::json value = write(see_format, certificate);
   nlohmann::json parts = nlohmann::json::array(), empty = nlohmann::json::array();
-  for (const Visible_certificate::Part& part : certificate.parts) parts.push_back({{"fragment", part.fragment}, {"vertices", write(part.vertices)}, {"ray", write(part.ray)}});
+  for (const Visible_certificate::Part& part : certificate.parts)
+    parts.push_back({{"fragment", part.fragment}, {"vertices", write(part.vertices)}, {"ray", write(part.ray)}});
   for (const Visible_certificate::Directions& cone : certificate.empty) empty.push_back(write(cone));
   value["eye"] = write(certificate.eye), value["parts"] = std::move(parts), value["empty"] = std::move(empty);
   if (!certificate.field.empty()) value["field"] = write(certificate.field);
@@ -327,14 +356,18 @@ inline nlohmann::json to_json(const Weak_certificate& certificate) {
   nlohmann::json sources = nlohmann::json::array(), visible = sources, lines = sources, hidden = sources;
   for (const std::vector<Exact_point>& source : certificate.sources) sources.push_back(write(source));
   for (const Weak_certificate::Sightline& sightline : certificate.visible)
-    visible.push_back({{"fragment", sightline.fragment}, {"source", sightline.source}, {"from", write(sightline.from)}, {"to", write(sightline.to)}});
+    visible.push_back({{"fragment", sightline.fragment},
+                       {"source", sightline.source},
+                       {"from", write(sightline.from)},
+                       {"to", write(sightline.to)}});
   for (const Weak_certificate::Edge& line : certificate.lines) lines.push_back({line.fragment, line.corner});
   for (const Weak_certificate::Hidden& entry : certificate.hidden) {
     nlohmann::json proof = nlohmann::json::array();
     for (const Weak_certificate::Node& node : entry.proof) proof.push_back(write(node));
     hidden.push_back({{"fragment", entry.fragment}, {"source", entry.source}, {"proof", std::move(proof)}});
   }
-  value["sources"] = std::move(sources), value["visible"] = std::move(visible), value["lines"] = std::move(lines), value["hidden"] = std::move(hidden);
+  value["sources"] = std::move(sources), value["visible"] = std::move(visible), value["lines"] = std::move(lines),
+  value["hidden"] = std::move(hidden);
   value["undecided"] = certificate.undecided;
   if (certificate.two_sided) value["two_sided"] = true;
   return value;

@@ -1,6 +1,7 @@
 #pragma once
-// Checks that polygons are a scene: each face tiled by its fragments, or set aside for a reason that holds. What certificates of orders and of
-// priority graphs have in common. Rationals and integers only; shares nothing with what makes certificates. Laws: proofs/order_certificate.md (P-21, P-22).
+// Checks that polygons are a scene: each face tiled by its fragments, or set aside for a reason that holds. What
+// certificates of orders and of priority graphs have in common. Rationals and integers only; shares nothing with what
+// makes certificates. Laws: proofs/order_certificate.md (P-21, P-22).
 
 #include <sightline/kernel/scene/polygon_soup.h>
 
@@ -50,26 +51,34 @@ struct Verdict {
 };
 
 struct Verify_options {
-  std::function<void(std::size_t done, std::size_t total)> progress;  ///< the share of pairs that are done with, of all fragments; may be empty
+  std::function<void(std::size_t done, std::size_t total)>
+      progress;  ///< the share of pairs that are done with, of all fragments; may be empty
 };
 
 namespace certificate_check {
 
-// ---- Vectors ----------------------------------------------------------------------------------------------------------------
+// ---- Vectors
+// ----------------------------------------------------------------------------------------------------------------
 
 using Integer_vector = std::array<Integer, 3>;
 using Polygon = std::vector<Exact_point>;
 
-inline Exact_point minus(const Exact_point& a, const Exact_point& b) { return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])}; }
+inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
+  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
+}
 
 template <class Number>
 std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
   return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]), Number(a[0] * b[1] - a[1] * b[0])};
 }
 
-inline Rational dot(const Integer_vector& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
+inline Rational dot(const Integer_vector& a, const Exact_point& b) {
+  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
 
-inline Integer dot(const Integer_vector& a, const Integer_vector& b) { return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
+inline Integer dot(const Integer_vector& a, const Integer_vector& b) {
+  return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
 
 inline int sign_of_dot(const Integer_vector& a, const Integer_vector& b) {
   thread_local Integer sum;  // reused: most of the time of a check is spent here
@@ -139,14 +148,15 @@ inline int side(const Homogeneous& plane, const Homogeneous& p) {
   return sgn(sum);
 }
 
-// ---- Faces and polygons -----------------------------------------------------------------------------------------------------
+// ---- Faces and polygons
+// -----------------------------------------------------------------------------------------------------
 
 /// A face of the soup as points: consecutive repetitions dropped, holes turned so that they run against the outer loop.
 struct Face {
   std::vector<Polygon> loops;
   bool planar = true;
   bool has_front = false;  // the outer loop's Newell normal is not zero
-  Plane plane;             // of a planar face; if it has no front, either side of its plane; if all points are collinear, zero
+  Plane plane;  // of a planar face; if it has no front, either side of its plane; if all points are collinear, zero
 
   Face(const Polygon_soup& soup, Face_id f) {
     for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
@@ -161,7 +171,8 @@ struct Face {
     has_front = !is_zero(plane.normal);
     if (!has_front) plane.normal = some_normal();
     for (std::size_t k = 0; k < loops.size(); ++k) {
-      if (k > 0 && has_front && sgn(dot(plane.normal, newell_normal(loops[k]))) > 0) std::reverse(loops[k].begin(), loops[k].end());
+      if (k > 0 && has_front && sgn(dot(plane.normal, newell_normal(loops[k]))) > 0)
+        std::reverse(loops[k].begin(), loops[k].end());
       for (const Exact_point& p : loops[k]) planar = planar && plane.side(p) == 0;
     }
   }
@@ -186,8 +197,9 @@ struct Face {
   }
 };
 
-/// Why the polygon is not a convex one of positive area in the plane, counterclockwise around its normal; empty where it is.
-/// Straight corners are allowed, repeated vertices and spikes are not. Pre: the normal is not zero. Cost: linear. Proof: P-21a
+/// Why the polygon is not a convex one of positive area in the plane, counterclockwise around its normal; empty where
+/// it is. Straight corners are allowed, repeated vertices and spikes are not. Pre: the normal is not zero. Cost:
+/// linear. Proof: P-21a
 inline std::string not_convex(const Polygon& polygon, const Plane& plane) {
   const std::size_t n = polygon.size();
   if (n < 3) return "has fewer than three vertices";
@@ -201,7 +213,9 @@ inline std::string not_convex(const Polygon& polygon, const Plane& plane) {
   const int area = sign_of_dot(newell_normal(polygon), plane.normal);
   if (area <= 0) return area == 0 ? "has zero area" : "is clockwise as seen from the front of its face";
   // Every corner turns left by less than 180 degrees, and the edges turn once around in all.
-  const auto turn = [&](const Integer_vector& a, const Integer_vector& b) { return sign_of_dot(cross(a, b), plane.normal); };
+  const auto turn = [&](const Integer_vector& a, const Integer_vector& b) {
+    return sign_of_dot(cross(a, b), plane.normal);
+  };
   const auto upper = [&](const Integer_vector& edge) {  // angle to edge 0 in [0, 180)
     const int left = turn(edges[0], edge);
     return left > 0 || (left == 0 && sign_of_dot(edges[0], edge) > 0);
@@ -216,8 +230,9 @@ inline std::string not_convex(const Polygon& polygon, const Plane& plane) {
   return rounds == 1 ? "" : "is not convex (it turns more than once around)";
 }
 
-/// A sum of directed segments as a chain: two sums are the same chain iff on each line, at each point, the net number of
-/// arrivals is the same. A line through a known point is its direction, so the key is (direction up to sign, point). Proof: P-21b
+/// A sum of directed segments as a chain: two sums are the same chain iff on each line, at each point, the net number
+/// of arrivals is the same. A line through a known point is its direction, so the key is (direction up to sign, point).
+/// Proof: P-21b
 class Boundary_chain {
  public:
   void add(const Polygon& loop, long multiplicity) {
@@ -243,15 +258,16 @@ class Boundary_chain {
   std::map<std::pair<Integer_vector, Exact_point>, long> arrivals_;
 };
 
-// ---- What the eye sees of a polygon -----------------------------------------------------------------------------------------
+// ---- What the eye sees of a polygon
+// -----------------------------------------------------------------------------------------
 
 /// The cone of directions from the eye to a convex polygon. Pre: not_convex() is empty for it.
 struct Cone {
-  bool edge_on = false;  ///< the eye is in the polygon's plane; the rest is then empty
+  bool edge_on = false;                     ///< the eye is in the polygon's plane; the rest is then empty
   std::vector<Integer_vector> rays;         ///< to the vertices, without straight corners
   std::vector<Integer_vector> edge_planes;  ///< normal, pointing inwards, of the plane of rays i and i + 1
-  Integer_vector nearness;                  ///< the polygon's plane is met along d at t where nearness.d x t = distance;
-  Integer distance;                         ///< nearness.d > 0 in the cone, distance > 0
+  Integer_vector nearness;  ///< the polygon's plane is met along d at t where nearness.d x t = distance;
+  Integer distance;         ///< nearness.d > 0 in the cone, distance > 0
 
   Cone(const Polygon& polygon, const Exact_point& eye) {
     const Integer_vector normal = newell_normal(polygon);
@@ -282,11 +298,13 @@ struct Cone {
 /// Whether an edge plane of a has no ray of b on its inner side: then the cones have no open set in common.
 inline bool separates(const Cone& a, const Cone& b) {
   return std::any_of(a.edge_planes.begin(), a.edge_planes.end(), [&](const Integer_vector& plane) {
-    return std::none_of(b.rays.begin(), b.rays.end(), [&](const Integer_vector& ray) { return sign_of_dot(plane, ray) > 0; });
+    return std::none_of(b.rays.begin(), b.rays.end(),
+                        [&](const Integer_vector& ray) { return sign_of_dot(plane, ray) > 0; });
   });
 }
 
-// ---- Faces that are not drawn -----------------------------------------------------------------------------------------------
+// ---- Faces that are not drawn
+// -----------------------------------------------------------------------------------------------
 
 /// Whether two edges of a planar face cross in a point inside both, or its winding number is neither 0 nor 1 somewhere.
 /// Where no edges cross so, a sweep between neighbouring abscissae of vertices meets every cell.
@@ -308,13 +326,15 @@ inline bool self_intersecting(const Face& face) {
     }
 
   const auto side = [](const std::pair<Point, Point>& e, const Point& p) {
-    return sgn(Rational((e.second[0] - e.first[0]) * (p[1] - e.first[1]) - (e.second[1] - e.first[1]) * (p[0] - e.first[0])));
+    return sgn(
+        Rational((e.second[0] - e.first[0]) * (p[1] - e.first[1]) - (e.second[1] - e.first[1]) * (p[0] - e.first[0])));
   };
   for (auto e = edges.begin(); e != edges.end(); ++e)
     for (auto f = edges.begin(); f != e; ++f)
       if (side(*e, f->first) * side(*e, f->second) < 0 && side(*f, e->first) * side(*f, e->second) < 0) return true;
 
-  // Between neighbouring abscissae the edges do not cross: add up the winding number from below on a line in the middle.
+  // Between neighbouring abscissae the edges do not cross: add up the winding number from below on a line in the
+  // middle.
   for (auto left = abscissae.begin(), right = std::next(left); right != abscissae.end(); ++left, ++right) {
     const Rational middle = (*left + *right) / 2;
     std::map<Rational, int> steps;
@@ -340,13 +360,16 @@ inline bool same_cycle(const Polygon& a, const Polygon& b) {
   return std::search(twice.begin(), twice.end(), b.begin(), b.end()) != twice.end();
 }
 
-// ---- The covering -----------------------------------------------------------------------------------------------------------
+// ---- The covering
+// -----------------------------------------------------------------------------------------------------------
 
 struct Rejection {
   Verdict verdict;
 };
 
-[[noreturn]] inline void reject(std::string why, std::vector<std::size_t> fragments = {}) { throw Rejection{{false, std::move(why), std::move(fragments)}}; }
+[[noreturn]] inline void reject(std::string why, std::vector<std::size_t> fragments = {}) {
+  throw Rejection{{false, std::move(why), std::move(fragments)}};
+}
 
 /// What a check answers that returns its line on acceptance and throws a Rejection otherwise.
 template <class Check>
@@ -371,7 +394,9 @@ template <std::size_t n>
 bool canonical(const std::array<Rational, n>& all) {
   return std::all_of(all.begin(), all.end(), [](const Rational& r) { return canonical(r); });
 }
-inline bool canonical(const Polygon& polygon) { return std::all_of(polygon.begin(), polygon.end(), [](const Exact_point& p) { return canonical(p); }); }
+inline bool canonical(const Polygon& polygon) {
+  return std::all_of(polygon.begin(), polygon.end(), [](const Exact_point& p) { return canonical(p); });
+}
 
 /// A polygon that should be part of a tiling, with its name for messages and its place in the order, if it has one.
 struct Tile {
@@ -382,13 +407,16 @@ struct Tile {
 
 /// Rejects unless the tiles are convex polygons in the plane that cover once what `target` bounds, and nothing else.
 /// `winds_once`: the target is known to be the boundary of a set, taken once. Proof: P-21
-inline void check_tiling(const std::string& what, Boundary_chain target, const Plane& plane, bool winds_once, const std::vector<Tile>& tiles) {
+inline void check_tiling(const std::string& what, Boundary_chain target, const Plane& plane, bool winds_once,
+                         const std::vector<Tile>& tiles) {
   if (tiles.empty()) reject(what + " has no fragment and is not set aside");
   for (const Tile& tile : tiles) {
-    if (const std::string fault = not_convex(*tile.polygon, plane); !fault.empty()) reject(tile.name + " of " + what + " " + fault, tile.fragments);
+    if (const std::string fault = not_convex(*tile.polygon, plane); !fault.empty())
+      reject(tile.name + " of " + what + " " + fault, tile.fragments);
     target.add(*tile.polygon, -1);
   }
-  if (const auto point = target.nonzero()) reject(what + " is not tiled by its parts: boundaries do not cancel near " + name(*point));
+  if (const auto point = target.nonzero())
+    reject(what + " is not tiled by its parts: boundaries do not cancel near " + name(*point));
   if (winds_once) return;
   Exact_point eye = plane.origin;
   for (std::size_t k = 0; k < 3; ++k) eye[k] += plane.normal[k];
@@ -417,7 +445,8 @@ inline void check_pieces(const std::string& what, const Face& face, const std::v
     if (piece.polygon->empty()) reject(piece.name + " of " + what + " is empty");
     const Plane plane{newell_normal(*piece.polygon), piece.polygon->front()};
     if (is_zero(plane.normal)) reject(piece.name + " of " + what + " has zero area");
-    if (const std::string fault = not_convex(*piece.polygon, plane); !fault.empty()) reject(piece.name + " of " + what + " " + fault);
+    if (const std::string fault = not_convex(*piece.polygon, plane); !fault.empty())
+      reject(piece.name + " of " + what + " " + fault);
     difference.add(*piece.polygon, -1);
     triangles += piece.polygon->size() - 2;
   }
@@ -425,14 +454,17 @@ inline void check_pieces(const std::string& what, const Face& face, const std::v
     check_tiling(what, difference, face.plane, false, pieces);
     return;
   }
-  if (const auto point = difference.nonzero()) reject(what + " is not bounded as its pieces are: boundaries do not cancel near " + name(*point));
+  if (const auto point = difference.nonzero())
+    reject(what + " is not bounded as its pieces are: boundaries do not cancel near " + name(*point));
   // As many triangles as a polygon with holes has; fewer only where zero-area ones were left out, which holes forbid.
   const std::size_t holes = face.loops.size() - 1, most = face.corner_count() + 2 * holes - 2;
-  if (triangles > most || (holes > 0 && triangles < most)) reject(what + " has the wrong number of pieces for its corners");
+  if (triangles > most || (holes > 0 && triangles < most))
+    reject(what + " has the wrong number of pieces for its corners");
 }
 
 /// Rejects unless the reason holds.
-inline void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry, const std::set<Face_id>& set_aside) {
+inline void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry,
+                            const std::set<Face_id>& set_aside) {
   const std::string what = name("face", entry.face);
   const std::string_view why = entry.why;
   const Face face(soup, entry.face);
@@ -444,7 +476,8 @@ inline void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside&
     if (!no_area) reject(what + " is set aside for zero area but has area");
   } else if (why.starts_with("self-intersecting")) {
     if (!face.planar) reject(what + " is set aside as self-intersecting but is not planar");
-    if (is_zero(face.plane.normal) || !self_intersecting(face)) reject(what + " is set aside as self-intersecting but is not");
+    if (is_zero(face.plane.normal) || !self_intersecting(face))
+      reject(what + " is set aside as self-intersecting but is not");
   } else if (constexpr std::string_view words = "duplicate of "; why.starts_with(words)) {
     std::uint64_t original = 0;
     std::size_t digits = 0;
@@ -452,9 +485,11 @@ inline void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside&
       if (c < '0' || c > '9') break;
       original = std::min(10 * original + static_cast<std::uint64_t>(c - '0'), std::uint64_t{1} << 32), ++digits;
     }
-    if (digits == 0 || original >= entry.face) reject(what + " is set aside as a duplicate, but not of an earlier face");
+    if (digits == 0 || original >= entry.face)
+      reject(what + " is set aside as a duplicate, but not of an earlier face");
     const Face_id f = static_cast<Face_id>(original);
-    if (set_aside.count(f)) reject(what + " is set aside as a duplicate of face " + std::to_string(f) + ", which is set aside itself");
+    if (set_aside.count(f))
+      reject(what + " is set aside as a duplicate of face " + std::to_string(f) + ", which is set aside itself");
     const Face other(soup, f);
     if (!std::equal(face.loops.begin(), face.loops.end(), other.loops.begin(), other.loops.end(), same_cycle))
       reject(what + " is set aside as a duplicate of face " + std::to_string(f) + " but differs from it");
@@ -463,13 +498,16 @@ inline void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside&
   }
 }
 
-/// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set aside rightly. With an eye, polygons that it
-/// is not strictly in front of may be left out, whole. Proof: P-21, P-22
+/// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
+/// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Proof: P-21, P-22
 inline void check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye = nullptr) {
-  const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) { return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0; };
+  const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
+    return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
+  };
   // 1. Everything refers to something, once, and is a number.
   const auto in_scene = [&](const std::string& what, Face_id face) {
-    if (face >= soup.face_count()) reject(what + " names face " + std::to_string(face) + ", which the scene does not have");
+    if (face >= soup.face_count())
+      reject(what + " names face " + std::to_string(face) + ", which the scene does not have");
   };
   for (Face_id f = 0; f < soup.face_count(); ++f)
     for (std::size_t k = 0; k < soup.loop_count(f); ++k)
@@ -489,14 +527,17 @@ inline void check_covering(const Polygon_soup& soup, const Covering& covering, c
     if (!pieces[piece.face].emplace(piece.piece, &piece.vertices).second)
       reject(name("face", piece.face) + " has " + name("piece", piece.piece) + " twice");
   }
-  std::vector<std::map<std::uint32_t, std::vector<Tile>>> tiles(soup.face_count());  // by face, then by piece where it has such
+  std::vector<std::map<std::uint32_t, std::vector<Tile>>> tiles(
+      soup.face_count());  // by face, then by piece where it has such
   for (std::size_t i = 0; i < covering.fragments.size(); ++i) {
     const Order_fragment& fragment = covering.fragments[i];
     in_scene(name("fragment", i), fragment.face);
-    if (!canonical(fragment.vertices)) reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
+    if (!canonical(fragment.vertices))
+      reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
     if (set_aside.count(fragment.face)) reject(name("face", fragment.face) + " is set aside but drawn", {i});
     const auto& own = pieces[fragment.face];
-    if (!own.empty() && !own.count(fragment.piece)) reject(name("fragment", i) + " is of a piece that its face does not have", {i});
+    if (!own.empty() && !own.count(fragment.piece))
+      reject(name("fragment", i) + " is of a piece that its face does not have", {i});
     tiles[fragment.face][own.empty() ? 0 : fragment.piece].push_back({&fragment.vertices, name("fragment", i), {i}});
   }
 
@@ -523,7 +564,8 @@ inline void check_covering(const Polygon_soup& soup, const Covering& covering, c
       Boundary_chain contour;
       contour.add(*polygon, 1);
       const Plane plane{newell_normal(*polygon), polygon->front()};
-      if (!left_out(plane, tiles[f][number])) check_tiling(what + ", " + name("piece", number), contour, plane, true, tiles[f][number]);
+      if (!left_out(plane, tiles[f][number]))
+        check_tiling(what + ", " + name("piece", number), contour, plane, true, tiles[f][number]);
     }
   }
 }

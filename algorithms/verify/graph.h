@@ -1,17 +1,18 @@
 #pragma once
-// Checks the components of a priority graph and their order from first principles: rationals and integers only, all pairs of faces.
-// Laws: proofs/priority.md (P-34).
+// Checks the components of a priority graph and their order from first principles: rationals and integers only, all
+// pairs of faces. Laws: proofs/priority.md (P-34).
 
 #include <sightline/algorithms/verify/covering.h>
 
 namespace sightline {
 
-/// The claim "these are the strongly connected components of the priority graph on these polygons, over all viewpoints, highest priority first".
+/// The claim "these are the strongly connected components of the priority graph on these polygons, over all viewpoints,
+/// highest priority first".
 struct Graph_certificate : Covering {
   std::vector<std::size_t> sizes;  ///< of the components: consecutive stretches of the fragments
 
-  /// An arc from < to between members of one component (places among the fragments), by a corner of `from` strictly in front of `to`'s plane and
-  /// a corner of `to` strictly behind `from`'s.
+  /// An arc from < to between members of one component (places among the fragments), by a corner of `from` strictly in
+  /// front of `to`'s plane and a corner of `to` strictly behind `from`'s.
   struct Arc {
     std::size_t from, to;
     std::size_t corner_from, corner_to;
@@ -33,14 +34,18 @@ struct Oriented_face {
   }
 
   bool has_corner(int side_of, const Oriented_face& other) const {
-    return std::any_of(corners.begin(), corners.end(), [&](const Homogeneous& p) { return side(other.plane, p) == side_of; });
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](const Homogeneous& p) { return side(other.plane, p) == side_of; });
   }
 };
 
-inline bool may_obscure(const Oriented_face& a, const Oriented_face& b) { return a.has_corner(1, b) && b.has_corner(-1, a); }
+inline bool may_obscure(const Oriented_face& a, const Oriented_face& b) {
+  return a.has_corner(1, b) && b.has_corner(-1, a);
+}
 
 /// Rejects unless every face of the component [begin, end) is reached from the first one, along `next`.
-inline void check_reached(std::size_t begin, std::size_t end, const std::vector<std::vector<std::size_t>>& next, const char* how) {
+inline void check_reached(std::size_t begin, std::size_t end, const std::vector<std::vector<std::size_t>>& next,
+                          const char* how) {
   std::set<std::size_t> seen{begin};
   std::vector<std::size_t> open{begin};
   while (!open.empty()) {
@@ -50,7 +55,9 @@ inline void check_reached(std::size_t begin, std::size_t end, const std::vector<
       if (seen.insert(j).second) open.push_back(j);
   }
   for (std::size_t i = begin; i < end; ++i)
-    if (!seen.count(i)) reject(name("fragment", i) + how + name("fragment", begin) + ", the first of its component, by the arcs given", {begin, i});
+    if (!seen.count(i))
+      reject(name("fragment", i) + how + name("fragment", begin) + ", the first of its component, by the arcs given",
+             {begin, i});
 }
 
 /// The certificate, step by step; throws a Rejection.
@@ -75,13 +82,18 @@ inline void check(const Polygon_soup& soup, const Graph_certificate& certificate
   std::vector<std::vector<std::size_t>> forth(n), back(n);
   for (std::size_t k = 0; k < certificate.arcs.size(); ++k) {
     const auto& arc = certificate.arcs[k];
-    if (arc.from >= n || arc.to >= n || arc.corner_from >= faces[arc.from].corners.size() || arc.corner_to >= faces[arc.to].corners.size())
+    if (arc.from >= n || arc.to >= n || arc.corner_from >= faces[arc.from].corners.size() ||
+        arc.corner_to >= faces[arc.to].corners.size())
       reject(name("arc", k) + " names something that is not there");
     if (component[arc.from] != component[arc.to]) reject(name("arc", k) + " leaves its component", {arc.from, arc.to});
     if (side(faces[arc.to].plane, faces[arc.from].corners[arc.corner_from]) <= 0)
-      reject(name("arc", k) + ": the corner of " + name("fragment", arc.from) + " is not in front of " + name("fragment", arc.to), {arc.from, arc.to});
+      reject(name("arc", k) + ": the corner of " + name("fragment", arc.from) + " is not in front of " +
+                 name("fragment", arc.to),
+             {arc.from, arc.to});
     if (side(faces[arc.from].plane, faces[arc.to].corners[arc.corner_to]) >= 0)
-      reject(name("arc", k) + ": the corner of " + name("fragment", arc.to) + " is not behind " + name("fragment", arc.from), {arc.from, arc.to});
+      reject(name("arc", k) + ": the corner of " + name("fragment", arc.to) + " is not behind " +
+                 name("fragment", arc.from),
+             {arc.from, arc.to});
     forth[arc.from].push_back(arc.to), back[arc.to].push_back(arc.from);
   }
   std::size_t begin = 0;
@@ -96,8 +108,9 @@ inline void check(const Polygon_soup& soup, const Graph_certificate& certificate
     if (options.progress) options.progress(later, n);
     for (std::size_t earlier = 0; earlier < later; ++earlier)
       if (component[earlier] != component[later] && may_obscure(faces[later], faces[earlier]))
-        reject(name("fragment", later) + " (" + name("face", certificate.fragments[later].face) + ") may obscure " + name("fragment", earlier) + " (" +
-                   name("face", certificate.fragments[earlier].face) + "), which has higher priority",
+        reject(name("fragment", later) + " (" + name("face", certificate.fragments[later].face) + ") may obscure " +
+                   name("fragment", earlier) + " (" + name("face", certificate.fragments[earlier].face) +
+                   "), which has higher priority",
                {earlier, later});
   }
   if (options.progress) options.progress(n, n);
@@ -105,13 +118,17 @@ inline void check(const Polygon_soup& soup, const Graph_certificate& certificate
 
 }  // namespace graph_check
 
-/// Whether the certificate proves the strongly connected components of the priority graph and a consistent enumeration of them: (1) the fragments are
-/// the scene (as for orders); (2) the arcs hold, by their corners, and join each component both ways; (3) no fragment may obscure one of an earlier component.
-/// Degenerate: as the relation (algorithms/priority/relation.h). Cost: quadratic in the fragments. Exact: yes, without filters. Proof: P-21, P-22, P-34
-inline Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options = {}) {
+/// Whether the certificate proves the strongly connected components of the priority graph and a consistent enumeration
+/// of them: (1) the fragments are the scene (as for orders); (2) the arcs hold, by their corners, and join each
+/// component both ways; (3) no fragment may obscure one of an earlier component. Degenerate: as the relation
+/// (algorithms/priority/relation.h). Cost: quadratic in the fragments. Exact: yes, without filters. Proof: P-21, P-22,
+/// P-34
+inline Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate,
+                            const Verify_options& options = {}) {
   return certificate_check::verdict_of([&] {
     graph_check::check(soup, certificate, options);
-    return std::to_string(certificate.sizes.size()) + " strongly connected components of " + std::to_string(certificate.fragments.size()) + " faces in order of priority";
+    return std::to_string(certificate.sizes.size()) + " strongly connected components of " +
+           std::to_string(certificate.fragments.size()) + " faces in order of priority";
   });
 }
 

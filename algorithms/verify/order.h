@@ -8,23 +8,26 @@
 
 namespace sightline {
 
-/// The claim "drawn in this order, every fragment covers only what is not nearer than itself, and the fragments are the scene".
-/// Fragments are farthest first.
+/// The claim "drawn in this order, every fragment covers only what is not nearer than itself, and the fragments are the
+/// scene". Fragments are farthest first.
 struct Order_certificate : Covering {
   Exact_point eye;
-  bool on_view = false;  ///< of the on-view pieces only: the others, which the eye is not strictly in front of, may be left out
+  bool on_view =
+      false;  ///< of the on-view pieces only: the others, which the eye is not strictly in front of, may be left out
 };
 
 namespace order_check {
 
 using namespace certificate_check;
 
-// ---- Pairs ------------------------------------------------------------------------------------------------------------------
+// ---- Pairs
+// ------------------------------------------------------------------------------------------------------------------
 
 /// How the rays of cone b lie about the edge planes of cone a.
 struct Sides {
-  std::vector<char> inside;                                    ///< whether ray j of b is in the closed cone a
-  std::vector<std::pair<std::size_t, std::size_t>> crossings;  ///< (i, j): rays j and j + 1 of b are strictly on different sides of a's edge plane i
+  std::vector<char> inside;  ///< whether ray j of b is in the closed cone a
+  std::vector<std::pair<std::size_t, std::size_t>>
+      crossings;  ///< (i, j): rays j and j + 1 of b are strictly on different sides of a's edge plane i
 
   void find(const Cone& a, const Cone& b) {
     inside.assign(b.rays.size(), 1);
@@ -87,9 +90,10 @@ class Pair_check {
   std::vector<Integer_vector> common_;
 };
 
-/// Hands on pairs of cones, one of each of two lists, but not those with a plane through the eye between them, which have no open set in common. Planes, of edges of the cones, share out
-/// both lists, each part once more by others, until a part is small or a plane does not help. A pair may be handed on more than once.
-/// Cost: about O(n log n) and the pairs; a plane is tested against all rays of a part. Proof: P-20
+/// Hands on pairs of cones, one of each of two lists, but not those with a plane through the eye between them, which
+/// have no open set in common. Planes, of edges of the cones, share out both lists, each part once more by others,
+/// until a part is small or a plane does not help. A pair may be handed on more than once. Cost: about O(n log n) and
+/// the pairs; a plane is tested against all rays of a part. Proof: P-20
 template <class Take>
 class Pairs {
  public:
@@ -128,7 +132,9 @@ class Pairs {
     return result;
   }
   void share_out(const Places& a, const Places& b, double share, unsigned depth) {
-    const auto pairs = [](const Places& x, const Places& y) { return static_cast<double>(x.size()) * static_cast<double>(y.size()); };
+    const auto pairs = [](const Places& x, const Places& y) {
+      return static_cast<double>(x.size()) * static_cast<double>(y.size());
+    };
     if (std::min(a.size(), b.size()) > 0 && a.size() + b.size() > small && depth < deepest)
       for (unsigned k = 0; k < tries; ++k) {
         const Places& from = k % 2 == 0 ? a : b;
@@ -156,17 +162,24 @@ class Pairs {
 /// Calls of Pairs' progress as those of Verify_options, with `total` things in all.
 inline std::function<void(double)> share_of(const Verify_options& options, std::size_t total) {
   if (!options.progress) return {};
-  return [&options, total](double share) { options.progress(static_cast<std::size_t>(share * static_cast<double>(total)), total); };
+  return [&options, total](double share) {
+    options.progress(static_cast<std::size_t>(share * static_cast<double>(total)), total);
+  };
 }
 
-// ---- The order --------------------------------------------------------------------------------------------------------------
+// ---- The order
+// --------------------------------------------------------------------------------------------------------------
 
-/// The first pair (earlier, later), by the later one's place and then the earlier one's, where the earlier one is nearer somewhere.
-inline std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones, const Verify_options& options) {
+/// The first pair (earlier, later), by the later one's place and then the earlier one's, where the earlier one is
+/// nearer somewhere.
+inline std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones,
+                                                                           const Verify_options& options) {
   Pair_check check;
   std::optional<std::pair<std::size_t, std::size_t>> first;  // (later, earlier)
   Pairs pairs(cones, [&](std::size_t earlier, std::size_t later) {
-    if (earlier < later && (!first || std::pair(later, earlier) < *first) && check.nearer_somewhere(cones[earlier], cones[later])) first = std::pair(later, earlier);
+    if (earlier < later && (!first || std::pair(later, earlier) < *first) &&
+        check.nearer_somewhere(cones[earlier], cones[later]))
+      first = std::pair(later, earlier);
   });
   std::vector<std::size_t> all(cones.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -187,26 +200,33 @@ inline void check(const Polygon_soup& soup, const Order_certificate& certificate
   const auto pair = first_misordered(cones, options);
   if (pair) {
     const auto [earlier, later] = *pair;
-    const auto full_name = [&](std::size_t i) { return name("fragment", i) + " (" + name("face", certificate.fragments[i].face) + ")"; };
-    reject(full_name(earlier) + " is drawn before " + full_name(later) + " but is nearer somewhere in their overlap", {earlier, later});
+    const auto full_name = [&](std::size_t i) {
+      return name("fragment", i) + " (" + name("face", certificate.fragments[i].face) + ")";
+    };
+    reject(full_name(earlier) + " is drawn before " + full_name(later) + " but is nearer somewhere in their overlap",
+           {earlier, later});
   }
   if (options.progress) options.progress(cones.size(), cones.size());
 }
 
 }  // namespace order_check
 
-/// Whether the certificate proves a back-to-front order of the scene: (1) for each two fragments whose cones from the eye
-/// overlap in an open set, the earlier one is nowhere nearer than the later one; (2) the fragments of each face that is drawn
-/// tile it (its pieces, where it has such; a non-planar face must), but, if it says `on_view`, those that the eye is not in front of may be left out; (3) each face is drawn, or set aside for a true reason.
-/// Degenerate: fragments seen edge-on (the eye in their plane) may stand anywhere; contact in an edge or a point is no overlap;
-/// equal distance is in order both ways. A face whose edges cross although it winds nowhere but 0 or 1 times may be tiled or
-/// set aside. Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line.
-/// Cost: about O(n log n) for n fragments and the pairs that overlap, each in the product of their corners at most; quadratic at worst; a set-aside "self-intersecting" face is
-/// quadratic in its corners. Exact: yes, without filters. Proof: P-20, P-21, P-22
-inline Verdict verify_order(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options = {}) {
+/// Whether the certificate proves a back-to-front order of the scene: (1) for each two fragments whose cones from the
+/// eye overlap in an open set, the earlier one is nowhere nearer than the later one; (2) the fragments of each face
+/// that is drawn tile it (its pieces, where it has such; a non-planar face must), but, if it says `on_view`, those that
+/// the eye is not in front of may be left out; (3) each face is drawn, or set aside for a true reason. Degenerate:
+/// fragments seen edge-on (the eye in their plane) may stand anywhere; contact in an edge or a point is no overlap;
+/// equal distance is in order both ways. A face whose edges cross although it winds nowhere but 0 or 1 times may be
+/// tiled or set aside. Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line. Cost:
+/// about O(n log n) for n fragments and the pairs that overlap, each in the product of their corners at most; quadratic
+/// at worst; a set-aside "self-intersecting" face is quadratic in its corners. Exact: yes, without filters. Proof:
+/// P-20, P-21, P-22
+inline Verdict verify_order(const Polygon_soup& soup, const Order_certificate& certificate,
+                            const Verify_options& options = {}) {
   return certificate_check::verdict_of([&] {
     order_check::check(soup, certificate, options);
-    return std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every " + (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason";
+    return std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every " +
+           (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason";
   });
 }
 

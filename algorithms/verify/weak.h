@@ -1,16 +1,18 @@
 #pragma once
-// Checks what can be seen from polygons without trusting, or sharing a line with, whatever found it: rationals and integers only.
-// Laws: proofs/weak_certificate.md (P-72). To be read in one sitting, from top to bottom, after covering.h and weak_lines.h.
+// Checks what can be seen from polygons without trusting, or sharing a line with, whatever found it: rationals and
+// integers only. Laws: proofs/weak_certificate.md (P-72). To be read in one sitting, from top to bottom, after
+// covering.h and weak_lines.h.
 
 #include <sightline/algorithms/verify/weak_lines.h>
 
 namespace sightline {
 
-/// The claim "from these polygons, these faces are weakly visible, and these are not". The fragments are the convex pieces of the scene, in any order;
-/// all else refers to them by their places.
+/// The claim "from these polygons, these faces are weakly visible, and these are not". The fragments are the convex
+/// pieces of the scene, in any order; all else refers to them by their places.
 struct Weak_certificate : Covering {
-  std::vector<std::vector<Exact_point>> sources;  ///< convex planar polygons, counterclockwise as seen from the side that they look to
-  bool two_sided = false;                         ///< a fragment's back counts as visible too
+  std::vector<std::vector<Exact_point>>
+      sources;             ///< convex planar polygons, counterclockwise as seen from the side that they look to
+  bool two_sided = false;  ///< a fragment's back counts as visible too
 
   /// Proves that a fragment is visible: a point inside a source and one inside the fragment, with nothing between them.
   struct Sightline {
@@ -27,7 +29,8 @@ struct Weak_certificate : Covering {
 
   using Form = std::array<Rational, 4>;  ///< (a, b, c, d) is a x + b y + c z + d
 
-  /// A positive multiple of a line's side, times a form in the point of the source and one in the point of the fragment, where there are such.
+  /// A positive multiple of a line's side, times a form in the point of the source and one in the point of the
+  /// fragment, where there are such.
   struct Term {
     std::size_t line = 0;  ///< its place in `lines`
     Rational factor;
@@ -35,9 +38,9 @@ struct Weak_certificate : Covering {
   };
   struct Node {
     enum class Kind { line, cut_source, cut_target, blocked, empty, away } kind = Kind::empty;
-    std::size_t index = 0;     ///< line: its place in `lines`; blocked: the place of a fragment
-    Form plane;                ///< cut_*
-    std::vector<Term> terms;   ///< empty
+    std::size_t index = 0;    ///< line: its place in `lines`; blocked: the place of a fragment
+    Form plane;               ///< cut_*
+    std::vector<Term> terms;  ///< empty
   };
   /// Proves that nothing of a fragment is visible from a source: a tree over the lines between them, in preorder.
   /// A line has first its positive side, then its negative one; a cut likewise.
@@ -52,30 +55,35 @@ struct Weak_certificate : Covering {
 
 namespace weak_check {
 
-/// A step of the check that would need more products than this, or a leaf whose multipliers have more bits on their common denominator, is rejected.
+/// A step of the check that would need more products than this, or a leaf whose multipliers have more bits on their
+/// common denominator, is rejected.
 inline constexpr std::size_t most_products = 10'000'000;
 /// The same for cuts that are below one another: each gives a cell a corner more at most.
 inline constexpr std::size_t most_cuts = 1000;
 
-// ---- Visible ----------------------------------------------------------------------------------------------------------------
+// ---- Visible
+// ----------------------------------------------------------------------------------------------------------------
 
 /// Checks sightlines against all fragments; those whose boxes of coordinates are apart are passed over.
 class Sightlines {
  public:
-  Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments, const std::vector<Outline>& sources)
+  Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
+             const std::vector<Outline>& sources)
       : certificate_(certificate), fragments_(fragments), sources_(sources) {
     for (std::size_t i = 0; i < fragments.size(); ++i) boxes_.push_back({i, certificate.fragments[i].vertices});
     std::sort(boxes_.begin(), boxes_.end(), [](const Box& a, const Box& b) { return a.low[0] < b.low[0]; });
   }
 
-  /// Rejects unless nothing is between the end points, nor near them but what is in the plane of the source or of the fragment. Proof: P-72a, P-72b
+  /// Rejects unless nothing is between the end points, nor near them but what is in the plane of the source or of the
+  /// fragment. Proof: P-72a, P-72b
   void check(std::size_t k) const {
     const auto& [fragment, source, from, to] = certificate_.visible[k];
     const auto refuse = [&, own = fragment](const std::string& why, std::vector<std::size_t> others = {}) {
       others.insert(others.begin(), own);
       reject(name("visible", k) + " (" + name("face", certificate_.fragments[own].face) + ") " + why, others);
     };
-    if (fragment >= fragments_.size()) reject(name("visible", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
+    if (fragment >= fragments_.size())
+      reject(name("visible", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
     if (source >= sources_.size()) refuse("names source " + std::to_string(source) + ", which there is not");
     if (!canonical(from) || !canonical(to)) refuse("has an end point that is not in canonical numbers");
     const Outline &own = fragments_[fragment], &start = sources_[source];
@@ -99,8 +107,10 @@ class Sightlines {
         if (other.meets_in_plane(p, q)) refuse("meets " + full_name(box.place), {box.place});
         continue;
       }
-      if ((at_p == 0 && other.in_plane(start.plane)) || (at_q == 0 && other.in_plane(own.plane))) continue;  // it holds an end point, but none of its neighbours' segments
-      if (crossing(line, other.corners, at_p > 0 || at_q < 0 ? 1 : -1) >= 0) refuse("meets " + full_name(box.place), {box.place});
+      if ((at_p == 0 && other.in_plane(start.plane)) || (at_q == 0 && other.in_plane(own.plane)))
+        continue;  // it holds an end point, but none of its neighbours' segments
+      if (crossing(line, other.corners, at_p > 0 || at_q < 0 ? 1 : -1) >= 0)
+        refuse("meets " + full_name(box.place), {box.place});
     }
   }
 
@@ -122,14 +132,17 @@ class Sightlines {
       return false;
     }
   };
-  std::string full_name(std::size_t i) const { return name("fragment", i) + " (" + name("face", certificate_.fragments[i].face) + ")"; }
+  std::string full_name(std::size_t i) const {
+    return name("fragment", i) + " (" + name("face", certificate_.fragments[i].face) + ")";
+  }
 
   const Weak_certificate& certificate_;
   const std::vector<Outline>&fragments_, &sources_;
   std::vector<Box> boxes_;
 };
 
-// ---- Hidden -----------------------------------------------------------------------------------------------------------------
+// ---- Hidden
+// -----------------------------------------------------------------------------------------------------------------
 
 /// A form times a common denominator, and that.
 struct Scaled_form {
@@ -152,9 +165,11 @@ class Trees {
       : certificate_(certificate), fragments_(fragments), sources_(sources), edges_(fragments.size()) {
     for (std::size_t k = 0; k < certificate.lines.size(); ++k) {
       const auto& [fragment, corner] = certificate.lines[k];
-      if (fragment >= fragments.size() || corner >= certificate.fragments[fragment].vertices.size()) reject(name("line", k) + " names an edge that there is not");
+      if (fragment >= fragments.size() || corner >= certificate.fragments[fragment].vertices.size())
+        reject(name("line", k) + " names an edge that there is not");
       const Polygon& polygon = certificate.fragments[fragment].vertices;
-      named_.push_back(lines_.through(homogeneous(polygon[corner]), homogeneous(polygon[(corner + 1) % polygon.size()])));
+      named_.push_back(
+          lines_.through(homogeneous(polygon[corner]), homogeneous(polygon[(corner + 1) % polygon.size()])));
     }
     path_.resize(lines_.size());
   }
@@ -165,9 +180,11 @@ class Trees {
   /// Cost: linear in the nodes, each in the pairs of corners of a cell at most; no recursion. Proof: P-72c .. P-72f
   void check(std::size_t k, const std::function<void()>& step) {
     const auto& [fragment, source, proof] = certificate_.hidden[k];
-    if (fragment >= fragments_.size()) reject(name("hidden", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
+    if (fragment >= fragments_.size())
+      reject(name("hidden", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
     entry_ = k, fragment_ = fragment, source_ = source;
-    if (source >= sources_.size()) reject(entry() + " names source " + std::to_string(source) + ", which there is not", {fragment});
+    if (source >= sources_.size())
+      reject(entry() + " names source " + std::to_string(source) + ", which there is not", {fragment});
 
     /// The second part of an inner node, to be gone on with when the first is done.
     struct Second {
@@ -177,14 +194,16 @@ class Trees {
       int sign;
     };
     std::vector<Second> waiting;
-    std::shared_ptr<Cell> cell = cell_of(std::make_shared<const Corners>(sources_[source].corners), std::make_shared<const Corners>(fragments_[fragment].corners), 0);
+    std::shared_ptr<Cell> cell = cell_of(std::make_shared<const Corners>(sources_[source].corners),
+                                         std::make_shared<const Corners>(fragments_[fragment].corners), 0);
     for (std::size_t i = 0;; ++i) {
       if (i == proof.size()) reject(entry() + " ends before each of its cells has a leaf", {fragment});
       if (i % 1024 == 0) step();
       const Node& node = proof[i];
       node_ = i;
       const bool has_inside = !cell->source->empty() && !cell->target->empty();
-      if (!has_inside && (node.kind != Node::Kind::empty || !node.terms.empty())) refuse("is below a cut that leaves nothing inside, but is no empty leaf without terms");
+      if (!has_inside && (node.kind != Node::Kind::empty || !node.terms.empty()))
+        refuse("is below a cut that leaves nothing inside, but is no empty leaf without terms");
       if (node.kind == Node::Kind::line) {
         if (node.index >= named_.size()) refuse("names line " + std::to_string(node.index) + ", which there is not");
         const auto& [number, scale] = named_[node.index];
@@ -203,7 +222,8 @@ class Trees {
       const std::size_t left = waiting.empty() ? 0 : waiting.back().decided;
       for (; trail_.size() > left; trail_.pop_back()) path_[trail_.back().first] = trail_.back().second;
       if (waiting.empty()) {
-        if (i + 1 < proof.size()) reject(entry() + " goes on after its last leaf, with " + name("node", i + 1), {fragment});
+        if (i + 1 < proof.size())
+          reject(entry() + " goes on after its last leaf, with " + name("node", i + 1), {fragment});
         return;
       }
       cell = std::move(waiting.back().cell);
@@ -213,8 +233,12 @@ class Trees {
   }
 
  private:
-  std::string entry() const { return name("hidden", entry_) + " (" + name("face", certificate_.fragments[fragment_].face) + ")"; }
-  [[noreturn]] void refuse(const std::string& why) const { reject(entry() + ", " + name("node", node_) + " " + why, {fragment_}); }
+  std::string entry() const {
+    return name("hidden", entry_) + " (" + name("face", certificate_.fragments[fragment_].face) + ")";
+  }
+  [[noreturn]] void refuse(const std::string& why) const {
+    reject(entry() + ", " + name("node", node_) + " " + why, {fragment_});
+  }
 
   void decide(std::size_t line, int sign) {
     trail_.push_back({line, path_[line]});
@@ -223,9 +247,11 @@ class Trees {
   /// 0: undecided.
   int decided(std::size_t line) const { return line < path_.size() ? path_[line] : 0; }
 
-  std::shared_ptr<Cell> cell_of(std::shared_ptr<const Corners> source, std::shared_ptr<const Corners> target, std::size_t cuts) const {
+  std::shared_ptr<Cell> cell_of(std::shared_ptr<const Corners> source, std::shared_ptr<const Corners> target,
+                                std::size_t cuts) const {
     if (source->size() > most_products / std::max<std::size_t>(1, target->size()))
-      reject(name("fragment", fragment_) + " and " + name("source", source_) + " have too many corners to be checked", {fragment_});
+      reject(name("fragment", fragment_) + " and " + name("source", source_) + " have too many corners to be checked",
+             {fragment_});
     return std::make_shared<Cell>(Cell{std::move(source), std::move(target), cuts, {}});
   }
 
@@ -235,10 +261,12 @@ class Trees {
     if (!canonical(node.plane)) refuse("cuts by a plane that is not in canonical numbers");
     if (cell.cuts == most_cuts) refuse("is below more than " + std::to_string(most_cuts) + " cuts");
     Homogeneous plane = Scaled_form(node.plane).values;
-    if (!reaches(plane, corners, 1) && !reaches(plane, corners, -1)) refuse(std::string("cuts by a plane that holds all of the ") + (of_source ? "source" : "fragment"));
+    if (!reaches(plane, corners, 1) && !reaches(plane, corners, -1))
+      refuse(std::string("cuts by a plane that holds all of the ") + (of_source ? "source" : "fragment"));
     const auto half = [&] {
       auto part = std::make_shared<const Corners>(cut(corners, plane));
-      return of_source ? cell_of(std::move(part), cell.target, cell.cuts + 1) : cell_of(cell.source, std::move(part), cell.cuts + 1);
+      return of_source ? cell_of(std::move(part), cell.target, cell.cuts + 1)
+                       : cell_of(cell.source, std::move(part), cell.cuts + 1);
     };
     std::shared_ptr<Cell> first = half();
     for (Integer& coefficient : plane) coefficient = -coefficient;
@@ -254,11 +282,13 @@ class Trees {
     }
   }
 
-  /// Nothing of the fragment's part is in front of the source, or nothing of the source's part sees the fragment's front.
+  /// Nothing of the fragment's part is in front of the source, or nothing of the source's part sees the fragment's
+  /// front.
   void check_away(const Cell& cell) const {
     if (!reaches(sources_[source_].plane, *cell.target, 1)) return;
     const Homogeneous& plane = fragments_[fragment_].plane;
-    if (reaches(plane, *cell.source, 1) || (certificate_.two_sided && reaches(plane, *cell.source, -1))) refuse("is not away: source and fragment look to each other");
+    if (reaches(plane, *cell.source, 1) || (certificate_.two_sided && reaches(plane, *cell.source, -1)))
+      refuse("is not away: source and fragment look to each other");
   }
 
   /// All lines of the cell cross the fragment's plane between their ends, inside the fragment. Proof: P-72d
@@ -266,15 +296,18 @@ class Trees {
     if (f >= fragments_.size()) refuse("is blocked by fragment " + std::to_string(f) + ", which there is not");
     const Outline& blocker = fragments_[f];
     const int front = position(blocker.plane, *cell.source);
-    if (front * position(blocker.plane, *cell.target) >= 0) refuse("is not blocked by " + name("fragment", f) + ": its plane is not between source and fragment");
+    if (front * position(blocker.plane, *cell.target) >= 0)
+      refuse("is not blocked by " + name("fragment", f) + ": its plane is not between source and fragment");
     std::vector<Lines::Named>& edges = edges_[f];
     if (edges.empty())
-      for (std::size_t i = 0; i < blocker.corners.size(); ++i) edges.push_back(lines_.through(blocker.corners[i], blocker.corners[(i + 1) % blocker.corners.size()]));
+      for (std::size_t i = 0; i < blocker.corners.size(); ++i)
+        edges.push_back(lines_.through(blocker.corners[i], blocker.corners[(i + 1) % blocker.corners.size()]));
     for (const auto& [line, scale] : edges) {
       const int inwards = front * sgn(scale);
       if (decided(line) == inwards) continue;
       const Cell::Signs signs = signs_of(cell, line);
-      if (inwards > 0 ? signs.negative : signs.positive) refuse("is not blocked by " + name("fragment", f) + ": lines may pass an edge of it outside");
+      if (inwards > 0 ? signs.negative : signs.positive)
+        refuse("is not blocked by " + name("fragment", f) + ": lines may pass an edge of it outside");
     }
   }
 
@@ -295,10 +328,15 @@ class Trees {
   void check_empty(const Cell& cell, const std::vector<Term>& terms) const {
     if (terms.empty()) refuse("says without terms that a cell with an inside is empty");
     const Corners &source = *cell.source, &target = *cell.target;
-    const bool source_forms = std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.source.has_value(); });
-    const bool target_forms = std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.target.has_value(); });
-    const auto products = [](const Corners& corners, bool forms) { return forms ? corners.size() * (corners.size() + 1) / 2 : corners.size(); };
-    if (products(source, source_forms) * products(target, target_forms) > most_products / terms.size()) refuse("has too many terms for its corners to be checked");
+    const bool source_forms =
+        std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.source.has_value(); });
+    const bool target_forms =
+        std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.target.has_value(); });
+    const auto products = [](const Corners& corners, bool forms) {
+      return forms ? corners.size() * (corners.size() + 1) / 2 : corners.size();
+    };
+    if (products(source, source_forms) * products(target, target_forms) > most_products / terms.size())
+      refuse("has too many terms for its corners to be checked");
 
     // 1. What is added up, and a common denominator of the weights.
     struct Summand {
@@ -316,11 +354,15 @@ class Trees {
       return scaled;
     };
     for (const Term& term : terms) {
-      if (term.line >= named_.size()) refuse("has a term of line " + std::to_string(term.line) + ", which there is not");
+      if (term.line >= named_.size())
+        refuse("has a term of line " + std::to_string(term.line) + ", which there is not");
       const auto& [line, scale] = named_[term.line];
-      if (decided(line) == 0) refuse("has a term of line " + std::to_string(term.line) + ", which is not decided above it");
-      if (!canonical(term.factor) || sgn(term.factor) <= 0) refuse("has a factor that is not positive, or not in canonical numbers");
-      Summand& summand = summands.emplace_back(Summand{line, form_of(term.source, source), form_of(term.target, target), {}});
+      if (decided(line) == 0)
+        refuse("has a term of line " + std::to_string(term.line) + ", which is not decided above it");
+      if (!canonical(term.factor) || sgn(term.factor) <= 0)
+        refuse("has a factor that is not positive, or not in canonical numbers");
+      Summand& summand =
+          summands.emplace_back(Summand{line, form_of(term.source, source), form_of(term.target, target), {}});
       summand.weight = term.factor * abs(scale) * decided(line) / Rational(summand.source.scale * summand.target.scale);
       denominator = lcm(denominator, summand.weight.get_den());
       if (bit_length(denominator) > most_products / terms.size()) refuse("has factors that are too long to be checked");
@@ -340,7 +382,8 @@ class Trees {
       const Integer weight = summand.weight.get_num() * (denominator / summand.weight.get_den());
       if (sum.empty()) sum.assign(values.size(), std::vector<Integer>(values[0].size()));
       for (std::size_t i = 0; i < sum.size(); ++i)
-        for (std::size_t j = 0; j < sum[i].size(); ++j) mpz_addmul(sum[i][j].get_mpz_t(), weight.get_mpz_t(), values[i][j].get_mpz_t());
+        for (std::size_t j = 0; j < sum[i].size(); ++j)
+          mpz_addmul(sum[i][j].get_mpz_t(), weight.get_mpz_t(), values[i][j].get_mpz_t());
     }
     for (const std::vector<Integer>& row : sum)
       for (const Integer& coefficient : row)
@@ -349,15 +392,16 @@ class Trees {
 
   const Weak_certificate& certificate_;
   const std::vector<Outline>&fragments_, &sources_;
-  Lines lines_;                                 // those of the certificate, then those of blockers
-  std::vector<Lines::Named> named_;             // the certificate's
-  std::vector<std::vector<Lines::Named>> edges_;  // of fragments that block, when they first do
-  std::vector<int> path_;                       // signs of numbered lines
+  Lines lines_;                                     // those of the certificate, then those of blockers
+  std::vector<Lines::Named> named_;                 // the certificate's
+  std::vector<std::vector<Lines::Named>> edges_;    // of fragments that block, when they first do
+  std::vector<int> path_;                           // signs of numbered lines
   std::vector<std::pair<std::size_t, int>> trail_;  // lines decided, and what was there before
   std::size_t entry_ = 0, node_ = 0, source_ = 0, fragment_ = 0, leaves_ = 0;
 };
 
-// ---- The certificate --------------------------------------------------------------------------------------------------------
+// ---- The certificate
+// --------------------------------------------------------------------------------------------------------
 
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
 inline std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
@@ -371,7 +415,8 @@ inline std::string check(const Polygon_soup& soup, const Weak_certificate& certi
     if (!canonical(polygon)) reject(name("source", k) + " has a vertex that is not in canonical numbers");
     const Integer_vector normal = polygon.empty() ? Integer_vector{} : newell_normal(polygon);
     if (is_zero(normal)) reject(name("source", k) + " has zero area");
-    if (const std::string fault = not_convex(polygon, {normal, polygon[0]}); !fault.empty()) reject(name("source", k) + " " + fault);
+    if (const std::string fault = not_convex(polygon, {normal, polygon[0]}); !fault.empty())
+      reject(name("source", k) + " " + fault);
     sources.emplace_back(polygon);
   }
 
@@ -381,7 +426,8 @@ inline std::string check(const Polygon_soup& soup, const Weak_certificate& certi
   const auto progress = [&] {
     if (options.progress) options.progress(done, total);
   };
-  std::vector<char> drawn(soup.face_count()), visible(soup.face_count()), undecided(soup.face_count()), open(soup.face_count());
+  std::vector<char> drawn(soup.face_count()), visible(soup.face_count()), undecided(soup.face_count()),
+      open(soup.face_count());
   const Sightlines sightlines(certificate, fragments, sources);
   for (std::size_t k = 0; k < certificate.visible.size(); ++k, ++done) {
     progress();
@@ -392,7 +438,8 @@ inline std::string check(const Polygon_soup& soup, const Weak_certificate& certi
   std::set<std::pair<std::size_t, std::size_t>> hidden;
   for (std::size_t k = 0; k < certificate.hidden.size(); ++k, ++done) {
     const auto& entry = certificate.hidden[k];
-    if (!hidden.insert({entry.fragment, entry.source}).second) reject(name("hidden", k) + " is of the same fragment and source as one before", {entry.fragment});
+    if (!hidden.insert({entry.fragment, entry.source}).second)
+      reject(name("hidden", k) + " is of the same fragment and source as one before", {entry.fragment});
     trees.check(k, progress);
   }
   progress();
@@ -400,7 +447,8 @@ inline std::string check(const Polygon_soup& soup, const Weak_certificate& certi
   // 3. Each face that is drawn is visible, hidden or undecided, and only one of these.
   for (const Order_fragment& fragment : certificate.fragments) drawn[fragment.face] = 1;
   for (const Face_id f : certificate.undecided) {
-    if (f >= soup.face_count() || !drawn[f]) reject("undecided names face " + std::to_string(f) + ", which is not drawn");
+    if (f >= soup.face_count() || !drawn[f])
+      reject("undecided names face " + std::to_string(f) + ", which is not drawn");
     if (undecided[f]++) reject(name("face", f) + " is undecided twice");
     if (visible[f]) reject(name("face", f) + " is undecided, but shown to be visible");
   }
@@ -408,28 +456,37 @@ inline std::string check(const Polygon_soup& soup, const Weak_certificate& certi
     for (std::size_t s = 0; s < sources.size(); ++s) {
       const Face_id f = certificate.fragments[i].face;
       if (visible[f] || hidden.count({i, s})) continue;
-      if (!undecided[f]) reject(name("face", f) + " is neither visible nor undecided, and " + name("fragment", i) + " of it is not shown to be hidden from " + name("source", s), {i});
+      if (!undecided[f])
+        reject(name("face", f) + " is neither visible nor undecided, and " + name("fragment", i) +
+                   " of it is not shown to be hidden from " + name("source", s),
+               {i});
       open[f] = 1;
     }
   for (const Face_id f : certificate.undecided)
     if (!open[f]) reject(name("face", f) + " is undecided, but shown to be hidden");
-  const auto count = [](const std::vector<char>& of) { return static_cast<std::size_t>(std::count(of.begin(), of.end(), 1)); };
+  const auto count = [](const std::vector<char>& of) {
+    return static_cast<std::size_t>(std::count(of.begin(), of.end(), 1));
+  };
   const std::size_t faces = count(drawn), seen = count(visible), unknown = count(undecided);
-  return std::to_string(seen) + " faces visible, " + std::to_string(faces - seen - unknown) + " hidden, " + std::to_string(unknown) + " undecided from " +
-         std::to_string(sources.size()) + " source polygons; " + std::to_string(trees.leaves()) + " leaves of proofs";
+  return std::to_string(seen) + " faces visible, " + std::to_string(faces - seen - unknown) + " hidden, " +
+         std::to_string(unknown) + " undecided from " + std::to_string(sources.size()) + " source polygons; " +
+         std::to_string(trees.leaves()) + " leaves of proofs";
 }
 
 }  // namespace weak_check
 
-/// Whether the certificate proves which faces can be seen from the sources: (1) the fragments are the scene (as for orders); (2) each sightline goes from the
-/// inside of its source, to its front, to the inside of its fragment, from its front (with `two_sided`, or its back), and no fragment meets it, nor an end of it but
-/// in the plane of the source or of the fragment; (3) each tree of a fragment and a source shows that almost no line between them is free; (4) each face that is
-/// drawn has a sightline, or a tree for each of its fragments and each source, or is undecided.
+/// Whether the certificate proves which faces can be seen from the sources: (1) the fragments are the scene (as for
+/// orders); (2) each sightline goes from the inside of its source, to its front, to the inside of its fragment, from
+/// its front (with `two_sided`, or its back), and no fragment meets it, nor an end of it but in the plane of the source
+/// or of the fragment; (3) each tree of a fragment and a source shows that almost no line between them is free; (4)
+/// each face that is drawn has a sightline, or a tree for each of its fragments and each source, or is undecided.
 /// Degenerate: contact of measure zero is not visibility; a source and a fragment in one plane do not see each other.
-/// Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line; where accepted, the counts of faces.
-/// Cost: fragments times sightlines, most by their boxes; linear in the nodes of trees, each in the pairs of corners of what is left of source and fragment. Cells
-/// of more than 10^7 pairs or below more than 1000 cuts are rejected. Exact: yes, without filters. Proof: P-21, P-22, P-72
-inline Verdict verify_weak(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options = {}) {
+/// Pre: none on the certificate; rejects whatever is wrong with it. Post: `why` is one line; where accepted, the counts
+/// of faces. Cost: fragments times sightlines, most by their boxes; linear in the nodes of trees, each in the pairs of
+/// corners of what is left of source and fragment. Cells of more than 10^7 pairs or below more than 1000 cuts are
+/// rejected. Exact: yes, without filters. Proof: P-21, P-22, P-72
+inline Verdict verify_weak(const Polygon_soup& soup, const Weak_certificate& certificate,
+                           const Verify_options& options = {}) {
   return certificate_check::verdict_of([&] { return weak_check::check(soup, certificate, options); });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Lines, polygons and cells of lines, for the check of weak visibility: rationals and integers only, shared with nothing that is checked.
-// To be read after covering.h and before weak.h.
+// Lines, polygons and cells of lines, for the check of weak visibility: rationals and integers only, shared with
+// nothing that is checked. To be read after covering.h and before weak.h.
 
 #include <sightline/algorithms/verify/covering.h>
 
@@ -13,7 +13,8 @@ using namespace certificate_check;
 
 using Corners = std::vector<Homogeneous>;
 
-// ---- Lines and polygons -----------------------------------------------------------------------------------------------------
+// ---- Lines and polygons
+// -----------------------------------------------------------------------------------------------------
 
 /// The oriented line from a to b, as the form det[p, q, a, b] in p and q: its entries 01, 02, 03, 12, 13, 23.
 /// Of an edge of a polygon that p is in front of and q behind: positive if the segment passes inside.
@@ -36,20 +37,26 @@ inline Homogeneous plane_through(const Line& line, const Homogeneous& p) {
   return plane;
 }
 
-inline Integer value(const Homogeneous& plane, const Homogeneous& p) { return Integer(plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3]); }
+inline Integer value(const Homogeneous& plane, const Homogeneous& p) {
+  return Integer(plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3]);
+}
 
 inline bool reaches(const Homogeneous& plane, const Corners& corners, int sign) {
   return std::any_of(corners.begin(), corners.end(), [&](const Homogeneous& p) { return side(plane, p) == sign; });
 }
-/// 1 or -1: the corners are on that closed side of the plane, and not all on it. 0: they are on both sides, or all on it.
-inline int position(const Homogeneous& plane, const Corners& corners) { return int{reaches(plane, corners, 1)} - int{reaches(plane, corners, -1)}; }
+/// 1 or -1: the corners are on that closed side of the plane, and not all on it. 0: they are on both sides, or all on
+/// it.
+inline int position(const Homogeneous& plane, const Corners& corners) {
+  return int{reaches(plane, corners, 1)} - int{reaches(plane, corners, -1)};
+}
 
-/// Where the line from p to q, p in front of a convex polygon's plane or q behind it, meets that plane: 1 inside the polygon, 0 on its boundary, -1 outside.
-/// With p and q exchanged, front = -1.
+/// Where the line from p to q, p in front of a convex polygon's plane or q behind it, meets that plane: 1 inside the
+/// polygon, 0 on its boundary, -1 outside. With p and q exchanged, front = -1.
 inline int crossing(const Line& line, const Corners& corners, int front = 1) {
   int least = 1;
   for (std::size_t i = 0; i < corners.size() && least >= 0; ++i)
-    least = std::min(least, front * side(plane_through(line, corners[i]), corners[(i + 1) % corners.size()]));  // det[a, b, p, q] = det[p, q, a, b]
+    least = std::min(least, front * side(plane_through(line, corners[i]),
+                                         corners[(i + 1) % corners.size()]));  // det[a, b, p, q] = det[p, q, a, b]
   return least;
 }
 
@@ -69,7 +76,9 @@ struct Outline {
   /// The point at infinity that its front looks to.
   Homogeneous upwards() const { return {plane[0], plane[1], plane[2], 0}; }
 
-  bool has_inside(const Homogeneous& p) const { return side(plane, p) == 0 && crossing(line_through(upwards(), p), corners) > 0; }
+  bool has_inside(const Homogeneous& p) const {
+    return side(plane, p) == 0 && crossing(line_through(upwards(), p), corners) > 0;
+  }
 
   bool in_plane(const Homogeneous& other) const { return !reaches(other, corners, 1) && !reaches(other, corners, -1); }
 
@@ -85,7 +94,8 @@ struct Outline {
   }
 };
 
-// ---- Cells ------------------------------------------------------------------------------------------------------------------
+// ---- Cells
+// ------------------------------------------------------------------------------------------------------------------
 
 /// Lines by number: one in space has one number, whichever edge it was named by.
 class Lines {
@@ -113,7 +123,8 @@ class Lines {
   std::vector<const Line*> lines_;
 };
 
-/// The lines from a convex part of a source to one of a fragment; the path says which of them are meant. A part without an inside has no corners.
+/// The lines from a convex part of a source to one of a fragment; the path says which of them are meant. A part without
+/// an inside has no corners.
 struct Cell {
   std::shared_ptr<const Corners> source, target;
   std::size_t cuts = 0;  ///< above it
@@ -124,7 +135,8 @@ struct Cell {
   std::unordered_map<std::size_t, Signs> known;  ///< of the values of numbered lines at pairs of corners
 };
 
-/// The part of a convex polygon with plane >= 0; none if it has no inside. The corners are counterclockwise as before. Proof: P-72c
+/// The part of a convex polygon with plane >= 0; none if it has no inside. The corners are counterclockwise as before.
+/// Proof: P-72c
 inline Corners cut(const Corners& corners, const Homogeneous& plane) {
   Corners kept;
   if (!reaches(plane, corners, 1)) return kept;
@@ -151,14 +163,16 @@ inline Matrix transposed(const Matrix& matrix) {
   return result;
 }
 
-/// The coefficients of form(p) h(p) in the products of two weights of p, from the values at the corners: a row for each pair of corners. Proof: P-72e
+/// The coefficients of form(p) h(p) in the products of two weights of p, from the values at the corners: a row for each
+/// pair of corners. Proof: P-72e
 inline Matrix times(const Homogeneous& form, const Corners& corners, const Matrix& h) {
   Matrix result;
   for (std::size_t i = 0; i < corners.size(); ++i)
     for (std::size_t j = i; j < corners.size(); ++j) {
       const Integer at_i = value(form, corners[i]), at_j = value(form, corners[j]);
       std::vector<Integer>& row = result.emplace_back();
-      for (std::size_t k = 0; k < h[i].size(); ++k) row.push_back(i == j ? Integer(at_i * h[i][k]) : Integer(at_i * h[j][k] + at_j * h[i][k]));
+      for (std::size_t k = 0; k < h[i].size(); ++k)
+        row.push_back(i == j ? Integer(at_i * h[i][k]) : Integer(at_i * h[j][k] + at_j * h[i][k]));
     }
   return result;
 }

@@ -12,8 +12,8 @@ struct Cell_cut {
   Near_plane plane;
 };
 
-/// A plane that holds two of the cell's lines and cuts a polygon: the sides of lines in one plane depend on where one crosses it, so that lines near the plane
-/// never resolve while their ends are on both sides of it. Exact: yes.
+/// A plane that holds two of the cell's lines and cuts a polygon: the sides of lines in one plane depend on where one
+/// crosses it, so that lines near the plane never resolve while their ends are on both sides of it. Exact: yes.
 inline std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occluders) {
   const auto plane_of = [&](const Edge_lines::Line& a, const Edge_lines::Line& b) -> std::optional<Near_plane> {
     double near = 0;
@@ -23,18 +23,24 @@ inline std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occlude
     for (std::size_t x = 0; x < 6; ++x) product += a.exact[x] * b.exact[(x + 3) % 6];
     if (sgn(product) != 0) return {};
     const auto direction = [](const Exact_six& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
-    const auto cross = [](const std::array<Integer, 3>& u, const std::array<Integer, 3>& v) { return std::array<Integer, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}; };
+    const auto cross = [](const std::array<Integer, 3>& u, const std::array<Integer, 3>& v) {
+      return std::array<Integer, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    };
     const std::array<Integer, 3> p = occluders.grid_point(a.points[0]), q = occluders.grid_point(b.points[0]);
     std::array<Integer, 3> normal = cross(direction(a.exact), direction(b.exact));
     const auto is_zero = [&] { return sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0; };
-    if (is_zero()) normal = cross(direction(a.exact), {q[0] - p[0], q[1] - p[1], q[2] - p[2]});  // parallel, and not the same line
+    if (is_zero())
+      normal = cross(direction(a.exact), {q[0] - p[0], q[1] - p[1], q[2] - p[2]});  // parallel, and not the same line
     if (is_zero()) return {};
-    return near_plane(occluders.frame(), {normal[0], normal[1], normal[2], Integer(-(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))});
+    return near_plane(occluders.frame(), {normal[0], normal[1], normal[2],
+                                          Integer(-(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))});
   };
   for (const bool source : {true, false})
     for (std::size_t i = 0; i < cell.rows.size(); ++i)
       for (std::size_t k = i + 1; k < cell.rows.size(); ++k)
-        if (const auto plane = plane_of((*cell.lines)[cell.rows[i].literal.line], (*cell.lines)[cell.rows[k].literal.line]); plane && is_across(*plane, source ? cell.domain->source : cell.domain->target))
+        if (const auto plane =
+                plane_of((*cell.lines)[cell.rows[i].literal.line], (*cell.lines)[cell.rows[k].literal.line]);
+            plane && is_across(*plane, source ? cell.domain->source : cell.domain->target))
           return Cell_cut{source, *plane};
   return {};
 }
@@ -59,7 +65,8 @@ inline Triple inward_of(const Near_polygon& polygon, std::size_t e) {
   return inward;
 }
 
-/// The plane on which a normal of few bits takes a height, rounded down to a few thousandths of an extent, so that it and what it cuts keep few bits.
+/// The plane on which a normal of few bits takes a height, rounded down to a few thousandths of an extent, so that it
+/// and what it cuts keep few bits.
 inline Near_plane plane_at(const Near_frame& frame, const Triple& normal, double height, double extent) {
   const int step = std::ilogb(extent) - 10;
   const Rational offset = exact(std::ldexp(std::floor(std::ldexp(height, -step)), step)) * frame.unit();
@@ -69,9 +76,10 @@ inline Near_plane plane_at(const Near_frame& frame, const Triple& normal, double
   return near_plane(frame, h);
 }
 
-/// Planes parallel to edges, each with none of the cell's lines behind it, by doubles; none where together they leave four fifths of the polygons.
-/// Pre: `game` is the cell's relaxation, solved.
-inline std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, const Near_frame& frame, Weak_counters& counters) {
+/// Planes parallel to edges, each with none of the cell's lines behind it, by doubles; none where together they leave
+/// four fifths of the polygons. Pre: `game` is the cell's relaxation, solved.
+inline std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, const Near_frame& frame,
+                                    Weak_counters& counters) {
   std::vector<Cell_cut> cuts;
   double kept = 1;
   const std::size_t n = cell.domain->target.size();
@@ -81,12 +89,16 @@ inline std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& 
     for (std::size_t e = 0; e < polygon.size(); ++e) {
       const Triple inward = inward_of(polygon, e);
       std::vector<double> heights;
-      for (const Near_point& p : polygon) heights.push_back(inward[0] * p.near[0] + inward[1] * p.near[1] + inward[2] * p.near[2]);
-      const double low = *std::min_element(heights.begin(), heights.end()), high = *std::max_element(heights.begin(), heights.end());
+      for (const Near_point& p : polygon)
+        heights.push_back(inward[0] * p.near[0] + inward[1] * p.near[1] + inward[2] * p.near[2]);
+      const double low = *std::min_element(heights.begin(), heights.end()),
+                   high = *std::max_element(heights.begin(), heights.end());
       if (!(high - low > 1e-12)) continue;
       double empty = 0;  // the share of the height that is known to hold no line
       for (const double share : {0.5, 0.25, 0.75, 0.125, 0.875}) {
-        if (share < empty || (empty == 0 && share > 0.5) || (empty == 0.5 && share < 0.5) || (empty == 0.25 && share == 0.125)) continue;
+        if (share < empty || (empty == 0 && share > 0.5) || (empty == 0.5 && share < 0.5) ||
+            (empty == 0.25 && share == 0.125))
+          continue;
         const double height = low + share * (high - low), scale = 1 / (high - low);
         for (std::size_t c = 0; c < values.size(); ++c) values[c] = (height - heights[source ? c / n : c % n]) * scale;
         ++counters.programs;
@@ -102,21 +114,24 @@ inline std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& 
   return cuts;
 }
 
-/// A plane across the longest diagonal of the longer one of the two polygons, through its middle; none where doubles cannot tell its ends apart.
+/// A plane across the longest diagonal of the longer one of the two polygons, through its middle; none where doubles
+/// cannot tell its ends apart.
 inline std::optional<Cell_cut> bisector(const Line_domain& domain, const Near_frame& frame) {
   const auto longest = [](const Near_polygon& polygon, std::array<std::size_t, 2>& ends) {
     double most = -1;
     for (std::size_t i = 0; i < polygon.size(); ++i)
       for (std::size_t j = i + 1; j < polygon.size(); ++j) {
         double square = 0;
-        for (std::size_t k = 0; k < 3; ++k) square += (polygon[i].near[k] - polygon[j].near[k]) * (polygon[i].near[k] - polygon[j].near[k]);
+        for (std::size_t k = 0; k < 3; ++k)
+          square += (polygon[i].near[k] - polygon[j].near[k]) * (polygon[i].near[k] - polygon[j].near[k]);
         if (square > most) most = square, ends = {i, j};
       }
     return most;
   };
   std::array<std::size_t, 2> s{}, t{};
   const bool source = longest(domain.source, s) >= longest(domain.target, t);
-  const Near_point &a = source ? domain.source[s[0]] : domain.target[t[0]], &b = source ? domain.source[s[1]] : domain.target[t[1]];
+  const Near_point &a = source ? domain.source[s[0]] : domain.target[t[0]],
+                   &b = source ? domain.source[s[1]] : domain.target[t[1]];
   Triple normal{b.near[0] - a.near[0], b.near[1] - a.near[1], b.near[2] - a.near[2]};
   const double scale = size(normal);
   if (!(scale > 0)) return {};

@@ -13,7 +13,10 @@ struct Line_weights {
 
   static Line_weights middle(const Line_domain& domain) {
     const std::size_t m = domain.source.size(), n = domain.target.size();
-    return {std::vector<double>(m, 1.0 / static_cast<double>(m)), std::vector<double>(n, 1.0 / static_cast<double>(n)), {}, {}};
+    return {std::vector<double>(m, 1.0 / static_cast<double>(m)),
+            std::vector<double>(n, 1.0 / static_cast<double>(n)),
+            {},
+            {}};
   }
 };
 
@@ -50,9 +53,12 @@ class Line_finder {
       for (std::size_t k = 0; k < rows.size(); ++k) {
         Rational most;
         for (std::size_t i = 0; i < m; ++i)
-          for (std::size_t j = 0; j < n; ++j) rows[k][source ? i : j] += (source ? line.exact_target[j] : line.exact_source[i]) * cell.exact_value(k, i * n + j);
+          for (std::size_t j = 0; j < n; ++j)
+            rows[k][source ? i : j] +=
+                (source ? line.exact_target[j] : line.exact_source[i]) * cell.exact_value(k, i * n + j);
         for (const Rational& v : rows[k]) most = std::max(most, Rational(abs(v)));
-        const long scale = static_cast<long>(bit_length(most.get_den())) - static_cast<long>(bit_length(most.get_num())) - 1;
+        const long scale =
+            static_cast<long>(bit_length(most.get_den())) - static_cast<long>(bit_length(most.get_num())) - 1;
         const std::span<double> values = game_.add_row();
         for (std::size_t c = 0; c < own; ++c) {
           rows[k][c] = times_power(std::move(rows[k][c]), scale);  // within [-1, 1]
@@ -63,7 +69,9 @@ class Line_finder {
       std::vector<Rational> solved, weights(own);
       Rational value;
       const std::vector<std::size_t>& columns = game_.tight_columns();
-      if (!solve_basis(columns, game_.tight_rows(), [&](std::size_t c, std::size_t k) { return rows[k][c]; }, solved, value)) return false;
+      if (!solve_basis(
+              columns, game_.tight_rows(), [&](std::size_t c, std::size_t k) { return rows[k][c]; }, solved, value))
+        return false;
       for (std::size_t c = 0; c < columns.size(); ++c) {
         if (sgn(solved[c]) < 0) return false;
         weights[columns[c]] = solved[c];
@@ -77,8 +85,10 @@ class Line_finder {
       (source ? line.exact_source : line.exact_target) = weights;
       if (sgn(value) <= 0) continue;
       // This end off the polygon's boundary, by a step that keeps half of the margin.
-      const Rational half(1, 2), step = least >= value / 2 ? half : std::min(half, Rational(value / (4 * (value - least))));
-      for (Rational& w : source ? line.exact_source : line.exact_target) w = (1 - step) * w + step / static_cast<long>(own);
+      const Rational half(1, 2),
+          step = least >= value / 2 ? half : std::min(half, Rational(value / (4 * (value - least))));
+      for (Rational& w : source ? line.exact_source : line.exact_target)
+        w = (1 - step) * w + step / static_cast<long>(own);
       return make_positive(cell, line, source);
     }
     return false;
@@ -121,7 +131,7 @@ class Line_finder {
   static bool make_positive(const Line_cell& cell, Line_weights& line, bool source) {
     const std::size_t m = cell.domain->source.size(), n = cell.domain->target.size();
     std::vector<Rational>& weights = source ? line.exact_target : line.exact_source;
-    for (Rational step(1, 2); ; step /= 1024) {
+    for (Rational step(1, 2);; step /= 1024) {
       std::vector<Rational> moved;
       for (const Rational& w : weights) moved.push_back((1 - step) * w + step / static_cast<long>(weights.size()));
       const std::vector<Rational>&s = source ? line.exact_source : moved, &t = source ? moved : line.exact_target;

@@ -15,12 +15,14 @@ struct Multiplier {
   std::optional<Weak_step::Form> source = {}, target = {};
 };
 
-/// Looks for such proofs. Doubles propose; each proof that is returned is checked in integers, or in doubles with their errors. Proof: P-71
+/// Looks for such proofs. Doubles propose; each proof that is returned is checked in integers, or in doubles with their
+/// errors. Proof: P-71
 class Cell_proofs {
  public:
   enum class Relaxation { empty, has_room, unclear };
 
-  Cell_proofs(const Occluders& occluders, const Edge_lines& lines, const Near_plane& source_plane, const Near_plane& target_plane)
+  Cell_proofs(const Occluders& occluders, const Edge_lines& lines, const Near_plane& source_plane,
+              const Near_plane& target_plane)
       : occluders_(&occluders), lines_(&lines), planes_{&source_plane, &target_plane} {}
 
   /// The relaxation in doubles, weights for all pairs of vertices at once: its value, and the game itself.
@@ -42,7 +44,8 @@ class Cell_proofs {
     for (std::size_t k = 0; k < cell.rows.size(); ++k)
       if (const double w = game_.row_weights()[k]; w > 1e-13) proposal.push_back({k, w, {}});
     if (is_proof_in_doubles(cell, proposal)) {
-      for (const Weighted& w : proposal) proof.push_back({cell.rows[w.row].place, cell.factor_of(w.row, exact(w.near)), {}, {}});
+      for (const Weighted& w : proposal)
+        proof.push_back({cell.rows[w.row].place, cell.factor_of(w.row, exact(w.near)), {}, {}});
       return Relaxation::empty;
     }
     // 2. The exact solution for the basis that doubles ended with.
@@ -50,7 +53,10 @@ class Cell_proofs {
     const std::vector<std::size_t>& rows = game_.tight_rows();
     std::vector<Rational> weights;
     Rational value;
-    if (!solve_basis(rows, game_.tight_columns(), [&](std::size_t k, std::size_t c) { return cell.exact_value(k, c); }, weights, value)) return Relaxation::unclear;
+    if (!solve_basis(
+            rows, game_.tight_columns(), [&](std::size_t k, std::size_t c) { return cell.exact_value(k, c); }, weights,
+            value))
+      return Relaxation::unclear;
     std::vector<Weighted> kept;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (sgn(weights[k]) < 0) return Relaxation::unclear;
@@ -60,12 +66,14 @@ class Cell_proofs {
     return conclude(cell, kept, proof) ? Relaxation::empty : Relaxation::unclear;
   }
 
-  /// The relaxation in rationals: a proof where its value is not positive. It is not tried where entries are many or long.
+  /// The relaxation in rationals: a proof where its value is not positive. It is not tried where entries are many or
+  /// long.
   bool by_exact_relaxation(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters) {
     if (cell.rows.size() * cell.pairs() > 1500) return false;
     std::size_t bits = 0;
     for (const Line_cell::Row& row : cell.rows)
-      for (const Rational& side : cell.domain->exact_sides(*cell.lines, row.literal.line, *cell.frame)) bits += bit_length(side.get_num());
+      for (const Rational& side : cell.domain->exact_sides(*cell.lines, row.literal.line, *cell.frame))
+        bits += bit_length(side.get_num());
     if (bits > 150000) return false;
     ++counters.exact_programs;
     exact_game_.restart(cell.pairs());
@@ -80,9 +88,10 @@ class Cell_proofs {
     return conclude(cell, proposal, proof);
   }
 
-  /// Three lines through a point v, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3 with forms c in p, and as p, v and the line are in one plane, c1 h1 + c2 h2 +
-  /// c3 h3 is 0 for all p and q. Where the signs on the path and those of the forms, on the source or on the target, are such that no term is negative, no line is
-  /// in the cell. Corners of boxes are like that. Proof: P-71c
+  /// Three lines through a point v, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3 with forms c in p, and
+  /// as p, v and the line are in one plane, c1 h1 + c2 h2 + c3 h3 is 0 for all p and q. Where the signs on the path and
+  /// those of the forms, on the source or on the target, are such that no term is negative, no line is in the cell.
+  /// Corners of boxes are like that. Proof: P-71c
   bool at_corner(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters) {
     for (std::size_t i = 0; i < cell.rows.size(); ++i)
       for (const std::uint32_t point : line_of(cell, i).points) {
@@ -94,15 +103,18 @@ class Cell_proofs {
           for (std::size_t b = a + 1; b < through_.size(); ++b)
             for (std::size_t c = b + 1; c < through_.size(); ++c)
               for (const bool source : {true, false})
-                if (corner_proof(cell, {through_[a], through_[b], through_[c]}, point, source, proof)) return ++counters.corners, true;
+                if (corner_proof(cell, {through_[a], through_[b], through_[c]}, point, source, proof))
+                  return ++counters.corners, true;
       }
     return false;
   }
 
-  /// Multipliers that are forms: the path's sides times the forms of the polygon's edges, which are not negative on it. A sum of such products is of degree two in
-  /// one of the points; it is not positive where its coefficients, for pairs of vertices of that polygon and a vertex of the other, are not. Proof: P-71d
+  /// Multipliers that are forms: the path's sides times the forms of the polygon's edges, which are not negative on it.
+  /// A sum of such products is of degree two in one of the points; it is not positive where its coefficients, for pairs
+  /// of vertices of that polygon and a vertex of the other, are not. Proof: P-71d
   bool by_forms(const Line_cell& cell, bool source, std::vector<Multiplier>& proof, Weak_counters& counters) {
-    const Near_polygon &own = source ? cell.domain->source : cell.domain->target, &other = source ? cell.domain->target : cell.domain->source;
+    const Near_polygon &own = source ? cell.domain->source : cell.domain->target,
+                       &other = source ? cell.domain->target : cell.domain->source;
     const std::size_t m = own.size(), columns = m * (m + 1) / 2 * other.size();
     if (columns > 400 || cell.rows.size() > 60) return false;
     Edge_forms edges;
@@ -119,7 +131,8 @@ class Cell_proofs {
         std::size_t c = 0;
         for (std::size_t i = 0; i < m; ++i)
           for (std::size_t k = i; k < m; ++k)
-            for (std::size_t j = 0; j < other.size(); ++j) values[c++] = 0.5 * (near[i] * cell.value(r, pair_of(k, j)) + near[k] * cell.value(r, pair_of(i, j)));
+            for (std::size_t j = 0; j < other.size(); ++j)
+              values[c++] = 0.5 * (near[i] * cell.value(r, pair_of(k, j)) + near[k] * cell.value(r, pair_of(i, j)));
       }
     }
     ++counters.form_programs;
@@ -131,12 +144,14 @@ class Cell_proofs {
       const std::size_t a = row / cell.rows.size(), k = row % cell.rows.size(), j = column % other.size();
       std::size_t i = 0, rest = column / other.size();
       while (rest >= m - i) rest -= m - i, ++i;
-      return Rational(edges.heights[a][i] * cell.exact_value(k, pair_of(i + rest, j)) + edges.heights[a][i + rest] * cell.exact_value(k, pair_of(i, j)));
+      return Rational(edges.heights[a][i] * cell.exact_value(k, pair_of(i + rest, j)) +
+                      edges.heights[a][i + rest] * cell.exact_value(k, pair_of(i, j)));
     };
     std::vector<std::pair<std::size_t, Rational>> weights;
     if (result < -1e-11) {
       for (std::size_t k = 0; k < wide_.rows(); ++k)
-        if (wide_.row_weights()[k] > 1e-10) weights.push_back({k, exact(wide_.row_weights()[k]) / edges.most[k / cell.rows.size()]});
+        if (wide_.row_weights()[k] > 1e-10)
+          weights.push_back({k, exact(wide_.row_weights()[k]) / edges.most[k / cell.rows.size()]});
     } else {
       const std::vector<std::size_t>& rows = wide_.tight_rows();
       std::vector<Rational> solved;
@@ -157,13 +172,15 @@ class Cell_proofs {
     // 3. One form for each line.
     std::map<std::size_t, std::array<Rational, 4>> sums;
     for (const auto& [row, weight] : weights)
-      for (std::size_t k = 0; k < 4; ++k) sums[row % cell.rows.size()][k] += weight * Rational(edges.forms[row / cell.rows.size()][k]);
+      for (std::size_t k = 0; k < 4; ++k)
+        sums[row % cell.rows.size()][k] += weight * Rational(edges.forms[row / cell.rows.size()][k]);
     for (const auto& [row, sum] : sums) {
       Integer common = 1;
       for (const Rational& x : sum) common = lcm(common, x.get_den());
       Weak_step::Form form;
       for (std::size_t k = 0; k < 4; ++k) form[k] = sum[k].get_num() * (common / sum[k].get_den());
-      Multiplier& multiplier = proof.emplace_back(Multiplier{cell.rows[row].place, cell.factor_of(row, Rational(Integer(1), common)), {}, {}});
+      Multiplier& multiplier = proof.emplace_back(
+          Multiplier{cell.rows[row].place, cell.factor_of(row, Rational(Integer(1), common)), {}, {}});
       (source ? multiplier.source : multiplier.target) = form;
     }
     ++counters.by_forms;
@@ -183,14 +200,18 @@ class Cell_proofs {
     std::vector<Rational> most;
   };
 
-  const Edge_lines::Line& line_of(const Line_cell& cell, std::size_t row) const { return (*lines_)[cell.rows[row].literal.line]; }
+  const Edge_lines::Line& line_of(const Line_cell& cell, std::size_t row) const {
+    return (*lines_)[cell.rows[row].literal.line];
+  }
 
   static bool conclude(const Line_cell& cell, const std::vector<Weighted>& proposal, std::vector<Multiplier>& proof) {
     if (proposal.empty() || !is_proof(cell, proposal)) return false;
-    for (const Weighted& w : proposal) proof.push_back({cell.rows[w.row].place, cell.factor_of(w.row, w.exact), {}, {}});
+    for (const Weighted& w : proposal)
+      proof.push_back({cell.rows[w.row].place, cell.factor_of(w.row, w.exact), {}, {}});
     return true;
   }
-  /// Whether the weighted sum of rows is negative on all pairs of vertices, for certain: rows within their errors, products and sums within 2^-50 of their sizes.
+  /// Whether the weighted sum of rows is negative on all pairs of vertices, for certain: rows within their errors,
+  /// products and sums within 2^-50 of their sizes.
   static bool is_proof_in_doubles(const Line_cell& cell, const std::vector<Weighted>& weights) {
     for (std::size_t c = 0; c < cell.pairs(); ++c) {
       double sum = 0, error = 0x1p-1000;
@@ -212,7 +233,8 @@ class Cell_proofs {
     return true;
   }
 
-  bool corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, std::uint32_t point, bool source, std::vector<Multiplier>& proof) const {
+  bool corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, std::uint32_t point, bool source,
+                    std::vector<Multiplier>& proof) const {
     const std::array<Integer, 3> v = occluders_->grid_point(point);
     std::vector<Multiplier> multipliers;
     int all = 0;  // the sign of all terms
@@ -240,7 +262,8 @@ class Cell_proofs {
     return true;
   }
 
-  /// False where the polygon is not convex, or turns the other way round than its plane says: then the forms would be no multipliers.
+  /// False where the polygon is not convex, or turns the other way round than its plane says: then the forms would be
+  /// no multipliers.
   static bool edges_of(const Near_polygon& polygon, const Near_plane& plane, Edge_forms& edges) {
     for (std::size_t a = 0; a < polygon.size(); ++a) {
       edges.forms.push_back(form_of(polygon, a, plane));
@@ -260,8 +283,10 @@ class Cell_proofs {
     std::array<Integer, 3> along;
     for (std::size_t k = 0; k < 3; ++k) along[k] = a[3] * b[k] - b[3] * a[k];
     const std::array<Integer, 4>& n = plane.exact;
-    const std::array<Integer, 3> inward{n[1] * along[2] - n[2] * along[1], n[2] * along[0] - n[0] * along[2], n[0] * along[1] - n[1] * along[0]};
-    Weak_step::Form form{inward[0] * a[3], inward[1] * a[3], inward[2] * a[3], Integer(-(inward[0] * a[0] + inward[1] * a[1] + inward[2] * a[2]))};
+    const std::array<Integer, 3> inward{n[1] * along[2] - n[2] * along[1], n[2] * along[0] - n[0] * along[2],
+                                        n[0] * along[1] - n[1] * along[0]};
+    Weak_step::Form form{inward[0] * a[3], inward[1] * a[3], inward[2] * a[3],
+                         Integer(-(inward[0] * a[0] + inward[1] * a[1] + inward[2] * a[2]))};
     const Integer common = gcd(gcd(form[0], form[1]), gcd(form[2], form[3]));
     for (Integer& x : form) x /= common;
     return form;

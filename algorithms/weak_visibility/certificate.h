@@ -7,17 +7,21 @@
 
 namespace sightline {
 
-/// What verify_weak() checks, in the file's coordinates. Lines of all proofs are numbered together. What is unproved counts as undecided there: nothing is claimed about it.
-/// Pre: `sources` are the points that the answers are for. Exact: yes
-inline Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vector<Exact_point>>& sources, bool two_sided, const Weakly_visible& found) {
+/// What verify_weak() checks, in the file's coordinates. Lines of all proofs are numbered together. What is unproved
+/// counts as undecided there: nothing is claimed about it. Pre: `sources` are the points that the answers are for.
+/// Exact: yes
+inline Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vector<Exact_point>>& sources,
+                                         bool two_sided, const Weakly_visible& found) {
   Weak_certificate certificate;
   certificate.sources = sources, certificate.two_sided = two_sided;
-  std::set_union(found.undecided.begin(), found.undecided.end(), found.unproved.begin(), found.unproved.end(), std::back_inserter(certificate.undecided));
+  std::set_union(found.undecided.begin(), found.undecided.end(), found.unproved.begin(), found.unproved.end(),
+                 std::back_inserter(certificate.undecided));
   add_all(certificate, scene);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
   for (const Weakly_visible::Pair& pair : found.pairs) {
     if (pair.answer.status == Weak_status::visible) {
-      certificate.visible.push_back({pair.piece, pair.source, scene.position(pair.answer.sightline[0].exact), scene.position(pair.answer.sightline[1].exact)});
+      certificate.visible.push_back({pair.piece, pair.source, scene.position(pair.answer.sightline[0].exact),
+                                     scene.position(pair.answer.sightline[1].exact)});
       continue;
     }
     const auto line_number = [&](std::uint32_t line) {
@@ -33,15 +37,21 @@ inline Weak_certificate weak_certificate(const Scene& scene, const std::vector<s
       Weak_certificate::Node& node = hidden.proof.emplace_back();
       switch (step.kind) {
         case Weak_step::Kind::line: node.kind = Kind::line, node.index = line_number(step.index); break;
-        case Weak_step::Kind::cut_source: node.kind = Kind::cut_source, node.plane = scene.file_coefficients(step.plane); break;
-        case Weak_step::Kind::cut_target: node.kind = Kind::cut_target, node.plane = scene.file_coefficients(step.plane); break;
+        case Weak_step::Kind::cut_source:
+          node.kind = Kind::cut_source, node.plane = scene.file_coefficients(step.plane);
+          break;
+        case Weak_step::Kind::cut_target:
+          node.kind = Kind::cut_target, node.plane = scene.file_coefficients(step.plane);
+          break;
         case Weak_step::Kind::blocked: node.kind = Kind::blocked, node.index = step.index; break;
         case Weak_step::Kind::away: node.kind = Kind::away; break;
         case Weak_step::Kind::empty:
         case Weak_step::Kind::open: node.kind = Kind::empty; break;  // none is open where all is decided
       }
       for (const Weak_step::Term& term : step.terms) {
-        const auto form = [&](const std::optional<Weak_step::Form>& h) { return h ? std::optional(scene.file_coefficients(*h)) : std::nullopt; };
+        const auto form = [&](const std::optional<Weak_step::Form>& h) {
+          return h ? std::optional(scene.file_coefficients(*h)) : std::nullopt;
+        };
         node.terms.push_back({line_number(term.line), term.factor, form(term.source), form(term.target)});
       }
     }

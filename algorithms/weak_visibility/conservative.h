@@ -1,5 +1,6 @@
 #pragma once
-// A quick answer that leaves out nothing that is visible: a face counts as hidden only where one piece alone hides it, or where it looks away.
+// A quick answer that leaves out nothing that is visible: a face counts as hidden only where one piece alone hides it,
+// or where it looks away.
 
 #include <sightline/algorithms/weak_visibility/weak.h>
 
@@ -7,15 +8,16 @@ namespace sightline {
 
 struct Conservative_options {
   bool two_sided = false;
-  int threads = 0;                                                     ///< 0: as many as there are processors
-  std::function<void(std::size_t done, std::size_t all)> progress;     ///< faces; called by any thread
+  int threads = 0;                                                  ///< 0: as many as there are processors
+  std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
 
 namespace conservative_detail {
 
-/// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between them, and on no pair of corners does a line pass an
-/// edge outside. Exact: yes. Proof: P-70
-inline bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target, std::span<const Six> pairs) {
+/// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between
+/// them, and on no pair of corners does a line pass an edge outside. Exact: yes. Proof: P-70
+inline bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source,
+                       const Near_polygon& target, std::span<const Six> pairs) {
   const int front = side(occluders.plane(piece), source);
   if (front == 0 || front == both_sides || side(occluders.plane(piece), target) != -front) return false;
   const std::span<const Triple> corners = occluders.corners(piece);
@@ -24,7 +26,8 @@ inline bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Ne
     std::optional<Exact_six> edge;  // once doubles do not tell
     for (std::size_t c = 0; c < pairs.size(); ++c) {
       const Near_point &p = source[c / target.size()], &q = target[c % target.size()];
-      const double value = front * dot(pairs[c], occluders.edges(piece)[i]), bound = side_error(size(p.near), size(q.near), a, b);
+      const double value = front * dot(pairs[c], occluders.edges(piece)[i]),
+                   bound = side_error(size(p.near), size(q.near), a, b);
       if (value < -bound) return false;
       if (value > bound) continue;
       if (!edge) edge = occluders.exact_edge_of(occluders.edge_points(piece, i));
@@ -36,9 +39,11 @@ inline bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Ne
 
 }  // namespace conservative_detail
 
-/// The proof that a piece is hidden from a source, where it needs one blocking piece at most: two cuts leave what they have in front of each other, then that is blocked, or
-/// there is nothing. None: it may be visible. Cost: pieces near the shaft between them. Exact: yes. Proof: P-70, P-72
-inline std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders& occluders, const Weak_source& source, std::uint32_t piece, bool two_sided) {
+/// The proof that a piece is hidden from a source, where it needs one blocking piece at most: two cuts leave what they
+/// have in front of each other, then that is blocked, or there is nothing. None: it may be visible. Cost: pieces near
+/// the shaft between them. Exact: yes. Proof: P-70, P-72
+inline std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders& occluders, const Weak_source& source,
+                                                                 std::uint32_t piece, bool two_sided) {
   using namespace conservative_detail;
   using Kind = Weak_step::Kind;
   const Near_plane& plane = occluders.plane(piece);
@@ -63,7 +68,8 @@ inline std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders
   if (cut_source) proof.push_back({Kind::cut_source, 0, plane.exact, {}});
   for (const bool front : {true, false}) {
     if (!cut_source && !front) break;
-    std::optional<Weak_step> step = leaf(cut_source ? clip(occluders.frame(), source.polygon, plane, front) : source.polygon);
+    std::optional<Weak_step> step =
+        leaf(cut_source ? clip(occluders.frame(), source.polygon, plane, front) : source.polygon);
     if (!step) return {};
     proof.push_back(std::move(*step));
   }
@@ -71,10 +77,12 @@ inline std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders
   return proof;
 }
 
-/// The faces that may be visible, in the sense of weakly_visible(): all that are, and some that are not, as several pieces together may hide a face. Nothing is undecided; what is
-/// hidden is proved, what is visible is not. Post: `hidden` is a subset of what weakly_visible() finds hidden; the same at any number of threads. Cost: a walk through
+/// The faces that may be visible, in the sense of weakly_visible(): all that are, and some that are not, as several
+/// pieces together may hide a face. Nothing is undecided; what is hidden is proved, what is visible is not. Post:
+/// `hidden` is a subset of what weakly_visible() finds hidden; the same at any number of threads. Cost: a walk through
 /// the pieces near each shaft between a source and a piece. Exact: of what it says is hidden. Proof: P-70, P-72
-inline Weakly_visible possibly_visible(const Occluders& occluders, const std::vector<Weak_source>& sources, const Conservative_options& options = {}) {
+inline Weakly_visible possibly_visible(const Occluders& occluders, const std::vector<Weak_source>& sources,
+                                       const Conservative_options& options = {}) {
   struct Result {
     bool hidden = true;
     std::vector<Weakly_visible::Pair> proofs;
@@ -86,7 +94,8 @@ inline Weakly_visible possibly_visible(const Occluders& occluders, const std::ve
     auto& [hidden, proofs] = results[f];
     for (std::uint32_t piece = begin; piece < end && hidden; ++piece)
       for (std::uint32_t s = 0; s < sources.size() && hidden; ++s) {
-        std::optional<std::vector<Weak_step>> proof = hidden_by_one_piece(occluders, sources[s], piece, options.two_sided);
+        std::optional<std::vector<Weak_step>> proof =
+            hidden_by_one_piece(occluders, sources[s], piece, options.two_sided);
         hidden = proof.has_value();
         if (!hidden) break;
         Weak_answer& answer = proofs.emplace_back(Weakly_visible::Pair{piece, s, {}}).answer;

@@ -9,7 +9,8 @@
 
 namespace sightline {
 
-/// Edges by the lines that they lie on: edges on one line have its number, also where their end points differ. Exact: yes.
+/// Edges by the lines that they lie on: edges on one line have its number, also where their end points differ. Exact:
+/// yes.
 class Edge_lines {
  public:
   struct Line {
@@ -17,7 +18,7 @@ class Edge_lines {
     std::array<std::uint32_t, 2> points;  ///< that edge's ends
     bool flipped;                         ///< runs against the canonical direction
     Six near;
-    double ends_sum, ends_product;        ///< of the largest coordinates of its two points
+    double ends_sum, ends_product;  ///< of the largest coordinates of its two points
     Exact_six exact;
   };
   /// An edge's line: `sense` -1 where it runs the other way.
@@ -62,8 +63,15 @@ class Edge_lines {
     const std::array<std::uint32_t, 2> points = occluders_->edge_points(piece, corner);
     const auto [name, flipped] = names_.through(points[0], points[1]);
     if (name == lines_.size()) {
-      const double a = sightline::size(occluders_->corners(piece)[corner]), b = sightline::size(occluders_->corners(piece)[(corner + 1) % occluders_->size(piece)]);
-      lines_.push_back({{piece, static_cast<std::uint32_t>(corner)}, points, flipped, occluders_->edges(piece)[corner], a + b, a * b, occluders_->exact_edge_of(points)});
+      const double a = sightline::size(occluders_->corners(piece)[corner]),
+                   b = sightline::size(occluders_->corners(piece)[(corner + 1) % occluders_->size(piece)]);
+      lines_.push_back({{piece, static_cast<std::uint32_t>(corner)},
+                        points,
+                        flipped,
+                        occluders_->edges(piece)[corner],
+                        a + b,
+                        a * b,
+                        occluders_->exact_edge_of(points)});
     }
     return {name, flipped == lines_[name].flipped ? 1 : -1};
   }

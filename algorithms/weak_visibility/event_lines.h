@@ -1,30 +1,37 @@
 #pragma once
-// What events between two convex polygons are made of: the lines of edges, and for each piece the signs with which a line between the polygons is blocked by it.
+// What events between two convex polygons are made of: the lines of edges, and for each piece the signs with which a
+// line between the polygons is blocked by it.
 
 #include <sightline/algorithms/weak_visibility/weak.h>
 
 namespace sightline {
 
-// ---- Points, planes and lines in homogeneous integers ---------------------------------------------------------------------------------
+// ---- Points, planes and lines in homogeneous integers
+// ---------------------------------------------------------------------------------
 //
-// A line is (direction, moment), as exact_edge gives it. side(a, b) = det[p, q, r, s] for the points p, q that a is joined from, and r, s of b.
+// A line is (direction, moment), as exact_edge gives it. side(a, b) = det[p, q, r, s] for the points p, q that a is
+// joined from, and r, s of b.
 
 using Homogeneous = std::array<Integer, 4>;
 
 inline Exact_six join(const Homogeneous& a, const Homogeneous& b) {
-  return {a[3] * b[0] - b[3] * a[0], a[3] * b[1] - b[3] * a[1], a[3] * b[2] - b[3] * a[2], a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return {a[3] * b[0] - b[3] * a[0], a[3] * b[1] - b[3] * a[1], a[3] * b[2] - b[3] * a[2],
+          a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 /// The plane through a point and a line; zero where the point is on the line. Linear in the point.
 inline Homogeneous join(const Homogeneous& x, const Exact_six& e) {
-  return {e[1] * x[2] - e[2] * x[1] + x[3] * e[3], e[2] * x[0] - e[0] * x[2] + x[3] * e[4], e[0] * x[1] - e[1] * x[0] + x[3] * e[5], -(x[0] * e[3] + x[1] * e[4] + x[2] * e[5])};
+  return {e[1] * x[2] - e[2] * x[1] + x[3] * e[3], e[2] * x[0] - e[0] * x[2] + x[3] * e[4],
+          e[0] * x[1] - e[1] * x[0] + x[3] * e[5], -(x[0] * e[3] + x[1] * e[4] + x[2] * e[5])};
 }
 /// The point in which a line meets a plane; zero where it lies in it.
 inline Homogeneous meet(const Homogeneous& h, const Exact_six& e) {
-  return {h[1] * e[5] - h[2] * e[4] - h[3] * e[0], h[2] * e[3] - h[0] * e[5] - h[3] * e[1], h[0] * e[4] - h[1] * e[3] - h[3] * e[2], h[0] * e[0] + h[1] * e[1] + h[2] * e[2]};
+  return {h[1] * e[5] - h[2] * e[4] - h[3] * e[0], h[2] * e[3] - h[0] * e[5] - h[3] * e[1],
+          h[0] * e[4] - h[1] * e[3] - h[3] * e[2], h[0] * e[0] + h[1] * e[1] + h[2] * e[2]};
 }
 /// The line in which two planes meet. Bilinear.
 inline Exact_six meet(const Homogeneous& g, const Homogeneous& h) {
-  return {g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0], g[3] * h[0] - h[3] * g[0], g[3] * h[1] - h[3] * g[1], g[3] * h[2] - h[3] * g[2]};
+  return {g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0],
+          g[3] * h[0] - h[3] * g[0], g[3] * h[1] - h[3] * g[1], g[3] * h[2] - h[3] * g[2]};
 }
 inline Integer dot(const Homogeneous& a, const Homogeneous& b) {
   Integer sum = a[0] * b[0];
@@ -55,21 +62,24 @@ int make_canonical(std::array<Integer, n>& a) {
 struct Less_entries {
   template <std::size_t n>
   bool operator()(const std::array<Integer, n>& a, const std::array<Integer, n>& b) const {
-    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), [](const Integer& x, const Integer& y) { return cmp(x, y) < 0; });
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(),
+                                        [](const Integer& x, const Integer& y) { return cmp(x, y) < 0; });
   }
 };
 
-// ---- The lines between two polygons ----------------------------------------------------------------------------------------------------
+// ---- The lines between two polygons
+// ----------------------------------------------------------------------------------------------------
 
-/// Which lines from the inside of a convex source to that of a convex target are blocked, as signs of their sides of lines: of the edges, and of those in which planes
-/// of pieces meet source or target, as p is beyond such a plane iff (p, q) passes the line in which it meets the source's plane on one side.
-/// Pre: the target is in front of the source's plane, the source on one side of the target's; both may touch. Cost: O(n log n). Exact: yes. Proof: P-73
+/// Which lines from the inside of a convex source to that of a convex target are blocked, as signs of their sides of
+/// lines: of the edges, and of those in which planes of pieces meet source or target, as p is beyond such a plane iff
+/// (p, q) passes the line in which it meets the source's plane on one side. Pre: the target is in front of the source's
+/// plane, the source on one side of the target's; both may touch. Cost: O(n log n). Exact: yes. Proof: P-73
 class Event_lines {
  public:
   struct Line {
     Exact_six six;
-    bool in_source = false;         ///< in the source's plane
-    bool real = false;              ///< whether some of it is an edge that an event may touch: then all of that is
+    bool in_source = false;             ///< in the source's plane
+    bool real = false;                  ///< whether some of it is an edge that an event may touch: then all of that is
     std::array<Homogeneous, 2> hull{};  ///< between these points, in the line's direction
   };
   /// sense * side > 0
@@ -84,18 +94,30 @@ class Event_lines {
   };
 
   /// `beside`: the side of the target's plane, 1 or -1, on which the source is. Pieces come first that are large.
-  Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane, const Near_polygon& target, const Near_plane& target_plane, int beside)
-      : source_(source), target_(target), near_source_plane_(source_plane), near_target_plane_(target_plane), beside_(beside) {
-    for (std::size_t i = 0; i < source.size(); ++i) from_.push_back({edge(source[i].exact, source[(i + 1) % source.size()].exact), 0});
-    for (std::size_t i = 0; i < target.size(); ++i) to_.push_back({edge(target[i].exact, target[(i + 1) % target.size()].exact), 0});
-    for (std::size_t i = 0; i < from_.size(); ++i) from_[i].sense = -sense_of(source[i].exact, source[(i + 1) % source.size()].exact, from_[i].line);
-    for (std::size_t i = 0; i < to_.size(); ++i) to_[i].sense = beside * sense_of(target[i].exact, target[(i + 1) % target.size()].exact, to_[i].line);
+  Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
+              const Near_polygon& target, const Near_plane& target_plane, int beside)
+      : source_(source),
+        target_(target),
+        near_source_plane_(source_plane),
+        near_target_plane_(target_plane),
+        beside_(beside) {
+    for (std::size_t i = 0; i < source.size(); ++i)
+      from_.push_back({edge(source[i].exact, source[(i + 1) % source.size()].exact), 0});
+    for (std::size_t i = 0; i < target.size(); ++i)
+      to_.push_back({edge(target[i].exact, target[(i + 1) % target.size()].exact), 0});
+    for (std::size_t i = 0; i < from_.size(); ++i)
+      from_[i].sense = -sense_of(source[i].exact, source[(i + 1) % source.size()].exact, from_[i].line);
+    for (std::size_t i = 0; i < to_.size(); ++i)
+      to_[i].sense = beside * sense_of(target[i].exact, target[(i + 1) % target.size()].exact, to_[i].line);
     std::vector<std::pair<double, std::uint32_t>> by_size;
-    for (const std::uint32_t piece : occluders.near_shaft(source, target)) by_size.emplace_back(-area(occluders.corners(piece)), piece);
+    for (const std::uint32_t piece : occluders.near_shaft(source, target))
+      by_size.emplace_back(-area(occluders.corners(piece)), piece);
     std::sort(by_size.begin(), by_size.end());
     for (const auto& [size, piece] : by_size) add_piece(occluders, piece);
     for (Line& line : lines_)
-      if (line.in_source && sgn(dot(target_plane.exact, line.hull[0])) == 0 && sgn(dot(target_plane.exact, line.hull[1])) == 0) line.real = false;
+      if (line.in_source && sgn(dot(target_plane.exact, line.hull[0])) == 0 &&
+          sgn(dot(target_plane.exact, line.hull[1])) == 0)
+        line.real = false;
   }
 
   const Near_polygon& source() const { return source_; }
@@ -121,7 +143,8 @@ class Event_lines {
     Triple sum{};
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
       Triple u, v;
-      for (std::size_t k = 0; k < 3; ++k) u[k] = corners[i][k] - corners[0][k], v[k] = corners[i + 1][k] - corners[0][k];
+      for (std::size_t k = 0; k < 3; ++k)
+        u[k] = corners[i][k] - corners[0][k], v[k] = corners[i + 1][k] - corners[0][k];
       for (std::size_t k = 0; k < 3; ++k) sum[k] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
     }
     return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
@@ -161,7 +184,8 @@ class Event_lines {
   }
   /// Whether both points are behind the source, or both beyond the target.
   bool is_outside(const Homogeneous& a, const Homogeneous& b) const {
-    return (sgn(dot(source_plane(), a)) < 0 && sgn(dot(source_plane(), b)) < 0) || (sgn(dot(target_plane(), a)) * beside_ < 0 && sgn(dot(target_plane(), b)) * beside_ < 0);
+    return (sgn(dot(source_plane(), a)) < 0 && sgn(dot(source_plane(), b)) < 0) ||
+           (sgn(dot(target_plane(), a)) * beside_ < 0 && sgn(dot(target_plane(), b)) * beside_ < 0);
   }
   /// The side of a plane on which a polygon is, 0 where it is in the plane, 2 where it is on both sides.
   static int position(const Homogeneous& h, const Near_polygon& polygon) {
@@ -173,7 +197,9 @@ class Event_lines {
     return front && behind ? 2 : front ? 1 : behind ? -1 : 0;
   }
   static const Homogeneous& in_front(const Homogeneous& h, const Near_polygon& polygon, int sign) {
-    return std::find_if(polygon.begin(), polygon.end(), [&](const Near_point& p) { return sgn(dot(h, p.exact)) == sign; })->exact;
+    return std::find_if(polygon.begin(), polygon.end(),
+                        [&](const Near_point& p) { return sgn(dot(h, p.exact)) == sign; })
+        ->exact;
   }
 
   /// The line in which a piece's plane meets that of the source or the target; where the piece itself crosses, an edge.
@@ -196,7 +222,8 @@ class Event_lines {
   void add_piece(const Occluders& occluders, std::uint32_t piece) {
     const Homogeneous& plane = occluders.plane(piece).exact;
     const int source_at = position(plane, source_), target_at = position(plane, target_);
-    if (source_at == 0 || target_at == 0 || (source_at == target_at && source_at != 2)) return;  // a line that leaves its plane at an end does not meet it
+    if (source_at == 0 || target_at == 0 || (source_at == target_at && source_at != 2))
+      return;  // a line that leaves its plane at an end does not meet it
     const Near_polygon corners = occluders.polygon(piece);
     std::vector<Literal> edges;
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -208,11 +235,13 @@ class Event_lines {
     Literal p_in_front{0, 0}, q_in_front{0, 0};
     if (source_at == 2) {
       const std::uint32_t number = trace(corners, plane, source_plane());
-      p_in_front = {number, sgn(side(join(in_front(plane, source_, 1), in_front(source_plane(), target_, 1)), lines_[number].six))};
+      p_in_front = {number, sgn(side(join(in_front(plane, source_, 1), in_front(source_plane(), target_, 1)),
+                                     lines_[number].six))};
     }
     if (target_at == 2) {
       const std::uint32_t number = trace(corners, plane, target_plane());
-      q_in_front = {number, sgn(side(join(in_front(target_plane(), source_, beside_), in_front(plane, target_, 1)), lines_[number].six))};
+      q_in_front = {number, sgn(side(join(in_front(target_plane(), source_, beside_), in_front(plane, target_, 1)),
+                                     lines_[number].six))};
     }
     for (const int sense : {1, -1}) {  // p in front and q behind, then the other way round
       if (source_at == -sense || target_at == sense) continue;

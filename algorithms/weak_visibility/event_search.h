@@ -1,5 +1,6 @@
 #pragma once
-// Plantinga's events between one source and one target: the lines that touch edges where visibility changes, and exactly what is free beside them.
+// Plantinga's events between one source and one target: the lines that touch edges where visibility changes, and
+// exactly what is free beside them.
 
 #include <sightline/algorithms/weak_visibility/event_cells.h>
 #include <sightline/algorithms/weak_visibility/quadratic_roots.h>
@@ -8,30 +9,37 @@ namespace sightline {
 
 /// What a search by events modelled.
 struct Event_counters {
-  std::size_t targets = 0;                                     ///< pairs of a source and a piece
-  std::size_t away = 0, by_rays = 0, in_shadow = 0;            ///< of these, decided at once: facing away, by one of a few lines, hidden by one piece alone
-  std::size_t occluders = 0, lines = 0;                        ///< ways in which a piece can block; lines of edges; summed over pairs
-  std::size_t horizon = 0, edge_vertex = 0, triple = 0;        ///< potential events: in a plane of edges, through a vertex and an edge, through three edges
-  std::size_t off_edges = 0, off_polygons = 0, covered = 0;    ///< of these: no line touches all edges between source and target; none goes from one to the other; all are blocked
-  std::size_t subranges = 0, cells = 0;                        ///< active subranges that were looked at, and cells of lines beside them
-  std::size_t confirmed = 0, refuted = 0;                      ///< sightlines proposed, by the exact test of all pieces
+  std::size_t targets = 0;  ///< pairs of a source and a piece
+  std::size_t away = 0, by_rays = 0,
+              in_shadow =
+                  0;  ///< of these, decided at once: facing away, by one of a few lines, hidden by one piece alone
+  std::size_t occluders = 0, lines = 0;  ///< ways in which a piece can block; lines of edges; summed over pairs
+  std::size_t horizon = 0, edge_vertex = 0,
+              triple = 0;  ///< potential events: in a plane of edges, through a vertex and an edge, through three edges
+  std::size_t off_edges = 0, off_polygons = 0,
+              covered = 0;  ///< of these: no line touches all edges between source and target; none goes from one to
+                            ///< the other; all are blocked
+  std::size_t subranges = 0, cells = 0;    ///< active subranges that were looked at, and cells of lines beside them
+  std::size_t confirmed = 0, refuted = 0;  ///< sightlines proposed, by the exact test of all pieces
 
   Event_counters& operator+=(const Event_counters& o) {
-    targets += o.targets, away += o.away, by_rays += o.by_rays, in_shadow += o.in_shadow, occluders += o.occluders, lines += o.lines, horizon += o.horizon, edge_vertex += o.edge_vertex;
-    triple += o.triple, off_edges += o.off_edges, off_polygons += o.off_polygons, covered += o.covered, subranges += o.subranges, cells += o.cells, confirmed += o.confirmed, refuted += o.refuted;
+    targets += o.targets, away += o.away, by_rays += o.by_rays, in_shadow += o.in_shadow, occluders += o.occluders,
+        lines += o.lines, horizon += o.horizon, edge_vertex += o.edge_vertex;
+    triple += o.triple, off_edges += o.off_edges, off_polygons += o.off_polygons, covered += o.covered,
+        subranges += o.subranges, cells += o.cells, confirmed += o.confirmed, refuted += o.refuted;
     return *this;
   }
 };
 
 struct Events_options {
   bool two_sided = false;
-  int rays = 24;                                                       ///< lines that are tried before events
+  int rays = 24;  ///< lines that are tried before events
   std::uint64_t seed = 1;
-  std::size_t events = 20000000;                                       ///< potential events that a pair may have; then `undecided`
-  bool surfaces = false;                                               ///< whether to keep event surfaces: then all of them, also where a line is free before
-  int threads = 0;                                                     ///< 0: as many as there are processors
-  std::function<bool()> out_of_time;                                   ///< asked now and then
-  std::function<void(std::size_t done, std::size_t all)> progress;     ///< faces; called by any thread
+  std::size_t events = 20000000;  ///< potential events that a pair may have; then `undecided`
+  bool surfaces = false;  ///< whether to keep event surfaces: then all of them, also where a line is free before
+  int threads = 0;        ///< 0: as many as there are processors
+  std::function<bool()> out_of_time;                                ///< asked now and then
+  std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
 
 enum class Event_kind : char { horizon, edge_vertex, triple };
@@ -41,13 +49,21 @@ struct Events_answer {
   std::array<Near_point, 2> sightline;  ///< where visible: strictly inside source and target
 };
 
-/// One search, between convex polygons of which the target is in front of the source and the source on one side of the target. Of every event it looks at each active
-/// subrange: at one line there, at all cells of lines around it, and whether a piece blocks them. If some line is free, so is a cell beside some event. Degenerate: edges
-/// may be parallel, coplanar, concurrent or the same. Cost: O(n^4 log n) for n edges, where few lie in one position. Exact: yes. Ref: Plantinga. Proof: P-73
+/// One search, between convex polygons of which the target is in front of the source and the source on one side of the
+/// target. Of every event it looks at each active subrange: at one line there, at all cells of lines around it, and
+/// whether a piece blocks them. If some line is free, so is a cell beside some event. Degenerate: edges may be
+/// parallel, coplanar, concurrent or the same. Cost: O(n^4 log n) for n edges, where few lie in one position. Exact:
+/// yes. Ref: Plantinga. Proof: P-73
 class Event_search {
  public:
-  Event_search(const Occluders& occluders, const Event_lines& scene, const Events_options& options, Event_counters& counters)
-      : occluders_(&occluders), scene_(&scene), options_(&options), counters_(&counters), polynomials_(scene.lines().size()), known_(scene.lines().size()) {}
+  Event_search(const Occluders& occluders, const Event_lines& scene, const Events_options& options,
+               Event_counters& counters)
+      : occluders_(&occluders),
+        scene_(&scene),
+        options_(&options),
+        counters_(&counters),
+        polynomials_(scene.lines().size()),
+        known_(scene.lines().size()) {}
 
   Events_answer run() {
     counters_->occluders += scene_->blockers().size(), counters_->lines += scene_->lines().size();
@@ -71,9 +87,9 @@ class Event_search {
   struct Curve {
     Event_kind kind;
     std::array<Exact_six, 3> l;
-    std::vector<Quadratic> ends;                          // parameters where what is touched changes otherwise than by sides
+    std::vector<Quadratic> ends;  // parameters where what is touched changes otherwise than by sides
     std::function<Event_chart(const Rational&)> chart;
-    std::array<std::uint32_t, 3> edges{};                 // of a triple
+    std::array<std::uint32_t, 3> edges{};  // of a triple
   };
   /// Along an active subrange, p comes before q in the lines' direction, or (-1) after it.
   struct Active {
@@ -95,7 +111,8 @@ class Event_search {
     });
   }
 
-  // ---- Events in planes: horizon, edge and vertex -----------------------------------------------------------------------------------------
+  // ---- Events in planes: horizon, edge and vertex
+  // -----------------------------------------------------------------------------------------
 
   /// All pencils of lines that touch three edges. Returns whether the search has ended.
   bool pencils() {
@@ -110,7 +127,9 @@ class Event_search {
       }
     } points, planes;
     std::map<std::array<std::uint32_t, 2>, Event_kind> found;
-    const auto add = [&](std::uint32_t point, std::uint32_t plane, Event_kind kind) { found.try_emplace({point, plane}, kind); };
+    const auto add = [&](std::uint32_t point, std::uint32_t plane, Event_kind kind) {
+      found.try_emplace({point, plane}, kind);
+    };
     std::set<std::uint32_t> vertices, faces;
     for (std::size_t i = 0; i < lines().size(); ++i)
       for (std::size_t j = i + 1; j < lines().size(); ++j) {
@@ -158,7 +177,9 @@ class Event_search {
 
   bool search_pencil(const Homogeneous& vertex, const Homogeneous& plane, Event_kind kind) {
     // Lines in the plane of source or target, or through a point behind, lead nowhere.
-    if (sgn(dot(scene_->source_plane(), vertex)) <= 0 || sgn(dot(scene_->target_plane(), vertex)) * scene_->beside() < 0) return ++counters_->off_edges, false;
+    if (sgn(dot(scene_->source_plane(), vertex)) <= 0 ||
+        sgn(dot(scene_->target_plane(), vertex)) * scene_->beside() < 0)
+      return ++counters_->off_edges, false;
     const std::array<Homogeneous, 2> ends = section(plane);
     const Homogeneous &first = ends[0], &last = ends[1];
     if (all_zero(join(first, last))) return ++counters_->off_polygons, false;
@@ -176,7 +197,8 @@ class Event_search {
       if (through && within) curve.ends.push_back(linear(join(beyond, line.six), first, step));
     }
     for (std::size_t i = 0; i < star.size(); ++i)
-      for (std::size_t j = i + 1; j < star.size(); ++j) curve.ends.push_back(linear(common_plane(star[i]->six, star[j]->six), first, step));
+      for (std::size_t j = i + 1; j < star.size(); ++j)
+        curve.ends.push_back(linear(common_plane(star[i]->six, star[j]->six), first, step));
     for (std::size_t i = 0; i < flat.size(); ++i)
       for (std::size_t j = i + 1; j < flat.size(); ++j) {
         const Homogeneous at = meet(join(beyond, flat[i]->six), flat[j]->six);
@@ -204,7 +226,9 @@ class Event_search {
     if (ends.size() == 2) return {ends[0], ends[1]};
     return {source[0].exact, source[0].exact};
   }
-  static Quadratic linear(const Homogeneous& plane, const Homogeneous& first, const Homogeneous& step) { return {{dot(plane, first), dot(plane, step), Integer(0)}}; }
+  static Quadratic linear(const Homogeneous& plane, const Homogeneous& first, const Homogeneous& step) {
+    return {{dot(plane, first), dot(plane, step), Integer(0)}};
+  }
   /// The plane of two lines that meet.
   static Homogeneous common_plane(const Exact_six& a, const Exact_six& b) {
     for (std::size_t k = 0; k < 4; ++k) {
@@ -223,7 +247,8 @@ class Event_search {
     return x;
   }
 
-  // ---- Events on ruled quadrics: three skew edges -----------------------------------------------------------------------------------------
+  // ---- Events on ruled quadrics: three skew edges
+  // -----------------------------------------------------------------------------------------
 
   bool reguli() {
     std::vector<std::uint32_t> real;
@@ -254,7 +279,8 @@ class Event_search {
   }
 
   static std::array<Exact_six, 4> extreme_lines(const Line& a, const Line& b) {
-    return {join(a.hull[0], b.hull[0]), join(a.hull[0], b.hull[1]), join(a.hull[1], b.hull[0]), join(a.hull[1], b.hull[1])};
+    return {join(a.hull[0], b.hull[0]), join(a.hull[0], b.hull[1]), join(a.hull[1], b.hull[0]),
+            join(a.hull[1], b.hull[1])};
   }
   /// The side of a line that all lines through two edges have inside both; 0 where they differ or are all 0.
   static int common_sign(const std::array<Exact_six, 4>& extreme, const Exact_six& line) {
@@ -281,10 +307,12 @@ class Event_search {
     curve.kind = Event_kind::triple;
     // The point x(s) of the first edge; its planes with the others meet in the event line (Plantinga's Eq. 1).
     const Homogeneous& first = a.hull[0];
-    const Homogeneous step{a.hull[1][0] - first[0], a.hull[1][1] - first[1], a.hull[1][2] - first[2], a.hull[1][3] - first[3]};
+    const Homogeneous step{a.hull[1][0] - first[0], a.hull[1][1] - first[1], a.hull[1][2] - first[2],
+                           a.hull[1][3] - first[3]};
     const Homogeneous b0 = join(first, b.six), b1 = join(step, b.six), c0 = join(first, c.six), c1 = join(step, c.six);
     // It touches the second edge where its ends are on both sides of the plane with the third; and so on.
-    const std::array<Quadratic, 4> ends{linear_at(c0, c1, b.hull[0]), linear_at(c0, c1, b.hull[1]), linear_at(b0, b1, c.hull[0]), linear_at(b0, b1, c.hull[1])};
+    const std::array<Quadratic, 4> ends{linear_at(c0, c1, b.hull[0]), linear_at(c0, c1, b.hull[1]),
+                                        linear_at(b0, b1, c.hull[0]), linear_at(b0, b1, c.hull[1])};
     std::array<int, 4> sure{};
     for (std::size_t k = 0; k < 4; ++k) {
       if (ends[k].is_zero()) return ++counters_->off_edges, false;
@@ -311,9 +339,12 @@ class Event_search {
     return false;
   }
   /// The side of a point of a plane that turns about a line.
-  static Quadratic linear_at(const Homogeneous& plane, const Homogeneous& turn, const Homogeneous& x) { return {{dot(plane, x), dot(turn, x), Integer(0)}}; }
+  static Quadratic linear_at(const Homogeneous& plane, const Homogeneous& turn, const Homogeneous& x) {
+    return {{dot(plane, x), dot(turn, x), Integer(0)}};
+  }
 
-  // ---- Along an event: active subranges ------------------------------------------------------------------------------------------------------
+  // ---- Along an event: active subranges
+  // ------------------------------------------------------------------------------------------------------
 
   const Quadratic& polynomial(const Curve& curve, std::uint32_t line) {
     if (known_[line] != 1) {
@@ -352,7 +383,8 @@ class Event_search {
   /// Looks at a potential event. Returns whether the search has ended.
   bool search_curve(const Curve& curve, const Parameter_range& range) {
     std::fill(known_.begin(), known_.end(), char{0});
-    if (never_passes(curve, scene_->from()) || never_passes(curve, scene_->to())) return ++counters_->off_polygons, false;
+    if (never_passes(curve, scene_->from()) || never_passes(curve, scene_->to()))
+      return ++counters_->off_polygons, false;
     // Lines from the source to the target.
     std::vector<Quadratic> ends = polynomials(curve, scene_->from());
     const std::vector<Quadratic> at_target = polynomials(curve, scene_->to());
@@ -367,7 +399,9 @@ class Event_search {
     // Pieces that lines do not touch everywhere block some of them, large ones first.
     std::vector<const Blocker*> crossed, grazed;
     for (const Blocker& blocker : scene_->blockers()) {
-      const bool touched = std::any_of(blocker.literals.begin(), blocker.literals.end(), [&](const Literal& literal) { return polynomial(curve, literal.line).is_zero(); });
+      const bool touched = std::any_of(blocker.literals.begin(), blocker.literals.end(), [&](const Literal& literal) {
+        return polynomial(curve, literal.line).is_zero();
+      });
       (touched ? grazed : crossed).push_back(&blocker);
     }
     for (const Blocker* blocker : crossed) {
@@ -376,7 +410,8 @@ class Event_search {
     }
     for (const Active& part : active) {
       if (options_->surfaces) keep_surface(curve, part.range);
-      if (answer_.status != Weak_status::visible && look_beside(curve, part, crossed, grazed) && !options_->surfaces) return true;
+      if (answer_.status != Weak_status::visible && look_beside(curve, part, crossed, grazed) && !options_->surfaces)
+        return true;
     }
     return false;
   }
@@ -385,20 +420,25 @@ class Event_search {
   void subtract(const Curve& curve, const Blocker& blocker, std::vector<Active>& active) {
     std::vector<Active> left;
     for (const Active& whole : active) {
-      const auto fails = [&](const Literal& literal) { return polynomial(curve, literal.line).certain_sign() * literal.sense * whole.turn < 0; };
+      const auto fails = [&](const Literal& literal) {
+        return polynomial(curve, literal.line).certain_sign() * literal.sense * whole.turn < 0;
+      };
       if (std::any_of(blocker.literals.begin(), blocker.literals.end(), fails)) {
         left.push_back(whole);
         continue;
       }
       const auto is_blocked = [&](const Rational& s) { return common_sign(curve, blocker.literals, s) == whole.turn; };
-      for (const Parameter_range& part : parts_without(whole.range, polynomials(curve, blocker.literals), is_blocked)) left.push_back({part, whole.turn});
+      for (const Parameter_range& part : parts_without(whole.range, polynomials(curve, blocker.literals), is_blocked))
+        left.push_back({part, whole.turn});
     }
     active = std::move(left);
   }
 
-  // ---- Beside an event -------------------------------------------------------------------------------------------------------------------------
+  // ---- Beside an event
+  // -------------------------------------------------------------------------------------------------------------------------
 
-  bool look_beside(const Curve& curve, const Active& active, const std::vector<const Blocker*>& crossed, const std::vector<const Blocker*>& grazed) {
+  bool look_beside(const Curve& curve, const Active& active, const std::vector<const Blocker*>& crossed,
+                   const std::vector<const Blocker*>& grazed) {
     std::vector<Quadratic> ends = curve.ends;
     for (const Blocker* blocker : grazed)
       for (const Literal& literal : blocker->literals) ends.push_back(polynomial(curve, literal.line));
@@ -408,14 +448,18 @@ class Event_search {
       Rational s;
       for (unsigned long attempt = 0;; ++attempt) {
         s = inner_rational(part, attempt);
-        if (std::all_of(crossed.begin(), crossed.end(), [&](const Blocker* blocker) { return is_past(curve, *blocker, s, active.turn); })) break;
+        if (std::all_of(crossed.begin(), crossed.end(),
+                        [&](const Blocker* blocker) { return is_past(curve, *blocker, s, active.turn); }))
+          break;
       }
       if (look_around(curve, s, active.turn, grazed)) return true;
     }
     return false;
   }
   bool is_past(const Curve& curve, const Blocker& blocker, const Rational& s, int turn) {
-    return std::any_of(blocker.literals.begin(), blocker.literals.end(), [&](const Literal& literal) { return literal.sense * turn * polynomial(curve, literal.line).sign(s) < 0; });
+    return std::any_of(blocker.literals.begin(), blocker.literals.end(), [&](const Literal& literal) {
+      return literal.sense * turn * polynomial(curve, literal.line).sign(s) < 0;
+    });
   }
 
   /// All cells of lines around one event line.
@@ -423,7 +467,8 @@ class Event_search {
     std::vector<const Exact_six*> touched;
     std::vector<std::uint32_t> place(lines().size(), none);
     const auto touch = [&](std::uint32_t line) {
-      if (place[line] == none && polynomial(curve, line).is_zero()) place[line] = static_cast<std::uint32_t>(touched.size()), touched.push_back(&lines()[line].six);
+      if (place[line] == none && polynomial(curve, line).is_zero())
+        place[line] = static_cast<std::uint32_t>(touched.size()), touched.push_back(&lines()[line].six);
     };
     if (curve.kind == Event_kind::triple)
       for (const std::uint32_t edge : curve.edges) touch(edge);  // independent, so first
@@ -444,11 +489,14 @@ class Event_search {
       ++counters_->cells;
       const auto holds = [&](const Literal& literal) { return signs[literal.line] == literal.sense; };
       if (!std::all_of(needed.begin(), needed.end(), holds)) return false;
-      if (std::any_of(blocked.begin(), blocked.end(), [&](const std::vector<Literal>& all) { return std::all_of(all.begin(), all.end(), holds); })) return false;
+      if (std::any_of(blocked.begin(), blocked.end(),
+                      [&](const std::vector<Literal>& all) { return std::all_of(all.begin(), all.end(), holds); }))
+        return false;
       confirm(chart, move);
       return true;
     };
-    return curve.kind == Event_kind::triple ? visit_cells_at_regulus(chart, touched, visit) : visit_cells_at_pencil(chart, touched, visit);
+    return curve.kind == Event_kind::triple ? visit_cells_at_regulus(chart, touched, visit)
+                                            : visit_cells_at_pencil(chart, touched, visit);
   }
   /// Whether the chart's v and w follow each other as the curve's lines are directed: 1, or -1.
   static int orientation(const Event_chart& chart, const Curve& curve, const Rational& s) {
@@ -466,11 +514,17 @@ class Event_search {
       if (sgn(p[3]) == 0 || sgn(q[3]) == 0) continue;
       make_canonical(p), make_canonical(q);
       const Exact_six directed = join(p, q);
-      const auto holds = [&](const Literal& literal) { return literal.sense * sgn(side(directed, lines()[literal.line].six)) > 0; };
-      if (!std::all_of(scene_->from().begin(), scene_->from().end(), holds) || !std::all_of(scene_->to().begin(), scene_->to().end(), holds)) continue;
+      const auto holds = [&](const Literal& literal) {
+        return literal.sense * sgn(side(directed, lines()[literal.line].six)) > 0;
+      };
+      if (!std::all_of(scene_->from().begin(), scene_->from().end(), holds) ||
+          !std::all_of(scene_->to().begin(), scene_->to().end(), holds))
+        continue;
       if (sgn(dot(scene_->source_plane(), q)) <= 0) continue;
       answer_.sightline = {near_point(occluders_->frame(), p), near_point(occluders_->frame(), q)};
-      if (occluders_->blocker(answer_.sightline[0], answer_.sightline[1], scene_->near_source_plane(), scene_->near_target_plane())) continue;
+      if (occluders_->blocker(answer_.sightline[0], answer_.sightline[1], scene_->near_source_plane(),
+                              scene_->near_target_plane()))
+        continue;
       answer_.status = Weak_status::visible;
       ++counters_->confirmed;
       return;
@@ -493,7 +547,8 @@ class Event_search {
   }
 
   bool out_of_budget() {
-    const bool out = ++events_ > options_->events || (options_->out_of_time && events_ % 64 == 0 && options_->out_of_time());
+    const bool out =
+        ++events_ > options_->events || (options_->out_of_time && events_ % 64 == 0 && options_->out_of_time());
     if (out && answer_.status != Weak_status::visible) answer_.status = Weak_status::undecided;
     return out;
   }

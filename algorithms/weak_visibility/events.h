@@ -5,16 +5,20 @@
 
 namespace sightline {
 
-/// A strip of lines from source to target that touch edges and are not blocked, but for what they touch: at a few places of an active subrange.
+/// A strip of lines from source to target that touch edges and are not blocked, but for what they touch: at a few
+/// places of an active subrange.
 struct Event_surface {
   Event_kind kind;
   std::uint32_t piece, source;
   std::vector<std::array<Exact_point, 2>> rulings;  ///< p_1(s), p_2(s), in the file's coordinates
 };
 
-/// Whether a part of a piece is weakly visible from a source: what they have in front of each other, some lines at random, then events. Post and exactness as of
-/// weakly_visible_by_events. Pre: a strictly convex part, with the piece's orientation.
-inline Events_answer part_visible_by_events(const Occluders& occluders, const Weak_source& source, const Near_polygon& part, std::uint32_t piece, const Events_options& options, Event_counters& counters,
+/// Whether a part of a piece is weakly visible from a source: what they have in front of each other, some lines at
+/// random, then events. Post and exactness as of weakly_visible_by_events. Pre: a strictly convex part, with the
+/// piece's orientation.
+inline Events_answer part_visible_by_events(const Occluders& occluders, const Weak_source& source,
+                                            const Near_polygon& part, std::uint32_t piece,
+                                            const Events_options& options, Event_counters& counters,
                                             const std::function<void(const Event_search::Surface&)>& keep = {}) {
   ++counters.targets;
   const Near_plane& target_plane = occluders.plane(piece);
@@ -52,7 +56,9 @@ inline Events_answer part_visible_by_events(const Occluders& occluders, const We
   if (sides == 0) ++counters.away;
   return answer;
 }
-inline Events_answer weakly_visible_by_events(const Occluders& occluders, const Weak_source& source, std::uint32_t piece, const Events_options& options, Event_counters& counters,
+inline Events_answer weakly_visible_by_events(const Occluders& occluders, const Weak_source& source,
+                                              std::uint32_t piece, const Events_options& options,
+                                              Event_counters& counters,
                                               const std::function<void(const Event_search::Surface&)>& keep = {}) {
   return part_visible_by_events(occluders, source, occluders.polygon(piece), piece, options, counters, keep);
 }
@@ -68,11 +74,15 @@ struct Weakly_visible_by_events : Weak_faces {
   Event_counters counters;
 };
 
-/// The faces that are weakly visible from at least one of the sources, in the sense of weakly_visible, found by events: another method, slower where there are many
-/// edges, that needs no case left open where edges are parallel, coplanar, concurrent or the same. It stops at the first source and piece that show a face, unless surfaces are kept.
-/// Post: the same at any number of threads, unless time runs out; each visible face has a sightline that was tested against all pieces. Cost: one Event_search for
-/// each pair of a source and a piece. Exact: yes, or undecided where the budget ran out. Ref: Plantinga; design.md, section 4. Proof: P-73
-inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources, const Events_options& options = {}) {
+/// The faces that are weakly visible from at least one of the sources, in the sense of weakly_visible, found by events:
+/// another method, slower where there are many edges, that needs no case left open where edges are parallel, coplanar,
+/// concurrent or the same. It stops at the first source and piece that show a face, unless surfaces are kept. Post: the
+/// same at any number of threads, unless time runs out; each visible face has a sightline that was tested against all
+/// pieces. Cost: one Event_search for each pair of a source and a piece. Exact: yes, or undecided where the budget ran
+/// out. Ref: Plantinga; design.md, section 4. Proof: P-73
+inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occluders,
+                                                         const std::vector<Weak_source>& sources,
+                                                         const Events_options& options = {}) {
   struct Result {
     Weak_status status = Weak_status::hidden;
     Weakly_visible_by_events::Pair pair;
@@ -89,10 +99,13 @@ inline Weakly_visible_by_events weakly_visible_by_events(const Occluders& occlud
       for (std::uint32_t s = 0; s < sources.size() && !is_settled(); ++s) {
         const auto keep = [&](const Event_search::Surface& surface) {
           Event_surface& kept = result.surfaces.emplace_back(Event_surface{surface.kind, piece, s, {}});
-          for (const auto& [p, q] : surface.rulings) kept.rulings.push_back({occluders.scene().position(p), occluders.scene().position(q)});
+          for (const auto& [p, q] : surface.rulings)
+            kept.rulings.push_back({occluders.scene().position(p), occluders.scene().position(q)});
         };
-        const Events_answer answer = weakly_visible_by_events(occluders, sources[s], piece, options, result.counters, keep);
-        if (answer.status != Weak_status::hidden && result.status != Weak_status::visible) result.status = answer.status, result.pair = {piece, s, answer};
+        const Events_answer answer =
+            weakly_visible_by_events(occluders, sources[s], piece, options, result.counters, keep);
+        if (answer.status != Weak_status::hidden && result.status != Weak_status::visible)
+          result.status = answer.status, result.pair = {piece, s, answer};
       }
   };
   for_each_face(pieces, first, options.threads, options.progress, decide);

@@ -11,8 +11,8 @@ namespace sightline {
 struct Side_row {
   std::vector<double> values;
   double error;
-  int exponent;  ///< of that scale
-  int decided;   ///< 1: nowhere negative, -1: nowhere positive, 0: neither
+  int exponent;                      ///< of that scale
+  int decided;                       ///< 1: nowhere negative, -1: nowhere positive, 0: neither
   std::vector<Rational> exact = {};  ///< unscaled, once they are asked for
 };
 
@@ -23,11 +23,14 @@ struct Candidate {
   float share;  ///< of all lines, that it blocks, by samples
 };
 
-/// Two convex polygons, the sides of lines on them, and what may come between. The lines from the one to the other are mixtures of pairs of vertices.
+/// Two convex polygons, the sides of lines on them, and what may come between. The lines from the one to the other are
+/// mixtures of pairs of vertices.
 struct Line_domain {
-  using Shared_polygon = std::shared_ptr<const Near_polygon>;  // most domains share one of them with the domain that they are a part of
+  using Shared_polygon =
+      std::shared_ptr<const Near_polygon>;  // most domains share one of them with the domain that they are a part of
 
-  Line_domain(Shared_polygon s, Shared_polygon t) : shared_source(std::move(s)), shared_target(std::move(t)), source(*shared_source), target(*shared_target) {
+  Line_domain(Shared_polygon s, Shared_polygon t)
+      : shared_source(std::move(s)), shared_target(std::move(t)), source(*shared_source), target(*shared_target) {
     for (const Near_point& p : source) source_size = std::max(source_size, size(p.near));
     for (const Near_point& q : target) target_size = std::max(target_size, size(q.near));
     for (const Near_point& p : source)
@@ -42,7 +45,8 @@ struct Line_domain {
   }
   /// The side of a line on a pair of vertices in near coordinates, for points with last coordinate 1. Exact: yes.
   Rational exact_side(const Edge_lines::Line& line, std::size_t c, const Near_frame& frame) {
-    return frame.near_cubic(dot(exact_pair_of(c), line.exact), Integer(source[c / target.size()].exact[3] * target[c % target.size()].exact[3]));
+    return frame.near_cubic(dot(exact_pair_of(c), line.exact),
+                            Integer(source[c / target.size()].exact[3] * target[c % target.size()].exact[3]));
   }
   /// All of them, made when they are first asked for. Exact: yes.
   const std::vector<Rational>& exact_sides(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame) {
@@ -51,7 +55,9 @@ struct Line_domain {
     return exact;
   }
   /// The line's row, made when it is first asked for. Its signs are exact where it is decided.
-  const Side_row& row(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame) { return row_at(lines, id, frame); }
+  const Side_row& row(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame) {
+    return row_at(lines, id, frame);
+  }
 
   Shared_polygon shared_source, shared_target;
   const Near_polygon &source, &target;
@@ -77,7 +83,8 @@ struct Line_domain {
       r.values.push_back(dot(pair, line.near));
       most = std::max(most, std::fabs(r.values.back()));
     }
-    r.error = 0x1p-46 * ((source_size + target_size) * line.ends_product + source_size * target_size * line.ends_sum) + 0x1p-1000;
+    r.error = 0x1p-46 * ((source_size + target_size) * line.ends_product + source_size * target_size * line.ends_sum) +
+              0x1p-1000;
     if (most < 0x1p30 * r.error) {  // small polygons, or a line close to all of them: integers, rounded once
       most = 0;
       for (std::size_t c = 0; c < r.values.size(); ++c) {
@@ -137,7 +144,9 @@ struct Line_cell {
     return factor_of(row, rows[row].literal.sign > 0 ? v : Rational(-v));
   }
   /// A weight of a scaled row as a factor of the unscaled one.
-  Rational factor_of(std::size_t row, Rational weight) const { return times_power(std::move(weight), rows[row].sides->exponent); }
+  Rational factor_of(std::size_t row, Rational weight) const {
+    return times_power(std::move(weight), rows[row].sides->exponent);
+  }
 };
 
 }  // namespace sightline

@@ -1,5 +1,6 @@
 #pragma once
-// Whether a convex polygon is weakly visible from another one: a search among the lines between them, by the sides on which they pass edges.
+// Whether a convex polygon is weakly visible from another one: a search among the lines between them, by the sides on
+// which they pass edges.
 
 #include <sightline/algorithms/weak_visibility/cell_cuts.h>
 #include <sightline/algorithms/weak_visibility/cell_line.h>
@@ -10,18 +11,27 @@
 
 namespace sightline {
 
-/// One search: source and target are convex, in grid coordinates. Which lines are blocked by a piece is a conjunction of the signs of its edge lines; "hidden"
-/// says that such conjunctions cover all lines between the polygons but for a set of measure zero. The search takes a line of the cell that it is in, and a
-/// piece that blocks it; cuts the polygons where they cross that piece's plane; and goes on, edge by edge, to the lines that pass the piece outside of it. A cell
-/// ends where a piece blocks all of it, or where multipliers show that it has no line. Doubles propose, each step is checked in integers before it is believed.
-/// Lines are known by name, so that edges shared by faces, T-junctions and abutting faces make one variable. Cost: exponential at worst, bounded by the
-/// options. Exact: yes, or undecided. Ref: design.md, sections 4 and 5. Proof: P-70, P-71, P-72
+/// One search: source and target are convex, in grid coordinates. Which lines are blocked by a piece is a conjunction
+/// of the signs of its edge lines; "hidden" says that such conjunctions cover all lines between the polygons but for a
+/// set of measure zero. The search takes a line of the cell that it is in, and a piece that blocks it; cuts the
+/// polygons where they cross that piece's plane; and goes on, edge by edge, to the lines that pass the piece outside of
+/// it. A cell ends where a piece blocks all of it, or where multipliers show that it has no line. Doubles propose, each
+/// step is checked in integers before it is believed. Lines are known by name, so that edges shared by faces,
+/// T-junctions and abutting faces make one variable. Cost: exponential at worst, bounded by the options. Exact: yes, or
+/// undecided. Ref: design.md, sections 4 and 5. Proof: P-70, P-71, P-72
 class Line_search {
  public:
-  Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane, Near_polygon target, std::uint32_t target_piece, const Weak_search_options& options)
-      : occluders_(&occluders), source_plane_(&source_plane), target_plane_(&occluders.plane(target_piece)), options_(&options), dice_(options.seed * 0x9e3779b97f4a7c15u + target_piece),
-        lines_(occluders), proofs_(occluders, lines_, source_plane, *target_plane_) {
-    domains_.push_back(std::make_unique<Line_domain>(std::make_shared<const Near_polygon>(std::move(source)), std::make_shared<const Near_polygon>(std::move(target))));
+  Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane, Near_polygon target,
+              std::uint32_t target_piece, const Weak_search_options& options)
+      : occluders_(&occluders),
+        source_plane_(&source_plane),
+        target_plane_(&occluders.plane(target_piece)),
+        options_(&options),
+        dice_(options.seed * 0x9e3779b97f4a7c15u + target_piece),
+        lines_(occluders),
+        proofs_(occluders, lines_, source_plane, *target_plane_) {
+    domains_.push_back(std::make_unique<Line_domain>(std::make_shared<const Near_polygon>(std::move(source)),
+                                                     std::make_shared<const Near_polygon>(std::move(target))));
   }
   Line_search(const Line_search&) = delete;
 
@@ -47,7 +57,8 @@ class Line_search {
   };
   struct Node {
     Weak_step step;
-    std::array<std::uint32_t, 2> parts{};  // for lines: where the side is positive, where it is negative; for cuts: in front, behind
+    std::array<std::uint32_t, 2>
+        parts{};  // for lines: where the side is positive, where it is negative; for cuts: in front, behind
   };
   struct Lemma {
     std::vector<Weak_step::Term> terms;
@@ -60,19 +71,23 @@ class Line_search {
     int inside;
   };
 
-  // ---- From the whole to the first cell ---------------------------------------------------------------------------------------
+  // ---- From the whole to the first cell
+  // ---------------------------------------------------------------------------------------
 
   /// Leaves only what source and target have in front of each other, tries some lines, then searches.
   Refutation begin(std::uint32_t d) {
-    if (is_across(*source_plane_, domains_[d]->target)) return cut(d, {false, *source_plane_}, [this](std::uint32_t part) { return begin(part); });
-    if (is_across(*target_plane_, domains_[d]->source)) return cut(d, {true, *target_plane_}, [this](std::uint32_t part) { return begin(part); });
+    if (is_across(*source_plane_, domains_[d]->target))
+      return cut(d, {false, *source_plane_}, [this](std::uint32_t part) { return begin(part); });
+    if (is_across(*target_plane_, domains_[d]->source))
+      return cut(d, {true, *target_plane_}, [this](std::uint32_t part) { return begin(part); });
     const int q = side(*source_plane_, domains_[d]->target), p = side(*target_plane_, domains_[d]->source);
     if (q <= 0 || p == 0 || (p < 0 && !options_->two_sided)) {
       ++counters_->away;
       return leaf({Weak_step::Kind::away, 0, {}, {}}, {});
     }
     Line_domain& domain = *domains_[d];
-    for (const std::uint32_t piece : occluders_->near_shaft(domain.source, domain.target)) domain.candidates.push_back({piece, 0, 0});
+    for (const std::uint32_t piece : occluders_->near_shaft(domain.source, domain.target))
+      domain.candidates.push_back({piece, 0, 0});
     settle(domain);
     counters_->occluders += domain.candidates.size();
     if (try_rays(d)) return {Weak_status::visible, 0, {}};
@@ -131,7 +146,8 @@ class Line_search {
       for (const Candidate& blocker : blockers) ++hits[blocker.piece];
     }
     for (Candidate& candidate : domains_[d]->candidates)
-      if (const auto found = hits.find(candidate.piece); found != hits.end()) candidate.share = static_cast<float>(found->second) / static_cast<float>(samples);
+      if (const auto found = hits.find(candidate.piece); found != hits.end())
+        candidate.share = static_cast<float>(found->second) / static_cast<float>(samples);
   }
   Line_weights random_line(const Line_domain& domain) {
     std::uniform_real_distribution<double> unit(0.05, 1);
@@ -144,15 +160,19 @@ class Line_search {
     return line;
   }
 
-  // ---- A cell ---------------------------------------------------------------------------------------------------------------
+  // ---- A cell
+  // ---------------------------------------------------------------------------------------------------------------
 
   static constexpr std::size_t deepest = 1000;
-  // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many nothing.
+  // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many
+  // nothing.
   static constexpr int forms_after = 2, special_after = 3, smallest = 80;
 
   Refutation refute(std::uint32_t d, std::size_t depth) {
     counters_->deepest = std::max(counters_->deepest, depth);
-    if (++cells_ > options_->cells || open_ >= options_->open || depth > deepest || (options_->out_of_time && options_->out_of_time())) return open();
+    if (++cells_ > options_->cells || open_ >= options_->open || depth > deepest ||
+        (options_->out_of_time && options_->out_of_time()))
+      return open();
     ++counters_->cells;
     Line_weights line;
     Refutation ended;
@@ -179,7 +199,8 @@ class Line_search {
     if (blocker.sense == 0) {
       const Near_plane& h = occluders_->plane(blocker.piece);
       ++counters_->cuts;
-      return cut(d, {is_across(h, domains_[d]->source), h}, [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
+      return cut(d, {is_across(h, domains_[d]->source), h},
+                 [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
     }
     return branch(d, blocker, unknown, depth);
   }
@@ -201,8 +222,10 @@ class Line_search {
     std::array<std::uint32_t, 2> parts{};
     for (const bool front : {true, false}) {
       const Line_domain& whole = *domains_[d];
-      auto part_of_polygon = std::make_shared<const Near_polygon>(clip(occluders_->frame(), by.source ? whole.source : whole.target, by.plane, front));
-      auto piece = by.source ? std::make_unique<Line_domain>(std::move(part_of_polygon), whole.shared_target) : std::make_unique<Line_domain>(whole.shared_source, std::move(part_of_polygon));
+      auto part_of_polygon = std::make_shared<const Near_polygon>(
+          clip(occluders_->frame(), by.source ? whole.source : whole.target, by.plane, front));
+      auto piece = by.source ? std::make_unique<Line_domain>(std::move(part_of_polygon), whole.shared_target)
+                             : std::make_unique<Line_domain>(whole.shared_source, std::move(part_of_polygon));
       piece->bisections = whole.bisections, piece->narrowed = whole.narrowed;
       const std::uint32_t number = static_cast<std::uint32_t>(domains_.size());
       domains_.push_back(std::move(piece)), parents_.push_back(d);
@@ -213,13 +236,15 @@ class Line_search {
       both.used |= r.used;
       parts[front ? 0 : 1] = r.node;
     }
-    nodes_.push_back({{by.source ? Weak_step::Kind::cut_source : Weak_step::Kind::cut_target, 0, by.plane.exact, {}}, parts});
+    nodes_.push_back(
+        {{by.source ? Weak_step::Kind::cut_source : Weak_step::Kind::cut_target, 0, by.plane.exact, {}}, parts});
     both.node = static_cast<std::uint32_t>(nodes_.size() - 1);
     return both;
   }
 
-  /// A cell with neither a line nor a proof: its polygons are too large for what is left of it. First cuts off what the relaxation shows to hold none of its
-  /// lines, edge by edge; if that is little, halves the longer one of the two polygons.
+  /// A cell with neither a line nor a proof: its polygons are too large for what is left of it. First cuts off what the
+  /// relaxation shows to hold none of its lines, edge by edge; if that is little, halves the longer one of the two
+  /// polygons.
   Refutation narrow(std::uint32_t d, std::size_t depth) {
     if (domains_[d]->narrowed > smallest) return open();
     if (domains_[d]->narrowed >= special_after)
@@ -228,18 +253,23 @@ class Line_search {
         return cut(d, *plane, [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
       }
     if (!cell_.rows.empty())
-      if (const std::vector<Cell_cut> cuts = shaves(cell_, proofs_.game(), occluders_->frame(), *counters_); !cuts.empty()) return shave(d, cuts, 0, depth);
+      if (const std::vector<Cell_cut> cuts = shaves(cell_, proofs_.game(), occluders_->frame(), *counters_);
+          !cuts.empty())
+        return shave(d, cuts, 0, depth);
     return bisect(d, depth);
   }
   Refutation shave(std::uint32_t d, const std::vector<Cell_cut>& cuts, std::size_t k, std::size_t depth) {
-    while (k < cuts.size() && !is_across(cuts[k].plane, cuts[k].source ? domains_[d]->source : domains_[d]->target)) ++k;
+    while (k < cuts.size() && !is_across(cuts[k].plane, cuts[k].source ? domains_[d]->source : domains_[d]->target))
+      ++k;
     if (k == cuts.size()) {
       ++domains_[d]->narrowed;
       return refute(d, depth + 1);
     }
     ++counters_->shaves;
     bool front = true;
-    return cut(d, cuts[k], [&](std::uint32_t part) { return std::exchange(front, false) ? shave(part, cuts, k + 1, depth) : refute(part, depth + 1); });
+    return cut(d, cuts[k], [&](std::uint32_t part) {
+      return std::exchange(front, false) ? shave(part, cuts, k + 1, depth) : refute(part, depth + 1);
+    });
   }
   Refutation bisect(std::uint32_t d, std::size_t depth) {
     if (domains_[d]->bisections >= options_->bisections) return open();
@@ -253,7 +283,8 @@ class Line_search {
   }
 
   /// The lines that pass the piece outside an edge, edge by edge; what is left is blocked.
-  Refutation branch(std::uint32_t d, const Candidate& blocker, const std::vector<Edge_sign>& unknown, std::size_t depth) {
+  Refutation branch(std::uint32_t d, const Candidate& blocker, const std::vector<Edge_sign>& unknown,
+                    std::size_t depth) {
     const std::size_t base = path_.size();
     std::vector<Refutation> outside;
     for (const Edge_sign& edge : unknown) {
@@ -291,7 +322,8 @@ class Line_search {
         ++counters_->jumps;
         continue;
       }
-      const std::array<std::uint32_t, 2> parts = unknown[k].inside > 0 ? std::array{rest.node, outside[k].node} : std::array{outside[k].node, rest.node};
+      const std::array<std::uint32_t, 2> parts =
+          unknown[k].inside > 0 ? std::array{rest.node, outside[k].node} : std::array{outside[k].node, rest.node};
       nodes_.push_back({{Weak_step::Kind::line, unknown[k].line, {}, {}}, parts});
       rest.node = static_cast<std::uint32_t>(nodes_.size() - 1);
       rest.used |= outside[k].used;
@@ -310,17 +342,20 @@ class Line_search {
     path_.pop_back();
   }
 
-  // ---- Blockers -------------------------------------------------------------------------------------------------------------
+  // ---- Blockers
+  // -------------------------------------------------------------------------------------------------------------
 
   const std::vector<Edge_lines::Edge>& edge_lines(std::uint32_t piece) {
     const std::vector<Edge_lines::Edge>& edges = lines_.of(piece);
     sign_.resize(lines_.size(), 0);
     return edges;
   }
-  const Side_row& row(Line_domain& domain, std::uint32_t line) const { return domain.row(lines_, line, occluders_->frame()); }
+  const Side_row& row(Line_domain& domain, std::uint32_t line) const {
+    return domain.row(lines_, line, occluders_->frame());
+  }
 
-  /// The pieces that a line meets, by doubles; only one where that is enough. Close to an edge, its own row of the domain tells more. Senses are those that the
-  /// domain has.
+  /// The pieces that a line meets, by doubles; only one where that is enough. Close to an edge, its own row of the
+  /// domain tells more. Senses are those that the domain has.
   void find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one) {
     Line_domain& domain = *domains_[d];
     blockers.clear();
@@ -336,7 +371,8 @@ class Line_search {
       int sense = candidate.sense;
       if (sense == 0) {
         const std::array<double, 4>& h = occluders_->plane(candidate.piece).near;
-        const double from = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3], to = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
+        const double from = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
+                     to = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
         if ((from > 0) == (to > 0)) continue;
         sense = from > 0 ? 1 : -1;
       }
@@ -362,12 +398,15 @@ class Line_search {
     if (r.decided != 0) return r.decided;
     double sum = 0;
     for (std::size_t i = 0; i < domain.source.size(); ++i)
-      for (std::size_t j = 0; j < domain.target.size(); ++j) sum += weights.source[i] * weights.target[j] * r.values[i * domain.target.size() + j];
+      for (std::size_t j = 0; j < domain.target.size(); ++j)
+        sum += weights.source[i] * weights.target[j] * r.values[i * domain.target.size() + j];
     return sum;
   }
 
-  /// The blocker with the fewest edges that are not known to have the line inside; some more are worth it for one that blocks much. One that is cut first comes last.
-  const Candidate* choose(Line_domain& domain, const std::vector<Candidate>& blockers, std::vector<Edge_sign>& unknown) {
+  /// The blocker with the fewest edges that are not known to have the line inside; some more are worth it for one that
+  /// blocks much. One that is cut first comes last.
+  const Candidate* choose(Line_domain& domain, const std::vector<Candidate>& blockers,
+                          std::vector<Edge_sign>& unknown) {
     const Candidate* best = nullptr;
     float best_cost = 0;
     std::vector<Edge_sign> open_edges;
@@ -394,11 +433,13 @@ class Line_search {
   static constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
   std::vector<Edge_sign> signs_of(const Candidate& blocker) {
     std::vector<Edge_sign> signs;
-    for (const Edge_lines::Edge& edge : edge_lines(blocker.piece)) signs.push_back({edge.line, edge.sense * blocker.sense});
+    for (const Edge_lines::Edge& edge : edge_lines(blocker.piece))
+      signs.push_back({edge.line, edge.sense * blocker.sense});
     return signs;
   }
 
-  // ---- A line of the cell, or none -------------------------------------------------------------------------------------------
+  // ---- A line of the cell, or none
+  // -------------------------------------------------------------------------------------------
 
   enum class Look { found, ended, unclear };
   static constexpr double thin = 1e-8;  // what doubles leave to exact programs
@@ -429,7 +470,8 @@ class Line_search {
     };
     const double value = proofs_.relax(cell_, *counters_);
     Relaxation relaxation = Relaxation::unclear;
-    if (value < thin && ends_with((relaxation = proofs_.by_relaxation(cell_, proof, *counters_)) == Relaxation::empty)) return Look::ended;
+    if (value < thin && ends_with((relaxation = proofs_.by_relaxation(cell_, proof, *counters_)) == Relaxation::empty))
+      return Look::ended;
     const std::vector<Line_weights> starts = starts_of(domain);
     for (const Line_weights& start : starts) {
       line = start;
@@ -440,13 +482,16 @@ class Line_search {
     if (ends_with(proofs_.at_corner(cell_, proof, *counters_))) return Look::ended;
     const bool worth_it = is_worth_it(domain.narrowed);
     if (value < thin && (worth_it || domain.narrowed < forms_after)) {
-      if (relaxation == Relaxation::unclear && ends_with(proofs_.by_exact_relaxation(cell_, proof, *counters_))) return Look::ended;
+      if (relaxation == Relaxation::unclear && ends_with(proofs_.by_exact_relaxation(cell_, proof, *counters_)))
+        return Look::ended;
       for (std::size_t c = 0; c < std::min<std::size_t>(2, starts.size()); ++c) {
         line = starts[c];
         if (finder_.find_exactly(cell_, line, *counters_)) return Look::found;
       }
     }
-    if (worth_it && ends_with(proofs_.by_forms(cell_, true, proof, *counters_) || proofs_.by_forms(cell_, false, proof, *counters_))) return Look::ended;
+    if (worth_it && ends_with(proofs_.by_forms(cell_, true, proof, *counters_) ||
+                              proofs_.by_forms(cell_, false, proof, *counters_)))
+      return Look::ended;
     return Look::unclear;
   }
   /// From the relaxation's weights, from the middle, and from pairs of vertices that have much weight.
@@ -477,7 +522,8 @@ class Line_search {
     return next == narrowed;
   }
 
-  // ---- What is learned --------------------------------------------------------------------------------------------------------
+  // ---- What is learned
+  // --------------------------------------------------------------------------------------------------------
 
   bool by_lemma(std::uint32_t d, Refutation& ended) {
     if (path_.empty()) return false;
@@ -485,14 +531,18 @@ class Line_search {
     if (lemmas_of_.size() <= newest) return false;
     for (const std::uint32_t id : lemmas_of_[newest]) {
       const Lemma& lemma = lemmas_[id];
-      if (!std::all_of(lemma.literals.begin(), lemma.literals.end(), [&](const Literal& l) { return sign_[l.line] == l.sign; })) continue;
+      if (!std::all_of(lemma.literals.begin(), lemma.literals.end(),
+                       [&](const Literal& l) { return sign_[l.line] == l.sign; }))
+        continue;
       std::uint32_t above = d;
       while (above > lemma.domain) above = parents_[above];
       if (above != lemma.domain) continue;
       ++counters_->learned;
       Used used;
       for (std::size_t k = 0; k < std::min(path_.size(), used.size()); ++k)
-        if (std::any_of(lemma.literals.begin(), lemma.literals.end(), [&](const Literal& l) { return l.line == path_[k].line; })) used.set(k);
+        if (std::any_of(lemma.literals.begin(), lemma.literals.end(),
+                        [&](const Literal& l) { return l.line == path_[k].line; }))
+          used.set(k);
       ended = leaf({Weak_step::Kind::empty, 0, {}, lemma.terms}, used);
       return true;
     }
@@ -511,14 +561,17 @@ class Line_search {
       if (m.place < used.size()) used.set(m.place);
     }
     lemmas_of_.resize(lines_.size());
-    for (const Literal& literal : lemma.literals) lemmas_of_[literal.line].push_back(static_cast<std::uint32_t>(lemmas_.size()));
+    for (const Literal& literal : lemma.literals)
+      lemmas_of_[literal.line].push_back(static_cast<std::uint32_t>(lemmas_.size()));
     lemmas_.push_back(lemma);
     return leaf({Weak_step::Kind::empty, 0, {}, std::move(lemma.terms)}, used);
   }
 
-  // ---- A line that nothing blocks ----------------------------------------------------------------------------------------------
+  // ---- A line that nothing blocks
+  // ----------------------------------------------------------------------------------------------
 
-  /// Takes a proposed line, with few bits, then with more, and moved a little, to the exact test. Returns a piece that is in the way, or none.
+  /// Takes a proposed line, with few bits, then with more, and moved a little, to the exact test. Returns a piece that
+  /// is in the way, or none.
   std::optional<std::uint32_t> confirm(const Line_domain& domain, const Line_weights& line) {
     std::optional<std::uint32_t> blocker;
     const auto is_free = [&](const Near_point& p, const Near_point& q) {
@@ -528,7 +581,8 @@ class Line_search {
       return true;
     };
     if (!line.exact_source.empty()) {
-      if (!is_free(inner_point(domain.source, line.exact_source), inner_point(domain.target, line.exact_target))) ++counters_->refuted;
+      if (!is_free(inner_point(domain.source, line.exact_source), inner_point(domain.target, line.exact_target)))
+        ++counters_->refuted;
       return blocker;
     }
     std::uniform_real_distribution<double> unit(0.9, 1.1);
@@ -543,7 +597,8 @@ class Line_search {
         for (const double w : weights) result.push_back(Rational(std::max(1.0, std::round(std::ldexp(w, bits[k])))));
         return result;
       };
-      if (is_free(inner_point(domain.source, rounded(moved.source)), inner_point(domain.target, rounded(moved.target)))) return {};
+      if (is_free(inner_point(domain.source, rounded(moved.source)), inner_point(domain.target, rounded(moved.target))))
+        return {};
     }
     ++counters_->refuted;
     return blocker;
@@ -552,7 +607,8 @@ class Line_search {
   Near_point inner_point(const Near_polygon& polygon, const std::vector<Rational>& weights) const {
     std::array<Rational, 4> sum;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[i] * Rational(polygon[i].exact[k]) / Rational(polygon[i].exact[3]);
+      for (std::size_t k = 0; k < 3; ++k)
+        sum[k] += weights[i] * Rational(polygon[i].exact[k]) / Rational(polygon[i].exact[3]);
       sum[3] += weights[i];
     }
     Integer common = 1;
@@ -584,7 +640,7 @@ class Line_search {
   Edge_lines lines_;
   std::vector<int> sign_;  // of lines on the path
   std::vector<Literal> path_;
-  Line_cell cell_;         // that was looked at last
+  Line_cell cell_;  // that was looked at last
   Line_finder finder_;
   Cell_proofs proofs_;
   std::vector<Lemma> lemmas_;

@@ -1,5 +1,6 @@
 #pragma once
-// The lines from one convex polygon to another: exact vertices with doubles beside them, and the sides of edge lines and planes on them.
+// The lines from one convex polygon to another: exact vertices with doubles beside them, and the sides of edge lines
+// and planes on them.
 
 #include <sightline/kernel/scene/scene.h>
 
@@ -8,7 +9,8 @@ namespace sightline {
 /// p / (w 2^exponent) within a relative 2^-52: a quotient of 63 or 64 bits, rounded. Pre: w > 0.
 inline double near_quotient(const Integer& p, const Integer& w, long exponent) {
   if (sgn(p) == 0) return 0;
-  const long shift = 63 + static_cast<long>(mpz_sizeinbase(w.get_mpz_t(), 2)) - static_cast<long>(mpz_sizeinbase(p.get_mpz_t(), 2));
+  const long shift =
+      63 + static_cast<long>(mpz_sizeinbase(w.get_mpz_t(), 2)) - static_cast<long>(mpz_sizeinbase(p.get_mpz_t(), 2));
   thread_local Integer shifted, quotient;
   if (shift >= 0) {
     mpz_mul_2exp(shifted.get_mpz_t(), p.get_mpz_t(), static_cast<mp_bitcnt_t>(shift));
@@ -17,7 +19,8 @@ inline double near_quotient(const Integer& p, const Integer& w, long exponent) {
     mpz_mul_2exp(shifted.get_mpz_t(), w.get_mpz_t(), static_cast<mp_bitcnt_t>(-shift));
     mpz_tdiv_q(quotient.get_mpz_t(), p.get_mpz_t(), shifted.get_mpz_t());
   }
-  const double size = std::ldexp(static_cast<double>(mpz_getlimbn(quotient.get_mpz_t(), 0)), static_cast<int>(-shift - exponent));
+  const double size =
+      std::ldexp(static_cast<double>(mpz_getlimbn(quotient.get_mpz_t(), 0)), static_cast<int>(-shift - exponent));
   return sgn(p) < 0 ? -size : size;
 }
 
@@ -29,8 +32,12 @@ class Near_frame {
     shift_ = scene.points().shift() + exponent_;
   }
   /// A coordinate p / w of the grid, within a relative 2^-52.
-  double near(const Integer& p, const Integer& w) const { return divisor_ == 1 ? near_quotient(p, w, shift_) : near_quotient(p, Integer(w * divisor_), shift_); }
-  double near(const Scene& scene, std::uint32_t point, int axis) const { return std::ldexp(scene.points().approximate(point, axis), -exponent_); }
+  double near(const Integer& p, const Integer& w) const {
+    return divisor_ == 1 ? near_quotient(p, w, shift_) : near_quotient(p, Integer(w * divisor_), shift_);
+  }
+  double near(const Scene& scene, std::uint32_t point, int axis) const {
+    return std::ldexp(scene.points().approximate(point, axis), -exponent_);
+  }
   /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
   Rational near_cubic(const Integer& p, const Integer& w) const {
     Rational value(p, divisor_ == 1 ? w : Integer(w * divisor_ * divisor_ * divisor_));
@@ -56,7 +63,8 @@ class Near_frame {
 using Triple = std::array<double, 3>;
 using Six = std::array<double, 6>;
 
-/// A point in homogeneous grid coordinates, the last one positive, reduced; and in doubles, each within a relative 2^-52.
+/// A point in homogeneous grid coordinates, the last one positive, reduced; and in doubles, each within a relative
+/// 2^-52.
 struct Near_point {
   std::array<Integer, 4> exact;
   Triple near;
@@ -85,7 +93,8 @@ inline Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 
   return h;
 }
 
-/// The side of a point: doubles where they tell, integers where not. The bound: four products of factors each within 2^-52, and their sum. Exact: yes.
+/// The side of a point: doubles where they tell, integers where not. The bound: four products of factors each within
+/// 2^-52, and their sum. Exact: yes.
 inline int side(const Near_plane& h, const Near_point& p) {
   double value = h.near[3], size = std::fabs(h.near[3]);
   for (std::size_t k = 0; k < 3; ++k) {
@@ -102,7 +111,8 @@ inline int side(const Near_plane& h, const Near_point& p) {
 }
 
 inline constexpr int both_sides = 2;
-/// 1 or -1: a polygon is on that closed side of a plane, and not all in it; 0: it is in the plane; `both_sides`: it has vertices on both sides. Exact: yes.
+/// 1 or -1: a polygon is on that closed side of a plane, and not all in it; 0: it is in the plane; `both_sides`: it has
+/// vertices on both sides. Exact: yes.
 inline int side(const Near_plane& h, const Near_polygon& polygon) {
   bool front = false, behind = false;
   for (const Near_point& p : polygon) {
@@ -113,9 +123,12 @@ inline int side(const Near_plane& h, const Near_polygon& polygon) {
 }
 inline bool is_across(const Near_plane& h, const Near_polygon& polygon) { return side(h, polygon) == both_sides; }
 
-inline Integer value(const Near_plane& h, const Near_point& p) { return Integer(h.exact[0] * p.exact[0] + h.exact[1] * p.exact[1] + h.exact[2] * p.exact[2] + h.exact[3] * p.exact[3]); }
+inline Integer value(const Near_plane& h, const Near_point& p) {
+  return Integer(h.exact[0] * p.exact[0] + h.exact[1] * p.exact[1] + h.exact[2] * p.exact[2] + h.exact[3] * p.exact[3]);
+}
 
-/// The part of a convex polygon where the plane is >= 0: fewer than three vertices where that has no inside. Exact: yes.
+/// The part of a convex polygon where the plane is >= 0: fewer than three vertices where that has no inside. Exact:
+/// yes.
 inline Near_polygon clip(const Near_frame& frame, const Near_polygon& polygon, const Near_plane& h, bool front) {
   std::vector<int> sides;
   for (const Near_point& p : polygon) sides.push_back(front ? side(h, p) : -side(h, p));
@@ -134,28 +147,48 @@ inline Near_polygon clip(const Near_frame& frame, const Near_polygon& polygon, c
   return part;
 }
 
-// ---- Lines as six numbers -----------------------------------------------------------------------------------------------------
+// ---- Lines as six numbers
+// -----------------------------------------------------------------------------------------------------
 //
-// side(p, q, e) = det[p, q, a, b] for homogeneous points and the edge from a to b. For p in front of a counterclockwise polygon and q behind it, the segment
-// p q crosses its inside iff the side is positive for all of its edges. Proof: P-70
+// side(p, q, e) = det[p, q, a, b] for homogeneous points and the edge from a to b. For p in front of a counterclockwise
+// polygon and q behind it, the segment p q crosses its inside iff the side is positive for all of its edges. Proof:
+// P-70
 
 /// The numbers of the ordered pair (p, q), against which an edge's (direction, moment) are multiplied in order.
 inline Six pair_numbers(const Triple& p, const Triple& q) {
-  return {p[2] * q[1] - p[1] * q[2], p[0] * q[2] - p[2] * q[0], p[1] * q[0] - p[0] * q[1], p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+  return {p[2] * q[1] - p[1] * q[2],
+          p[0] * q[2] - p[2] * q[0],
+          p[1] * q[0] - p[0] * q[1],
+          p[0] - q[0],
+          p[1] - q[1],
+          p[2] - q[2]};
 }
 /// (direction, moment) of the line from a to b.
 inline Six edge_numbers(const Triple& a, const Triple& b) {
-  return {b[0] - a[0], b[1] - a[1], b[2] - a[2], a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return {b[0] - a[0],
+          b[1] - a[1],
+          b[2] - a[2],
+          a[1] * b[2] - a[2] * b[1],
+          a[2] * b[0] - a[0] * b[2],
+          a[0] * b[1] - a[1] * b[0]};
 }
-inline double dot(const Six& a, const Six& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5]; }
+inline double dot(const Six& a, const Six& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
+}
 
 /// The same in integers: direction and moment of the line through two grid points.
 using Exact_six = std::array<Integer, 6>;
 inline Exact_six exact_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b) {
-  return {b[0] - a[0], b[1] - a[1], b[2] - a[2], a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  return {b[0] - a[0],
+          b[1] - a[1],
+          b[2] - a[2],
+          a[1] * b[2] - a[2] * b[1],
+          a[2] * b[0] - a[0] * b[2],
+          a[0] * b[1] - a[1] * b[0]};
 }
 inline Exact_six exact_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q) {
-  return {p[2] * q[1] - p[1] * q[2], p[0] * q[2] - p[2] * q[0], p[1] * q[0] - p[0] * q[1], p[0] * q[3] - q[0] * p[3], p[1] * q[3] - q[1] * p[3], p[2] * q[3] - q[2] * p[3]};
+  return {p[2] * q[1] - p[1] * q[2], p[0] * q[2] - p[2] * q[0], p[1] * q[0] - p[0] * q[1],
+          p[0] * q[3] - q[0] * p[3], p[1] * q[3] - q[1] * p[3], p[2] * q[3] - q[2] * p[3]};
 }
 inline Integer dot(const Exact_six& a, const Exact_six& b) {
   Integer sum = a[0] * b[0];
@@ -165,8 +198,11 @@ inline Integer dot(const Exact_six& a, const Exact_six& b) {
 
 inline double size(const Triple& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
-/// Bounds the error of dot(pair_numbers, edge_numbers): at most 6 products of three coordinates for each of four choices, each factor within 2^-52 of the
-/// truth, and eight roundings: (3 x 2 + 8) x 6 u < 2^7 u. `p`, `q`, `a`, `b`: largest coordinates. Proof: P-70
-inline double side_error(double p, double q, double a, double b) { return 0x1p-46 * ((p + q) * a * b + p * q * (a + b)) + 0x1p-1000; }
+/// Bounds the error of dot(pair_numbers, edge_numbers): at most 6 products of three coordinates for each of four
+/// choices, each factor within 2^-52 of the truth, and eight roundings: (3 x 2 + 8) x 6 u < 2^7 u. `p`, `q`, `a`, `b`:
+/// largest coordinates. Proof: P-70
+inline double side_error(double p, double q, double a, double b) {
+  return 0x1p-46 * ((p + q) * a * b + p * q * (a + b)) + 0x1p-1000;
+}
 
 }  // namespace sightline

@@ -1,5 +1,6 @@
 #pragma once
-// Matrix games by the simplex method: the best mixture of columns against the worst row, and the mixture of rows that proves it.
+// Matrix games by the simplex method: the best mixture of columns against the worst row, and the mixture of rows that
+// proves it.
 
 #include <sightline/kernel/number.h>
 
@@ -9,9 +10,11 @@
 
 namespace sightline {
 
-/// The game max over mixtures x of columns, min over rows k, of sum_c x_c a(k, c). A positive value says that some mixture is positive in all rows; a mixture of
-/// rows that is at most 0 in all columns proves that none is. Rows come one at a time. Values are expected within [-1, 1], or the shift that makes them positive
-/// is not one. Cost: O(rows x columns) a step. Exact: with rational numbers; with doubles what it proposes is checked by those who ask. Proof: P-71
+/// The game max over mixtures x of columns, min over rows k, of sum_c x_c a(k, c). A positive value says that some
+/// mixture is positive in all rows; a mixture of rows that is at most 0 in all columns proves that none is. Rows come
+/// one at a time. Values are expected within [-1, 1], or the shift that makes them positive is not one. Cost: O(rows x
+/// columns) a step. Exact: with rational numbers; with doubles what it proposes is checked by those who ask. Proof:
+/// P-71
 template <class Number>
 class Matrix_game {
  public:
@@ -25,18 +28,21 @@ class Matrix_game {
   }
   std::span<const Number> row(std::size_t k) const { return {entries_.data() + k * columns_, columns_}; }
 
-  /// The value of the game. Pre: a row and a column. Post: column_weights(), row_weights() are optimal mixtures, tight_columns(), tight_rows() the basis.
+  /// The value of the game. Pre: a row and a column. Post: column_weights(), row_weights() are optimal mixtures,
+  /// tight_columns(), tight_rows() the basis.
   Number solve() {
     start();
     run();
     return finish();
   }
 
-  /// What the value would be with one more row: a few steps from where solve() ended. Pre: solve(). Post: nothing has changed.
+  /// What the value would be with one more row: a few steps from where solve() ended. Pre: solve(). Post: nothing has
+  /// changed.
   Number value_with(std::span<const Number> row) {
     const std::vector<Number> before = tableau_;
     const std::vector<std::size_t> basic = basic_, other = other_;
-    // The new variable's place in the tableau: its column times the inverse of the basis, which stands in the places of slack variables.
+    // The new variable's place in the tableau: its column times the inverse of the basis, which stands in the places of
+    // slack variables.
     const std::size_t wide = rows_ + 2;
     tableau_.assign((columns_ + 1) * wide, Number(0));
     for (std::size_t line = 0; line <= columns_; ++line) {
@@ -49,7 +55,8 @@ class Matrix_game {
       if (basic[line] >= rows_) added(line) = row[basic[line] - rows_] + shift;
     for (std::size_t k = 0; k < rows_; ++k)
       if (other[k] >= rows_)
-        for (std::size_t line = 0; line <= columns_; ++line) added(line) += before[line * (rows_ + 1) + k] * (row[other[k] - rows_] + shift);
+        for (std::size_t line = 0; line <= columns_; ++line)
+          added(line) += before[line * (rows_ + 1) + k] * (row[other[k] - rows_] + shift);
     other_.push_back(rows_ + columns_);  // a name of its own
     ++rows_;
     run();
@@ -66,10 +73,13 @@ class Matrix_game {
 
  private:
   static constexpr bool is_exact = !std::is_floating_point_v<Number>;
-  static constexpr int shift = 2, max_steps = 300, careful_after = 150;  // exact games that take more steps are not solved, and say so by what is checked
+  static constexpr int shift = 2, max_steps = 300,
+                       careful_after =
+                           150;  // exact games that take more steps are not solved, and say so by what is checked
 
-  // The linear program: most sum of y >= 0 with sum_k y_k (a(k, c) + shift) <= 1 in each column c. The tableau is condensed: a line for each basic variable,
-  // a place for each other one; variables k < rows are y_k, rows + c is the slack of column c.
+  // The linear program: most sum of y >= 0 with sum_k y_k (a(k, c) + shift) <= 1 in each column c. The tableau is
+  // condensed: a line for each basic variable, a place for each other one; variables k < rows are y_k, rows + c is the
+  // slack of column c.
   Number& at(std::size_t line, std::size_t place) { return tableau_[line * (rows_ + 1) + place]; }
   void start() {
     tableau_.assign((columns_ + 1) * (rows_ + 1), Number(1));
@@ -135,7 +145,8 @@ class Matrix_game {
     for (std::size_t c = 0; c < columns_; ++c)
       if (basic_[c] < rows_) rows += y_[basic_[c]] = positive(at(c, rows_)), tight_rows_.push_back(basic_[c]);
     for (std::size_t k = 0; k < rows_; ++k)
-      if (other_[k] >= rows_) columns += x_[other_[k] - rows_] = positive(at(columns_, k)), tight_columns_.push_back(other_[k] - rows_);
+      if (other_[k] >= rows_)
+        columns += x_[other_[k] - rows_] = positive(at(columns_, k)), tight_columns_.push_back(other_[k] - rows_);
     if (!(columns > 0) || !(rows > 0)) return 1;  // entries beyond what was asked for: weights that prove nothing
     for (Number& x : x_) x /= columns;
     for (Number& y : y_) y /= rows;
@@ -147,7 +158,8 @@ class Matrix_game {
   std::vector<std::size_t> basic_, other_, tight_columns_, tight_rows_;
 };
 
-/// Gauss and Jordan: the solution of n equations, lines of n factors and a right side. False where there is no single one. Cost: O(n^3). Exact: with rational numbers
+/// Gauss and Jordan: the solution of n equations, lines of n factors and a right side. False where there is no single
+/// one. Cost: O(n^3). Exact: with rational numbers
 template <class Number>
 bool solve_equations(std::vector<std::vector<Number>>& a, std::vector<Number>& solution) {
   const std::size_t n = a.size();
@@ -168,12 +180,14 @@ bool solve_equations(std::vector<std::vector<Number>>& a, std::vector<Number>& s
   return true;
 }
 
-/// The mixture of rows of a game's basis that gives all of its columns the same value: a square system, a(row, column) by `entry`. (For the mixture of columns: with
-/// their roles exchanged.) A value that is clear of zero stays so when weights are rounded, so that they are found, and returned, with 512 bits; rationals, whose
-/// length grows with that of the entries and their number, are left for values that may be zero. False where there is no single solution, or more than 16 rows.
-/// Exact: where the value is zero; otherwise a proposal that is checked by those who ask.
+/// The mixture of rows of a game's basis that gives all of its columns the same value: a square system, a(row, column)
+/// by `entry`. (For the mixture of columns: with their roles exchanged.) A value that is clear of zero stays so when
+/// weights are rounded, so that they are found, and returned, with 512 bits; rationals, whose length grows with that of
+/// the entries and their number, are left for values that may be zero. False where there is no single solution, or more
+/// than 16 rows. Exact: where the value is zero; otherwise a proposal that is checked by those who ask.
 template <class Entry>
-bool solve_basis(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry, std::vector<Rational>& weights, Rational& value) {
+bool solve_basis(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry,
+                 std::vector<Rational>& weights, Rational& value) {
   const std::size_t n = rows.size() + 1;
   if (columns.size() != rows.size() || n > 17) return false;
   std::vector<std::vector<Rational>> a(n, std::vector<Rational>(n + 1));
@@ -197,7 +211,7 @@ bool solve_basis(const std::vector<std::size_t>& rows, const std::vector<std::si
     weights.assign(n, Rational());
     for (std::size_t k = 0; k < n; ++k)
       if (is_clear(rounded[k])) mpq_set_f(weights[k].get_mpq_t(), rounded[k].get_mpf_t());
-  // 2. In rationals.
+    // 2. In rationals.
   } else if (!solve_equations(a, weights)) {
     return false;
   }

@@ -1,5 +1,6 @@
 #pragma once
-// Parameters of events: roots of quadratics with integer coefficients, compared exactly, and simple rationals between them.
+// Parameters of events: roots of quadratics with integer coefficients, compared exactly, and simple rationals between
+// them.
 
 #include <sightline/kernel/number.h>
 
@@ -74,7 +75,8 @@ struct Parameter_range {
   Quadratic_root low, high;
 };
 
-/// Appends the roots strictly within a range. Degenerate: a double root is appended once; the zero polynomial has none. Exact: yes
+/// Appends the roots strictly within a range. Degenerate: a double root is appended once; the zero polynomial has none.
+/// Exact: yes
 inline void append_roots(const Quadratic& f, const Parameter_range& range, std::vector<Quadratic_root>& roots) {
   if (f.is_zero() || f.certain_sign() != 0) return;
   const auto keep = [&](const Quadratic_root& root) {
@@ -105,7 +107,8 @@ inline Rational inner_rational(const Parameter_range& range, unsigned long attem
   }
 }
 
-/// The parts into which roots of polynomials divide a range, in order. No polynomial but zero has a root within a part. Exact: yes
+/// The parts into which roots of polynomials divide a range, in order. No polynomial but zero has a root within a part.
+/// Exact: yes
 inline std::vector<Parameter_range> divided(const Parameter_range& range, std::span<const Quadratic> polynomials) {
   std::vector<Quadratic_root> ends;
   for (const Quadratic& f : polynomials) append_roots(f, range, ends);
@@ -118,10 +121,12 @@ inline std::vector<Parameter_range> divided(const Parameter_range& range, std::s
   return parts;
 }
 
-/// What is left of a range where something does not hold that changes at roots of polynomials only: parts in order, neighbours joined, with the root between them. `holds(s)` is asked once
-/// in each part. Degenerate: what holds just at a root takes nothing away. Exact: if `holds` is
+/// What is left of a range where something does not hold that changes at roots of polynomials only: parts in order,
+/// neighbours joined, with the root between them. `holds(s)` is asked once in each part. Degenerate: what holds just at
+/// a root takes nothing away. Exact: if `holds` is
 template <class Holds>
-std::vector<Parameter_range> parts_without(const Parameter_range& range, std::span<const Quadratic> polynomials, Holds holds) {
+std::vector<Parameter_range> parts_without(const Parameter_range& range, std::span<const Quadratic> polynomials,
+                                           Holds holds) {
   std::vector<Parameter_range> left;
   bool joined = false;  // to the part before
   for (const Parameter_range& part : divided(range, polynomials)) {

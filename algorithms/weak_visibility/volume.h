@@ -7,16 +7,23 @@
 
 namespace sightline {
 
-/// A solid that the faces of a scene bound; inside is where their winding number is not zero, so fronts may look outwards or inwards. Bodies may be several, concave, nested,
-/// touch or overlap. What some point of its inside sees is what its surface sees outwards, and the faces of which it sees a part right in front, from within. Faces of the scene that lie in the surface
-/// hide nothing from it, as a source that is a face does not hide what is in front of it. Cost: a tree of its faces; where its faces cross one another's planes nearby, a point
-/// location for each part that these cut a face into. Exact: yes. Proof: P-08, P-74
+/// A solid that the faces of a scene bound; inside is where their winding number is not zero, so fronts may look
+/// outwards or inwards. Bodies may be several, concave, nested, touch or overlap. What some point of its inside sees is
+/// what its surface sees outwards, and the faces of which it sees a part right in front, from within. Faces of the
+/// scene that lie in the surface hide nothing from it, as a source that is a face does not hide what is in front of it.
+/// Cost: a tree of its faces; where its faces cross one another's planes nearby, a point location for each part that
+/// these cut a face into. Exact: yes. Proof: P-08, P-74
 class Weak_volume {
  public:
   /// Errors: std::invalid_argument where the faces do not close up, or enclose nothing.
-  explicit Weak_volume(const Polygon_soup& soup) : scene_(soup), traits_(scene_), tree_(build_bsp(traits_, one_thread())) {
-    if (scene_.pieces().empty()) throw std::invalid_argument("a volume has no faces; give those of a closed polyhedron");
-    if (!closure(scene_).closed) throw std::invalid_argument("the faces of a volume do not close up; add those that are missing, and turn the others so that all fronts look outwards, or all inwards");
+  explicit Weak_volume(const Polygon_soup& soup)
+      : scene_(soup), traits_(scene_), tree_(build_bsp(traits_, one_thread())) {
+    if (scene_.pieces().empty())
+      throw std::invalid_argument("a volume has no faces; give those of a closed polyhedron");
+    if (!closure(scene_).closed)
+      throw std::invalid_argument(
+          "the faces of a volume do not close up; add those that are missing, and turn the others so that all fronts "
+          "look outwards, or all inwards");
     for (const Piece& piece : scene_.pieces()) {
       Polygon& polygon = polygons_.emplace_back();
       for (const Piece_corner& corner : scene_.corners(piece)) polygon.push_back(scene_.position(corner.point));
@@ -27,22 +34,26 @@ class Weak_volume {
     for (const std::array<Exact_point, 2>& box : boxes_) corners.insert(corners.end(), box.begin(), box.end());
     box_ = box_of(corners);
     for (std::size_t k = 0; k < polygons_.size(); ++k) add_surface(polygons_[k], planes_[k]);
-    if (surface_.empty()) throw std::invalid_argument("the faces of a volume enclose nothing; give those of a closed polyhedron");
+    if (surface_.empty())
+      throw std::invalid_argument("the faces of a volume enclose nothing; give those of a closed polyhedron");
   }
 
   Weak_volume(const Weak_volume&) = delete;  // its tree refers to its scene
 
-  /// The parts of its faces that have the inside on one side only, convex, counterclockwise as seen from outside. A face is in parts only where these look to different sides.
+  /// The parts of its faces that have the inside on one side only, convex, counterclockwise as seen from outside. A
+  /// face is in parts only where these look to different sides.
   const std::vector<std::vector<Exact_point>>& surface() const { return surface_; }
 
-  /// Whether its inside holds points right in front of some part of a convex polygon, right behind where asked for: then these see it, whatever else there is.
-  /// Degenerate: a polygon in the surface is in front of what it looks into, and behind it of what has it in front. Cost: none to speak of where it is outside the solid's
-  /// box, else as said above. Exact: yes
+  /// Whether its inside holds points right in front of some part of a convex polygon, right behind where asked for:
+  /// then these see it, whatever else there is. Degenerate: a polygon in the surface is in front of what it looks into,
+  /// and behind it of what has it in front. Cost: none to speak of where it is outside the solid's box, else as said
+  /// above. Exact: yes
   bool sees_from_within(const std::vector<Exact_point>& polygon, bool behind) const {
     if (apart(box_of(polygon), box_)) return false;
     const Exact_plane plane = plane_of(polygon);
     const std::vector<Polygon> parts = parts_of(polygon);
-    return std::any_of(parts.begin(), parts.end(), [&](const Polygon& part) { return is_inside_beside(part, plane, behind ? -1 : 1); });
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Polygon& part) { return is_inside_beside(part, plane, behind ? -1 : 1); });
   }
 
  private:
@@ -54,13 +65,16 @@ class Weak_volume {
     options.threads = 1;
     return options;
   }
-  static Rational height(const Exact_plane& h, const Exact_point& p) { return Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]); }
+  static Rational height(const Exact_plane& h, const Exact_point& p) {
+    return Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]);
+  }
   static Exact_plane plane_of(const Polygon& polygon) {  // Newell's normal
     Exact_plane h{0, 0, 0, 0};
     for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-        h[k] += (polygon[i][u] - polygon[0][u]) * (polygon[i + 1][v] - polygon[0][v]) - (polygon[i][v] - polygon[0][v]) * (polygon[i + 1][u] - polygon[0][u]);
+        h[k] += (polygon[i][u] - polygon[0][u]) * (polygon[i + 1][v] - polygon[0][v]) -
+                (polygon[i][v] - polygon[0][v]) * (polygon[i + 1][u] - polygon[0][u]);
       }
     for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * polygon[0][k];
     return h;
@@ -94,7 +108,8 @@ class Weak_volume {
     }
     return beyond ? part : Polygon{};
   }
-  /// A polygon in parts between which the surface may pass, cut by the planes of faces whose boxes meet its own. On each part, all points right in front are inside, or none; likewise right behind.
+  /// A polygon in parts between which the surface may pass, cut by the planes of faces whose boxes meet its own. On
+  /// each part, all points right in front are inside, or none; likewise right behind.
   std::vector<Polygon> parts_of(const Polygon& polygon) const {
     std::vector<Polygon> parts{polygon};
     const std::array<Exact_point, 2> box = box_of(polygon);
@@ -110,7 +125,8 @@ class Weak_volume {
     }
     return parts;
   }
-  /// Whether the points right in front (side 1) or behind (-1) of a part are inside: one of them, nearer than all planes of faces that its mean is not in.
+  /// Whether the points right in front (side 1) or behind (-1) of a part are inside: one of them, nearer than all
+  /// planes of faces that its mean is not in.
   bool is_inside_beside(const Polygon& part, const Exact_plane& plane, int beside) const {
     Exact_point mean{0, 0, 0}, direction;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -127,19 +143,22 @@ class Weak_volume {
       Exact_point beside_it;
       for (std::size_t k = 0; k < 3; ++k) beside_it[k] = mean[k] + step * direction[k];
       const Location location = locate_point(traits_, tree_, beside_it, true, counts).location;
-      if (location != Location::on) return location == Location::inside;  // on: in a face upright on the part, that the surface passes twice
+      if (location != Location::on)
+        return location == Location::inside;  // on: in a face upright on the part, that the surface passes twice
     }
   }
 
   void add_surface(const Polygon& polygon, const Exact_plane& plane) {
     const std::vector<Polygon> parts = parts_of(polygon);
     std::vector<int> looks;  // 1: to its front, -1: to its back, 0: the inside is on both sides, or on none
-    for (const Polygon& part : parts) looks.push_back(int{is_inside_beside(part, plane, -1)} - int{is_inside_beside(part, plane, 1)});
+    for (const Polygon& part : parts)
+      looks.push_back(int{is_inside_beside(part, plane, -1)} - int{is_inside_beside(part, plane, 1)});
     const auto add = [&](Polygon part, int look) {
       if (look < 0) std::reverse(part.begin(), part.end());
       if (look != 0) surface_.push_back(std::move(part));
     };
-    if (std::all_of(looks.begin(), looks.end(), [&](int look) { return look == looks[0]; })) return add(polygon, looks[0]);
+    if (std::all_of(looks.begin(), looks.end(), [&](int look) { return look == looks[0]; }))
+      return add(polygon, looks[0]);
     for (std::size_t k = 0; k < parts.size(); ++k) add(parts[k], looks[k]);
   }
 
@@ -153,15 +172,20 @@ class Weak_volume {
   std::vector<Polygon> surface_;
 };
 
-/// Adds the faces that a volume sees from within to those that its surface was found to see; they are unproved, as they need no sightline. Returns them, sorted. Cost: Weak_volume::sees_from_within() of
-/// the pieces that are not found visible. Exact: yes. Proof: P-74
-inline std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided, Weakly_visible& found) {
+/// Adds the faces that a volume sees from within to those that its surface was found to see; they are unproved, as they
+/// need no sightline. Returns them, sorted. Cost: Weak_volume::sees_from_within() of the pieces that are not found
+/// visible. Exact: yes. Proof: P-74
+inline std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided,
+                                                 Weakly_visible& found) {
   std::vector<Face_id> within;
   for (const Piece& piece : scene.pieces()) {
-    if ((!within.empty() && within.back() == piece.face) || std::binary_search(found.visible.begin(), found.visible.end(), piece.face)) continue;
+    if ((!within.empty() && within.back() == piece.face) ||
+        std::binary_search(found.visible.begin(), found.visible.end(), piece.face))
+      continue;
     std::vector<Exact_point> polygon;
     for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
-    if (volume.sees_from_within(polygon, false) || (two_sided && volume.sees_from_within(polygon, true))) within.push_back(piece.face);
+    if (volume.sees_from_within(polygon, false) || (two_sided && volume.sees_from_within(polygon, true)))
+      within.push_back(piece.face);
   }
   const auto is_within = [&](Face_id face) { return std::binary_search(within.begin(), within.end(), face); };
   const auto of_face = [&](const Weakly_visible::Pair& pair) { return is_within(scene.pieces()[pair.piece].face); };

@@ -37,14 +37,16 @@ inline void write_answer(const Task& task, const judge::Json& answer) {
   if (!out.flush()) throw std::runtime_error(task.answer + ": cannot be written");
 }
 
-/// The program: reads the task, answers it. Exit code 0 where it did, 1 where something failed, 2 for a wrong command line or a query that it does not answer.
+/// The program: reads the task, answers it. Exit code 0 where it did, 1 where something failed, 2 for a wrong command
+/// line or a query that it does not answer.
 inline int main(int argc, char** argv, judge::Question question, void (*solve)(const Task&)) {
   if (argc < 4) {
     std::cerr << argv[0] << " SCENE QUERY ANSWER: an adapter for `sightline judge`\n";
     return 2;
   }
   try {
-    const Task task{Scene(read_scene(std::filesystem::path(argv[1]))), read_query(argv[2]), argv[3], std::vector<std::string>(argv + 4, argv + argc)};
+    const Task task{Scene(read_scene(std::filesystem::path(argv[1]))), read_query(argv[2]), argv[3],
+                    std::vector<std::string>(argv + 4, argv + argc)};
     if (task.query.question != question) {
       std::cerr << "answers queries of `" << judge::question_names[static_cast<std::size_t>(question)] << "` only\n";
       return 2;

@@ -22,23 +22,24 @@ void solve(const adapter::Task& task) {
   for (const Fragment<Traits>& fragment : tree.fragments) ++fragments[task.scene.pieces()[fragment.polygon.piece].face];
 
   judge::Json order = judge::Json::array();
-  traverse(traits, tree, traits.eye(task.query.eye), Direction::back_to_front, [&](const Fragment<Traits>& fragment, Sign) {
-    const Face_id face = task.scene.pieces()[fragment.polygon.piece].face;
-    if (fragments[face] == 1) {
-      order.push_back(face);
-      return;
-    }
-    judge::Json vertices = judge::Json::array();
-    try {
-      for (const Corner<Traits>& corner : fragment.polygon) {
-        const Exact_point p = traits.position(*corner.vertex);
-        vertices.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
-      }
-    } catch (const std::domain_error&) {  // a corner that is no number: the fragment is lost
-      return;
-    }
-    order.push_back({{"face", face}, {"vertices", std::move(vertices)}});
-  });
+  traverse(traits, tree, traits.eye(task.query.eye), Direction::back_to_front,
+           [&](const Fragment<Traits>& fragment, Sign) {
+             const Face_id face = task.scene.pieces()[fragment.polygon.piece].face;
+             if (fragments[face] == 1) {
+               order.push_back(face);
+               return;
+             }
+             judge::Json vertices = judge::Json::array();
+             try {
+               for (const Corner<Traits>& corner : fragment.polygon) {
+                 const Exact_point p = traits.position(*corner.vertex);
+                 vertices.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+               }
+             } catch (const std::domain_error&) {  // a corner that is no number: the fragment is lost
+               return;
+             }
+             order.push_back({{"face", face}, {"vertices", std::move(vertices)}});
+           });
   adapter::write_answer(task, {{"order", std::move(order)}});
 }
 

@@ -34,8 +34,9 @@ Polygon clipped(const Polygon& polygon, const std::array<int, 3>& form) {
   return part;
 }
 
-/// The six cones to the sides of a cube around the eye fill all directions. In each, (x, y, z) -> (x / z, y / z, -1 / z) takes rays of the eye to vertical lines, nearer points lower, so the faces of the lower envelope say
-/// what is seen; where several triangles are on one, all of them are.
+/// The six cones to the sides of a cube around the eye fill all directions. In each, (x, y, z) -> (x / z, y / z, -1 /
+/// z) takes rays of the eye to vertical lines, nearer points lower, so the faces of the lower envelope say what is
+/// seen; where several triangles are on one, all of them are.
 void solve(const adapter::Task& task) {
   std::set<Face_id> visible;
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -51,13 +52,17 @@ void solve(const adapter::Task& task) {
         const certificate_check::Plane plane{certificate_check::newell_normal(polygon), polygon[0]};
         const int side = plane.side({0, 0, 0}) * sense;
         if (side == 0) continue;  // edge-on: it hides nothing
-        for (const std::array<int, 3>& form : {std::array{1, 0, 1}, std::array{-1, 0, 1}, std::array{0, 1, 1}, std::array{0, -1, 1}}) polygon = clipped(polygon, form);
+        for (const std::array<int, 3>& form :
+             {std::array{1, 0, 1}, std::array{-1, 0, 1}, std::array{0, 1, 1}, std::array{0, -1, 1}})
+          polygon = clipped(polygon, form);
         std::vector<Kernel::Point_3> images;
         const auto number = [](const Rational& value) { return Field_number<Kernel::FT>::from(value); };
-        for (const Exact_point& p : polygon) images.push_back({number(p[0] / p[2]), number(p[1] / p[2]), number(-1 / p[2])});
+        for (const Exact_point& p : polygon)
+          images.push_back({number(p[0] / p[2]), number(p[1] / p[2]), number(-1 / p[2])});
         for (std::size_t k = 2; k < images.size(); ++k)
           if (const Kernel::Triangle_3 triangle(images[0], images[k - 1], images[k]); !triangle.is_degenerate())
-            triangles.emplace_back(triangle, 2 * piece.face + (side < 0 && !task.query.two_sided));  // odd: it hides, but does not count
+            triangles.emplace_back(
+                triangle, 2 * piece.face + (side < 0 && !task.query.two_sided));  // odd: it hides, but does not count
       }
       CGAL::Envelope_diagram_2<Traits> diagram;
       CGAL::lower_envelope_3(triangles.begin(), triangles.end(), diagram);

@@ -1,4 +1,5 @@
-// An adapter for `sightline judge`: weak visibility estimated by random rays that Embree traces, in floats. A fourth argument is the number of rays.
+// An adapter for `sightline judge`: weak visibility estimated by random rays that Embree traces, in floats. A fourth
+// argument is the number of rays.
 
 #include "adapter.h"
 
@@ -14,7 +15,9 @@ using namespace sightline;
 using Vector = std::array<double, 3>;
 
 Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vector cross(const Vector& a, const Vector& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector near(const Exact_point& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 Vector unit(const Vector& a) {
@@ -35,11 +38,16 @@ class Traced_scene {
         const Vector at = near(p);
         points.push_back({static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
       }
-      for (unsigned k = 2; k < piece.size; ++k) triangles.push_back({first, first + k - 1, first + k}), face_of_.push_back(piece.face);
+      for (unsigned k = 2; k < piece.size; ++k)
+        triangles.push_back({first, first + k - 1, first + k}), face_of_.push_back(piece.face);
     }
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    std::copy(points.begin(), points.end(), static_cast<std::array<float, 3>*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof points[0], points.size())));
-    std::copy(triangles.begin(), triangles.end(), static_cast<std::array<unsigned, 3>*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof triangles[0], triangles.size())));
+    std::copy(points.begin(), points.end(),
+              static_cast<std::array<float, 3>*>(rtcSetNewGeometryBuffer(
+                  geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof points[0], points.size())));
+    std::copy(triangles.begin(), triangles.end(),
+              static_cast<std::array<unsigned, 3>*>(rtcSetNewGeometryBuffer(
+                  geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof triangles[0], triangles.size())));
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(traced_, geometry);
     rtcReleaseGeometry(geometry);
@@ -53,8 +61,10 @@ class Traced_scene {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
-    query.ray.org_x = static_cast<float>(from[0]), query.ray.org_y = static_cast<float>(from[1]), query.ray.org_z = static_cast<float>(from[2]);
-    query.ray.dir_x = static_cast<float>(direction[0]), query.ray.dir_y = static_cast<float>(direction[1]), query.ray.dir_z = static_cast<float>(direction[2]);
+    query.ray.org_x = static_cast<float>(from[0]), query.ray.org_y = static_cast<float>(from[1]),
+    query.ray.org_z = static_cast<float>(from[2]);
+    query.ray.dir_x = static_cast<float>(direction[0]), query.ray.dir_y = static_cast<float>(direction[1]),
+    query.ray.dir_z = static_cast<float>(direction[2]);
     query.ray.tnear = 1e-4f, query.ray.tfar = std::numeric_limits<float>::infinity(), query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(traced_, &context, &query);
@@ -70,7 +80,8 @@ class Traced_scene {
   std::vector<Face_id> face_of_;  // of each triangle
 };
 
-/// Rays from points spread evenly over the source, to all sides in front of it; what they hit is visible, all else is said to be hidden.
+/// Rays from points spread evenly over the source, to all sides in front of it; what they hit is visible, all else is
+/// said to be hidden.
 void solve(const adapter::Task& task) {
   const std::size_t rays = task.more.empty() ? 100000 : std::stoul(task.more[0]);
   const Traced_scene scene(task.scene);
@@ -89,7 +100,9 @@ void solve(const adapter::Task& task) {
   std::set<Face_id> visible;
   for (std::size_t ray = 0; ray < rays; ++ray) {
     const double place = share(dice) * areas.back();
-    const std::size_t k = 2 + std::min(areas.size() - 1, static_cast<std::size_t>(std::upper_bound(areas.begin(), areas.end(), place) - areas.begin()));
+    const std::size_t k =
+        2 + std::min(areas.size() - 1,
+                     static_cast<std::size_t>(std::upper_bound(areas.begin(), areas.end(), place) - areas.begin()));
     double s = share(dice), t = share(dice);
     if (s + t > 1) s = 1 - s, t = 1 - t;
     const Vector a = minus(source[k - 1], source[0]), b = minus(source[k], source[0]);

@@ -6,11 +6,13 @@
 // outside. The triangles of winding number 1 are the polygon; merging them while they stay convex gives the pieces.
 //
 // Laws, for every input:
-//   L1  contour == simple  iff  no two edges cross, unless in a point that a loop uses (all others would be new coordinates),
+//   L1  contour == simple  iff  no two edges cross, unless in a point that a loop uses (all others would be new
+//   coordinates),
 //       every winding number is 0 or 1, and some is 1.
 //   L2  contour == simple: the pieces have disjoint interiors and their union is the closure of {winding number == 1}.
-//   L3  Every corner of a piece is an index that a loop uses. Of indices with equal coordinates the least stands for all.
-//   L4  Beginning a loop at another point, reversing a hole and reordering holes change neither the contour's kind nor the union.
+//   L3  Every corner of a piece is an index that a loop uses. Of indices with equal coordinates the least stands for
+//   all. L4  Beginning a loop at another point, reversing a hole and reordering holes change neither the contour's kind
+//   nor the union.
 
 #include <sightline/kernel/number.h>
 
@@ -44,26 +46,29 @@ struct Planar_point {
 
 /// What the loops of a polygon bound.
 enum class Contour {
-  simple,            ///< weakly simple: spikes, keyholes, straight and repeated points, touching vertices and edges are welcome
+  simple,  ///< weakly simple: spikes, keyholes, straight and repeated points, touching vertices and edges are welcome
   zero_area,         ///< nothing: the area inside is empty
   self_intersecting  ///< two edges cross at a point of no loop, or some area is wound clockwise or more than once
 };
 
 struct Convex_parts {
   Contour contour = Contour::zero_area;
-  /// Corners of each piece, counterclockwise from the least index, in lexicographic order; empty unless contour == simple.
+  /// Corners of each piece, counterclockwise from the least index, in lexicographic order; empty unless contour ==
+  /// simple.
   std::vector<std::vector<std::uint32_t>> pieces;
 };
 
 namespace planar {
 
-// A point as the triangulation sees it: bounds of its coordinates after a common translation and scaling, and the exact ones.
+// A point as the triangulation sees it: bounds of its coordinates after a common translation and scaling, and the exact
+// ones.
 struct Site {
   CGAL::Interval_nt<false> x = 0.0, y = 0.0;
   const Planar_point* exact = nullptr;
 };
 
-// A model of CGAL's ConstrainedDelaunayTriangulationTraits_2 without constructions: interval first, then GMP. Exact: filtered.
+// A model of CGAL's ConstrainedDelaunayTriangulationTraits_2 without constructions: interval first, then GMP. Exact:
+// filtered.
 struct Traits {
   using Point_2 = Site;
   struct Segment_2 {};
@@ -74,10 +79,14 @@ struct Traits {
     const Site& operator()(const Site& a) const { return a; }
   };
   struct Compare_x_2 {
-    CGAL::Comparison_result operator()(const Site& a, const Site& b) const { return CGAL::sign(cmp(a.exact->x, b.exact->x)); }
+    CGAL::Comparison_result operator()(const Site& a, const Site& b) const {
+      return CGAL::sign(cmp(a.exact->x, b.exact->x));
+    }
   };
   struct Compare_y_2 {
-    CGAL::Comparison_result operator()(const Site& a, const Site& b) const { return CGAL::sign(cmp(a.exact->y, b.exact->y)); }
+    CGAL::Comparison_result operator()(const Site& a, const Site& b) const {
+      return CGAL::sign(cmp(a.exact->y, b.exact->y));
+    }
   };
   struct Orientation_2 {
     CGAL::Orientation operator()(const Site& a, const Site& b, const Site& c) const {
@@ -96,7 +105,8 @@ struct Traits {
         const auto filtered = CGAL::side_of_oriented_circleC2(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y);
         if (CGAL::is_certain(filtered)) return CGAL::get_certain(filtered);
       }
-      return CGAL::side_of_oriented_circleC2(a.exact->x, a.exact->y, b.exact->x, b.exact->y, c.exact->x, c.exact->y, d.exact->x, d.exact->y);
+      return CGAL::side_of_oriented_circleC2(a.exact->x, a.exact->y, b.exact->x, b.exact->y, c.exact->x, c.exact->y,
+                                             d.exact->x, d.exact->y);
     }
   };
   Construct_point_2 construct_point_2_object() const { return {}; }
@@ -115,9 +125,9 @@ struct Face_number {
 };
 using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
     Traits,
-    CGAL::Triangulation_data_structure_2<
-        CGAL::Triangulation_vertex_base_with_info_2<Vertex_number, Traits>,
-        CGAL::Triangulation_face_base_with_info_2<Face_number, Traits, CGAL::Constrained_triangulation_face_base_2<Traits>>>,
+    CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<Vertex_number, Traits>,
+                                         CGAL::Triangulation_face_base_with_info_2<
+                                             Face_number, Traits, CGAL::Constrained_triangulation_face_base_2<Traits>>>,
     CGAL::No_constraint_intersection_requiring_constructions_tag>;
 
 inline bool same(const Planar_point& a, const Planar_point& b) { return a.x == b.x && a.y == b.y; }
@@ -135,7 +145,8 @@ inline CGAL::Interval_nt<false> interval(const Integer& n, long shift) {
   exponent -= shift;
   // Far below the others a number is only "tiny, of this sign": ldexp would lose bits under 2^-1022.
   constexpr double tiny = 0x1p-900;
-  if (exponent <= -900) return mantissa > 0 ? CGAL::Interval_nt<false>(0.0, tiny) : CGAL::Interval_nt<false>(-tiny, 0.0);
+  if (exponent <= -900)
+    return mantissa > 0 ? CGAL::Interval_nt<false>(0.0, tiny) : CGAL::Interval_nt<false>(-tiny, 0.0);
   const double toward_zero = std::ldexp(mantissa, static_cast<int>(exponent));
   const long bits = static_cast<long>(bit_length(n));
   if (bits <= 53 || static_cast<long>(mpz_scan1(n.get_mpz_t(), 0)) >= bits - 53) return toward_zero;
@@ -154,8 +165,8 @@ inline Loop without_repetitions(std::span<const Planar_point> points, const Loop
   return kept;
 }
 
-/// Whether the loop turns left or goes straight ahead at every point, and round exactly once: the contour of a convex polygon.
-/// Pre: no repetitions. Degenerate: false for fewer than three points and where it turns back. Exact: yes
+/// Whether the loop turns left or goes straight ahead at every point, and round exactly once: the contour of a convex
+/// polygon. Pre: no repetitions. Degenerate: false for fewer than three points and where it turns back. Exact: yes
 inline bool is_convex_contour(std::span<const Planar_point> points, const Loop& loop) {
   const std::size_t n = loop.size();
   if (n < 3) return false;
@@ -219,7 +230,8 @@ struct Pieces {
         const std::uint32_t before = previous[first], after = next[last];
         const std::uint32_t other_before = previous[twin[last]], other_after = next[twin[first]];
         // Neither angle can reach a full turn, or the chain would be longer: a left turn or straight means at most pi.
-        if (turn_at(before, other_after) == CGAL::RIGHT_TURN || turn_at(other_before, after) == CGAL::RIGHT_TURN) continue;
+        if (turn_at(before, other_after) == CGAL::RIGHT_TURN || turn_at(other_before, after) == CGAL::RIGHT_TURN)
+          continue;
         for (std::uint32_t h = first;; h = next[h]) {
           alive[h] = alive[twin[h]] = false;
           if (h == last) break;
@@ -258,13 +270,16 @@ inline Convex_parts cut(std::span<const Planar_point> points, std::span<const Lo
   std::vector<std::uint32_t> used;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     for (const std::uint32_t p : loops[k])
-      if (p >= points.size()) throw std::out_of_range("loop " + std::to_string(k) + " uses point " + std::to_string(p) + " of " + std::to_string(points.size()));
+      if (p >= points.size())
+        throw std::out_of_range("loop " + std::to_string(k) + " uses point " + std::to_string(p) + " of " +
+                                std::to_string(points.size()));
     Loop loop = without_repetitions(points, loops[k]);
     if (k == 0 && loops.size() == 1) {
       // Quick exits.
       if (loop.size() < 3) return result;
       if ((merge || loop.size() == 3) && is_convex_contour(points, loop)) {
-        // As everywhere, the least of the indices with equal coordinates stands for all: here they can only be neighbours.
+        // As everywhere, the least of the indices with equal coordinates stands for all: here they can only be
+        // neighbours.
         Loop least = loop;
         for (std::size_t i = 0, j = 0; i < loops[0].size(); ++i) {
           if (!same(points[loops[0][i]], points[loop[j]])) j = j + 1 == loop.size() ? 0 : j + 1;
@@ -272,13 +287,15 @@ inline Convex_parts cut(std::span<const Planar_point> points, std::span<const Lo
         }
         Loop piece;
         for (std::size_t i = 0, n = loop.size(); i < n; ++i)
-          if (turn(points[loop[i == 0 ? n - 1 : i - 1]], points[loop[i]], points[loop[i + 1 == n ? 0 : i + 1]]) != 0) piece.push_back(least[i]);
+          if (turn(points[loop[i == 0 ? n - 1 : i - 1]], points[loop[i]], points[loop[i + 1 == n ? 0 : i + 1]]) != 0)
+            piece.push_back(least[i]);
         result.contour = Contour::simple;
         result.pieces.push_back(from_least(std::move(piece)));
         return result;
       }
       if (loop.size() == 3) {
-        if (turn(points[loop[0]], points[loop[1]], points[loop[2]]) != 0) result.contour = Contour::self_intersecting;  // clockwise
+        if (turn(points[loop[0]], points[loop[1]], points[loop[2]]) != 0)
+          result.contour = Contour::self_intersecting;  // clockwise
         return result;
       }
     }
@@ -313,9 +330,11 @@ inline Convex_parts cut(std::span<const Planar_point> points, std::span<const Lo
     using Rounded = CGAL::Simple_cartesian<double>;
     std::vector<Rounded::Point_2> rounded(used.size());
     std::vector<std::size_t> order(used.size());
-    for (std::size_t i = 0; i < used.size(); ++i) order[i] = i, rounded[i] = Rounded::Point_2(sites[i].x.inf(), sites[i].y.inf());
+    for (std::size_t i = 0; i < used.size(); ++i)
+      order[i] = i, rounded[i] = Rounded::Point_2(sites[i].x.inf(), sites[i].y.inf());
     CGAL::spatial_sort(order.begin(), order.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Rounded, CGAL::Pointer_property_map<Rounded::Point_2>::type>(CGAL::make_property_map(rounded)));
+                       CGAL::Spatial_sort_traits_adapter_2<Rounded, CGAL::Pointer_property_map<Rounded::Point_2>::type>(
+                           CGAL::make_property_map(rounded)));
     Triangulation::Face_handle near;
     for (const std::size_t i : order) {
       vertex[i] = triangulation.insert(sites[i], near);
@@ -324,7 +343,9 @@ inline Convex_parts cut(std::span<const Planar_point> points, std::span<const Lo
     }
   }
   if (triangulation.dimension() < 2) return result;  // all points on a line
-  const auto vertex_of = [&](std::uint32_t p) { return vertex[static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), p) - used.begin())]; };
+  const auto vertex_of = [&](std::uint32_t p) {
+    return vertex[static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), p) - used.begin())];
+  };
   const auto for_each_edge = [&](auto&& visit) {
     for (const Loop& loop : contour)
       for (std::size_t i = 0; i + 1 < loop.size(); ++i) visit(vertex_of(loop[i]), vertex_of(loop[i + 1]));
@@ -352,7 +373,8 @@ inline Convex_parts cut(std::span<const Planar_point> points, std::span<const Lo
       Triangulation::Vertex_handle stop;
       Triangulation::Face_handle f;
       int i = 0;
-      if (!triangulation.includes_edge(a, b, stop, f, i)) throw std::logic_error("convex_parts: a contour edge is not in its triangulation");
+      if (!triangulation.includes_edge(a, b, stop, f, i))
+        throw std::logic_error("convex_parts: a contour edge is not in its triangulation");
       const int sense = f->vertex(Triangulation::ccw(i)) == a ? 1 : -1;  // side i of f runs from ccw(i) to cw(i)
       const Triangulation::Face_handle g = f->neighbor(i);
       runs[f->info().value][static_cast<std::size_t>(i)] += sense;
@@ -388,8 +410,9 @@ inline Convex_parts cut(std::span<const Planar_point> points, std::span<const Lo
     if (winding[f] == 1) place[f] = inside++;
   if (inside == 0) return result;
   const std::size_t sides = 3 * std::size_t{inside};
-  Pieces pieces{std::vector<std::uint32_t>(sides), std::vector<std::uint32_t>(sides), std::vector<std::uint32_t>(sides),
-                std::vector<std::uint32_t>(sides, none), std::vector<bool>(sides, true), sites};
+  Pieces pieces{std::vector<std::uint32_t>(sides), std::vector<std::uint32_t>(sides),
+                std::vector<std::uint32_t>(sides), std::vector<std::uint32_t>(sides, none),
+                std::vector<bool>(sides, true),    sites};
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (place[f] == none) continue;
     for (int i = 0; i < 3; ++i) {
@@ -413,15 +436,15 @@ inline Convex_parts cut(std::span<const Planar_point> points, std::span<const Lo
 
 }  // namespace planar
 
-/// Cuts a polygon with holes into convex pieces, counterclockwise and without straight corners, that use only its points.
-/// Loop 0 is the outer contour and runs counterclockwise; the others are holes of either sense.
-/// Pre: indices < points.size(), or std::out_of_range. Post: the laws L1 to L4 above.
-/// Degenerate: repeated and straight points, spikes, keyholes, points with equal coordinates, edges that overlap, and holes
-/// that touch are welcome; a clockwise outer contour and a hole outside it are self_intersecting; no loops are zero_area;
-/// where edges cross and no area is left, the crossing wins.
-/// Cost: O(n log n) on usual input, 0.03 to 0.3 s for 10^4 points, 6 us for an L; one pass for convex polygons. Exact: filtered
-/// Ref: S. Hertel, K. Mehlhorn, Fast triangulation of simple polygons, FCT 1983.
-inline Convex_parts convex_parts(std::span<const Planar_point> points, std::span<const std::vector<std::uint32_t>> loops) {
+/// Cuts a polygon with holes into convex pieces, counterclockwise and without straight corners, that use only its
+/// points. Loop 0 is the outer contour and runs counterclockwise; the others are holes of either sense. Pre: indices <
+/// points.size(), or std::out_of_range. Post: the laws L1 to L4 above. Degenerate: repeated and straight points,
+/// spikes, keyholes, points with equal coordinates, edges that overlap, and holes that touch are welcome; a clockwise
+/// outer contour and a hole outside it are self_intersecting; no loops are zero_area; where edges cross and no area is
+/// left, the crossing wins. Cost: O(n log n) on usual input, 0.03 to 0.3 s for 10^4 points, 6 us for an L; one pass for
+/// convex polygons. Exact: filtered Ref: S. Hertel, K. Mehlhorn, Fast triangulation of simple polygons, FCT 1983.
+inline Convex_parts convex_parts(std::span<const Planar_point> points,
+                                 std::span<const std::vector<std::uint32_t>> loops) {
   return planar::cut(points, loops, true);
 }
 

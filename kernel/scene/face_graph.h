@@ -1,5 +1,6 @@
 #pragma once
-// The face graph of a scene: which faces share an edge, where they close up, and which bodies are convex. OpenMesh carries it.
+// The face graph of a scene: which faces share an edge, where they close up, and which bodies are convex. OpenMesh
+// carries it.
 
 #include <sightline/kernel/scene/scene.h>
 
@@ -15,9 +16,12 @@
 
 namespace sightline {
 
-/// A node is a face of a polyhedron: pieces in one oriented plane that hang together by edges. An edge joins two nodes that share one, walked in opposite directions.
-/// Degenerate: what is no manifold (an edge of three pieces, two pieces that run along an edge in one direction, a vertex where two fans meet) has no edge there: OpenMesh refuses the
-/// piece that comes last, which is then a node with vertices of its own; refused() counts these. T-junctions join nothing, and corners on a straight side are no corners of a piece (see Scene), so a neighbour that has them as ends meets a T-junction. Cost: O(corners). Exact: yes. Proof: P-50
+/// A node is a face of a polyhedron: pieces in one oriented plane that hang together by edges. An edge joins two nodes
+/// that share one, walked in opposite directions. Degenerate: what is no manifold (an edge of three pieces, two pieces
+/// that run along an edge in one direction, a vertex where two fans meet) has no edge there: OpenMesh refuses the piece
+/// that comes last, which is then a node with vertices of its own; refused() counts these. T-junctions join nothing,
+/// and corners on a straight side are no corners of a piece (see Scene), so a neighbour that has them as ends meets a
+/// T-junction. Cost: O(corners). Exact: yes. Proof: P-50
 class Face_graph {
  public:
   struct Mesh_traits : OpenMesh::DefaultTraits {
@@ -32,10 +36,11 @@ class Face_graph {
   };
   /// Nodes that hang together.
   struct Component {
-    std::uint32_t node;                 ///< one of them
+    std::uint32_t node;  ///< one of them
     std::uint32_t nodes = 0, pieces = 0;
-    bool closed = true;                 ///< no piece has an edge without a neighbour
-    std::optional<Exact_point> inside;  ///< where the nodes are the faces of one convex body: a point inside. Proof: P-50
+    bool closed = true;  ///< no piece has an edge without a neighbour
+    std::optional<Exact_point>
+        inside;  ///< where the nodes are the faces of one convex body: a point inside. Proof: P-50
   };
 
   /// Pre: the scene outlives the graph.
@@ -48,7 +53,8 @@ class Face_graph {
   }
 
   const Scene& scene() const { return *scene_; }
-  /// Face k of the mesh is piece k of the scene; its vertices are those of point(), at the approximate coordinates of Grid_points.
+  /// Face k of the mesh is piece k of the scene; its vertices are those of point(), at the approximate coordinates of
+  /// Grid_points.
   const Mesh& mesh() const { return mesh_; }
   std::uint32_t point(Mesh::VertexHandle v) const { return point_of_vertex_[static_cast<std::size_t>(v.idx())]; }
 
@@ -58,8 +64,12 @@ class Face_graph {
   Plane plane(std::uint32_t node) const { return scene_->pieces()[piece_[node]].support; }
 
   const std::vector<Edge>& edges() const { return edges_; }
-  std::span<const std::uint32_t> edges_of(std::uint32_t node) const { return {incident_.data() + begin_[node], begin_[node + 1] - begin_[node]}; }
-  std::uint32_t across(std::uint32_t edge, std::uint32_t node) const { return edges_[edge].first ^ edges_[edge].second ^ node; }
+  std::span<const std::uint32_t> edges_of(std::uint32_t node) const {
+    return {incident_.data() + begin_[node], begin_[node + 1] - begin_[node]};
+  }
+  std::uint32_t across(std::uint32_t edge, std::uint32_t node) const {
+    return edges_[edge].first ^ edges_[edge].second ^ node;
+  }
 
   const std::vector<Component>& components() const { return components_; }
   std::uint32_t component(std::uint32_t node) const { return component_[node]; }
@@ -70,7 +80,9 @@ class Face_graph {
  private:
   using Face = Mesh::FaceHandle;
   /// An input point by itself: the scene's incidences tell which faces' planes it is on.
-  static Vertex vertex(const Predicates& predicates, std::uint32_t point) { return predicates.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane); }
+  static Vertex vertex(const Predicates& predicates, std::uint32_t point) {
+    return predicates.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane);
+  }
   static std::uint32_t index(const auto& handle) { return static_cast<std::uint32_t>(handle.idx()); }
 
   struct Union_find {
@@ -138,7 +150,8 @@ class Face_graph {
     node_ = sets.numbers(piece_);
     // Renumbered along a curve through space, so that what is near is near in memory.
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-    for (std::uint32_t i = 0; i < size(); ++i) order.emplace_back(place_on_curve(scene_->corners(scene_->pieces()[piece_[i]]).front().point), piece_[i]);
+    for (std::uint32_t i = 0; i < size(); ++i)
+      order.emplace_back(place_on_curve(scene_->corners(scene_->pieces()[piece_[i]]).front().point), piece_[i]);
     std::sort(order.begin(), order.end());
     std::vector<std::uint32_t> number(size());
     for (std::uint32_t i = 0; i < size(); ++i) number[node_[order[i].second]] = i, piece_[i] = order[i].second;
@@ -160,7 +173,8 @@ class Face_graph {
     begin_.assign(size() + 1, 0);
     for_each_shared_edge([&](auto half, std::uint32_t i, std::uint32_t j) {
       if (node_[i] == node_[j]) return;
-      edges_.push_back({node_[i], node_[j], point(mesh_.from_vertex_handle(half)), point(mesh_.to_vertex_handle(half))});
+      edges_.push_back(
+          {node_[i], node_[j], point(mesh_.from_vertex_handle(half)), point(mesh_.to_vertex_handle(half))});
       ++begin_[node_[i] + 1], ++begin_[node_[j] + 1];
     });
     const auto ends = [](const Edge& edge) { return std::minmax(edge.first, edge.second); };
@@ -168,7 +182,8 @@ class Face_graph {
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
     incident_.resize(2 * edges_.size());
-    for (std::uint32_t e = 0; e < edges_.size(); ++e) incident_[next[edges_[e].first]++] = e, incident_[next[edges_[e].second]++] = e;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e)
+      incident_[next[edges_[e].first]++] = e, incident_[next[edges_[e].second]++] = e;
   }
 
   void find_components() {
@@ -182,7 +197,8 @@ class Face_graph {
     std::vector<std::vector<std::uint32_t>> pieces(components_.size());
     for (std::uint32_t i = 0; i < node_.size(); ++i) pieces[component_[node_[i]]].push_back(i);
     for (const auto half : mesh_.halfedges())
-      if (const Face on = mesh_.face_handle(half); on.is_valid() && !mesh_.opposite_face_handle(half).is_valid()) components_[component_[node_[index(on)]]].closed = false;
+      if (const Face on = mesh_.face_handle(half); on.is_valid() && !mesh_.opposite_face_handle(half).is_valid())
+        components_[component_[node_[index(on)]]].closed = false;
     std::vector<bool> bent_outwards(components_.size(), true);
     Predicate_counts counts;
     const Predicates predicates = scene_->predicates();
@@ -199,7 +215,8 @@ class Face_graph {
     }
   }
 
-  // ---- Convex bodies: closed, bent outwards at each edge, all faces seen from behind by a point, and a ray from there that meets one piece only. P-50
+  // ---- Convex bodies: closed, bent outwards at each edge, all faces seen from behind by a point, and a ray from there
+  // that meets one piece only. P-50
 
   std::optional<Exact_point> point_inside(const std::vector<std::uint32_t>& pieces) const {
     const Predicates predicates = scene_->predicates();
@@ -216,7 +233,9 @@ class Face_graph {
         if (far == Vertex::no_point || height < depth) far = corner.point, depth = height;
       }
     // Where doubles do not tell, any corner that is behind it.
-    const auto is_behind = [&](std::uint32_t p) { return predicates.side(vertex(predicates, p), below, counts) == CGAL::NEGATIVE; };
+    const auto is_behind = [&](std::uint32_t p) {
+      return predicates.side(vertex(predicates, p), below, counts) == CGAL::NEGATIVE;
+    };
     if (!is_behind(far))
       for (const std::uint32_t i : pieces)
         for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i]))
@@ -252,7 +271,8 @@ class Face_graph {
   bool meets(const Ray& ray, const Piece& piece) const {
     const Grid_points& points = scene_->points();
     const std::span<const Piece_corner> corners = scene_->corners(piece);
-    // A determinant of three vectors below `size`, each off by `error`: off by less than 18 size^2 error and 2^-49 of 6 size^3, which 2^-50 size <= error covers.
+    // A determinant of three vectors below `size`, each off by `error`: off by less than 18 size^2 error and 2^-49 of 6
+    // size^3, which 2^-50 size <= error covers.
     const double bound = 64 * ray.size * ray.size * ray.error;
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const std::uint32_t p = corners[k].point, q = corners[k + 1 == corners.size() ? 0 : k + 1].point;
@@ -261,7 +281,8 @@ class Face_graph {
         const std::size_t at = static_cast<std::size_t>(axis);
         a[at] = points.approximate(p, axis) - ray.start[at], b[at] = points.approximate(q, axis) - ray.start[at];
       }
-      const double value = ray.along[0] * (a[1] * b[2] - a[2] * b[1]) + ray.along[1] * (a[2] * b[0] - a[0] * b[2]) + ray.along[2] * (a[0] * b[1] - a[1] * b[0]);
+      const double value = ray.along[0] * (a[1] * b[2] - a[2] * b[1]) + ray.along[1] * (a[2] * b[0] - a[0] * b[2]) +
+                           ray.along[2] * (a[0] * b[1] - a[1] * b[0]);
       if (value > bound) continue;
       if (value < -bound || exact_side(ray, p, q) < 0) return false;
     }
@@ -270,7 +291,9 @@ class Face_graph {
   int exact_side(const Ray& ray, std::uint32_t p, std::uint32_t q) const {
     Exact_point a = scene_->position(p), b = scene_->position(q);
     for (std::size_t k = 0; k < 3; ++k) a[k] -= ray.from[k], b[k] -= ray.from[k];
-    return sgn(Rational(ray.direction[0] * (a[1] * b[2] - a[2] * b[1]) + ray.direction[1] * (a[2] * b[0] - a[0] * b[2]) + ray.direction[2] * (a[0] * b[1] - a[1] * b[0])));
+    return sgn(Rational(ray.direction[0] * (a[1] * b[2] - a[2] * b[1]) +
+                        ray.direction[1] * (a[2] * b[0] - a[0] * b[2]) +
+                        ray.direction[2] * (a[0] * b[1] - a[1] * b[0])));
   }
 
   const Scene* scene_;

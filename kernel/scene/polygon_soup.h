@@ -13,15 +13,17 @@ using Point_id = std::uint32_t;
 using Face_id = std::uint32_t;  ///< 0-based place of a face in the input
 using Exact_point = std::array<Rational, 3>;
 
-/// A polygon soup. A face is one or more loops of point ids: the first is the outer contour, seen counterclockwise from the
-/// face's front; further loops are holes (either sense). Nothing is checked here but index ranges by the readers:
+/// A polygon soup. A face is one or more loops of point ids: the first is the outer contour, seen counterclockwise from
+/// the face's front; further loops are holes (either sense). Nothing is checked here but index ranges by the readers:
 /// repeated points, non-planar, concave and zero-area faces are all welcome. Points may be unused or repeated.
 struct Polygon_soup {
   std::string file;         ///< where it came from, for messages and for JSON
   Coordinates coordinates;  ///< x, y, z of point 0, then of point 1, ...
 
   std::size_t point_count() const { return coordinates.size() / 3; }
-  Exact_point point(Point_id p) const { return {coordinates[3 * std::size_t{p}], coordinates[3 * std::size_t{p} + 1], coordinates[3 * std::size_t{p} + 2]}; }
+  Exact_point point(Point_id p) const {
+    return {coordinates[3 * std::size_t{p}], coordinates[3 * std::size_t{p} + 1], coordinates[3 * std::size_t{p} + 2]};
+  }
 
   std::size_t face_count() const { return face_begin_.size() - 1; }
   std::size_t loop_count(Face_id f) const { return face_begin_[f + 1] - face_begin_[f]; }

@@ -1,5 +1,6 @@
 #pragma once
-// A scene ready for exact geometry: points on one integer grid, interned planes, convex pieces, and a list of what was set aside.
+// A scene ready for exact geometry: points on one integer grid, interned planes, convex pieces, and a list of what was
+// set aside.
 
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/convex_parts.h>
@@ -19,13 +20,14 @@ struct Set_aside {
 /// A convex polygon of the scene: a face, or one of the convex pieces that a face was cut into.
 struct Piece {
   Face_id face;
-  std::uint32_t number;   ///< 0-based within the face
-  Plane support;          ///< supporting plane; its front is the face's front
-  std::uint32_t first;    ///< corners [first, first + size) of the scene, counterclockwise seen from the front
+  std::uint32_t number;  ///< 0-based within the face
+  Plane support;         ///< supporting plane; its front is the face's front
+  std::uint32_t first;   ///< corners [first, first + size) of the scene, counterclockwise seen from the front
   std::uint32_t size;
 };
 
-/// A corner of a piece, and the bounding plane through the edge to the next corner: not the supporting plane, interior in its front.
+/// A corner of a piece, and the bounding plane through the edge to the next corner: not the supporting plane, interior
+/// in its front.
 struct Piece_corner {
   std::uint32_t point;
   Plane edge;
@@ -38,11 +40,11 @@ struct Scene_counters {
   std::size_t non_planar = 0, concave = 0, with_holes = 0, fanned = 0;
 };
 
-/// An exact polygonal scene (design laws in proofs/semantics.md). Input coordinate x is (offset + unit * grid) / scale for an integer grid
-/// coordinate; the grid is the coarsest that holds all points, centred, so that 26-bit detail a million units from the origin stays 26-bit detail.
-/// Non-planar faces are triangulated, concave ones and ones with holes cut into convex pieces on their own vertices; zero-area faces, exact
-/// duplicates and self-intersecting contours are set aside and listed.
-/// Cost: O(n) hashing, O(k log k) for a face of k vertices. Exact: yes. Proof: P-01, P-02
+/// An exact polygonal scene (design laws in proofs/semantics.md). Input coordinate x is (offset + unit * grid) / scale
+/// for an integer grid coordinate; the grid is the coarsest that holds all points, centred, so that 26-bit detail a
+/// million units from the origin stays 26-bit detail. Non-planar faces are triangulated, concave ones and ones with
+/// holes cut into convex pieces on their own vertices; zero-area faces, exact duplicates and self-intersecting contours
+/// are set aside and listed. Cost: O(n) hashing, O(k log k) for a face of k vertices. Exact: yes. Proof: P-01, P-02
 class Scene {
  public:
   explicit Scene(const Polygon_soup& soup) : file_(soup.file) {
@@ -65,7 +67,9 @@ class Scene {
   const Grid_points& points() const { return points_; }
   const Plane_table& planes() const { return planes_; }
   const std::vector<Piece>& pieces() const { return pieces_; }
-  std::span<const Piece_corner> corners(const Piece& piece) const { return {corners_.data() + piece.first, piece.size}; }
+  std::span<const Piece_corner> corners(const Piece& piece) const {
+    return {corners_.data() + piece.first, piece.size};
+  }
   const std::vector<Set_aside>& set_aside() const { return set_aside_; }
   const std::vector<Face_id>& non_planar() const { return non_planar_; }
   const std::vector<Face_id>& concave() const { return concave_; }
@@ -82,7 +86,9 @@ class Scene {
   Plane add_plane(const std::array<Integer, 4>& h) { return planes_.intern(h[0], h[1], h[2], h[3]); }
 
   /// An oriented plane in the file's coordinates, up to a positive factor. Exact: yes.
-  std::array<Rational, 4> file_coefficients(Plane plane) const { return file_coefficients(predicates().coefficients(plane)); }
+  std::array<Rational, 4> file_coefficients(Plane plane) const {
+    return file_coefficients(predicates().coefficients(plane));
+  }
   /// The same for coefficients in grid coordinates.
   std::array<Rational, 4> file_coefficients(const std::array<Integer, 4>& h) const {
     Integer offset = h[3] * unit_;
@@ -98,7 +104,8 @@ class Scene {
       grid[k] = (p[k] * scale_ - offset_[k]) / unit_;
       common = lcm(common, grid[k].get_den());
     }
-    Located_point q{Integer(grid[0] * common), Integer(grid[1] * common), Integer(grid[2] * common), common, 0, 0, 0, 0};
+    Located_point q{
+        Integer(grid[0] * common), Integer(grid[1] * common), Integer(grid[2] * common), common, 0, 0, 0, 0};
     std::array<double*, 3> place{&q.ax, &q.ay, &q.az};
     for (std::size_t k = 0; k < 3; ++k) {
       Rational scaled = grid[k];
@@ -122,7 +129,9 @@ class Scene {
     }
     return p;
   }
-  Exact_point position(std::uint32_t point) const { return position({points_.integer(point, 0), points_.integer(point, 1), points_.integer(point, 2), 1}); }
+  Exact_point position(std::uint32_t point) const {
+    return position({points_.integer(point, 0), points_.integer(point, 1), points_.integer(point, 2), 1});
+  }
   /// The bounding box of all points used by the file, in its coordinates. Pre: there is a point.
   std::array<Exact_point, 2> box() const {
     std::array<Exact_point, 2> corners;
@@ -134,7 +143,8 @@ class Scene {
  private:
   static bool exact_or_infinite(double d, const Rational& value) { return !std::isfinite(d) || exact(d) == value; }
 
-  // ---- Points: common scale, centred grid, equal points merged ------------------------------------------------------------
+  // ---- Points: common scale, centred grid, equal points merged
+  // ------------------------------------------------------------
 
   /// Fills the grid and returns, for each point of the soup, its point of the scene.
   std::vector<std::uint32_t> place_points(const Polygon_soup& soup) {
@@ -143,7 +153,8 @@ class Scene {
     std::vector<std::int64_t> narrow(count);
     std::unordered_map<std::size_t, Integer> wide;
     soup.coordinates.for_each_scaled(
-        scale_, [&](std::size_t i, std::int64_t n) { narrow[i] = n; }, [&](std::size_t i, const Integer& n) { wide.emplace(i, n); });
+        scale_, [&](std::size_t i, std::int64_t n) { narrow[i] = n; },
+        [&](std::size_t i, const Integer& n) { wide.emplace(i, n); });
     const auto read = [&](std::size_t i) -> Integer {
       const auto at = wide.find(i);
       return at == wide.end() ? Integer(static_cast<long>(narrow[i])) : at->second;
@@ -166,7 +177,8 @@ class Scene {
     return 2 * covered > coordinates.size() ? usual : scale_;
   }
 
-  /// `divisor`: scaled coordinates that are its multiples are to be exact in doubles, where the grid is too wide for that otherwise.
+  /// `divisor`: scaled coordinates that are its multiples are to be exact in doubles, where the grid is too wide for
+  /// that otherwise.
   template <class Number, class Read>
   std::vector<std::uint32_t> place(std::size_t count, Integer divisor, Read read) {
     std::array<Number, 3> low{}, high{}, first{};
@@ -198,7 +210,8 @@ class Scene {
     }
     unit_ = integer(common), bits_read_ = static_cast<int>(bit_length(integer(largest)));
     const int bits = static_cast<int>(bit_length(integer(reach)));
-    // Doubles of what is read stay below 2^512, so that no product or sum of theirs overflows: Plane_group has no other guard against what is no number.
+    // Doubles of what is read stay below 2^512, so that no product or sum of theirs overflows: Plane_group has no other
+    // guard against what is no number.
     if (bits <= 53 || bits - static_cast<int>(bit_length(divisor)) >= 512) divisor = 1;
     points_ = Grid_points(bits, divisor);
     points_.reserve(count / 3);
@@ -216,7 +229,8 @@ class Scene {
   static Integer integer(std::int64_t n) { return Integer(static_cast<long>(n)); }
   static Integer integer(const Integer& n) { return n; }
 
-  // ---- Faces: planes, convex pieces, what is set aside -----------------------------------------------------------------------
+  // ---- Faces: planes, convex pieces, what is set aside
+  // -----------------------------------------------------------------------
 
   using Loop = std::vector<std::uint32_t>;
 
@@ -237,7 +251,8 @@ class Scene {
     const auto rotated = [](std::vector<Loop> of) {
       for (Loop& loop : of) {
         std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
-        const Loop begun = loop;  // where the least point comes back, as in a keyhole, the least of the rotations that begin with it
+        const Loop begun =
+            loop;  // where the least point comes back, as in a keyhole, the least of the rotations that begin with it
         for (std::size_t k = 1; k < begun.size(); ++k) {
           if (begun[k] != begun[0]) continue;
           Loop turned = begun;
@@ -262,7 +277,9 @@ class Scene {
       if (twin != end) {
         set_aside_.push_back({f, "duplicate of " + std::to_string(twin->second)});
         ++counters_.duplicates;
-      } else if (const char* flaw = points_.bits() <= 30 ? add_face<__int128>(f, loops) : points_.bits() <= 72 ? add_face<Fixed_integer<4>>(f, loops) : add_face<Integer>(f, loops)) {
+      } else if (const char* flaw = points_.bits() <= 30   ? add_face<__int128>(f, loops)
+                                    : points_.bits() <= 72 ? add_face<Fixed_integer<4>>(f, loops)
+                                                           : add_face<Integer>(f, loops)) {
         set_aside_.push_back({f, flaw});
         ++(flaw[0] == 'z' ? counters_.zero_area : counters_.self_intersecting);
       } else {
@@ -271,8 +288,9 @@ class Scene {
     }
   }
 
-  // Faces are made in the narrowest of three number types. In g-bit coordinates a normal has 2 g + 2 bits, a normal times a difference 3 g + 6, and
-  // the area vector of a loop of up to 2^28 corners 28 more: 30 bits fit 128, 72 bits fit 256.
+  // Faces are made in the narrowest of three number types. In g-bit coordinates a normal has 2 g + 2 bits, a normal
+  // times a difference 3 g + 6, and the area vector of a loop of up to 2^28 corners 28 more: 30 bits fit 128, 72 bits
+  // fit 256.
   template <class Number>
   using Vector = std::array<Number, 3>;
 
@@ -286,15 +304,21 @@ class Scene {
     return {coordinate(0), coordinate(1), coordinate(2)};
   }
   template <class Number>
-  static Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) { return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])}; }
+  static Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
+    return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
+  }
   template <class Number>
   static Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
   }
   template <class Number>
-  static Number dot(const Vector<Number>& a, const Vector<Number>& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+  static Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
   template <class Number>
-  static bool is_zero(const Vector<Number>& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
+  static bool is_zero(const Vector<Number>& a) {
+    return a[0] == 0 && a[1] == 0 && a[2] == 0;
+  }
 
   /// Twice the area vector of a loop. Exact: yes.
   template <class Number>
@@ -326,14 +350,19 @@ class Scene {
     if (all_collinear<Number>(outer)) return "zero area";
     const bool planar = !is_zero(normal) && std::all_of(loops.begin(), loops.end(), [&](const Loop& loop) {
       const Vector<Number> origin = at<Number>(outer[0]);
-      return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t p) { return dot(normal, difference(at<Number>(p), origin)) == 0; });
+      return std::all_of(loop.begin(), loop.end(),
+                         [&](std::uint32_t p) { return dot(normal, difference(at<Number>(p), origin)) == 0; });
     });
     if (planar) return add_planar_face(f, normal, loops);
-    if (is_zero(normal) && all_coplanar<Number>(outer)) {  // a contour that goes back on all its edges, or one that crosses itself
+    if (is_zero(normal) &&
+        all_coplanar<Number>(outer)) {  // a contour that goes back on all its edges, or one that crosses itself
       Vector<Number> across{};
-      for (std::size_t i = 0; is_zero(across); ++i) across = area_vector<Number>({outer[i], outer[i + 1], outer[(i + 2) % outer.size()]});
+      for (std::size_t i = 0; is_zero(across); ++i)
+        across = area_vector<Number>({outer[i], outer[i + 1], outer[(i + 2) % outer.size()]});
       std::vector<std::uint32_t> ids;
-      return project(loops, dominant(across), false, ids, convex_parts).contour == Contour::zero_area ? "zero area" : "self-intersecting";
+      return project(loops, dominant(across), false, ids, convex_parts).contour == Contour::zero_area
+                 ? "zero area"
+                 : "self-intersecting";
     }
     return add_non_planar_face(f, normal, loops);
   }
@@ -353,16 +382,21 @@ class Scene {
     if (parts.contour == Contour::zero_area) return "zero area";
     if (parts.contour == Contour::self_intersecting) return "self-intersecting";
     ++counters_.concave, concave_.push_back(f);
-    for (std::uint32_t number = 0; number < parts.pieces.size(); ++number) add_piece(f, number, normal, named(parts.pieces[number], ids));
+    for (std::uint32_t number = 0; number < parts.pieces.size(); ++number)
+      add_piece(f, number, normal, named(parts.pieces[number], ids));
     return nullptr;
   }
 
   template <class Number>
   const char* add_non_planar_face(Face_id f, const Vector<Number>& normal, const std::vector<Loop>& loops) {
     ++counters_.non_planar, non_planar_.push_back(f);
-    // In a projection where the contour is simple, a triangulation of it is one of the face: along the dominant axis, or else another.
+    // In a projection where the contour is simple, a triangulation of it is one of the face: along the dominant axis,
+    // or else another.
     std::array<int, 3> axes{0, 1, 2};
-    const auto size = [&](int k) { return normal[static_cast<std::size_t>(k)] < 0 ? Number(-normal[static_cast<std::size_t>(k)]) : normal[static_cast<std::size_t>(k)]; };
+    const auto size = [&](int k) {
+      return normal[static_cast<std::size_t>(k)] < 0 ? Number(-normal[static_cast<std::size_t>(k)])
+                                                     : normal[static_cast<std::size_t>(k)];
+    };
     std::stable_sort(axes.begin(), axes.end(), [&](int a, int b) { return size(b) < size(a); });
     for (const int axis : axes) {
       if (normal[static_cast<std::size_t>(axis)] == 0) continue;
@@ -393,9 +427,11 @@ class Scene {
     return "zero area";
   }
 
-  /// Whether the pieces' directed edges add up to those of the loops: in a projection an edge-on part of a non-planar face can get lost.
+  /// Whether the pieces' directed edges add up to those of the loops: in a projection an edge-on part of a non-planar
+  /// face can get lost.
   template <class Number>
-  bool has_boundary(const Convex_parts& parts, const std::vector<std::uint32_t>& ids, const std::vector<Loop>& loops, int axis) const {
+  bool has_boundary(const Convex_parts& parts, const std::vector<std::uint32_t>& ids, const std::vector<Loop>& loops,
+                    int axis) const {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> net;
     const auto add = [&](const Loop& loop, int sign) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -404,7 +440,9 @@ class Scene {
       }
     };
     for (const auto& piece : parts.pieces) add(named(piece, ids), 1);
-    const auto sense = [&](const Loop& loop) { return area_vector<Number>(loop)[static_cast<std::size_t>(axis)] < 0; };  // holes run against the contour
+    const auto sense = [&](const Loop& loop) {
+      return area_vector<Number>(loop)[static_cast<std::size_t>(axis)] < 0;
+    };  // holes run against the contour
     for (const Loop& loop : loops) add(loop, &loop != &loops[0] && sense(loop) == sense(loops[0]) ? 1 : -1);
     return std::all_of(net.begin(), net.end(), [](const auto& entry) { return entry.second == 0; });
   }
@@ -413,19 +451,24 @@ class Scene {
   bool all_collinear(const Loop& loop) const {
     if (loop.size() < 3) return true;
     const Vector<Number> origin = at<Number>(loop[0]), along = difference(at<Number>(loop[1]), origin);
-    return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t p) { return is_zero(cross(along, difference(at<Number>(p), origin))); });
+    return std::all_of(loop.begin(), loop.end(),
+                       [&](std::uint32_t p) { return is_zero(cross(along, difference(at<Number>(p), origin))); });
   }
   template <class Number>
   bool all_coplanar(const Loop& loop) const {  // Pre: not all collinear
     const Vector<Number> origin = at<Number>(loop[0]), along = difference(at<Number>(loop[1]), origin);
     Vector<Number> normal{};
     for (std::size_t i = 2; is_zero(normal); ++i) normal = cross(along, difference(at<Number>(loop[i]), origin));
-    return std::all_of(loop.begin(), loop.end(), [&](std::uint32_t p) { return dot(normal, difference(at<Number>(p), origin)) == 0; });
+    return std::all_of(loop.begin(), loop.end(),
+                       [&](std::uint32_t p) { return dot(normal, difference(at<Number>(p), origin)) == 0; });
   }
   template <class Number>
   static int dominant(const Vector<Number>& n) {
     int axis = 0;
-    const auto size = [&](int k) { return n[static_cast<std::size_t>(k)] < 0 ? Number(-n[static_cast<std::size_t>(k)]) : n[static_cast<std::size_t>(k)]; };
+    const auto size = [&](int k) {
+      return n[static_cast<std::size_t>(k)] < 0 ? Number(-n[static_cast<std::size_t>(k)])
+                                                : n[static_cast<std::size_t>(k)];
+    };
     for (int k = 1; k < 3; ++k)
       if (size(axis) < size(k)) axis = k;
     return axis;
@@ -436,11 +479,14 @@ class Scene {
     return mirrored ? std::array<int, 2>{j, i} : std::array<int, 2>{i, j};
   }
 
-  /// Whether a loop is a convex polygon walked once counterclockwise in the projection; `corners` then are its vertices that are not straight.
+  /// Whether a loop is a convex polygon walked once counterclockwise in the projection; `corners` then are its vertices
+  /// that are not straight.
   template <class Number>
   bool is_convex(const Loop& loop, int axis, bool mirrored, Loop& corners) const {
     const auto [i, j] = projection(axis, mirrored);
-    struct Step { Number x, y; };
+    struct Step {
+      Number x, y;
+    };
     const auto step = [&, i = i, j = j](std::uint32_t p, std::uint32_t q) {
       const Vector<Number> e = difference(at<Number>(q), at<Number>(p));
       return Step{e[static_cast<std::size_t>(i)], e[static_cast<std::size_t>(j)]};
@@ -472,7 +518,8 @@ class Scene {
   }
 
   template <class Cut>
-  Convex_parts project(const std::vector<Loop>& loops, int axis, bool mirrored, std::vector<std::uint32_t>& ids, Cut cut) const {
+  Convex_parts project(const std::vector<Loop>& loops, int axis, bool mirrored, std::vector<std::uint32_t>& ids,
+                       Cut cut) const {
     const auto [i, j] = projection(axis, mirrored);
     std::vector<Planar_point> points;
     std::vector<Loop> indices;
@@ -495,7 +542,8 @@ class Scene {
   static bool fits(__int128 n) { return n < (__int128{1} << 62) + 1 && n > -(__int128{1} << 62) - 1; }
   Plane intern(const Vector<__int128>& n, __int128 d) {
     if (fits(n[0]) && fits(n[1]) && fits(n[2]))
-      return planes_.intern(static_cast<std::int64_t>(n[0]), static_cast<std::int64_t>(n[1]), static_cast<std::int64_t>(n[2]), d);
+      return planes_.intern(static_cast<std::int64_t>(n[0]), static_cast<std::int64_t>(n[1]),
+                            static_cast<std::int64_t>(n[2]), d);
     const auto wide = [](__int128 x) {
       const Limb limbs[2] = {static_cast<Limb>(x), static_cast<Limb>(x >> 64)};
       return from_limbs(limbs, 2);
@@ -508,9 +556,10 @@ class Scene {
   }
   Plane intern(const Vector<Integer>& n, const Integer& d) { return planes_.intern(n[0], n[1], n[2], d); }
 
-  /// Adds a convex piece. Each edge is bounded by the plane through it parallel to the dominant axis of the normal: half as many bits
-  /// as a face plane, and one plane for edges that project to one line. With s the sign of normal[axis], (s unit x edge) points inward,
-  /// since (s unit x edge) . (normal x edge) = s normal[axis] |edge|^2 > 0. Proof: P-05
+  /// Adds a convex piece. Each edge is bounded by the plane through it parallel to the dominant axis of the normal:
+  /// half as many bits as a face plane, and one plane for edges that project to one line. With s the sign of
+  /// normal[axis], (s unit x edge) points inward, since (s unit x edge) . (normal x edge) = s normal[axis] |edge|^2 >
+  /// 0. Proof: P-05
   template <class Number>
   void add_piece(Face_id f, std::uint32_t number, const Vector<Number>& normal, const Loop& loop) {
     const Vector<Number> origin = at<Number>(loop[0]);
@@ -518,7 +567,8 @@ class Scene {
     const int axis = dominant(normal);
     Vector<Number> unit{};
     unit[static_cast<std::size_t>(axis)] = normal[static_cast<std::size_t>(axis)] < 0 ? -1 : 1;
-    pieces_.push_back({f, number, support, static_cast<std::uint32_t>(corners_.size()), static_cast<std::uint32_t>(loop.size())});
+    pieces_.push_back(
+        {f, number, support, static_cast<std::uint32_t>(corners_.size()), static_cast<std::uint32_t>(loop.size())});
     Vector<Number> from = origin;
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const std::uint32_t next = loop[k + 1 == loop.size() ? 0 : k + 1];

@@ -28,8 +28,12 @@ Points rectangle(std::size_t side, double u0, double u1, double v0, double v1, d
   }
   return points;
 }
-Depth_buffer look(const Scene& scene, std::uint32_t size, int bits = 24, float near = 0, float far = 0) { return depth_buffer(scene, origin, {size, bits, near, far}); }
-std::size_t count(const Depth_buffer& buffer, std::uint32_t piece) { return static_cast<std::size_t>(std::count(buffer.pieces.begin(), buffer.pieces.end(), piece)); }
+Depth_buffer look(const Scene& scene, std::uint32_t size, int bits = 24, float near = 0, float far = 0) {
+  return depth_buffer(scene, origin, {size, bits, near, far});
+}
+std::size_t count(const Depth_buffer& buffer, std::uint32_t piece) {
+  return static_cast<std::size_t>(std::count(buffer.pieces.begin(), buffer.pieces.end(), piece));
+}
 
 TEST(Cube_sides, are_photographs_that_cover_the_sphere) {
   for (const Cube_side& side : cube_sides) {
@@ -82,7 +86,8 @@ TEST(Depth_buffer, shows_the_nearer_one_in_either_order) {
 }
 
 TEST(Depth_buffer, interpolates_depth_in_perspective) {
-  // A face from (4, -4) to (1, 1), seen from (0, 0), is at distance 1.6 straight ahead; in the middle of the corners' depths it would be farther or nearer.
+  // A face from (4, -4) to (1, 1), seen from (0, 0), is at distance 1.6 straight ahead; in the middle of the corners'
+  // depths it would be farther or nearer.
   const Points slanted{at(4, 4, -1), at(1, -1, -1), at(1, -1, 1), at(4, 4, 1)};
   EXPECT_EQ(look(scene_of({slanted, rectangle(0, -0.1, 0.1, -0.1, 0.1, 1.625)}), 64).piece(0, 32, 32), 0u);
   EXPECT_EQ(look(scene_of({slanted, rectangle(0, -0.1, 0.1, -0.1, 0.1, 1.5)}), 64).piece(0, 32, 32), 1u);
@@ -95,12 +100,16 @@ TEST(Depth_buffer, cannot_tell_planes_apart_that_its_bits_do_not) {
   EXPECT_EQ(count(look(scene, 8, 24, 0.5, 2), 1), 16u);
   EXPECT_EQ(count(look(scene, 8, 32, 0.5, 2), 1), 16u);
   // 10^-9 is no difference to a float.
-  EXPECT_EQ(count(look(scene_of({rectangle(0, -0.5, 0.5, -0.5, 0.5, 1 + 1e-9), rectangle(0, -0.5, 0.5, -0.5, 0.5, 1)}), 8, 32, 0.5, 2), 0), 16u);
+  EXPECT_EQ(count(look(scene_of({rectangle(0, -0.5, 0.5, -0.5, 0.5, 1 + 1e-9), rectangle(0, -0.5, 0.5, -0.5, 0.5, 1)}),
+                       8, 32, 0.5, 2),
+                  0),
+            16u);
 }
 
 TEST(Depth_buffer, loses_a_sliver_between_pixel_centres) {
   EXPECT_EQ(count(look(scene_of({rectangle(0, 0.01, 0.02, -1, 1)}), 8), 0), 0u);
-  EXPECT_EQ(count(look(scene_of({rectangle(0, 0.12, 0.13, -1, 1)}), 8), 0), 8u) << "and makes one wide that holds centres";
+  EXPECT_EQ(count(look(scene_of({rectangle(0, 0.12, 0.13, -1, 1)}), 8), 0), 8u)
+      << "and makes one wide that holds centres";
 }
 
 TEST(Depth_buffer, draws_a_centre_on_an_edge_with_the_left_and_top_ones) {
@@ -132,7 +141,8 @@ TEST(Depth_buffer, cuts_triangles_that_reach_behind_the_eye) {
   const Depth_buffer buffer = look(floor, 16, 32, 0.5);
   for (std::uint32_t y = 0; y < 16; ++y)
     for (std::uint32_t x = 0; x < 16; ++x) {
-      for (std::size_t side = 0; side < 4; ++side) EXPECT_EQ(buffer.piece(side, x, y), y < 8 ? 0u : buffer.nothing) << side << ' ' << x << ' ' << y;
+      for (std::size_t side = 0; side < 4; ++side)
+        EXPECT_EQ(buffer.piece(side, x, y), y < 8 ? 0u : buffer.nothing) << side << ' ' << x << ' ' << y;
       EXPECT_EQ(buffer.piece(4, x, y), buffer.nothing);
       EXPECT_EQ(buffer.piece(5, x, y), 0u);
     }

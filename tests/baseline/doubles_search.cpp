@@ -9,11 +9,13 @@ namespace {
 
 using namespace sightline;
 
-/// A target at z = 2 that looks down, seen from [-1, 1]^2 at z = 0, past two plates at z = 1 whose edges are so far apart, or overlap.
+/// A target at z = 2 that looks down, seen from [-1, 1]^2 at z = 0, past two plates at z = 1 whose edges are so far
+/// apart, or overlap.
 Weak_status past_two_plates(double gap, double across = 0) {
   Polygon_soup soup;
   const auto add = [&](double x0, double x1, double z0, double z1, bool up) {  // z0 at x0, z1 at x1
-    const Point_id a = soup.add_point(x0, -3.0, z0), b = soup.add_point(x1, -3.0, z1), c = soup.add_point(x1, 3.0, z1), d = soup.add_point(x0, 3.0, z0);
+    const Point_id a = soup.add_point(x0, -3.0, z0), b = soup.add_point(x1, -3.0, z1), c = soup.add_point(x1, 3.0, z1),
+                   d = soup.add_point(x0, 3.0, z0);
     if (up) soup.add_face({a, b, c, d});
     else soup.add_face({d, c, b, a});
   };
@@ -21,15 +23,18 @@ Weak_status past_two_plates(double gap, double across = 0) {
   add(-4, 0, 1, 1 + across, true), add(gap, 4, 1, 1, true);
   const Scene scene(soup);
   const Occluders occluders(scene);
-  const Weak_faces found = visible_by_doubles(occluders, {weak_source(occluders, std::vector<Exact_point>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})});
-  return std::binary_search(found.visible.begin(), found.visible.end(), 0u) ? Weak_status::visible : std::binary_search(found.hidden.begin(), found.hidden.end(), 0u) ? Weak_status::hidden : Weak_status::undecided;
+  const Weak_faces found = visible_by_doubles(
+      occluders, {weak_source(occluders, std::vector<Exact_point>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})});
+  return std::binary_search(found.visible.begin(), found.visible.end(), 0u) ? Weak_status::visible
+         : std::binary_search(found.hidden.begin(), found.hidden.end(), 0u) ? Weak_status::hidden
+                                                                            : Weak_status::undecided;
 }
 
 TEST(Doubles_search, is_right_where_there_is_room_and_believes_what_is_below_its_tolerance) {
   EXPECT_EQ(past_two_plates(0.01), Weak_status::visible);
   EXPECT_EQ(past_two_plates(0), Weak_status::hidden);
   EXPECT_EQ(past_two_plates(-0.01), Weak_status::hidden);
-  EXPECT_EQ(past_two_plates(1e-12), Weak_status::hidden);  // wrong: it is visible
+  EXPECT_EQ(past_two_plates(1e-12), Weak_status::hidden);        // wrong: it is visible
   EXPECT_EQ(past_two_plates(-0.01, 0.5), Weak_status::visible);  // one above the other: lines pass between them
 }
 
@@ -41,11 +46,13 @@ TEST(Doubles_search, sees_in_piles_of_random_squares_what_the_exact_search_sees)
     Polygon_soup soup;
     for (int k = 0; k < 30; ++k) {
       const double x = unit(dice), y = unit(dice), z = 1 + k * 0.25, tilt = unit(dice) / 30;
-      soup.add_face({soup.add_point(x - 0.8, y + 0.8, z), soup.add_point(x + 0.8, y + 0.8, z + tilt), soup.add_point(x + 0.8, y - 0.8, z + tilt), soup.add_point(x - 0.8, y - 0.8, z)});
+      soup.add_face({soup.add_point(x - 0.8, y + 0.8, z), soup.add_point(x + 0.8, y + 0.8, z + tilt),
+                     soup.add_point(x + 0.8, y - 0.8, z + tilt), soup.add_point(x - 0.8, y - 0.8, z)});
     }
     const Scene scene(soup);
     const Occluders occluders(scene);
-    const std::vector<Weak_source> sources{weak_source(occluders, std::vector<Exact_point>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})};
+    const std::vector<Weak_source> sources{
+        weak_source(occluders, std::vector<Exact_point>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}})};
     const Weak_faces doubles = visible_by_doubles(occluders, sources), exact = weakly_visible(occluders, sources);
     const Weak_errors errors = weak_errors(exact, doubles);
     EXPECT_EQ(errors.wrongly_visible + errors.wrongly_hidden, 0u) << round;
@@ -60,13 +67,15 @@ TEST(Doubles_search, counts_backs_only_where_both_sides_count_and_the_same_at_an
   Polygon_soup soup;
   for (const bool up : {true, false}) {
     const double z = up ? 1 : 2;
-    const Point_id a = soup.add_point(-1.0, -1.0, z), b = soup.add_point(1.0, -1.0, z), c = soup.add_point(1.0, 1.0, z), d = soup.add_point(-1.0, 1.0, z);
+    const Point_id a = soup.add_point(-1.0, -1.0, z), b = soup.add_point(1.0, -1.0, z), c = soup.add_point(1.0, 1.0, z),
+                   d = soup.add_point(-1.0, 1.0, z);
     if (up) soup.add_face({a, b, c, d});
     else soup.add_face({d, c, b, a});
   }
   const Scene scene(soup);
   const Occluders occluders(scene);
-  const std::vector<Weak_source> sources{weak_source(occluders, std::vector<Exact_point>{{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}})};
+  const std::vector<Weak_source> sources{
+      weak_source(occluders, std::vector<Exact_point>{{-3, -3, 0}, {3, -3, 0}, {3, 3, 0}, {-3, 3, 0}})};
   Doubles_search_options options;
   EXPECT_EQ(visible_by_doubles(occluders, sources, options).visible, (std::vector<Face_id>{1}));  // past the first
   options.two_sided = true;

@@ -10,7 +10,8 @@ using namespace sightline;
 
 void add_square(Polygon_soup& soup, double x, double y, double z, double r, bool up) {
   std::vector<Point_id> loop;
-  for (const auto& [dx, dy] : {std::pair(-r, -r), std::pair(r, -r), std::pair(r, r), std::pair(-r, r)}) loop.push_back(soup.add_point(x + dx, y + dy, z));
+  for (const auto& [dx, dy] : {std::pair(-r, -r), std::pair(r, -r), std::pair(r, r), std::pair(-r, r)})
+    loop.push_back(soup.add_point(x + dx, y + dy, z));
   if (!up) std::reverse(loop.begin(), loop.end());
   soup.add_face(loop);
 }
@@ -20,8 +21,8 @@ TEST(Ray_sampling, sees_what_is_large_and_misses_what_is_behind_a_narrow_slit) {
   Polygon_soup soup;
   add_square(soup, -50 - 0.5e-7, 0, 4, 50, false);  // two wide sheets with a slit of 10^-7 between them
   add_square(soup, 50 + 0.5e-7, 0, 4, 50, false);
-  add_square(soup, 0, 0, 8, 1, false);              // behind the slit
-  add_square(soup, 0, 0, -2, 1, true);              // behind the source
+  add_square(soup, 0, 0, 8, 1, false);  // behind the slit
+  add_square(soup, 0, 0, -2, 1, true);  // behind the source
   const Scene scene(soup);
   const Occluders occluders(scene);
   const std::vector<Weak_source> sources{weak_source(occluders, lamp)};
@@ -52,7 +53,8 @@ TEST(Ray_sampling, sees_nothing_that_is_proved_hidden_in_a_pile_of_squares) {
     const std::vector<Face_id> sampled = visible_by_sampling(occluders, sources, {2000, 7, false});
     const Weakly_visible proved = weakly_visible(occluders, sources);
     EXPECT_TRUE(proved.undecided.empty());
-    for (const Face_id face : sampled) EXPECT_TRUE(std::binary_search(proved.visible.begin(), proved.visible.end(), face)) << face;
+    for (const Face_id face : sampled)
+      EXPECT_TRUE(std::binary_search(proved.visible.begin(), proved.visible.end(), face)) << face;
     seen += sampled.size(), missed += proved.visible.size() - sampled.size();
   }
   EXPECT_GT(seen, 50u);

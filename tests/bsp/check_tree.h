@@ -18,8 +18,9 @@ struct Flat {
   int side(const Exact_point& p) const { return sgn(Rational(dot(n, p) + d)); }
 };
 
-/// Nodes are in preorder and own consecutive fragments; each fragment is a convex counterclockwise polygon with positive area on its node's plane and on the
-/// right closed side of every plane above; the fragments of each piece tile it; numbers and counters add up.
+/// Nodes are in preorder and own consecutive fragments; each fragment is a convex counterclockwise polygon with
+/// positive area on its node's plane and on the right closed side of every plane above; the fragments of each piece
+/// tile it; numbers and counters add up.
 inline void check_tree(const Built& built, std::size_t forced = 0) {
   const Tree& tree = built.tree;
   const std::vector<Piece>& pieces = built.scene.pieces();
@@ -53,7 +54,8 @@ inline void check_tree(const Built& built, std::size_t forced = 0) {
       const Piece& piece = pieces[fragment.polygon.piece];
       const Points corners = built.corners(fragment.polygon);
       for (const Exact_point& p : corners) ASSERT_EQ(plane.side(p), 0);
-      for (std::int32_t below = number; parent[static_cast<std::size_t>(below)] != Tree::leaf; below = parent[static_cast<std::size_t>(below)]) {
+      for (std::int32_t below = number; parent[static_cast<std::size_t>(below)] != Tree::leaf;
+           below = parent[static_cast<std::size_t>(below)]) {
         const Flat above(built, tree.nodes[static_cast<std::size_t>(parent[static_cast<std::size_t>(below)])].plane);
         const int right = in_front[static_cast<std::size_t>(below)] ? 1 : -1;
         bool inside = false;
@@ -68,7 +70,8 @@ inline void check_tree(const Built& built, std::size_t forced = 0) {
       const Flat support(built, piece.support);
       ASSERT_GE(corners.size(), 3u);
       for (std::size_t i = 0; i < corners.size(); ++i) {
-        const Exact_point &p = corners[i], &q = corners[(i + 1) % corners.size()], &r = corners[(i + 2) % corners.size()];
+        const Exact_point &p = corners[i], &q = corners[(i + 1) % corners.size()],
+                          &r = corners[(i + 2) % corners.size()];
         ASSERT_GT(dot(cross(minus(q, p), minus(r, q)), support.n), 0);
         const Flat edge(built, fragment.polygon.corners[i].edge.bound);
         ASSERT_EQ(edge.side(p), 0);

@@ -47,10 +47,15 @@ void expect_same_positions(const Built& built, const Bsp_options& options, const
     ASSERT_EQ(corners, built.corners(built.tree.fragments[i].polygon));
   }
   std::vector<std::size_t> order, truth;
-  traverse(traits, tree, traits.eye(eye), Direction::back_to_front, [&](const auto& fragment, Sign) { order.push_back(static_cast<std::size_t>(&fragment - tree.fragments.data())); });
-  for (const Drawn* fragment : built.order(eye)) truth.push_back(static_cast<std::size_t>(fragment - built.tree.fragments.data()));
-  // Node planes may be named in the other sense, which turns children of an eye in their plane; elsewhere the orders agree.
-  EXPECT_EQ(std::multiset<std::size_t>(order.begin(), order.end()), std::multiset<std::size_t>(truth.begin(), truth.end()));
+  traverse(traits, tree, traits.eye(eye), Direction::back_to_front, [&](const auto& fragment, Sign) {
+    order.push_back(static_cast<std::size_t>(&fragment - tree.fragments.data()));
+  });
+  for (const Drawn* fragment : built.order(eye))
+    truth.push_back(static_cast<std::size_t>(fragment - built.tree.fragments.data()));
+  // Node planes may be named in the other sense, which turns children of an eye in their plane; elsewhere the orders
+  // agree.
+  EXPECT_EQ(std::multiset<std::size_t>(order.begin(), order.end()),
+            std::multiset<std::size_t>(truth.begin(), truth.end()));
 }
 
 TEST(Kernels, exact_ones_give_the_same_counts_on_200_degenerate_scenes) {
@@ -67,7 +72,9 @@ TEST(Kernels, exact_ones_give_the_same_counts_on_200_degenerate_scenes) {
 }
 
 TEST(Kernels, exact_ones_give_the_same_counts_on_generated_scenes) {
-  for (const Polygon_soup& soup : {generate::lattice(3), generate::soup(150, 0.3, 2), generate::crossing(12), generate::city(8, 1, true), generate::rooms(1, 1, 1), generate::convex_sphere(200)}) {
+  for (const Polygon_soup& soup :
+       {generate::lattice(3), generate::soup(150, 0.3, 2), generate::crossing(12), generate::city(8, 1, true),
+        generate::rooms(1, 1, 1), generate::convex_sphere(200)}) {
     SCOPED_TRACE(soup.file);
     const Built built(soup);
     expect_as_exact<Epeck>(built, serial());
@@ -110,9 +117,12 @@ TEST(Kernels, float_and_double_end_on_degenerate_scenes) {
     expect_an_end<double>(soup, seed);
     if (testing::Test::HasFailure()) return;
   }
-  for (const Polygon_soup& soup : {generate::lattice(6), generate::crossing(60), generate::soup(400, 0.6, 1), generate::rooms(2, 2, 1), generate::convex_sphere(2000), generate::menger_sponge(1)})
-    for (const Polygon_soup& same : {soup, generate::rotated(soup, generate::rotation(3, 1, -2, 1)), generate::translated(soup, at(100000000, 100000000, 100000000)),
-                                     generate::one_ulp_perturbed(generate::translated(soup, at(ratio(1, 3), ratio(1, 3), ratio(1, 3))), 1)}) {
+  for (const Polygon_soup& soup : {generate::lattice(6), generate::crossing(60), generate::soup(400, 0.6, 1),
+                                   generate::rooms(2, 2, 1), generate::convex_sphere(2000), generate::menger_sponge(1)})
+    for (const Polygon_soup& same :
+         {soup, generate::rotated(soup, generate::rotation(3, 1, -2, 1)),
+          generate::translated(soup, at(100000000, 100000000, 100000000)),
+          generate::one_ulp_perturbed(generate::translated(soup, at(ratio(1, 3), ratio(1, 3), ratio(1, 3))), 1)}) {
       SCOPED_TRACE(soup.file);
       expect_an_end<float>(same, 1);
       expect_an_end<double>(same, 1);

@@ -41,7 +41,9 @@ TEST(Order, stacked_squares_come_from_below_for_an_eye_above_and_the_other_way_r
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     Bsp_options options = serial();
     options.seed = seed, options.candidates = 1 + static_cast<unsigned>(seed % 3);
-    const Built built(soup_of({rectangle(0, 1, 0, 1, 0), reversed(rectangle(0, 1, 0, 1, 1)), rectangle(0, 1, 0, 1, 2), rectangle(0, 1, 0, 1, 3)}), options);
+    const Built built(soup_of({rectangle(0, 1, 0, 1, 0), reversed(rectangle(0, 1, 0, 1, 1)), rectangle(0, 1, 0, 1, 2),
+                               rectangle(0, 1, 0, 1, 3)}),
+                      options);
     EXPECT_EQ(built.face_order(at(ratio(1, 2), ratio(1, 2), 9)), (Faces{0, 1, 2, 3}));
     EXPECT_EQ(built.face_order(at(ratio(1, 2), ratio(1, 2), -9)), (Faces{3, 2, 1, 0}));
     // Between 1 and 2 there are two sequences, each from the far end.
@@ -53,7 +55,8 @@ TEST(Order, stacked_squares_come_from_below_for_an_eye_above_and_the_other_way_r
 }
 
 TEST(Order, three_bars_in_a_cycle_are_cut_so_that_at_each_overlap_the_upper_bar_comes_later) {
-  // Bars along the sides of a triangle, each rising from height 0 at its first corner to 1 at its second: bar k is over bar k + 1 there.
+  // Bars along the sides of a triangle, each rising from height 0 at its first corner to 1 at its second: bar k is over
+  // bar k + 1 there.
   const std::array<Exact_point, 3> triangle{at(0, 0, 0), at(6, 0, 0), at(3, 6, 0)};
   std::vector<Points> bars;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -101,8 +104,10 @@ TEST(Order, three_mutually_overlapping_bars_of_generate_are_ordered) {
 }
 
 TEST(Order, of_two_crossing_quads_the_root_stands_between_the_halves_of_the_other) {
-  // Face 0 in the plane x = 0, face 1 in y = 0, crossing in the z axis. The eye is in front of neither edge-on: at (3, 5, 0).
-  const Polygon_soup soup = soup_of({{at(0, -2, -1), at(0, 2, -1), at(0, 2, 1), at(0, -2, 1)}, {at(-2, 0, -1), at(-2, 0, 1), at(2, 0, 1), at(2, 0, -1)}});
+  // Face 0 in the plane x = 0, face 1 in y = 0, crossing in the z axis. The eye is in front of neither edge-on: at (3,
+  // 5, 0).
+  const Polygon_soup soup = soup_of({{at(0, -2, -1), at(0, 2, -1), at(0, 2, 1), at(0, -2, 1)},
+                                     {at(-2, 0, -1), at(-2, 0, 1), at(2, 0, 1), at(2, 0, -1)}});
   const Exact_point eye = at(3, 5, 0);
   {
     const Built built(soup, rooted_at(soup, {0}));
@@ -129,7 +134,8 @@ TEST(Order, of_two_crossing_quads_the_root_stands_between_the_halves_of_the_othe
 
 TEST(Order, a_u_shaped_face_is_cut_where_a_quad_passes_through_its_notch) {
   // In the plane z = x; seen from above its left arm is below the quad, its right arm above it.
-  const Points u{at(-2, -2, -2), at(2, -2, 2), at(2, 2, 2), at(1, 2, 1), at(1, -1, 1), at(-1, -1, -1), at(-1, 2, -1), at(-2, 2, -2)};
+  const Points u{at(-2, -2, -2), at(2, -2, 2),   at(2, 2, 2),   at(1, 2, 1),
+                 at(1, -1, 1),   at(-1, -1, -1), at(-1, 2, -1), at(-2, 2, -2)};
   const Polygon_soup soup = soup_of({u, rectangle(-2, 2, 0, 1, 0)});
   const Exact_point eye = at(0, 0, 10);
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -143,17 +149,22 @@ TEST(Order, a_u_shaped_face_is_cut_where_a_quad_passes_through_its_notch) {
     std::size_t left = 0, right = 0;
     for (const Place& part : places(built, order, 0)) {
       // Parts of the arms that overlap the quad as seen: their points are all in |x| >= 1, and y goes over (0, 1).
-      const auto y = std::minmax_element(part.points.begin(), part.points.end(), [](const Exact_point& p, const Exact_point& q) { return p[1] < q[1]; });
+      const auto y = std::minmax_element(part.points.begin(), part.points.end(),
+                                         [](const Exact_point& p, const Exact_point& q) { return p[1] < q[1]; });
       if (!((*y.first)[1] <= 0 && (*y.second)[1] >= 1)) continue;
       if (std::all_of(part.points.begin(), part.points.end(), [](const Exact_point& p) { return p[0] <= -1; })) {
         ++left;
         for (const Place& quad : quads)
-          if (std::any_of(quad.points.begin(), quad.points.end(), [](const Exact_point& p) { return p[0] < -1; })) { EXPECT_LT(part.at, quad.at); }
+          if (std::any_of(quad.points.begin(), quad.points.end(), [](const Exact_point& p) { return p[0] < -1; })) {
+            EXPECT_LT(part.at, quad.at);
+          }
       }
       if (std::all_of(part.points.begin(), part.points.end(), [](const Exact_point& p) { return p[0] >= 1; })) {
         ++right;
         for (const Place& quad : quads)
-          if (std::any_of(quad.points.begin(), quad.points.end(), [](const Exact_point& p) { return p[0] > 1; })) { EXPECT_GT(part.at, quad.at); }
+          if (std::any_of(quad.points.begin(), quad.points.end(), [](const Exact_point& p) { return p[0] > 1; })) {
+            EXPECT_GT(part.at, quad.at);
+          }
       }
     }
     EXPECT_EQ(left, 1u);
@@ -173,7 +184,8 @@ TEST(Order, a_u_shaped_face_is_cut_where_a_quad_passes_through_its_notch) {
 }
 
 TEST(Order, coplanar_faces_that_overlap_share_a_node_in_the_order_of_the_scene_with_their_senses) {
-  const Polygon_soup soup = soup_of({rectangle(0, 2, 0, 2, 5), reversed(rectangle(1, 3, 1, 3, 5)), rectangle(-1, 4, 1, 2, 5), reversed(rectangle(0, 2, 0, 2, 5))});
+  const Polygon_soup soup = soup_of({rectangle(0, 2, 0, 2, 5), reversed(rectangle(1, 3, 1, 3, 5)),
+                                     rectangle(-1, 4, 1, 2, 5), reversed(rectangle(0, 2, 0, 2, 5))});
   const Built built(soup);
   ASSERT_EQ(built.tree.nodes.size(), 1u);
   ASSERT_EQ(built.tree.fragments.size(), 4u);
@@ -186,19 +198,26 @@ TEST(Order, coplanar_faces_that_overlap_share_a_node_in_the_order_of_the_scene_w
   Predicate_counts counts;
   const Sign above = built.traits.side(built.traits.eye(at(0, 0, 9)), built.tree.nodes[0].plane, counts);
   EXPECT_EQ(f[0].same_sense, above == CGAL::POSITIVE);
-  for (const Exact_point& eye : {at(1, 1, 9), at(1, 1, -9), at(1, 1, 5)}) EXPECT_EQ(built.face_order(eye), (Faces{0, 1, 2, 3}));
+  for (const Exact_point& eye : {at(1, 1, 9), at(1, 1, -9), at(1, 1, 5)})
+    EXPECT_EQ(built.face_order(eye), (Faces{0, 1, 2, 3}));
   EXPECT_TRUE(verified(built, at(1, 1, 9)));
-  EXPECT_EQ(traverse(built.traits, built.tree, built.traits.eye(at(1, 1, 9)), Direction::back_to_front, [](const Drawn&, Sign) {}).fragments, 4u);
+  EXPECT_EQ(traverse(built.traits, built.tree, built.traits.eye(at(1, 1, 9)), Direction::back_to_front,
+                     [](const Drawn&, Sign) {})
+                .fragments,
+            4u);
 }
 
 TEST(Order, a_face_seen_edge_on_is_visited_once_with_side_zero_and_hides_nothing) {
   // The eye is in the plane x = 0 of face 0; faces 1 and 2 are on its two sides.
-  const Polygon_soup soup = soup_of({{at(0, -1, -1), at(0, 1, -1), at(0, 1, 1), at(0, -1, 1)}, {at(1, 1, -1), at(3, 1, -1), at(3, 1, 1), at(1, 1, 1)}, {at(-3, 2, -1), at(-1, 2, -1), at(-1, 2, 1), at(-3, 2, 1)}});
+  const Polygon_soup soup = soup_of({{at(0, -1, -1), at(0, 1, -1), at(0, 1, 1), at(0, -1, 1)},
+                                     {at(1, 1, -1), at(3, 1, -1), at(3, 1, 1), at(1, 1, 1)},
+                                     {at(-3, 2, -1), at(-1, 2, -1), at(-1, 2, 1), at(-3, 2, 1)}});
   const Exact_point eye = at(0, -10, 0);
   const Built built(soup, rooted_at(soup, {0}));
   std::vector<std::pair<Face_id, Sign>> visited;
-  const Traversal_counters counters = traverse(built.traits, built.tree, built.traits.eye(eye), Direction::front_to_back,
-                                               [&](const Drawn& f, Sign side) { visited.emplace_back(built.traits.face(f.polygon.piece), side); });
+  const Traversal_counters counters =
+      traverse(built.traits, built.tree, built.traits.eye(eye), Direction::front_to_back,
+               [&](const Drawn& f, Sign side) { visited.emplace_back(built.traits.face(f.polygon.piece), side); });
   ASSERT_EQ(visited.size(), 3u);
   EXPECT_EQ(visited[1], (std::pair<Face_id, Sign>{0, CGAL::ZERO}));
   EXPECT_EQ(visited[0].first, 1u) << "the front child is the nearer one by convention";
@@ -220,20 +239,25 @@ TEST(Order, the_side_told_to_the_visitor_is_that_of_the_eye_to_the_nodes_plane) 
     EXPECT_EQ(static_cast<int>(side), f.same_sense ? front : -front);
     sides.push_back(side);
   });
-  for (const Sign s : {CGAL::NEGATIVE, CGAL::ZERO, CGAL::POSITIVE}) EXPECT_NE(std::count(sides.begin(), sides.end(), s), 0);
+  for (const Sign s : {CGAL::NEGATIVE, CGAL::ZERO, CGAL::POSITIVE})
+    EXPECT_NE(std::count(sides.begin(), sides.end(), s), 0);
 }
 
 TEST(Order, holds_for_an_eye_at_a_vertex_on_a_face_on_an_edge_and_inside_a_solid) {
   const Built built(generate::menger_sponge(1));
-  for (const Exact_point& eye : {at(0, 0, 0), at(1, 1, 1), at(1, 1, 0), at(ratio(1, 2), ratio(1, 2), 0), at(ratio(1, 2), 0, 0), at(ratio(1, 2), ratio(1, 2), ratio(1, 2)),
-                                 at(ratio(3, 2), ratio(3, 2), ratio(3, 2)), at(3, 3, 3), at(ratio(1, 3), ratio(4, 3), 1)})
+  for (const Exact_point& eye :
+       {at(0, 0, 0), at(1, 1, 1), at(1, 1, 0), at(ratio(1, 2), ratio(1, 2), 0), at(ratio(1, 2), 0, 0),
+        at(ratio(1, 2), ratio(1, 2), ratio(1, 2)), at(ratio(3, 2), ratio(3, 2), ratio(3, 2)), at(3, 3, 3),
+        at(ratio(1, 3), ratio(4, 3), 1)})
     EXPECT_TRUE(verified(built, eye));
 }
 
 TEST(Order, from_inside_a_box_each_wall_comes_before_what_stands_in_front_of_it) {
   // A room of six walls with a screen in it: the screen is nearer than the wall behind it.
   Polygon_soup soup = generate::grid(1);
-  const Face_id screen = add_face(soup, {at(ratio(1, 4), ratio(1, 2), ratio(1, 4)), at(ratio(3, 4), ratio(1, 2), ratio(1, 4)), at(ratio(3, 4), ratio(1, 2), ratio(3, 4)), at(ratio(1, 4), ratio(1, 2), ratio(3, 4))});
+  const Face_id screen =
+      add_face(soup, {at(ratio(1, 4), ratio(1, 2), ratio(1, 4)), at(ratio(3, 4), ratio(1, 2), ratio(1, 4)),
+                      at(ratio(3, 4), ratio(1, 2), ratio(3, 4)), at(ratio(1, 4), ratio(1, 2), ratio(3, 4))});
   const Built built(soup);
   const Exact_point eye = at(ratio(1, 2), ratio(1, 4), ratio(1, 2));
   const auto order = built.order(eye);
@@ -242,7 +266,9 @@ TEST(Order, from_inside_a_box_each_wall_comes_before_what_stands_in_front_of_it)
   ASSERT_EQ(mine.size(), 1u);
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Points corners = built.corners(order[i]->polygon);
-    if (std::all_of(corners.begin(), corners.end(), [](const Exact_point& p) { return p[1] == 1; })) { EXPECT_LT(i, mine[0].at); }
+    if (std::all_of(corners.begin(), corners.end(), [](const Exact_point& p) { return p[1] == 1; })) {
+      EXPECT_LT(i, mine[0].at);
+    }
   }
 }
 
@@ -253,7 +279,9 @@ TEST(Order, near_to_far_is_far_to_near_reversed_but_for_the_order_within_nodes) 
     const Exact_point eye = random_eye(built, random);
     const auto node_of = [&](const Drawn* fragment) {
       const auto place = static_cast<std::uint32_t>(fragment - built.tree.fragments.data());
-      const auto node = std::find_if(built.tree.nodes.begin(), built.tree.nodes.end(), [&](const Tree::Node& n) { return n.first <= place && place < n.first + n.count; });
+      const auto node = std::find_if(built.tree.nodes.begin(), built.tree.nodes.end(), [&](const Tree::Node& n) {
+        return n.first <= place && place < n.first + n.count;
+      });
       return node - built.tree.nodes.begin();
     };
     const auto nodes = [&](Direction direction) {
@@ -270,7 +298,9 @@ TEST(Order, near_to_far_is_far_to_near_reversed_but_for_the_order_within_nodes) 
     for (const Direction direction : {Direction::back_to_front, Direction::front_to_back}) {
       const auto order = built.order(eye, direction);
       for (std::size_t i = 1; i < order.size(); ++i)
-        if (node_of(order[i - 1]) == node_of(order[i])) { EXPECT_LT(order[i - 1]->polygon.piece, order[i]->polygon.piece); }
+        if (node_of(order[i - 1]) == node_of(order[i])) {
+          EXPECT_LT(order[i - 1]->polygon.piece, order[i]->polygon.piece);
+        }
     }
   }
 }

@@ -8,7 +8,8 @@ using namespace bsp_test;
 
 namespace {
 
-// ---- Brute force: rationals, no tree -----------------------------------------------------------------------------------------
+// ---- Brute force: rationals, no tree
+// -----------------------------------------------------------------------------------------
 
 /// Whether a convex polygon (counterclockwise around any normal) holds a point; closed.
 bool holds(const Points& polygon, const Exact_point& p) {
@@ -28,7 +29,8 @@ std::optional<Rational> first_in(const Points& polygon, const Exact_ray& ray) {
     return t >= 0 && holds(polygon, along(ray.origin, t, ray.direction)) ? std::optional(t) : std::nullopt;
   }
   if (height != 0) return std::nullopt;
-  // In the plane: it enters at the origin, at a corner, or across an edge. Try all of them, take the least that is held.
+  // In the plane: it enters at the origin, at a corner, or across an edge. Try all of them, take the least that is
+  // held.
   std::vector<Rational> candidates{0};
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Exact_point &a = polygon[i], e = minus(polygon[(i + 1) % polygon.size()], a);
@@ -48,7 +50,8 @@ struct Everything {
   std::vector<std::tuple<Face_id, std::uint32_t, Points>> fragments;
   explicit Everything(const Built& built) {
     for (const Piece& piece : built.scene.pieces()) pieces.emplace_back(piece.face, built.piece_corners(piece));
-    for (const Drawn& f : built.tree.fragments) fragments.emplace_back(built.traits.face(f.polygon.piece), f.number, built.corners(f.polygon));
+    for (const Drawn& f : built.tree.fragments)
+      fragments.emplace_back(built.traits.face(f.polygon.piece), f.number, built.corners(f.polygon));
   }
   std::vector<Face_id> faces_at(const Exact_point& p) const {
     std::set<Face_id> faces;
@@ -60,7 +63,8 @@ struct Everything {
   std::optional<Ray_hit> first_hit(const Exact_ray& ray) const {
     std::optional<Ray_hit> best;
     for (const auto& [face, polygon] : pieces)
-      if (const auto t = first_in(polygon, ray); t && (!best || *t < best->t || (*t == best->t && face < best->face))) best = Ray_hit{*t, face, 0};
+      if (const auto t = first_in(polygon, ray); t && (!best || *t < best->t || (*t == best->t && face < best->face)))
+        best = Ray_hit{*t, face, 0};
     if (!best) return best;
     const Exact_point p = along(ray.origin, best->t, ray.direction);
     best->number = ~0u;
@@ -71,7 +75,10 @@ struct Everything {
 };
 
 testing::AssertionResult same(const std::optional<Ray_hit>& a, const std::optional<Ray_hit>& b) {
-  const auto text = [](const std::optional<Ray_hit>& h) { return h ? "t " + to_string(h->t) + " face " + std::to_string(h->face) + " number " + std::to_string(h->number) : std::string("nothing"); };
+  const auto text = [](const std::optional<Ray_hit>& h) {
+    return h ? "t " + to_string(h->t) + " face " + std::to_string(h->face) + " number " + std::to_string(h->number)
+             : std::string("nothing");
+  };
   if (text(a) == text(b)) return testing::AssertionSuccess();
   return testing::AssertionFailure() << text(a) << " instead of " << text(b);
 }
@@ -101,12 +108,13 @@ void expect_leaf(const Built& built, const Exact_point& p, const Bsp_leaf& leaf)
 Exact_ray random_ray(const Built& built, Random& random) {
   Exact_ray ray{random_eye(built, random), {}};
   const auto& pieces = built.scene.pieces();
-  const Points c = pieces.empty() ? Points{at(0, 0, 0), at(1, 0, 0), at(0, 1, 0)} : built.piece_corners(pieces[random.below(pieces.size())]);
+  const Points c = pieces.empty() ? Points{at(0, 0, 0), at(1, 0, 0), at(0, 1, 0)}
+                                  : built.piece_corners(pieces[random.below(pieces.size())]);
   switch (random.below(6)) {
-    case 0: ray.direction = minus(c[0], ray.origin); break;                     // to a vertex
-    case 1: ray.direction = minus(centroid({c[0], c[1]}), ray.origin); break;   // to an edge
-    case 2: ray.direction = minus(c[1], c[0]); break;                           // along an edge's direction
-    case 3:                                                                     // in a face's plane, from its own points
+    case 0: ray.direction = minus(c[0], ray.origin); break;                    // to a vertex
+    case 1: ray.direction = minus(centroid({c[0], c[1]}), ray.origin); break;  // to an edge
+    case 2: ray.direction = minus(c[1], c[0]); break;                          // along an edge's direction
+    case 3:                                                                    // in a face's plane, from its own points
       ray.origin = along(c[0], ratio(random.between(-3, 3), 2), minus(c[2], c[0]));
       ray.direction = minus(c[random.below(c.size())], c[random.below(c.size())]);
       break;
@@ -147,7 +155,9 @@ TEST(Query, agrees_with_every_face_by_itself_on_1000_degenerate_scenes) {
 }
 
 TEST(Query, agrees_with_every_face_by_itself_on_generated_scenes) {
-  for (const Polygon_soup& soup : {generate::lattice(2), generate::rooms(1, 1, 2), generate::crossing(9), generate::city(6, 2, true), generate::soup(60, 0.4, 2), generate::menger_sponge(1, true)}) {
+  for (const Polygon_soup& soup :
+       {generate::lattice(2), generate::rooms(1, 1, 2), generate::crossing(9), generate::city(6, 2, true),
+        generate::soup(60, 0.4, 2), generate::menger_sponge(1, true)}) {
     SCOPED_TRACE(soup.file);
     Random random(7);
     const Built built(soup);
@@ -180,7 +190,8 @@ TEST(Query, a_ray_needs_a_direction) {
 
 TEST(Query, rays_by_hand) {
   // Two unit squares side by side at z = 0 (faces 0, 1), one on edge above their common edge (2).
-  const Built built(soup_of({rectangle(0, 1, 0, 1, 0), rectangle(1, 2, 0, 1, 0), {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}}));
+  const Built built(soup_of(
+      {rectangle(0, 1, 0, 1, 0), rectangle(1, 2, 0, 1, 0), {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}}));
   const auto hit = [&](const Exact_point& from, const Exact_point& d) {
     const auto found = first_hit(built.traits, built.tree, {from, d});
     return found ? to_string(found->t) + ":" + std::to_string(found->face) : std::string("-");
@@ -203,10 +214,15 @@ TEST(Query, rays_by_hand) {
 }
 
 TEST(Query, points_by_hand) {
-  const Built built(soup_of({rectangle(0, 1, 0, 1, 0), rectangle(1, 2, 0, 1, 0), {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)}, reversed(rectangle(0, 2, 0, 1, 0))}));
+  const Built built(soup_of({rectangle(0, 1, 0, 1, 0),
+                             rectangle(1, 2, 0, 1, 0),
+                             {at(1, 0, 0), at(1, 1, 0), at(1, 1, 1), at(1, 0, 1)},
+                             reversed(rectangle(0, 2, 0, 1, 0))}));
   Predicate_counts counts;
   using Ids = std::vector<Face_id>;
-  const auto faces = [&](const Rational& x, const Rational& y, const Rational& z) { return faces_at(built.traits, built.tree, at(x, y, z), counts); };
+  const auto faces = [&](const Rational& x, const Rational& y, const Rational& z) {
+    return faces_at(built.traits, built.tree, at(x, y, z), counts);
+  };
   EXPECT_EQ(faces(1, ratio(1, 2), 0), (Ids{0, 1, 2, 3}));
   EXPECT_EQ(faces(ratio(1, 2), ratio(1, 2), 0), (Ids{0, 3}));
   EXPECT_EQ(faces(2, 1, 0), (Ids{1, 3}));
@@ -215,7 +231,8 @@ TEST(Query, points_by_hand) {
   EXPECT_EQ(faces(3, 0, 0), Ids{});
 }
 
-// ---- Solids ----------------------------------------------------------------------------------------------------------------------
+// ---- Solids
+// ----------------------------------------------------------------------------------------------------------------------
 
 /// The boundary of a box, fronts outwards, or inwards.
 std::vector<Points> box(long low, long high, bool inwards = false) {
@@ -223,7 +240,8 @@ std::vector<Points> box(long low, long high, bool inwards = false) {
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const long end : {low, high}) {
       Points face;
-      for (const auto& [a, b] : {std::pair(low, low), std::pair(high, low), std::pair(high, high), std::pair(low, high)}) {
+      for (const auto& [a, b] :
+           {std::pair(low, low), std::pair(high, low), std::pair(high, high), std::pair(low, high)}) {
         Exact_point p;
         p[axis] = end, p[(axis + 1) % 3] = a, p[(axis + 2) % 3] = b;
         face.push_back(p);
@@ -261,7 +279,8 @@ Location in_box(const Exact_point& p, long low, long high) {
 }
 
 TEST(Query, a_cube_has_an_inside_whichever_way_its_faces_look) {
-  for (const bool inwards : {false, true}) expect_locations(Built(soup_of(box(0, 2, inwards))), 2, 1, [](const Exact_point& p) { return in_box(p, 0, 2); });
+  for (const bool inwards : {false, true})
+    expect_locations(Built(soup_of(box(0, 2, inwards))), 2, 1, [](const Exact_point& p) { return in_box(p, 0, 2); });
 }
 
 TEST(Query, of_two_nested_cubes_the_inner_one_is_a_hole_if_it_is_turned_inside_out) {
@@ -270,7 +289,9 @@ TEST(Query, of_two_nested_cubes_the_inner_one_is_a_hole_if_it_is_turned_inside_o
     return inner == Location::inside ? Location::outside : inner == Location::on ? Location::on : outer;
   });
   // And solid if it is not: its winding number is then two.
-  expect_locations(Built(soup_of(both(box(0, 4), box(1, 3)))), 4, 2, [](const Exact_point& p) { return in_box(p, 1, 3) == Location::on ? Location::on : in_box(p, 0, 4); });
+  expect_locations(Built(soup_of(both(box(0, 4), box(1, 3)))), 4, 2, [](const Exact_point& p) {
+    return in_box(p, 1, 3) == Location::on ? Location::on : in_box(p, 0, 4);
+  });
 }
 
 TEST(Query, two_cubes_that_interpenetrate_are_one_solid) {
@@ -325,7 +346,7 @@ TEST(Query, a_point_is_in_a_convex_body_iff_it_is_behind_all_its_faces) {
     for (const Piece& piece : built.scene.pieces()) {
       const Points corners = built.piece_corners(piece);
       const Rational side = dot(normal_of(corners), minus(p, corners[0]));
-      inside &= side < 0, outside |= side > 0;
+      inside &= side<0, outside |= side> 0;
     }
     Predicate_counts counts;
     const Location found = locate_point(built.traits, built.tree, p, true, counts).location;
@@ -345,7 +366,9 @@ TEST(Query, inside_and_outside_alternate_along_a_ray_through_a_house) {
   for (int k = 0; k < 5; ++k) {
     // From outside through the whole: between consecutive faces that it meets, the number met so far says where it is.
     Exact_ray ray{along(low, -1, at(1, 2, 3)), {}};
-    for (std::size_t i = 0; i < 3; ++i) ray.direction[i] = (high[i] - low[i]) * ratio(random.between(100, 900), 1009) + ratio(1, 7919) + static_cast<long>(i + 1);
+    for (std::size_t i = 0; i < 3; ++i)
+      ray.direction[i] =
+          (high[i] - low[i]) * ratio(random.between(100, 900), 1009) + ratio(1, 7919) + static_cast<long>(i + 1);
     std::vector<Rational> met{0};
     for (const auto& [face, polygon] : everything.pieces)
       if (const auto t = first_in(polygon, ray)) met.push_back(*t);
@@ -354,7 +377,8 @@ TEST(Query, inside_and_outside_alternate_along_a_ray_through_a_house) {
     ASSERT_EQ(met.size() % 2, 1u);
     for (std::size_t i = 0; i < met.size(); ++i) {
       const Rational t = i + 1 < met.size() ? Rational((met[i] + met[i + 1]) / 2) : Rational(met[i] + 1);
-      EXPECT_EQ(locate_point(built.traits, built.tree, along(ray.origin, t, ray.direction), true, counts).location, i % 2 == 1 ? Location::inside : Location::outside);
+      EXPECT_EQ(locate_point(built.traits, built.tree, along(ray.origin, t, ray.direction), true, counts).location,
+                i % 2 == 1 ? Location::inside : Location::outside);
     }
   }
 }
@@ -362,7 +386,8 @@ TEST(Query, inside_and_outside_alternate_along_a_ray_through_a_house) {
 TEST(Query, a_point_whose_first_rays_meet_edges_is_located_all_the_same) {
   // A tetrahedron about the origin with an edge e f whose middle the first ray meets.
   const Exact_point d = at(1000003, 7919, 104729 + 1), half = at(3000000, 500, -7000000);
-  const Exact_point e = along(d, 1, half), f = along(d, -1, half), g = at(-5000000, 9000000, 100000), h = at(-5000000, -9000000, -100000);
+  const Exact_point e = along(d, 1, half), f = along(d, -1, half), g = at(-5000000, 9000000, 100000),
+                    h = at(-5000000, -9000000, -100000);
   std::vector<Points> faces{{e, f, g}, {f, e, h}, {e, g, h}, {f, h, g}};
   const Exact_point n = cross(minus(f, e), minus(g, e));
   if (dot(n, minus(h, e)) > 0)
@@ -372,7 +397,9 @@ TEST(Query, a_point_whose_first_rays_meet_edges_is_located_all_the_same) {
   ASSERT_FALSE(bsp_detail::winding_along(built.traits, built.tree, {at(0, 0, 0), d})) << "the ray meets an edge";
   Predicate_counts counts;
   EXPECT_EQ(locate_point(built.traits, built.tree, at(0, 0, 0), true, counts).location, Location::inside);
-  EXPECT_EQ(bsp_detail::winding_along(built.traits, built.tree, {at(0, 0, 0), at(1000003, 2 * 7919, 104729 + 4)}), std::optional<int>(1)) << "fronts outwards: winding number one";
+  EXPECT_EQ(bsp_detail::winding_along(built.traits, built.tree, {at(0, 0, 0), at(1000003, 2 * 7919, 104729 + 4)}),
+            std::optional<int>(1))
+      << "fronts outwards: winding number one";
 }
 
 TEST(Query, a_scene_that_is_not_closed_has_no_inside) {
@@ -407,7 +434,9 @@ TEST(Query, a_scene_that_is_not_closed_has_no_inside) {
 TEST(Query, t_junctions_and_lines_are_no_gaps) {
   // One wall in three parts that meet in T-junctions.
   std::vector<Points> faces = box(0, 2);
-  const auto top = std::find_if(faces.begin(), faces.end(), [](const Points& f) { return std::all_of(f.begin(), f.end(), [](const Exact_point& p) { return p[2] == 2; }); });
+  const auto top = std::find_if(faces.begin(), faces.end(), [](const Points& f) {
+    return std::all_of(f.begin(), f.end(), [](const Exact_point& p) { return p[2] == 2; });
+  });
   ASSERT_NE(top, faces.end());
   *top = rectangle(0, 1, 0, 2, 2);
   faces.push_back(rectangle(1, 2, 0, ratio(1, 3), 2));

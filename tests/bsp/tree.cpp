@@ -1,4 +1,5 @@
-// What the builder makes: a tree that holds every piece, the same on any number of threads, of a depth that can be used.
+// What the builder makes: a tree that holds every piece, the same on any number of threads, of a depth that can be
+// used.
 
 #include "check_tree.h"
 
@@ -16,12 +17,15 @@ void expect_same(const Built& a, const Built& b) {
   ASSERT_EQ(a.tree.nodes.size(), b.tree.nodes.size());
   for (std::size_t i = 0; i < a.tree.nodes.size(); ++i) {
     const Tree::Node &m = a.tree.nodes[i], &n = b.tree.nodes[i];
-    ASSERT_TRUE(m.plane == n.plane && m.front == n.front && m.behind == n.behind && m.first == n.first && m.count == n.count) << "node " << i;
+    ASSERT_TRUE(m.plane == n.plane && m.front == n.front && m.behind == n.behind && m.first == n.first &&
+                m.count == n.count)
+        << "node " << i;
   }
   ASSERT_EQ(a.tree.fragments.size(), b.tree.fragments.size());
   for (std::size_t i = 0; i < a.tree.fragments.size(); ++i) {
     const Drawn &f = a.tree.fragments[i], &g = b.tree.fragments[i];
-    ASSERT_TRUE(f.polygon.piece == g.polygon.piece && f.same_sense == g.same_sense && f.number == g.number) << "fragment " << i;
+    ASSERT_TRUE(f.polygon.piece == g.polygon.piece && f.same_sense == g.same_sense && f.number == g.number)
+        << "fragment " << i;
     ASSERT_EQ(a.corners(f.polygon), b.corners(g.polygon)) << "fragment " << i;
   }
   const Bsp_counters &c = a.tree.counters, &d = b.tree.counters;
@@ -46,8 +50,12 @@ TEST(Tree, is_sound_for_500_small_degenerate_scenes) {
 }
 
 TEST(Tree, is_sound_for_generated_scenes) {
-  const std::map<std::string_view, std::size_t> sizes{{"bars", 60}, {"city", 20}, {"city_rotated", 10}, {"convex_sphere", 300}, {"crossing", 30}, {"grid", 3}, {"lattice", 3}, {"menger_sponge", 1},
-                                                      {"menger_sponge_merged", 1}, {"rooms", 1}, {"soup", 200}, {"soup_constant_density", 200}, {"stacked", 60}, {"terrain", 200}};
+  const std::map<std::string_view, std::size_t> sizes{
+      {"bars", 60},           {"city", 20},         {"city_rotated", 10},
+      {"convex_sphere", 300}, {"crossing", 30},     {"grid", 3},
+      {"lattice", 3},         {"menger_sponge", 1}, {"menger_sponge_merged", 1},
+      {"rooms", 1},           {"soup", 200},        {"soup_constant_density", 200},
+      {"stacked", 60},        {"terrain", 200}};
   std::size_t free_planes = 0;
   for (const auto& [kind, size] : sizes) {
     SCOPED_TRACE(kind);
@@ -68,7 +76,8 @@ RC_GTEST_PROP(Tree, holds_every_piece_on_the_plane_of_a_node, ()) {
 
 TEST(Tree, is_the_same_for_any_number_of_threads_and_every_time) {
   // Large cells become tasks of their own from 1024 polygons on.
-  for (const Polygon_soup& soup : {generate::soup(3000, 0.05, 4), generate::convex_sphere(3000, 2), generate::rooms(3, 3, 1)}) {
+  for (const Polygon_soup& soup :
+       {generate::soup(3000, 0.05, 4), generate::convex_sphere(3000, 2), generate::rooms(3, 3, 1)}) {
     const Built one(soup);
     for (const int threads : {2, 4, 0, 2}) {
       Bsp_options options;
@@ -93,8 +102,10 @@ TEST(Tree, of_a_convex_body_is_not_a_chain) {
   Bsp_options options;
   options.threads = 2;
   const Built built(generate::convex_sphere(100000), options);
-  std::cout << "100,000 faces of a convex body: " << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() << " s, depth " << built.tree.counters.depth << ", "
-            << built.tree.counters.fragments << " fragments, " << built.tree.counters.free_planes << " free planes\n";
+  std::cout << "100,000 faces of a convex body: "
+            << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() << " s, depth "
+            << built.tree.counters.depth << ", " << built.tree.counters.fragments << " fragments, "
+            << built.tree.counters.free_planes << " free planes\n";
   EXPECT_LT(built.tree.counters.depth, 200u);
   EXPECT_GT(built.tree.counters.free_planes, 0u);
   EXPECT_LT(built.tree.counters.fragments, 300000u);
@@ -155,7 +166,8 @@ TEST(Tree, a_near_plane_leaves_everything_behind_it_in_the_back_subtree) {
   ASSERT_EQ(tree.nodes[0].plane, near);
   ASSERT_NE(tree.nodes[0].front, Tree::leaf);
   ASSERT_NE(tree.nodes[0].behind, Tree::leaf);
-  const std::uint32_t front_begin = tree.nodes[static_cast<std::size_t>(tree.nodes[0].front)].first, behind_begin = tree.nodes[static_cast<std::size_t>(tree.nodes[0].behind)].first;
+  const std::uint32_t front_begin = tree.nodes[static_cast<std::size_t>(tree.nodes[0].front)].first,
+                      behind_begin = tree.nodes[static_cast<std::size_t>(tree.nodes[0].behind)].first;
   ASSERT_LT(front_begin, behind_begin);
   for (std::uint32_t i = tree.nodes[0].count; i < tree.fragments.size(); ++i)
     for (const auto& corner : tree.fragments[i].polygon) {
@@ -185,7 +197,8 @@ TEST(Tree, of_fifty_thousand_levels_needs_no_call_stack) {
 }
 
 TEST(Tree, of_a_long_chain_of_faces_without_free_planes_needs_no_call_stack) {
-  // All candidates of stacked squares in one order: the lowest first. Each is tested against those left, so fewer of them.
+  // All candidates of stacked squares in one order: the lowest first. Each is tested against those left, so fewer of
+  // them.
   constexpr std::size_t levels = 3000;
   const Polygon_soup soup = generate::stacked(levels);
   Bsp_options options = serial();
@@ -198,7 +211,8 @@ TEST(Tree, of_a_long_chain_of_faces_without_free_planes_needs_no_call_stack) {
 }
 
 TEST(Tree, progress_counts_every_fragment_once) {
-  for (const Polygon_soup& soup : {generate::soup(3000, 0.1, 1), generate::rooms(3, 3, 1)})  // the latter with many on one node
+  for (const Polygon_soup& soup :
+       {generate::soup(3000, 0.1, 1), generate::rooms(3, 3, 1)})  // the latter with many on one node
     for (const int threads : {1, 2}) {
       Bsp_options options;
       options.threads = threads;
@@ -211,20 +225,23 @@ TEST(Tree, progress_counts_every_fragment_once) {
       const Built built(soup, options);
       EXPECT_EQ(all, built.scene.pieces().size());
       EXPECT_EQ(most, built.tree.fragments.size());
-      EXPECT_EQ(calls, static_cast<std::size_t>(std::count_if(built.tree.nodes.begin(), built.tree.nodes.end(), [](const Tree::Node& n) { return n.count > 0; })));
+      EXPECT_EQ(calls, static_cast<std::size_t>(std::count_if(built.tree.nodes.begin(), built.tree.nodes.end(),
+                                                              [](const Tree::Node& n) { return n.count > 0; })));
     }
 }
 
 TEST(Tree, a_free_plane_that_leaves_everything_on_one_side_is_not_taken) {
-  // An oblique cone over a base in x = 0: no face's plane balances, most corners are on x = 0 with all in front of it, and across y or z lies nearly all.
-  // What cuts all faces makes x = 0 look cheaper than any of them; taken once, it would be taken for ever.
+  // An oblique cone over a base in x = 0: no face's plane balances, most corners are on x = 0 with all in front of it,
+  // and across y or z lies nearly all. What cuts all faces makes x = 0 look cheaper than any of them; taken once, it
+  // would be taken for ever.
   std::vector<Points> faces;
   const auto base = [](std::uint64_t k) {
     const auto p = generate::circle_point(k % 40, 40, 1000);
     return at(0, Rational(Integer(static_cast<long>(p[0]))), Rational(Integer(static_cast<long>(p[1]))));
   };
   for (std::uint64_t k = 0; k < 40; ++k) faces.push_back({base(k), base(k + 1), at(3, 100000, 100000)});
-  for (const long x : {1, 2}) faces.push_back({at(x, -200000, -200000), at(x, 200000, -200000), at(x, 200000, 200000), at(x, -200000, 200000)});
+  for (const long x : {1, 2})
+    faces.push_back({at(x, -200000, -200000), at(x, 200000, -200000), at(x, 200000, 200000), at(x, -200000, 200000)});
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     Bsp_options options = serial();
     options.seed = seed, options.candidates = 1;

@@ -10,7 +10,8 @@ namespace {
 
 Bsp_options random_options(Random& random) {
   Bsp_options options = serial();
-  options.seed = random.below(1000), options.candidates = static_cast<unsigned>(random.below(6)), options.split_weight = static_cast<unsigned>(random.below(8));
+  options.seed = random.below(1000), options.candidates = static_cast<unsigned>(random.below(6)),
+  options.split_weight = static_cast<unsigned>(random.below(8));
   options.sample = static_cast<unsigned>(random.below(50));
   return options;
 }
@@ -29,7 +30,9 @@ TEST(Verified, orders_of_2400_small_degenerate_scenes_or_600_where_sanitizers_ma
     for (int eyes = 0; eyes < 2; ++eyes) {
       const Exact_point eye = random_eye(built, random);
       ASSERT_TRUE(verified(built, eye)) << "seed " << seed;
-      on_planes += traverse(built.traits, built.tree, built.traits.eye(eye), Direction::back_to_front, [](const Drawn&, Sign) {}).on_planes;
+      on_planes +=
+          traverse(built.traits, built.tree, built.traits.eye(eye), Direction::back_to_front, [](const Drawn&, Sign) {
+          }).on_planes;
     }
     splits += built.tree.counters.splits, set_aside += built.scene.set_aside().size();
     concave += built.scene.concave().size(), non_planar += built.scene.non_planar().size();
@@ -55,8 +58,21 @@ RC_GTEST_PROP(Verified, orders_from_any_eye_and_any_options, ()) {
 }
 
 TEST(Verified, orders_of_generated_scenes) {
-  const std::map<std::string_view, std::size_t> sizes{{"bars", 9}, {"city", 6}, {"city_rotated", 6}, {"convex_sphere", 100}, {"crossing", 8}, {"grid", 2}, {"lattice", 2},
-                                                      {"menger_sponge", 1}, {"menger_sponge_merged", 1}, {"rooms", 1}, {"soup", 60}, {"soup_constant_density", 50}, {"stacked", 20}, {"terrain", 80}, {"triangles_between_squares", 30}};
+  const std::map<std::string_view, std::size_t> sizes{{"bars", 9},
+                                                      {"city", 6},
+                                                      {"city_rotated", 6},
+                                                      {"convex_sphere", 100},
+                                                      {"crossing", 8},
+                                                      {"grid", 2},
+                                                      {"lattice", 2},
+                                                      {"menger_sponge", 1},
+                                                      {"menger_sponge_merged", 1},
+                                                      {"rooms", 1},
+                                                      {"soup", 60},
+                                                      {"soup_constant_density", 50},
+                                                      {"stacked", 20},
+                                                      {"terrain", 80},
+                                                      {"triangles_between_squares", 30}};
   ASSERT_EQ(sizes.size(), generate::kinds().size()) << "a new kind of scene: give it a size here";
   for (const auto& [kind, size] : sizes) {
     Random random(size);
@@ -64,7 +80,8 @@ TEST(Verified, orders_of_generated_scenes) {
     const Built built(soup);
     for (int eyes = 0; eyes < 3; ++eyes) ASSERT_TRUE(verified(built, random_eye(built, random))) << kind;
     if (size > 60) continue;
-    const Built off(generate::one_ulp_perturbed(generate::translated(soup, at(ratio(1, 3), ratio(1, 3), ratio(1, 3))), 5));
+    const Built off(
+        generate::one_ulp_perturbed(generate::translated(soup, at(ratio(1, 3), ratio(1, 3), ratio(1, 3))), 5));
     ASSERT_TRUE(verified(off, random_eye(off, random))) << kind << ", one ulp off";
     const Built away(generate::translated(soup, at(100000000, 100000000, -100000000)));
     ASSERT_TRUE(verified(away, random_eye(away, random))) << kind << ", far from the origin";
@@ -101,7 +118,9 @@ TEST(Verified, not_the_order_of_another_eye) {
   const Built built(generate::stacked(3));
   EXPECT_TRUE(verify_order(built.soup, certificate_of(built, at(0, 0, 9), built.order(at(0, 0, 9)))).accepted);
   EXPECT_FALSE(verify_order(built.soup, certificate_of(built, at(0, 0, 9), built.order(at(0, 0, -9)))).accepted);
-  EXPECT_FALSE(verify_order(built.soup, certificate_of(built, at(0, 0, 9), built.order(at(0, 0, 9), Direction::front_to_back))).accepted);
+  EXPECT_FALSE(
+      verify_order(built.soup, certificate_of(built, at(0, 0, 9), built.order(at(0, 0, 9), Direction::front_to_back)))
+          .accepted);
 }
 
 }  // namespace

@@ -14,7 +14,9 @@ namespace {
 using Point = Flat_polygon::Point;
 using Corners = std::vector<Point>;
 
-Flat_polygon box(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1) { return Flat_polygon::hull({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}); }
+Flat_polygon box(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1) {
+  return Flat_polygon::hull({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
+}
 Rational area(const std::vector<Flat_polygon>& polygons) {
   Rational sum = 0;
   for (const Flat_polygon& polygon : polygons) sum += polygon.area();
@@ -29,7 +31,9 @@ Corners random_points(generate::Random& random) {
   Corners points(random.below(9));
   const std::int64_t reach = random.chance(1, 2) ? 3 : 40;
   for (Point& p : points)
-    for (Rational& x : p) x = ratio(static_cast<long>(random.between(-reach, reach)), static_cast<long>(random.chance(1, 3) ? random.between(1, 5) : 1));
+    for (Rational& x : p)
+      x = ratio(static_cast<long>(random.between(-reach, reach)),
+                static_cast<long>(random.chance(1, 3) ? random.between(1, 5) : 1));
   return points;
 }
 
@@ -120,7 +124,8 @@ RC_GTEST_PROP(Flat_polygon_area, is_the_sum_of_the_parts_on_both_sides_of_a_line
   generate::Random random(*rc::gen::arbitrary<std::uint64_t>());
   for (int k = 0; k < 30; ++k) {
     const Flat_polygon a = Flat_polygon::hull(random_points(random));
-    Flat_polygon::Line h{static_cast<long>(random.between(-3, 3)), static_cast<long>(random.between(-3, 3)), static_cast<long>(random.between(-9, 9))};
+    Flat_polygon::Line h{static_cast<long>(random.between(-3, 3)), static_cast<long>(random.between(-3, 3)),
+                         static_cast<long>(random.between(-9, 9))};
     if (h[0] == 0 && h[1] == 0) h[0] = 1;
     const Flat_polygon front = a.clipped(h), behind = a.clipped({Integer(-h[0]), Integer(-h[1]), Integer(-h[2])});
     RC_ASSERT(Rational(front.area() + behind.area()) == a.area());

@@ -44,12 +44,16 @@ void expect_none(const Order_errors& errors) {
 }
 
 TEST(Order_errors, of_exact_orders_are_zero) {
-  for (const Polygon_soup& soup : {generate::soup(30, 0.5, 1), generate::lattice(2), generate::crossing(7), generate::bars(5), generate::menger_sponge(1), generate::city(5, 3, true),
-                                   generate::translated(generate::soup(20, 0.5, 4), at(100000000, 1, -100000000)), generate::scaled(generate::bars(4), exact_decimal(1, -50))}) {
+  for (const Polygon_soup& soup : {generate::soup(30, 0.5, 1), generate::lattice(2), generate::crossing(7),
+                                   generate::bars(5), generate::menger_sponge(1), generate::city(5, 3, true),
+                                   generate::translated(generate::soup(20, 0.5, 4), at(100000000, 1, -100000000)),
+                                   generate::scaled(generate::bars(4), exact_decimal(1, -50))}) {
     SCOPED_TRACE(soup.file);
     const Scene scene(soup);
     const auto [low, high] = scene.box();
-    for (const Exact_point& eye : {low, at(high[0], low[1], 7), at(Rational((low[0] + high[0]) / 2), Rational((low[1] + high[1]) / 2), Rational((low[2] + 2 * high[2]) / 3))}) {
+    for (const Exact_point& eye : {low, at(high[0], low[1], 7),
+                                   at(Rational((low[0] + high[0]) / 2), Rational((low[1] + high[1]) / 2),
+                                      Rational((low[2] + 2 * high[2]) / 3))}) {
       const Order order = exact_order(scene, eye);
       const Order_errors errors = order_errors(scene, eye, order, 100000);
       expect_none(errors);
@@ -201,6 +205,8 @@ TEST(Order_errors, judge_the_pieces_of_a_concave_face_each_by_itself) {
   EXPECT_THROW(order_errors(scene, eye, order, 10), std::out_of_range);
 }
 
-TEST(Order_errors, of_an_empty_scene_are_zero) { expect_none(order_errors(Scene(Polygon_soup()), at(0, 0, 0), {}, 10)); }
+TEST(Order_errors, of_an_empty_scene_are_zero) {
+  expect_none(order_errors(Scene(Polygon_soup()), at(0, 0, 0), {}, 10));
+}
 
 }  // namespace

@@ -21,7 +21,8 @@ constexpr double side_of_cube = 1.0 / 6;
 const Exact_point origin{0, 0, 0};
 
 /// In front of an eye at the origin, in the image towards +y: x to the right, z up; front to the eye.
-Points rectangle(const Rational& x0, const Rational& x1, const Rational& z0, const Rational& z1, const Rational& y = 1) {
+Points rectangle(const Rational& x0, const Rational& x1, const Rational& z0, const Rational& z1,
+                 const Rational& y = 1) {
   return {at(x0 * y, y, z0 * y), at(x1 * y, y, z0 * y), at(x1 * y, y, z1 * y), at(x0 * y, y, z1 * y)};
 }
 Points reversed(Points points) {
@@ -29,7 +30,8 @@ Points reversed(Points points) {
   return points;
 }
 Scene scene_of(const std::vector<Points>& faces) { return Scene(test_scenes::soup_of(faces)); }
-/// The share of the sphere that a rectangle of the image covers, from the integral of the solid angle of [0, x] x [0, y].
+/// The share of the sphere that a rectangle of the image covers, from the integral of the solid angle of [0, x] x [0,
+/// y].
 double share(double x0, double x1, double y0, double y1) {
   const auto corner = [](double x, double y) { return std::atan2(x * y, std::sqrt(1 + x * x + y * y)); };
   return (corner(x1, y1) - corner(x0, y1) - corner(x1, y0) + corner(x0, y0)) / (4 * std::numbers::pi);
@@ -44,7 +46,13 @@ struct Case {
   Visible_surface<Exact_view> surface;
   Visible_reference reference;
 
-  Case(Scene s, const Exact_point& e) : scene(std::move(s)), eye(e), boxes(scene), view(scene, eye), surface(visible_surface(view, boxes, alone())), reference(view, surface) {}
+  Case(Scene s, const Exact_point& e)
+      : scene(std::move(s)),
+        eye(e),
+        boxes(scene),
+        view(scene, eye),
+        surface(visible_surface(view, boxes, alone())),
+        reference(view, surface) {}
   Case(const std::vector<Points>& faces) : Case(scene_of(faces), origin) {}
   Case(const Case&) = delete;
 
@@ -54,7 +62,9 @@ struct Case {
     return options;
   }
   Visible_errors of(const Visible_surface<Exact_view>& answer) { return reference.errors(view, answer); }
-  Visible_errors of_pixels(std::uint32_t size, int bits = 32, float near = 0, float far = 0) { return reference.errors(depth_buffer(scene, eye, {size, bits, near, far})); }
+  Visible_errors of_pixels(std::uint32_t size, int bits = 32, float near = 0, float far = 0) {
+    return reference.errors(depth_buffer(scene, eye, {size, bits, near, far}));
+  }
   template <class FT>
   Visible_errors of_numbers() {
     const Number_view<FT> numbers(scene, eye);
@@ -86,18 +96,21 @@ struct Named {
   Exact_point eye;
 };
 std::vector<Named> scenes() {
-  return {{generate::soup(40, 0.2, 1), at(ratio(1, 3), -2, ratio(1, 10))},
-          {generate::soup(40, 0.2, 2), at(ratio(1, 3), ratio(1, 3), ratio(1, 3))},
-          {generate::lattice(2), at(ratio(1, 7), ratio(-5, 2), 3)},
-          {generate::crossing(7), at(3, -5, 2)},
-          {generate::bars(5), at(1, -9, 4)},
-          {generate::menger_sponge(1), at(ratio(1, 2), -3, ratio(1, 2))},
-          {generate::city(6, 3, true), at(1, 1, 30)},
-          {generate::translated(generate::soup(20, 0.5, 4), at(100000000, 1, -100000000)), at(100000001, 2, -100000003)},
-          {generate::scaled(generate::bars(4), exact_decimal(1, -50)), at(exact_decimal(1, -50), exact_decimal(-9, -50), exact_decimal(4, -50))}};
+  return {
+      {generate::soup(40, 0.2, 1), at(ratio(1, 3), -2, ratio(1, 10))},
+      {generate::soup(40, 0.2, 2), at(ratio(1, 3), ratio(1, 3), ratio(1, 3))},
+      {generate::lattice(2), at(ratio(1, 7), ratio(-5, 2), 3)},
+      {generate::crossing(7), at(3, -5, 2)},
+      {generate::bars(5), at(1, -9, 4)},
+      {generate::menger_sponge(1), at(ratio(1, 2), -3, ratio(1, 2))},
+      {generate::city(6, 3, true), at(1, 1, 30)},
+      {generate::translated(generate::soup(20, 0.5, 4), at(100000000, 1, -100000000)), at(100000001, 2, -100000003)},
+      {generate::scaled(generate::bars(4), exact_decimal(1, -50)),
+       at(exact_decimal(1, -50), exact_decimal(-9, -50), exact_decimal(4, -50))}};
 }
 
-// ---- Parts of a partition --------------------------------------------------------------------------------------------------------
+// ---- Parts of a partition
+// --------------------------------------------------------------------------------------------------------
 
 TEST(Visible_errors, of_the_exact_answer_against_itself_are_zero) {
   for (Named& named : scenes()) {
@@ -136,7 +149,8 @@ TEST(Visible_errors, of_doubles_are_below_those_of_floats_in_general_position) {
 }
 
 TEST(Visible_errors, of_doubles_are_seen_where_walls_stand_on_a_floor) {
-  // The foot of a wall lies in the line where wall and floor cross: planes through the eye that are one, and that doubles meet anywhere.
+  // The foot of a wall lies in the line where wall and floor cross: planes through the eye that are one, and that
+  // doubles meet anywhere.
   Case c(Scene(generate::city(12, 3, true)), at(2, 3, 40));
   const Visible_errors d = c.of_numbers<double>();
   EXPECT_GT(d.wrong, 1e-7);
@@ -175,7 +189,12 @@ TEST(Visible_errors, a_part_given_twice_is_an_overlap) {
 
 TEST(Visible_errors, a_part_of_another_face_is_wrong_and_of_another_piece_of_its_face_is_not) {
   // An L, which is two pieces, and a square beside it.
-  const Points l{at(ratio(-1, 2), 1, 0), at(0, 1, 0), at(0, 1, ratio(1, 4)), at(ratio(-1, 4), 1, ratio(1, 4)), at(ratio(-1, 4), 1, ratio(1, 2)), at(ratio(-1, 2), 1, ratio(1, 2))};
+  const Points l{at(ratio(-1, 2), 1, 0),
+                 at(0, 1, 0),
+                 at(0, 1, ratio(1, 4)),
+                 at(ratio(-1, 4), 1, ratio(1, 4)),
+                 at(ratio(-1, 4), 1, ratio(1, 2)),
+                 at(ratio(-1, 2), 1, ratio(1, 2))};
   Case c({l, rectangle(ratio(1, 4), ratio(1, 2), 0, ratio(1, 2))});
   ASSERT_EQ(c.scene.pieces().size(), 3u);
   auto answer = c.surface;
@@ -205,7 +224,8 @@ TEST(Visible_errors, faces_that_the_answer_lists_and_the_eye_does_not_see_are_co
   EXPECT_EQ(e.wrong, 0);
 }
 
-// ---- Pixels ----------------------------------------------------------------------------------------------------------------------
+// ---- Pixels
+// ----------------------------------------------------------------------------------------------------------------------
 
 TEST(Pixel_errors, are_zero_where_a_face_covers_its_pixels) {
   Case c({rectangle(ratio(-1, 2), ratio(1, 2), ratio(-1, 4), 1, 3)});
@@ -214,7 +234,8 @@ TEST(Pixel_errors, are_zero_where_a_face_covers_its_pixels) {
 }
 
 TEST(Pixel_errors, are_what_a_pixel_shows_beyond_a_face_that_covers_half_of_it) {
-  for (const auto& [x0, x1] : {std::pair<Rational, Rational>(ratio(-1, 1), 0), {0, 1}}) {  // the centre goes with the left edge
+  for (const auto& [x0, x1] :
+       {std::pair<Rational, Rational>(ratio(-1, 1), 0), {0, 1}}) {  // the centre goes with the left edge
     Case c({rectangle(x0, x1, -1, 1)});
     const Visible_errors e = c.of_pixels(1);
     EXPECT_NEAR(e.wrong, side_of_cube / 2, rounding);
@@ -285,7 +306,8 @@ TEST(Pixel_errors, are_the_areas_of_rectangles_in_pixels) {
     for (std::uint32_t x = 0; x < 3; ++x) {
       // Pixel [u, u + 2/3] x [v, v + 2/3] and the rectangle.
       const double u = 2.0 * x / 3 - 1, v = 2.0 * y / 3 - 1;
-      const double l = std::max(u, -1.0 / 3), r = std::min(u + 2.0 / 3, 0.5), b = std::max(v, -0.2), t = std::min(v + 2.0 / 3, 2.0 / 3);
+      const double l = std::max(u, -1.0 / 3), r = std::min(u + 2.0 / 3, 0.5), b = std::max(v, -0.2),
+                   t = std::min(v + 2.0 / 3, 2.0 / 3);
       const double in = l < r && b < t ? share(l, r, b, t) : 0;
       wrong += buffer.piece(2, x, y) == 0 ? share(u, u + 2.0 / 3, v, v + 2.0 / 3) - in : in;
     }

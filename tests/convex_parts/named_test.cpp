@@ -30,7 +30,9 @@ Polygon shared(const Polygon& given) {
     Loop& indices = result.loops.emplace_back();
     for (const std::uint32_t p : loop) {
       std::uint32_t q = 0;
-      while (q < result.points.size() && !(result.points[q].x == given.points[p].x && result.points[q].y == given.points[p].y)) ++q;
+      while (q < result.points.size() &&
+             !(result.points[q].x == given.points[p].x && result.points[q].y == given.points[p].y))
+        ++q;
       if (q == result.points.size()) result.points.push_back(given.points[p]);
       indices.push_back(q);
     }
@@ -97,16 +99,18 @@ TEST(Convex_parts, a_straight_point_of_the_polygon_may_be_a_corner_of_a_piece) {
 }
 
 TEST(Convex_parts, letters) {
-  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 5}, {0, 5}}}), 2);                          // L
-  expect_simple(polygon({{{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}}), 3);          // U
-  expect_simple(polygon({{{0, 0}, {1, 0}, {1, 3}, {3, 3}, {3, 4}, {-2, 4}, {-2, 3}, {0, 3}}}), 3);        // T
+  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 5}, {0, 5}}}), 2);                    // L
+  expect_simple(polygon({{{0, 0}, {5, 0}, {5, 4}, {4, 4}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}}), 3);    // U
+  expect_simple(polygon({{{0, 0}, {1, 0}, {1, 3}, {3, 3}, {3, 4}, {-2, 4}, {-2, 3}, {0, 3}}}), 3);  // T
 }
 
 TEST(Convex_parts, comb) {
   Polygon p;
   Loop loop;
   const long teeth = 500;
-  const auto add = [&](long x, long y) { loop.push_back(static_cast<std::uint32_t>(p.points.size())), p.points.push_back({Integer(x), Integer(y)}); };
+  const auto add = [&](long x, long y) {
+    loop.push_back(static_cast<std::uint32_t>(p.points.size())), p.points.push_back({Integer(x), Integer(y)});
+  };
   add(0, -1), add(2 * teeth, -1);
   for (long i = teeth; i > 0; --i) add(2 * i, 10), add(2 * i - 1, 10), add(2 * i - 1, 0), add(2 * i - 2, 0);
   p.loops = {loop};
@@ -152,13 +156,13 @@ TEST(Convex_parts, a_bridge_without_a_hole_does_not_cut) {
 }
 
 TEST(Convex_parts, spikes) {
-  expect_simple(polygon({{{0, 0}, {4, 0}, {9, 0}, {4, 0}, {4, 4}, {0, 4}}}), 1);          // outwards, straight on
-  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {7, 7}, {4, 4}, {0, 4}}}), 1);          // outwards, askew
-  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {3, 2}, {4, 4}, {0, 4}}}), 3);          // inwards: its tip is a point inside
-  expect_simple(polygon({{{0, 0}, {4, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}}}), 1);          // back along the edge
-  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 4}}}), 1);          // a whole diagonal and back
-  expect_simple(polygon({{{0, 0}, {4, 0}, {-3, 0}, {4, 0}, {4, 4}, {0, 4}}}), 1);         // over the whole edge and beyond
-  expect_simple(polygon({{{0, 0}, {6, 0}, {3, 3}, {6, 0}, {6, 6}}}), 1);                   // up to an edge from within
+  expect_simple(polygon({{{0, 0}, {4, 0}, {9, 0}, {4, 0}, {4, 4}, {0, 4}}}), 1);   // outwards, straight on
+  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {7, 7}, {4, 4}, {0, 4}}}), 1);   // outwards, askew
+  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {3, 2}, {4, 4}, {0, 4}}}), 3);   // inwards: its tip is a point inside
+  expect_simple(polygon({{{0, 0}, {4, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}}}), 1);   // back along the edge
+  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 4}}}), 1);   // a whole diagonal and back
+  expect_simple(polygon({{{0, 0}, {4, 0}, {-3, 0}, {4, 0}, {4, 4}, {0, 4}}}), 1);  // over the whole edge and beyond
+  expect_simple(polygon({{{0, 0}, {6, 0}, {3, 3}, {6, 0}, {6, 6}}}), 1);           // up to an edge from within
 }
 
 TEST(Convex_parts, a_spike_that_crosses_an_edge_is_a_crossing) {
@@ -175,29 +179,31 @@ TEST(Convex_parts, holes) {
     expect_simple(polygon({square, h, second}), 9);
     expect_simple(polygon({square, second, h}), 9);
   }
-  expect_simple(polygon({square, {{0, 0}, {4, 2}, {2, 4}}}), 4);                                             // touches in a corner
-  expect_simple(polygon({square, {{0, 5}, {4, 2}, {4, 7}}}), 5);                                             // touches an edge
-  expect_simple(polygon({square, {{0, 0}, {10, 10}, {0, 10}}}), 1);                                          // shares two edges
-  expect_simple(polygon({square, {{0, 2}, {4, 2}, {4, 4}, {0, 4}}}), 3);                                     // shares part of an edge
-  expect_simple(polygon({square, hole, {{4, 4}, {6, 4}, {6, 6}, {4, 6}}}), 9);                               // holes touch in a corner
-  expect_simple(polygon({square, hole, {{4, 3}, {6, 3}, {6, 6}, {4, 6}}}), 9);                               // holes share part of an edge
-  expect_simple(polygon({square, {{1, 1}, {9, 9}, {5, 5}}}), 1);                                             // a slit
-  expect_simple(polygon({square, {{5, 5}}, {}}), 1);                                                         // a point, nothing
-  expect_simple(polygon({square, {{5, 5}, {5, 5}, {6, 5}}}), 4);                                             // an edge and back
+  expect_simple(polygon({square, {{0, 0}, {4, 2}, {2, 4}}}), 4);                // touches in a corner
+  expect_simple(polygon({square, {{0, 5}, {4, 2}, {4, 7}}}), 5);                // touches an edge
+  expect_simple(polygon({square, {{0, 0}, {10, 10}, {0, 10}}}), 1);             // shares two edges
+  expect_simple(polygon({square, {{0, 2}, {4, 2}, {4, 4}, {0, 4}}}), 3);        // shares part of an edge
+  expect_simple(polygon({square, hole, {{4, 4}, {6, 4}, {6, 6}, {4, 6}}}), 9);  // holes touch in a corner
+  expect_simple(polygon({square, hole, {{4, 3}, {6, 3}, {6, 6}, {4, 6}}}), 9);  // holes share part of an edge
+  expect_simple(polygon({square, {{1, 1}, {9, 9}, {5, 5}}}), 1);                // a slit
+  expect_simple(polygon({square, {{5, 5}}, {}}), 1);                            // a point, nothing
+  expect_simple(polygon({square, {{5, 5}, {5, 5}, {6, 5}}}), 4);                // an edge and back
   expect_contour(polygon({square, square}), Contour::zero_area);
   expect_contour(polygon({square, hole, hole}), Contour::self_intersecting);
-  expect_contour(polygon({square, {{1, 1}, {9, 1}, {9, 9}, {1, 9}}, hole}), Contour::self_intersecting);     // a hole in a hole
-  expect_contour(polygon({square, {{11, 1}, {12, 1}, {12, 2}}}), Contour::self_intersecting);                // outside
-  expect_contour(polygon({square, {{5, 5}, {15, 5}, {15, 6}}}), Contour::self_intersecting);                 // half outside
+  expect_contour(polygon({square, {{1, 1}, {9, 1}, {9, 9}, {1, 9}}, hole}),
+                 Contour::self_intersecting);                                                  // a hole in a hole
+  expect_contour(polygon({square, {{11, 1}, {12, 1}, {12, 2}}}), Contour::self_intersecting);  // outside
+  expect_contour(polygon({square, {{5, 5}, {15, 5}, {15, 6}}}), Contour::self_intersecting);   // half outside
 }
 
 TEST(Convex_parts, contours_that_are_not_simple) {
-  expect_contour(polygon({{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 4}, {0, 4}}}), Contour::self_intersecting);  // double-wound square
-  expect_contour(polygon({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}), Contour::self_intersecting);                                  // bow-tie
-  expect_contour(polygon({{{0, 0}, {9, 9}, {4, 0}, {0, 4}}}), Contour::self_intersecting);                                  // unequal bow-tie
-  expect_contour(polygon({{{0, 0}, {0, 4}, {4, 4}, {4, 0}}}), Contour::self_intersecting);                                  // clockwise
-  expect_contour(polygon({{{0, 0}, {0, 4}, {4, 4}}}), Contour::self_intersecting);                                          // clockwise triangle
-  expect_contour(polygon({{{0, 0}, {0, 4}, {4, 4}, {1, 3}}}), Contour::self_intersecting);                                  // clockwise, concave
+  expect_contour(polygon({{{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {4, 0}, {4, 4}, {0, 4}}}),
+                 Contour::self_intersecting);                                               // double-wound square
+  expect_contour(polygon({{{0, 0}, {4, 4}, {4, 0}, {0, 4}}}), Contour::self_intersecting);  // bow-tie
+  expect_contour(polygon({{{0, 0}, {9, 9}, {4, 0}, {0, 4}}}), Contour::self_intersecting);  // unequal bow-tie
+  expect_contour(polygon({{{0, 0}, {0, 4}, {4, 4}, {4, 0}}}), Contour::self_intersecting);  // clockwise
+  expect_contour(polygon({{{0, 0}, {0, 4}, {4, 4}}}), Contour::self_intersecting);          // clockwise triangle
+  expect_contour(polygon({{{0, 0}, {0, 4}, {4, 4}, {1, 3}}}), Contour::self_intersecting);  // clockwise, concave
   // Pentagram: every turn is to the left, but it goes round twice.
   expect_contour(polygon({{{0, 10}, {-6, -8}, {9, 3}, {-9, 3}, {6, -8}}}), Contour::self_intersecting);
   // A loop in a loop, both counterclockwise, no edges crossing.
@@ -205,8 +211,8 @@ TEST(Convex_parts, contours_that_are_not_simple) {
 }
 
 TEST(Convex_parts, figure_eight_through_a_vertex) {
-  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {8, 4}, {8, 8}, {4, 8}, {4, 4}, {0, 4}}}), 2);                           // lobes of one sense
-  expect_contour(polygon({{{0, 0}, {4, 4}, {8, 8}, {8, 0}, {4, 4}, {0, 8}}}), Contour::self_intersecting);                 // of both
+  expect_simple(polygon({{{0, 0}, {4, 0}, {4, 4}, {8, 4}, {8, 8}, {4, 8}, {4, 4}, {0, 4}}}), 2);  // lobes of one sense
+  expect_contour(polygon({{{0, 0}, {4, 4}, {8, 8}, {8, 0}, {4, 4}, {0, 8}}}), Contour::self_intersecting);  // of both
 }
 
 TEST(Convex_parts, zero_area) {
@@ -217,7 +223,7 @@ TEST(Convex_parts, zero_area) {
   expect_contour(polygon({{{1, 1}, {2, 3}}}), Contour::zero_area);
   expect_contour(polygon({{{1, 1}, {2, 3}, {3, 5}}}), Contour::zero_area);
   expect_contour(polygon({{{0, 0}, {9, 9}, {3, 3}, {7, 7}, {1, 1}}}), Contour::zero_area);
-  expect_contour(polygon({{{0, 0}, {4, 0}, {4, 4}, {4, 0}}}), Contour::zero_area);           // there and back
+  expect_contour(polygon({{{0, 0}, {4, 0}, {4, 4}, {4, 0}}}), Contour::zero_area);  // there and back
   expect_contour(polygon({{{0, 0}, {4, 0}, {4, 4}, {9, 9}, {4, 4}, {4, 0}}}), Contour::zero_area);
 }
 
@@ -229,12 +235,14 @@ TEST(Convex_parts, an_index_out_of_range_throws) {
 }
 
 TEST(Convex_parts, does_not_depend_on_size_or_place_of_the_coordinates) {
-  const Polygon small = polygon({{{0, 0}, {8, 0}, {8, 8}, {4, 3}, {0, 8}, {1, 4}, {1, 3}}, {{2, 1}, {4, 1}, {4, 2}, {3, 2}}});
+  const Polygon small =
+      polygon({{{0, 0}, {8, 0}, {8, 8}, {4, 3}, {0, 8}, {1, 4}, {1, 3}}, {{2, 1}, {4, 1}, {4, 2}, {3, 2}}});
   const auto expected = parts_of(small).pieces;
   const auto expected_triangles = triangles_of(small).pieces;
   for (const unsigned bits : {1u, 20u, 45u, 60u, 300u, 2000u, 5000u}) {
     Polygon large = small;
-    const Integer scale = (Integer(1) << bits) + 12345, x = (Integer(1) << (2 * bits)) + 7, y = -(Integer(1) << bits) - 99;
+    const Integer scale = (Integer(1) << bits) + 12345, x = (Integer(1) << (2 * bits)) + 7,
+                  y = -(Integer(1) << bits) - 99;
     for (Planar_point& p : large.points) p.x = p.x * scale + x, p.y = p.y * scale + y;
     EXPECT_EQ(parts_of(large).pieces, expected) << bits;
     EXPECT_EQ(triangles_of(large).pieces, expected_triangles) << bits;
@@ -247,7 +255,10 @@ TEST(Convex_parts, one_unit_beside_a_degeneracy) {
     // A quadrilateral whose fourth corner is one unit inside, on, or outside its diagonal.
     for (const int off : {-1, 0, 1}) {
       Polygon p;
-      p.points = {{Integer(0), Integer(0)}, {Integer(2 * s), Integer(0)}, {Integer(2 * s), Integer(2 * m)}, {s, Integer(m + off)}};
+      p.points = {{Integer(0), Integer(0)},
+                  {Integer(2 * s), Integer(0)},
+                  {Integer(2 * s), Integer(2 * m)},
+                  {s, Integer(m + off)}};
       p.loops = {{0, 1, 2, 3}};
       const Convex_parts parts = parts_of(p);
       EXPECT_TRUE(is_partition(p, parts, true, true)) << bits << " " << off;
@@ -257,7 +268,8 @@ TEST(Convex_parts, one_unit_beside_a_degeneracy) {
     // A hole's corner one unit before, on, or beyond the edge.
     for (const int off : {-1, 0, 1}) {
       Polygon p;
-      p.points = {{Integer(0), Integer(0)}, {Integer(2 * s), Integer(0)}, {Integer(2 * s), Integer(2 * m)}, {s, Integer(m + off)}, {Integer(s + s / 2), Integer(m / 4)}, {Integer(s + s / 2), Integer(m / 3)}};
+      p.points = {{Integer(0), Integer(0)}, {Integer(2 * s), Integer(0)},         {Integer(2 * s), Integer(2 * m)},
+                  {s, Integer(m + off)},    {Integer(s + s / 2), Integer(m / 4)}, {Integer(s + s / 2), Integer(m / 3)}};
       p.loops = {{0, 1, 2}, {3, 4, 5}};
       const Convex_parts parts = parts_of(p);
       EXPECT_EQ(parts.contour, off > 0 ? Contour::self_intersecting : Contour::simple) << bits;
@@ -270,7 +282,11 @@ TEST(Convex_parts, coordinates_of_very_unequal_size) {
   // One point at 2^4000, the others within 2: bounds of the small ones must not collapse to zero.
   Polygon p;
   const Integer far = Integer(1) << 4000;
-  p.points = {{Integer(0), Integer(0)}, {far, Integer(-1)}, {Integer(2), Integer(2)}, {Integer(1), Integer(1)}, {Integer(0), Integer(2)}};
+  p.points = {{Integer(0), Integer(0)},
+              {far, Integer(-1)},
+              {Integer(2), Integer(2)},
+              {Integer(1), Integer(1)},
+              {Integer(0), Integer(2)}};
   p.loops = {{0, 1, 2, 3, 4}};
   EXPECT_TRUE(is_partition(p, parts_of(p), true, true));
   EXPECT_TRUE(is_partition(p, triangles_of(p), true, true));
@@ -282,7 +298,8 @@ TEST(Convex_parts, ten_thousand_vertices_in_less_than_a_second_or_two) {
   const auto ring = [&](double least, double spread, double turns, bool back) {
     std::vector<std::pair<long, long>> loop;
     for (std::size_t i = 0; i < n / (back ? 2 : 1); ++i) {
-      const double t = static_cast<double>(i) / static_cast<double>(n / (back ? 2 : 1)), angle = 6.283185307179586 * turns * t;
+      const double t = static_cast<double>(i) / static_cast<double>(n / (back ? 2 : 1)),
+                   angle = 6.283185307179586 * turns * t;
       const double r = 1e9 * (least + (back ? 10 * t : 0) + spread * static_cast<double>(random() % 1000) / 1000);
       loop.emplace_back(std::lround(r * std::cos(angle)), std::lround(r * std::sin(angle)));
     }
@@ -305,8 +322,11 @@ TEST(Convex_parts, ten_thousand_vertices_in_less_than_a_second_or_two) {
   std::vector<std::pair<long, long>> slit{{0, 0}, {20000, 0}, {20000, 20000}, {0, 20000}, {0, 0}};
   for (long i = 1; i < 5000; ++i) slit.emplace_back(i, i);
   for (long i = 4999; i-- > 1;) slit.emplace_back(i, i);
-  const std::vector<std::pair<const char*, Polygon>> cases{
-      {"star-shaped", ring(1, 1, 1, false)}, {"spiral", ring(1, 0, 10, true)}, {"circle", ring(1, 0, 1, false)}, {"petals", shared(polygon({petals}))}, {"slit", polygon({slit})}};
+  const std::vector<std::pair<const char*, Polygon>> cases{{"star-shaped", ring(1, 1, 1, false)},
+                                                           {"spiral", ring(1, 0, 10, true)},
+                                                           {"circle", ring(1, 0, 1, false)},
+                                                           {"petals", shared(polygon({petals}))},
+                                                           {"slit", polygon({slit})}};
   for (const auto& [name, p] : cases) {
     const auto start = std::chrono::steady_clock::now();
     const Convex_parts parts = parts_of(p);

@@ -70,7 +70,8 @@ inline int winding(const Polygon& polygon, const Sample& s) {
   return number;
 }
 
-inline bool strictly_crosses(const Planar_point& a, const Planar_point& b, const Planar_point& c, const Planar_point& d) {
+inline bool strictly_crosses(const Planar_point& a, const Planar_point& b, const Planar_point& c,
+                             const Planar_point& d) {
   return sgn(cross(a, b, c)) * sgn(cross(a, b, d)) < 0 && sgn(cross(c, d, a)) * sgn(cross(c, d, b)) < 0;
 }
 
@@ -79,14 +80,16 @@ inline bool strictly_crosses(const Planar_point& a, const Planar_point& b, const
 inline Contour contour(const Polygon& polygon) {
   std::vector<std::pair<Planar_point, Planar_point>> edges;
   for (const Loop& loop : polygon.loops)
-    for (std::size_t i = 0; i < loop.size(); ++i) edges.emplace_back(polygon.points[loop[i]], polygon.points[loop[(i + 1) % loop.size()]]);
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      edges.emplace_back(polygon.points[loop[i]], polygon.points[loop[(i + 1) % loop.size()]]);
   for (std::size_t i = 0; i < edges.size(); ++i)
     for (std::size_t j = i + 1; j < edges.size(); ++j)
       if (strictly_crosses(edges[i].first, edges[i].second, edges[j].first, edges[j].second)) {
         bool at_a_point = false;  // of a loop
         for (const Loop& loop : polygon.loops)
           for (const std::uint32_t p : loop)
-            at_a_point = at_a_point || (cross(edges[i].first, edges[i].second, polygon.points[p]) == 0 && cross(edges[j].first, edges[j].second, polygon.points[p]) == 0);
+            at_a_point = at_a_point || (cross(edges[i].first, edges[i].second, polygon.points[p]) == 0 &&
+                                        cross(edges[j].first, edges[j].second, polygon.points[p]) == 0);
         if (!at_a_point) return Contour::self_intersecting;
       }
   bool area = false;
@@ -125,7 +128,8 @@ inline bool separates(const std::vector<Planar_point>& points, const Loop& a, co
 }
 
 /// What must hold of any partition of a simple contour; `exhaustive` adds the checks of quadratic cost.
-inline ::testing::AssertionResult is_partition(const Polygon& polygon, const Convex_parts& parts, bool strict_corners, bool exhaustive) {
+inline ::testing::AssertionResult is_partition(const Polygon& polygon, const Convex_parts& parts, bool strict_corners,
+                                               bool exhaustive) {
   const auto fail = [] { return ::testing::AssertionFailure(); };
   if (parts.contour != Contour::simple) return fail() << "not simple";
   std::set<std::uint32_t> used;
@@ -140,15 +144,18 @@ inline ::testing::AssertionResult is_partition(const Polygon& polygon, const Con
     sum += area;
     for (std::size_t i = 0; i < n; ++i) {
       if (!used.count(piece[i])) return fail() << "piece " << k << " uses a point of no loop";
-      const Planar_point &a = polygon.points[piece[i]], &b = polygon.points[piece[(i + 1) % n]], &c = polygon.points[piece[(i + 2) % n]];
+      const Planar_point &a = polygon.points[piece[i]], &b = polygon.points[piece[(i + 1) % n]],
+                         &c = polygon.points[piece[(i + 2) % n]];
       if (cross(a, b, c) <= 0 && strict_corners) return fail() << "piece " << k << " is not strictly convex";
       // Not wound twice: all triangles of the fan are counterclockwise.
-      if (i > 0 && i + 1 < n && cross(polygon.points[piece[0]], a, b) <= 0) return fail() << "piece " << k << " winds twice";
+      if (i > 0 && i + 1 < n && cross(polygon.points[piece[0]], a, b) <= 0)
+        return fail() << "piece " << k << " winds twice";
     }
     if (exhaustive)
       for (std::size_t i = 2; i < n; ++i) {
         Sample s;
-        for (const std::uint32_t p : {piece[0], piece[i - 1], piece[i]}) s.x += polygon.points[p].x, s.y += polygon.points[p].y;
+        for (const std::uint32_t p : {piece[0], piece[i - 1], piece[i]})
+          s.x += polygon.points[p].x, s.y += polygon.points[p].y;
         s.x /= 3, s.y /= 3;
         if (winding(polygon, s) != 1) return fail() << "piece " << k << " is not inside";
       }

@@ -15,7 +15,9 @@ namespace {
 
 /// Whole ranges from the first case on, not growing ones.
 template <class T>
-rc::Gen<T> full(rc::Gen<T> gen) { return rc::gen::resize(rc::kNominalSize, std::move(gen)); }
+rc::Gen<T> full(rc::Gen<T> gen) {
+  return rc::gen::resize(rc::kNominalSize, std::move(gen));
+}
 
 int half(const Planar_point& p) { return p.y > 0 || (p.y == 0 && p.x > 0) ? 0 : 1; }
 
@@ -30,7 +32,9 @@ Polygon star_shaped(std::vector<std::pair<long, long>> given) {
     return cross(origin, a, b) > 0;
   };
   std::stable_sort(p.points.begin(), p.points.end(), before);
-  p.points.erase(std::unique(p.points.begin(), p.points.end(), [&](const auto& a, const auto& b) { return !before(a, b) && !before(b, a); }), p.points.end());
+  p.points.erase(std::unique(p.points.begin(), p.points.end(),
+                             [&](const auto& a, const auto& b) { return !before(a, b) && !before(b, a); }),
+                 p.points.end());
   p.loops.emplace_back();
   for (std::uint32_t i = 0; i < p.points.size(); ++i) p.loops[0].push_back(i);
   for (std::size_t i = 0; i < p.points.size(); ++i)  // the origin strictly inside
@@ -47,7 +51,8 @@ void check_partition(const Polygon& p) {
   // No two pieces that share a whole side could be merged (a chain of sides in line is not looked at here).
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> side;
   for (std::size_t k = 0; k < pieces.pieces.size(); ++k)
-    for (std::size_t i = 0, n = pieces.pieces[k].size(); i < n; ++i) side[{pieces.pieces[k][i], pieces.pieces[k][(i + 1) % n]}] = k;
+    for (std::size_t i = 0, n = pieces.pieces[k].size(); i < n; ++i)
+      side[{pieces.pieces[k][i], pieces.pieces[k][(i + 1) % n]}] = k;
   for (const auto& [ends, k] : side) {
     const auto other = side.find({ends.second, ends.first});
     if (other == side.end()) continue;
@@ -57,8 +62,10 @@ void check_partition(const Polygon& p) {
       return loop[(at + loop.size() + step) % loop.size()];
     };
     const auto& q = p.points;
-    const bool left_at_first = cross(q[neighbour(k, ends.first, static_cast<std::size_t>(-1))], q[ends.first], q[neighbour(other->second, ends.first, 1)]) >= 0;
-    const bool left_at_second = cross(q[neighbour(other->second, ends.second, static_cast<std::size_t>(-1))], q[ends.second], q[neighbour(k, ends.second, 1)]) >= 0;
+    const bool left_at_first = cross(q[neighbour(k, ends.first, static_cast<std::size_t>(-1))], q[ends.first],
+                                     q[neighbour(other->second, ends.first, 1)]) >= 0;
+    const bool left_at_second = cross(q[neighbour(other->second, ends.second, static_cast<std::size_t>(-1))],
+                                      q[ends.second], q[neighbour(k, ends.second, 1)]) >= 0;
     RC_ASSERT(!(left_at_first && left_at_second));
   }
 }
@@ -68,12 +75,14 @@ void check_partition(const Polygon& p) {
 RC_GTEST_PROP(Convex_parts_property, star_shaped_polygons, ()) {
   const long size = *rc::gen::element(3L, 10L, 1000L, 1L << 31);
   const auto corner = full(rc::gen::pair(rc::gen::inRange(-size, size + 1), rc::gen::inRange(-size, size + 1)));
-  const Polygon p = star_shaped(*rc::gen::container<std::vector<std::pair<long, long>>>(static_cast<std::size_t>(*full(rc::gen::inRange(12, 60))), corner));
+  const Polygon p = star_shaped(*rc::gen::container<std::vector<std::pair<long, long>>>(
+      static_cast<std::size_t>(*full(rc::gen::inRange(12, 60))), corner));
   RC_PRE(!p.points.empty());
   check_partition(p);
 }
 
-// A union of lattice cells grown from one cell without holes or pinches, walked round: many straight and cocircular points.
+// A union of lattice cells grown from one cell without holes or pinches, walked round: many straight and cocircular
+// points.
 RC_GTEST_PROP(Convex_parts_property, orthogonal_polygons, (std::uint64_t seed)) {
   std::mt19937_64 random(seed);
   constexpr int n = 12;
@@ -84,7 +93,8 @@ RC_GTEST_PROP(Convex_parts_property, orthogonal_polygons, (std::uint64_t seed)) 
     const int i = 1 + static_cast<int>(random() % n), j = 1 + static_cast<int>(random() % n);
     if (cell[i][j]) continue;
     // Add the cell where its eight neighbours change between full and empty exactly twice and one side is full.
-    const bool ring[8] = {cell[i + 1][j], cell[i + 1][j + 1], cell[i][j + 1], cell[i - 1][j + 1], cell[i - 1][j], cell[i - 1][j - 1], cell[i][j - 1], cell[i + 1][j - 1]};
+    const bool ring[8] = {cell[i + 1][j], cell[i + 1][j + 1], cell[i][j + 1], cell[i - 1][j + 1],
+                          cell[i - 1][j], cell[i - 1][j - 1], cell[i][j - 1], cell[i + 1][j - 1]};
     int changes = 0;
     for (int d = 0; d < 8; ++d) changes += ring[d] != ring[(d + 1) % 8];
     if (changes == 2 && (ring[0] || ring[2] || ring[4] || ring[6])) cell[i][j] = true;
@@ -140,7 +150,9 @@ RC_GTEST_PROP(Convex_parts_property, arbitrary_loops_on_a_small_lattice, ()) {
   Polygon p = lattice(*full(rc::gen::inRange(2, 5)));
   const auto index = full(rc::gen::inRange<std::uint32_t>(0, static_cast<std::uint32_t>(p.points.size())));
   const int loops = *full(rc::gen::inRange(1, 4));
-  for (int k = 0; k < loops; ++k) p.loops.push_back(*rc::gen::container<Loop>(static_cast<std::size_t>(*full(rc::gen::inRange(0, k == 0 ? 10 : 5))), index));
+  for (int k = 0; k < loops; ++k)
+    p.loops.push_back(
+        *rc::gen::container<Loop>(static_cast<std::size_t>(*full(rc::gen::inRange(0, k == 0 ? 10 : 5))), index));
   RC_TAG(static_cast<int>(check_against_the_definition(p)));
 }
 
@@ -164,7 +176,9 @@ TEST(Convex_parts_property, walks_on_a_small_lattice) {
       }
       if (x + dx >= 0 && x + dx < side && y + dy >= 0 && y + dy < side) x += dx, y += dy;
     }
-    if (random() % 3 == 0) p.loops.push_back({static_cast<std::uint32_t>(random() % 9), static_cast<std::uint32_t>(random() % 9), static_cast<std::uint32_t>(random() % 9)});
+    if (random() % 3 == 0)
+      p.loops.push_back({static_cast<std::uint32_t>(random() % 9), static_cast<std::uint32_t>(random() % 9),
+                         static_cast<std::uint32_t>(random() % 9)});
     std::string shown;
     for (const Loop& loop : p.loops) {
       for (const std::uint32_t q : loop) shown += " " + std::to_string(q);
@@ -189,7 +203,8 @@ RC_GTEST_PROP(Convex_parts_property, the_start_of_a_loop_does_not_matter, (std::
   for (std::uint64_t k = random() % 4; k > 0; --k) p.loops[2].push_back(static_cast<std::uint32_t>(random() % 16));
   Polygon q = p;
   for (Loop& loop : q.loops)
-    if (!loop.empty()) std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random() % loop.size()), loop.end());
+    if (!loop.empty())
+      std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random() % loop.size()), loop.end());
   for (std::size_t k = 1; k < 3; ++k)
     if (random() % 2) std::reverse(q.loops[k].begin(), q.loops[k].end());
   if (random() % 2) std::swap(q.loops[1], q.loops[2]);

@@ -1,4 +1,5 @@
-// Sets of on-view faces against an elimination of variables, and trees of tests against all partial assignments; then both from eyes of every kind.
+// Sets of on-view faces against an elimination of variables, and trees of tests against all partial assignments; then
+// both from eyes of every kind.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +22,8 @@ Rational fraction(long p, unsigned long q) {
   return value;
 }
 
-// ---- Bodies ------------------------------------------------------------------------------------------------------------------------------
+// ---- Bodies
+// ------------------------------------------------------------------------------------------------------------------------------
 
 /// The planes n . x = d, fronts away from the origin if d > 0.
 Plane_list planes_of(const std::vector<std::array<long, 3>>& normals, const Rational& d = 1) {
@@ -30,10 +32,17 @@ Plane_list planes_of(const std::vector<std::array<long, 3>>& normals, const Rati
   return planes;
 }
 Plane_list box() { return planes_of({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}); }
-Plane_list tetrahedron(const Rational& d = 1) { return planes_of({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, d); }
+Plane_list tetrahedron(const Rational& d = 1) {
+  return planes_of({{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}, d);
+}
 Plane_list triangular_prism() { return planes_of({{2, 0, 0}, {-1, 2, 0}, {-1, -2, 0}, {0, 0, 1}, {0, 0, -1}}); }
-Plane_list hexagonal_prism() { return planes_of({{2, 0, 0}, {1, 2, 0}, {-1, 2, 0}, {-2, 0, 0}, {-1, -2, 0}, {1, -2, 0}, {0, 0, 1}, {0, 0, -1}}); }
-Plane_list octahedron() { return planes_of({{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}, {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}}); }
+Plane_list hexagonal_prism() {
+  return planes_of({{2, 0, 0}, {1, 2, 0}, {-1, 2, 0}, {-2, 0, 0}, {-1, -2, 0}, {1, -2, 0}, {0, 0, 1}, {0, 0, -1}});
+}
+Plane_list octahedron() {
+  return planes_of(
+      {{1, 1, 1}, {1, 1, -1}, {1, -1, 1}, {1, -1, -1}, {-1, 1, 1}, {-1, 1, -1}, {-1, -1, 1}, {-1, -1, -1}});
+}
 Plane_list dodecahedron() {
   std::vector<std::array<long, 3>> normals;
   for (std::size_t k = 0; k < 3; ++k)
@@ -48,9 +57,11 @@ Plane_list dodecahedron() {
 Plane_list random_body(std::size_t n, Random& random) {
   Plane_list planes;
   while (planes.size() < n) {
-    const Rational s = fraction(random.between(-60, 60), 20), t = fraction(random.between(-60, 60), 20), d = 1 + s * s + t * t;
+    const Rational s = fraction(random.between(-60, 60), 20), t = fraction(random.between(-60, 60), 20),
+                   d = 1 + s * s + t * t;
     const int side = random.chance(1, 2) ? 1 : -1;
-    planes.push_back({Rational(side * 2 * s / d), Rational(side * 2 * t / d), Rational(side * (1 - s * s - t * t) / d), -1});
+    planes.push_back(
+        {Rational(side * 2 * s / d), Rational(side * 2 * t / d), Rational(side * (1 - s * s - t * t) / d), -1});
   }
   return planes;
 }
@@ -81,7 +92,8 @@ Plane_list degenerate_planes(std::size_t n, Random& random) {
   return planes;
 }
 
-// ---- Eyes --------------------------------------------------------------------------------------------------------------------------------
+// ---- Eyes
+// --------------------------------------------------------------------------------------------------------------------------------
 
 Rational value_at(const Plane4& h, const Exact_point& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]; }
 std::uint32_t signs_from(const Plane_list& planes, const Exact_point& p) {
@@ -99,7 +111,8 @@ std::optional<Exact_point> meet(const std::array<Plane4, 3>& h) {
   for (std::size_t k = 0; k < 4; ++k) columns[k] = {h[0][k], h[1][k], h[2][k]};
   const Rational d = determinant(columns[0], columns[1], columns[2]);
   if (d == 0) return std::nullopt;
-  return Exact_point{Rational(-determinant(columns[3], columns[1], columns[2]) / d), Rational(-determinant(columns[0], columns[3], columns[2]) / d),
+  return Exact_point{Rational(-determinant(columns[3], columns[1], columns[2]) / d),
+                     Rational(-determinant(columns[0], columns[3], columns[2]) / d),
                      Rational(-determinant(columns[0], columns[1], columns[3]) / d)};
 }
 
@@ -109,7 +122,8 @@ Exact_point some_eye(const Plane_list& planes, Random& random) {
     std::array<Plane4, 3> through;
     const std::uint64_t in = planes.empty() ? 0 : random.below(4);
     for (std::size_t k = 0; k < 3; ++k) {
-      for (Rational& c : through[k]) c = fraction(random.between(-40, 40), static_cast<unsigned long>(random.between(1, 9)));
+      for (Rational& c : through[k])
+        c = fraction(random.between(-40, 40), static_cast<unsigned long>(random.between(1, 9)));
       if (k < in) through[k] = planes[random.below(planes.size())];
     }
     std::optional<Exact_point> p = meet(through);
@@ -123,7 +137,8 @@ Exact_point some_eye(const Plane_list& planes, Random& random) {
   }
 }
 
-// ---- View cells --------------------------------------------------------------------------------------------------------------------------
+// ---- View cells
+// --------------------------------------------------------------------------------------------------------------------------
 
 struct Condition {
   std::vector<Rational> form;  ///< coefficients, then the constant
@@ -140,13 +155,15 @@ bool feasible(std::vector<Condition> conditions) {
       for (const Condition& high : conditions) {
         if (high.form[0] >= 0) continue;
         Condition both{{}, low.strict || high.strict};
-        for (std::size_t k = 1; k < low.form.size(); ++k) both.form.push_back(low.form[k] / low.form[0] - high.form[k] / high.form[0]);
+        for (std::size_t k = 1; k < low.form.size(); ++k)
+          both.form.push_back(low.form[k] / low.form[0] - high.form[k] / high.form[0]);
         rest.push_back(both);
       }
     }
     conditions = std::move(rest);
   }
-  return std::all_of(conditions.begin(), conditions.end(), [](const Condition& c) { return c.strict ? c.form[0] > 0 : c.form[0] >= 0; });
+  return std::all_of(conditions.begin(), conditions.end(),
+                     [](const Condition& c) { return c.strict ? c.form[0] > 0 : c.form[0] >= 0; });
 }
 /// Whether an eye, or an open set of eyes, has these faces on-view and no others.
 bool occurs(const Plane_list& planes, std::uint32_t on, bool open) {
@@ -163,11 +180,17 @@ bool occurs(const Plane_list& planes, std::uint32_t on, bool open) {
 /// Whether cells ascend, samples see what they should, and are off all planes just where the cell is open.
 testing::AssertionResult sound(const std::vector<View_cell>& cells, const Plane_list& planes) {
   for (std::size_t k = 0; k < cells.size(); ++k) {
-    if (k > 0 && cells[k - 1].on_view >= cells[k].on_view) return testing::AssertionFailure() << "cell " << k << " does not ascend";
-    if (signs_from(planes, cells[k].sample) != cells[k].on_view) return testing::AssertionFailure() << "cell " << k << ": its sample sees something else";
-    if (on_view_from(planes, cells[k].sample) != cells[k].on_view) return testing::AssertionFailure() << "cell " << k << ": on_view_from sees something else";
-    const bool off_planes = std::none_of(planes.begin(), planes.end(), [&](const Plane4& h) { return value_at(h, cells[k].sample) == 0; });
-    if (cells[k].open != off_planes) return testing::AssertionFailure() << "cell " << k << ": open " << cells[k].open << ", its sample off all planes " << off_planes;
+    if (k > 0 && cells[k - 1].on_view >= cells[k].on_view)
+      return testing::AssertionFailure() << "cell " << k << " does not ascend";
+    if (signs_from(planes, cells[k].sample) != cells[k].on_view)
+      return testing::AssertionFailure() << "cell " << k << ": its sample sees something else";
+    if (on_view_from(planes, cells[k].sample) != cells[k].on_view)
+      return testing::AssertionFailure() << "cell " << k << ": on_view_from sees something else";
+    const bool off_planes =
+        std::none_of(planes.begin(), planes.end(), [&](const Plane4& h) { return value_at(h, cells[k].sample) == 0; });
+    if (cells[k].open != off_planes)
+      return testing::AssertionFailure() << "cell " << k << ": open " << cells[k].open << ", its sample off all planes "
+                                         << off_planes;
   }
   return testing::AssertionSuccess();
 }
@@ -183,8 +206,10 @@ testing::AssertionResult right_cells(const Plane_list& planes) {
   if (const testing::AssertionResult result = sound(cells, planes); !result) return result;
   const Sets all = sets_of(cells), open = sets_of(cells, true);
   for (std::uint32_t on = 0; on >> planes.size() == 0; ++on) {
-    if (all.contains(on) != occurs(planes, on, false)) return testing::AssertionFailure() << "set " << on << (all.contains(on) ? " cannot occur" : " is missing");
-    if (open.contains(on) != occurs(planes, on, true)) return testing::AssertionFailure() << "set " << on << (open.contains(on) ? " is not open" : " is open");
+    if (all.contains(on) != occurs(planes, on, false))
+      return testing::AssertionFailure() << "set " << on << (all.contains(on) ? " cannot occur" : " is missing");
+    if (open.contains(on) != occurs(planes, on, true))
+      return testing::AssertionFailure() << "set " << on << (open.contains(on) ? " is not open" : " is open");
   }
   return testing::AssertionSuccess();
 }
@@ -193,7 +218,8 @@ TEST(View_cells, are_the_sets_that_elimination_finds_on_300_degenerate_sets_of_p
   std::size_t flat = 0, bodies = 0, without_none = 0;
   for (std::uint64_t k = 0; k < 300; ++k) {
     Random random(k);
-    const Plane_list planes = k % 5 == 0 ? random_planes(random.below(7), 9, random) : degenerate_planes(random.below(k % 20 == 1 ? 8 : 7), random);
+    const Plane_list planes = k % 5 == 0 ? random_planes(random.below(7), 9, random)
+                                         : degenerate_planes(random.below(k % 20 == 1 ? 8 : 7), random);
     ASSERT_TRUE(right_cells(planes)) << "planes " << k;
     const Sets all = sets_of(view_cells(planes)), open = sets_of(view_cells(planes), true);
     flat += all != open, bodies += open.contains(0), without_none += !all.contains(0);
@@ -213,11 +239,15 @@ TEST(View_cells, of_a_box_are_27_and_26_of_them_outside) {
   EXPECT_EQ(sets_of(cells), expected);
   EXPECT_EQ(sets_of(cells, true), expected);
   for (std::uint32_t face = 0; face < 6; ++face)
-    EXPECT_EQ(std::count_if(cells.begin(), cells.end(), [face](const View_cell& cell) { return cell.on_view >> face & 1; }), 9) << "9 on-view and 17 off-view of the 26";
+    EXPECT_EQ(
+        std::count_if(cells.begin(), cells.end(), [face](const View_cell& cell) { return cell.on_view >> face & 1; }),
+        9)
+        << "9 on-view and 17 off-view of the 26";
 }
 
 TEST(View_cells, of_a_convex_body_are_all_taken_on_open_sets_of_eyes) {
-  const std::vector<std::pair<Plane_list, std::size_t>> bodies{{tetrahedron(), 15}, {triangular_prism(), 21}, {hexagonal_prism(), 57}, {octahedron(), 59}};
+  const std::vector<std::pair<Plane_list, std::size_t>> bodies{
+      {tetrahedron(), 15}, {triangular_prism(), 21}, {hexagonal_prism(), 57}, {octahedron(), 59}};
   for (const auto& [planes, count] : bodies) {
     EXPECT_TRUE(right_cells(planes)) << planes.size() << " faces";
     EXPECT_EQ(view_cells(planes).size(), count) << planes.size() << " faces";
@@ -254,7 +284,8 @@ TEST(View_cells, of_parallel_planes_are_slabs) {
   EXPECT_EQ(sets_of(view_cells(one_way), true), (Sets{0, 4, 6, 7}));
   EXPECT_EQ(sets_of(view_cells(one_way)), (Sets{0, 4, 6, 7}));
   EXPECT_EQ(sets_of(view_cells(planes_of({{1, 0, 0}, {-1, 0, 0}}))), (Sets{0, 1, 2})) << "a slab between";
-  EXPECT_EQ(sets_of(view_cells(planes_of({{1, 0, 0}, {-1, 0, 0}}, -1))), (Sets{1, 2, 3})) << "fronts towards one another: everyone sees one";
+  EXPECT_EQ(sets_of(view_cells(planes_of({{1, 0, 0}, {-1, 0, 0}}, -1))), (Sets{1, 2, 3}))
+      << "fronts towards one another: everyone sees one";
 }
 
 TEST(View_cells, list_what_only_eyes_in_planes_see) {
@@ -280,7 +311,9 @@ TEST(View_cells, hold_what_any_eye_sees_also_in_planes_on_edges_at_vertices_and_
   std::size_t in_planes = 0, off_planes = 0;
   for (std::uint64_t k = 0; k < 40; ++k) {
     Random random(k + 300);
-    const Plane_list planes = k == 0 ? dodecahedron() : k % 4 == 1 ? random_body(6 + k / 4, random) : degenerate_planes(3 + k / 5, random);
+    const Plane_list planes = k == 0       ? dodecahedron()
+                              : k % 4 == 1 ? random_body(6 + k / 4, random)
+                                           : degenerate_planes(3 + k / 5, random);
     const std::vector<View_cell> cells = view_cells(planes);
     ASSERT_TRUE(sound(cells, planes)) << "planes " << k;
     const Sets all = sets_of(cells), open = sets_of(cells, true);
@@ -324,7 +357,8 @@ TEST(View_cells, follow_the_order_of_planes_and_not_their_scale_or_place) {
     for (Plane4& h : turned)
       for (Rational& c : h) c = -c;
     Sets complements;
-    for (const std::uint32_t on : sets_of(view_cells(turned), true)) complements.insert(((1u << planes.size()) - 1) & ~on);
+    for (const std::uint32_t on : sets_of(view_cells(turned), true))
+      complements.insert(((1u << planes.size()) - 1) & ~on);
     EXPECT_EQ(complements, open) << "planes " << k;
   }
 }
@@ -336,11 +370,13 @@ TEST(View_cells, refuse_planes_without_a_normal_and_too_many) {
   EXPECT_EQ(view_cells(Plane_list(most_view_faces, Plane4{1, 2, 3, 4})).size(), 2u);
 }
 
-// ---- Decision trees ----------------------------------------------------------------------------------------------------------------------
+// ---- Decision trees
+// ----------------------------------------------------------------------------------------------------------------------
 
 using Views = std::vector<Weighted_view>;
 
-/// The least sum of weight times tests, for all partial assignments of answers, also those that test what is known; and the sets of more than two views that they leave.
+/// The least sum of weight times tests, for all partial assignments of answers, also those that test what is known; and
+/// the sets of more than two views that they leave.
 struct Assignments {
   const Views& views;
   unsigned faces;
@@ -387,7 +423,8 @@ Rational weight_of(const Views& views) {
   return sum;
 }
 
-/// Whether each view ends one path, no path asks what is known, and the expectation is what running the tree takes. Pre: no view is given twice.
+/// Whether each view ends one path, no path asks what is known, and the expectation is what running the tree takes.
+/// Pre: no view is given twice.
 testing::AssertionResult sound(const Decision_tree& tree, const Views& views, unsigned faces) {
   if (tree.views.size() != views.size()) return testing::AssertionFailure() << tree.views.size() << " views";
   if (tree.steps.size() + 1 != views.size()) return testing::AssertionFailure() << tree.steps.size() << " steps";
@@ -396,20 +433,26 @@ testing::AssertionResult sound(const Decision_tree& tree, const Views& views, un
     std::uint32_t asked = 0;
     unsigned tests = 0;
     const auto answer = [&](std::uint32_t face) {
-      if (face >= faces || asked >> face & 1) throw std::logic_error("face " + std::to_string(face) + " is asked twice or is none");
+      if (face >= faces || asked >> face & 1)
+        throw std::logic_error("face " + std::to_string(face) + " is asked twice or is none");
       asked |= 1u << face;
       return (view.on_view >> face & 1) != 0;
     };
-    if (tree.run(answer, &tests) != view.on_view) return testing::AssertionFailure() << "view " << view.on_view << " is taken for another";
-    if (tests != static_cast<unsigned>(std::popcount(asked))) return testing::AssertionFailure() << "view " << view.on_view << ": " << tests << " tests";
+    if (tree.run(answer, &tests) != view.on_view)
+      return testing::AssertionFailure() << "view " << view.on_view << " is taken for another";
+    if (tests != static_cast<unsigned>(std::popcount(asked)))
+      return testing::AssertionFailure() << "view " << view.on_view << ": " << tests << " tests";
     sum += view.weight * tests;
   }
   // As each of n ends is reached and there are n - 1 steps, no step has only one side.
-  if (tree.expected != sum / weight_of(views)) return testing::AssertionFailure() << tree.expected << " expected tests, not " << Rational(sum / weight_of(views));
-  if (tree.bound > tree.expected || tree.expected > faces) return testing::AssertionFailure() << tree.expected << " expected tests, bound " << tree.bound;
+  if (tree.expected != sum / weight_of(views))
+    return testing::AssertionFailure() << tree.expected << " expected tests, not " << Rational(sum / weight_of(views));
+  if (tree.bound > tree.expected || tree.expected > faces)
+    return testing::AssertionFailure() << tree.expected << " expected tests, bound " << tree.bound;
   for (std::size_t k = 0; k < tree.steps.size(); ++k)
     for (const std::uint32_t child : {tree.steps[k].on, tree.steps[k].off})
-      if (!(child & Decision_tree::leaf) && child <= k) return testing::AssertionFailure() << "step " << k << " goes back";
+      if (!(child & Decision_tree::leaf) && child <= k)
+        return testing::AssertionFailure() << "step " << k << " goes back";
   return testing::AssertionSuccess();
 }
 /// As above, and whether the expectation is the least, and the first test the lowest that it can begin with.
@@ -417,10 +460,13 @@ testing::AssertionResult optimal(const Decision_tree& tree, const Views& views, 
   if (const testing::AssertionResult result = sound(tree, views, faces); !result) return result;
   Assignments oracle{views, faces, {}, {}};
   const Rational least = oracle.least(), weight = weight_of(views);
-  if (tree.expected != least / weight) return testing::AssertionFailure() << tree.expected << " expected tests, least " << Rational(least / weight);
-  if (views.size() > 2 && tree.states + 1 != oracle.sets.size()) return testing::AssertionFailure() << tree.states << " states of " << oracle.sets.size() - 1;
+  if (tree.expected != least / weight)
+    return testing::AssertionFailure() << tree.expected << " expected tests, least " << Rational(least / weight);
+  if (views.size() > 2 && tree.states + 1 != oracle.sets.size())
+    return testing::AssertionFailure() << tree.states << " states of " << oracle.sets.size() - 1;
   for (std::uint32_t face = 0; views.size() > 1 && face < tree.steps[0].face; ++face)
-    if (least == weight + oracle.least(1u << face, 0) + oracle.least(0, 1u << face)) return testing::AssertionFailure() << "face " << face << " would do as well";
+    if (least == weight + oracle.least(1u << face, 0) + oracle.least(0, 1u << face))
+      return testing::AssertionFailure() << "face " << face << " would do as well";
   return testing::AssertionSuccess();
 }
 
@@ -467,7 +513,8 @@ TEST(Decision_tree, of_bodies_in_general_position_too) {
     Views views = uniform_likelihood(view_cells(random_body(faces, random)), true);
     EXPECT_EQ(views.size(), 1 + faces + faces * (faces - 1) / 2 + faces * (faces - 1) * (faces - 2) / 6);
     for (Weighted_view& view : views) view.weight = random.between(0, 20);
-    EXPECT_TRUE(optimal(least_tests(views, static_cast<unsigned>(faces)), views, static_cast<unsigned>(faces))) << faces << " faces";
+    EXPECT_TRUE(optimal(least_tests(views, static_cast<unsigned>(faces)), views, static_cast<unsigned>(faces)))
+        << faces << " faces";
   }
 }
 
@@ -479,7 +526,9 @@ TEST(Decision_tree, is_optimal_for_2000_random_likelihoods) {
     const std::uint64_t density = 1 + random.below(8), most = random.chance(1, 3) ? 1 : random.chance(1, 2) ? 3 : 1000;
     Views views;
     for (std::uint32_t on = 0; on >> faces == 0; ++on)
-      if (random.chance(density, 8)) views.push_back({on, fraction(random.between(0, static_cast<long>(most)), static_cast<unsigned long>(random.between(1, 3)))});
+      if (random.chance(density, 8))
+        views.push_back({on, fraction(random.between(0, static_cast<long>(most)),
+                                      static_cast<unsigned long>(random.between(1, 3)))});
     if (views.empty()) views.push_back({0, 1});
     if (weight_of(views) == 0) views.back().weight = 1;
     random.shuffle(views);
@@ -501,9 +550,11 @@ TEST(Decision_tree, is_optimal_for_the_cells_of_degenerate_planes_and_their_flat
     const std::vector<View_cell> cells = view_cells(degenerate_planes(faces, random));
     const Views views = uniform_likelihood(cells, true);
     ASSERT_EQ(views.size(), cells.size());
-    for (std::size_t i = 0; i < views.size(); ++i) EXPECT_EQ(views[i].weight, cells[i].open && cells[i].on_view != 0 ? 1 : 0);
+    for (std::size_t i = 0; i < views.size(); ++i)
+      EXPECT_EQ(views[i].weight, cells[i].open && cells[i].on_view != 0 ? 1 : 0);
     EXPECT_EQ(uniform_likelihood(cells).size(), views.size() - (views[0].on_view == 0));
-    flat += std::any_of(cells.begin(), cells.end(), [](const View_cell& cell) { return !cell.open && cell.on_view != 0; });
+    flat +=
+        std::any_of(cells.begin(), cells.end(), [](const View_cell& cell) { return !cell.open && cell.on_view != 0; });
     ASSERT_TRUE(optimal(least_tests(views, faces), views, faces)) << "planes " << k;
   }
   EXPECT_GT(flat, 30u);
@@ -515,7 +566,8 @@ TEST(Decision_tree, has_the_bound_of_the_best_binary_tree) {
     Views views;
     std::vector<Rational> weights;
     const std::uint64_t most = random.chance(1, 2) ? 3 : 100, count = 1 + random.below(9);
-    for (std::uint32_t on = 0; on < count; ++on) weights.push_back(random.between(on == 0, static_cast<long>(most))), views.push_back({on, weights.back()});
+    for (std::uint32_t on = 0; on < count; ++on)
+      weights.push_back(random.between(on == 0, static_cast<long>(most))), views.push_back({on, weights.back()});
     ASSERT_EQ(least_tests(views, 4).bound, least_of_any_tree(weights) / weight_of(views)) << "likelihood " << k;
   }
 }
@@ -580,7 +632,9 @@ TEST(Decision_tree, tests_likely_faces_first) {
 
 TEST(Decision_tree, minds_the_smallest_difference_and_takes_the_lowest_of_equal_faces) {
   const Rational more = 1 + Rational(1, Integer(1) << 200);
-  const auto first = [](const Rational& of_0, const Rational& of_1) { return least_tests(Views{{0, 1}, {1, of_0}, {2, of_1}}, 2).steps[0].face; };
+  const auto first = [](const Rational& of_0, const Rational& of_1) {
+    return least_tests(Views{{0, 1}, {1, of_0}, {2, of_1}}, 2).steps[0].face;
+  };
   EXPECT_EQ(first(1, 1), 0u);
   EXPECT_EQ(first(more, 1), 0u);
   EXPECT_EQ(first(1, more), 1u);
@@ -593,8 +647,10 @@ TEST(Decision_tree, does_not_depend_on_the_width_of_weights_or_the_order_of_view
     for (Weighted_view& view : views) view.weight = random.between(0, 50);
     const Decision_tree tree = least_tests(views, 6);
     const Integer total = weight_of(views).get_num();
-    // Totals of one bit, of 57 or 58 bits on either side of 64-bit arithmetic, of 300 bits, and weights that are no integers.
-    const Integer narrow = ((Integer(1) << 57) - 1) / total, wide = (Integer(1) << 57) / total + 1, wider = (Integer(1) << 300) / total;
+    // Totals of one bit, of 57 or 58 bits on either side of 64-bit arithmetic, of 300 bits, and weights that are no
+    // integers.
+    const Integer narrow = ((Integer(1) << 57) - 1) / total, wide = (Integer(1) << 57) / total + 1,
+                  wider = (Integer(1) << 300) / total;
     for (const Rational& factor : {Rational(narrow), Rational(wide), Rational(wider), Rational(1, wider)}) {
       Views scaled = views;
       for (Weighted_view& view : scaled) {
@@ -623,7 +679,8 @@ TEST(Decision_tree, of_one_view_takes_no_test_and_a_view_given_twice_counts_once
   EXPECT_EQ(one.expected, 0);
   EXPECT_EQ(one.bound, 0);
   EXPECT_EQ(one.run([](std::uint32_t) -> bool { throw std::logic_error("a test"); }), 5u);
-  const Decision_tree twice = least_tests(Views{{0, 1}, {1, 1}, {2, 1}, {2, 1}}, 2), once = least_tests(Views{{0, 1}, {1, 1}, {2, 2}}, 2);
+  const Decision_tree twice = least_tests(Views{{0, 1}, {1, 1}, {2, 1}, {2, 1}}, 2),
+                      once = least_tests(Views{{0, 1}, {1, 1}, {2, 2}}, 2);
   EXPECT_EQ(twice.views.size(), 3u);
   EXPECT_EQ(twice.steps[0].face, 1u);
   EXPECT_EQ(twice.expected, fraction(3, 2));

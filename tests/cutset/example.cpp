@@ -16,8 +16,10 @@ void example(const sightline::Polygon_soup& soup, const std::vector<sightline::V
   sightline::Cut_set_tracker tracker(traits, graph);
   for (const sightline::Viewpoint& viewpoint : path) {
     tracker.move_to(viewpoint);
-    out << tracker.on_view_count() << " on-view, " << tracker.cut_edges().size() << " edges, " << tracker.last().tests << " tests; changed:";
-    for (const std::uint32_t node : tracker.changed()) out << " face " << scene.pieces()[graph.piece(node)].face << (tracker.on_view(node) ? " is on-view" : " is not");
+    out << tracker.on_view_count() << " on-view, " << tracker.cut_edges().size() << " edges, " << tracker.last().tests
+        << " tests; changed:";
+    for (const std::uint32_t node : tracker.changed())
+      out << " face " << scene.pieces()[graph.piece(node)].face << (tracker.on_view(node) ? " is on-view" : " is not");
     out << '\n';
   }
 }
@@ -26,7 +28,8 @@ void decide(const sightline::Polygon_soup& soup, std::ostream& out) {
   const sightline::Scene scene(soup);
   std::vector<std::array<sightline::Rational, 4>> planes;
   for (const sightline::Piece& piece : scene.pieces()) planes.push_back(scene.file_coefficients(piece.support));
-  const auto tree = sightline::least_tests(sightline::uniform_likelihood(sightline::view_cells(planes)), static_cast<unsigned>(planes.size()));
+  const auto tree = sightline::least_tests(sightline::uniform_likelihood(sightline::view_cells(planes)),
+                                           static_cast<unsigned>(planes.size()));
   out << "expected " << tree.expected << " tests; first face " << tree.steps[0].face << '\n';
 }
 

@@ -1,5 +1,5 @@
-// Real meshes and solids, along orbits, jumps, and paths through planes, edges and vertices: every frame equals a test of every face.
-// SIGHTLINE_LONG: the frames of each scene, for a long run.
+// Real meshes and solids, along orbits, jumps, and paths through planes, edges and vertices: every frame equals a test
+// of every face. SIGHTLINE_LONG: the frames of each scene, for a long run.
 
 #include "support.h"
 
@@ -27,7 +27,8 @@ std::vector<std::string> collected() {
   return names;
 }
 
-/// A solid of the collection in JSON: {"vertices": [[x, y, z], ...], "faces": [[i, j, k, ...], ...]}, coordinates as decimals.
+/// A solid of the collection in JSON: {"vertices": [[x, y, z], ...], "faces": [[i, j, k, ...], ...]}, coordinates as
+/// decimals.
 Polygon_soup read_solid(const std::filesystem::path& file) {
   std::ifstream in(file);
   const nlohmann::json solid = nlohmann::json::parse(in);
@@ -54,7 +55,8 @@ std::vector<bool> every_face(const Stage& stage, const Viewpoint& view) {
   std::vector<bool> on(stage.graph.size());
   Predicate_counts counts;
   const Located_point eye = stage.traits.eye(view.at);
-  for (std::uint32_t i = 0; i < on.size(); ++i) on[i] = stage.traits.side(eye, stage.graph.plane(i), counts) == CGAL::POSITIVE;
+  for (std::uint32_t i = 0; i < on.size(); ++i)
+    on[i] = stage.traits.side(eye, stage.graph.plane(i), counts) == CGAL::POSITIVE;
   return on;
 }
 
@@ -69,7 +71,9 @@ TEST_P(Mesh, every_frame_equals_a_test_of_every_face) {
   const std::size_t frames = wanted != nullptr ? static_cast<std::size_t>(std::max(300, std::atoi(wanted))) : 300;
   std::mt19937_64 random(stage.graph.size());
   const auto some = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
-  const auto corner_of = [&](const Piece& piece, std::size_t k) { return stage.scene.position(stage.scene.corners(piece)[k % piece.size].point); };
+  const auto corner_of = [&](const Piece& piece, std::size_t k) {
+    return stage.scene.position(stage.scene.corners(piece)[k % piece.size].point);
+  };
   std::uint64_t tests = 0, smooth = 0;
   std::size_t frame = 0;
   const auto move = [&](const Viewpoint& view) {
@@ -85,7 +89,8 @@ TEST_P(Mesh, every_frame_equals_a_test_of_every_face) {
     for (std::int64_t k = 0; k < 40; ++k) {
       const auto [x, y] = generate::circle_point(static_cast<std::uint64_t>((begin + k) % circle), circle, 1 << 20);
       Viewpoint view{centre, false};
-      view.at[0] += half[0] * radius * Rational(x, 1 << 20), view.at[1] += half[1] * radius * Rational(y, 1 << 20), view.at[2] += half[2] * height;
+      view.at[0] += half[0] * radius * Rational(x, 1 << 20), view.at[1] += half[1] * radius * Rational(y, 1 << 20),
+          view.at[2] += half[2] * height;
       ASSERT_TRUE(move(view)) << "frame " << frame;
       if (k > 0) tests += tracker.last().tests, ++smooth;
     }
@@ -94,7 +99,8 @@ TEST_P(Mesh, every_frame_equals_a_test_of_every_face) {
     const Exact_point p = corner_of(piece, 0), q = corner_of(piece, 1), r = corner_of(piece, 2);
     for (int k = -2; k <= 6; ++k) {
       Viewpoint on_edge{p, false}, in_plane{p, false};
-      for (std::size_t a = 0; a < 3; ++a) on_edge.at[a] += (q[a] - p[a]) * Rational(k, 4), in_plane.at[a] += (q[a] - p[a]) * (k + 3) - (r[a] - p[a]) * 5;
+      for (std::size_t a = 0; a < 3; ++a)
+        on_edge.at[a] += (q[a] - p[a]) * Rational(k, 4), in_plane.at[a] += (q[a] - p[a]) * (k + 3) - (r[a] - p[a]) * 5;
       ASSERT_TRUE(move(on_edge)) << "frame " << frame;
       ASSERT_TRUE(move(in_plane)) << "frame " << frame;
     }
@@ -105,16 +111,18 @@ TEST_P(Mesh, every_frame_equals_a_test_of_every_face) {
       ASSERT_TRUE(move(away)) << "frame " << frame;
     }
   }
-  // "5 times fewer tests than brute force on a smooth orbit" is asked of meshes of 10^5 faces; small steps do that on all of them.
+  // "5 times fewer tests than brute force on a smooth orbit" is asked of meshes of 10^5 faces; small steps do that on
+  // all of them.
   EXPECT_LT(static_cast<double>(tests), 0.2 * static_cast<double>(smooth * stage.graph.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(Collected, Mesh, testing::ValuesIn(collected()), [](const testing::TestParamInfo<std::string>& scene) {
-  std::string name = scene.param;
-  for (char& c : name)
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Collected, Mesh, testing::ValuesIn(collected()),
+                         [](const testing::TestParamInfo<std::string>& scene) {
+                           std::string name = scene.param;
+                           for (char& c : name)
+                             if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+                           return name;
+                         });
 
 TEST(Solids, are_triangulated_where_their_faces_are_not_planar_and_then_mostly_dented) {
   if (collected().empty()) GTEST_SKIP() << "no collection of scenes here";
@@ -127,7 +135,8 @@ TEST(Solids, are_triangulated_where_their_faces_are_not_planar_and_then_mostly_d
       EXPECT_TRUE(stage.graph.is_convex(0)) << name;
     }
   }
-  RecordProperty("solids", static_cast<int>(solids)), RecordProperty("convex", static_cast<int>(convex)), RecordProperty("planar", static_cast<int>(planar));
+  RecordProperty("solids", static_cast<int>(solids)), RecordProperty("convex", static_cast<int>(convex)),
+      RecordProperty("planar", static_cast<int>(planar));
   std::cout << solids << " solids, " << planar << " with planar faces only, " << convex << " convex\n";
   EXPECT_GE(convex, planar);
 }

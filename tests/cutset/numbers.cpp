@@ -1,4 +1,5 @@
-// Where the arithmetic of the tracker is hard: steps below the last bit, long ways, heights within their error, bodies that doubles take for others.
+// Where the arithmetic of the tracker is hard: steps below the last bit, long ways, heights within their error, bodies
+// that doubles take for others.
 
 #include "support.h"
 
@@ -26,7 +27,8 @@ TEST(Watch_list, tests_what_ran_out_and_nothing_else) {
   std::uint64_t opened = 0, confirmed = 0, holding = 0, away = 0, unclear = 0;
   const auto small = [&] { return static_cast<double>(between(random, -6, 6)); };
   const auto set = [&](std::uint32_t i, Watched_node& w) {
-    w.until = path + static_cast<double>(between(random, 0, 8)) * std::ldexp(1.0, static_cast<int>(between(random, -4, 2)));
+    w.until =
+        path + static_cast<double>(between(random, 0, 8)) * std::ldexp(1.0, static_cast<int>(between(random, -4, 2)));
     w.on = random() % 2 == 0, w.at_cut = random() % 3 > 0;
     list.set(w.place, i, Tester::Row{w.row[0], w.row[1], w.row[2], w.row[3]}, w.on, w.until, w.at_cut);
   };
@@ -48,7 +50,8 @@ TEST(Watch_list, tests_what_ran_out_and_nothing_else) {
     }
     path += static_cast<double>(between(random, 0, 4)) / 4;
     Tester::Eye eye{};
-    eye.x = small(), eye.y = small(), eye.z = small(), eye.w = move % 5 > 0, eye.bound = static_cast<double>(between(random, 0, 3));
+    eye.x = small(), eye.y = small(), eye.z = small(), eye.w = move % 5 > 0,
+    eye.bound = static_cast<double>(between(random, 0, 3));
     std::vector<std::uint32_t> open, expected;
     const Watch_list::Confirmed result = list.test(eye, path, open);
     std::uint64_t tests = 0, tests_away = 0;
@@ -75,7 +78,8 @@ TEST(Watch_list, tests_what_ran_out_and_nothing_else) {
       else if (random() % 2 == 0) set(i, w);
       else w.until = path, list.set_until(w.place, path);
     }
-    if (!kept.empty()) kept.begin()->second.at_cut ^= true, list.set_at_cut(kept.begin()->second.place, kept.begin()->second.at_cut);
+    if (!kept.empty())
+      kept.begin()->second.at_cut ^= true, list.set_at_cut(kept.begin()->second.place, kept.begin()->second.at_cut);
   }
   EXPECT_GT(most, 600u) << "more than a group of blocks";
   EXPECT_LT(kept.size(), most / 2);
@@ -97,13 +101,15 @@ TEST(Tracker, notices_moves_below_the_last_bit_of_doubles) {
   const Stage stage(box({-1, -2, -3}, {1, 2, 3}).soup());
   Cut_set_tracker tracker(stage.traits, stage.graph);
   const Rational tiny = exact_decimal(1, -40);
-  for (const Rational& x : {Rational(1), Rational(1 + tiny), Rational(1), Rational(1 - tiny), Rational(1 + tiny), Rational(1 - tiny)})
+  for (const Rational& x :
+       {Rational(1), Rational(1 + tiny), Rational(1), Rational(1 - tiny), Rational(1 + tiny), Rational(1 - tiny)})
     for (const bool at_infinity : {false, true}) {
       const Viewpoint view{{at_infinity ? Rational(x - 1) : x, 1, 0}, at_infinity};
       tracker.move_to({{x, 0, 0}, false}), tracker.move_to(view);
       ASSERT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, view)));
     }
-  for (const Rational& x : {Rational(1), Rational(1 + tiny), Rational(1), Rational(1 - tiny), Rational(1 + tiny), Rational(1 - tiny)}) {
+  for (const Rational& x :
+       {Rational(1), Rational(1 + tiny), Rational(1), Rational(1 - tiny), Rational(1 + tiny), Rational(1 - tiny)}) {
     const Viewpoint view{{x, 0, 0}, false};
     tracker.move_to(view);
     ASSERT_TRUE(agrees(tracker, stage.graph, on_view(stage.graph, view)));
@@ -112,7 +118,8 @@ TEST(Tracker, notices_moves_below_the_last_bit_of_doubles) {
 
 TEST(Tracker, notices_steps_whose_squares_underflow) {
   Polygon_soup soup = box({-3, -3, -3}, {3, 3, 3}).soup();  // keeps the origin in the middle
-  soup.add_point(Rational(0), Rational(-1), Rational(-1)), soup.add_point(Rational(0), Rational(1), Rational(-1)), soup.add_point(Rational(0), Rational(0), Rational(1));
+  soup.add_point(Rational(0), Rational(-1), Rational(-1)), soup.add_point(Rational(0), Rational(1), Rational(-1)),
+      soup.add_point(Rational(0), Rational(0), Rational(1));
   soup.add_face(std::vector<Point_id>{8, 9, 10});  // x = 0
   const Stage stage(soup);
   Cut_set_tracker tracker(stage.traits, stage.graph);
@@ -128,7 +135,8 @@ TEST(Tracker, holds_for_short_steps_after_a_long_way) {
   const Body body = box({-1, -2, -3}, {1, 2, 3});
   const Stage stage(body.soup());
   Cut_set_tracker tracker(stage.traits, stage.graph);
-  for (const std::int64_t far : {std::int64_t{1} << 40, std::int64_t{1} << 52, std::int64_t{1} << 54, std::int64_t{1} << 58}) {
+  for (const std::int64_t far :
+       {std::int64_t{1} << 40, std::int64_t{1} << 52, std::int64_t{1} << 54, std::int64_t{1} << 58}) {
     tracker.move_to({{Rational(far), 1, 1}, false});
     for (int k = 0; k < 200; ++k) {
       const Lattice_eye eye{{between(random, -9, 9), between(random, -9, 9), between(random, -9, 9)}, 2};
@@ -144,9 +152,11 @@ TEST(Tracker, does_not_trust_a_height_beyond_its_error) {
   const Stage stage(body.soup());
   for (int k = 0; k < 400; ++k) {
     const std::size_t f = random() % 4;
-    const Whole n = body.normal(f), p = body.points[body.faces[f][0]], u = minus(body.points[body.faces[f][1]], p), v = minus(body.points[body.faces[f][2]], p);
+    const Whole n = body.normal(f), p = body.points[body.faces[f][0]], u = minus(body.points[body.faces[f][1]], p),
+                v = minus(body.points[body.faces[f][2]], p);
     // Far along the plane, and above it by a few normals; then onto it, straight.
-    const std::int64_t s = between(random, -1'000'000'000'000, 1'000'000'000'000), t = between(random, -1'000'000'000'000, 1'000'000'000'000), h = between(random, 1, 4);
+    const std::int64_t s = between(random, -1'000'000'000'000, 1'000'000'000'000),
+                       t = between(random, -1'000'000'000'000, 1'000'000'000'000), h = between(random, 1, 4);
     Lattice_eye above{{}, 1}, on{{}, 1};
     for (std::size_t a = 0; a < 3; ++a) on.at[a] = p[a] + s * u[a] + t * v[a], above.at[a] = on.at[a] + h * n[a];
     Cut_set_tracker tracker(stage.traits, stage.graph);
@@ -178,7 +188,8 @@ TEST(Tracker, tests_no_node_twice_in_a_move) {
 
 TEST(Tracker, holds_for_one_face_alone) {
   Polygon_soup soup;
-  soup.add_point(Rational(0), Rational(0), Rational(0)), soup.add_point(Rational(1), Rational(0), Rational(0)), soup.add_point(Rational(0), Rational(1), Rational(0));
+  soup.add_point(Rational(0), Rational(0), Rational(0)), soup.add_point(Rational(1), Rational(0), Rational(0)),
+      soup.add_point(Rational(0), Rational(1), Rational(0));
   soup.add_face(std::vector<Point_id>{0, 1, 2});
   const Stage stage(soup);
   Cut_set_tracker tracker(stage.traits, stage.graph);
@@ -195,7 +206,9 @@ TEST(Tracker, walks_over_a_barrel_that_doubles_take_for_a_box) {
       const Rational e = 1 / Rational(Integer(1) << bits);
       Polygon_soup soup;
       const int rings = 9;
-      const auto turned = [](const Exact_point& p) { return Exact_point{p[0] + 2 * p[1] + 2 * p[2], 2 * p[0] + p[1] - 2 * p[2], -2 * p[0] + 2 * p[1] - p[2]}; };
+      const auto turned = [](const Exact_point& p) {
+        return Exact_point{p[0] + 2 * p[1] + 2 * p[2], 2 * p[0] + p[1] - 2 * p[2], -2 * p[0] + 2 * p[1] - p[2]};
+      };
       for (int ring = 0; ring < rings; ++ring) {
         const Rational half = 1 + e * (ring * (rings - 1 - ring));
         for (const auto& [x, y] : {std::pair(1, 1), std::pair(-1, 1), std::pair(-1, -1), std::pair(1, -1)}) {
@@ -205,13 +218,16 @@ TEST(Tracker, walks_over_a_barrel_that_doubles_take_for_a_box) {
       }
       // The turn keeps orientation: its determinant is 27.
       const auto id = [](int ring, int k) { return static_cast<Point_id>(4 * ring + k % 4); };
-      soup.add_face(std::vector<Point_id>{3, 2, 1, 0}), soup.add_face(std::vector<Point_id>{id(rings - 1, 0), id(rings - 1, 1), id(rings - 1, 2), id(rings - 1, 3)});
+      soup.add_face(std::vector<Point_id>{3, 2, 1, 0}),
+          soup.add_face(std::vector<Point_id>{id(rings - 1, 0), id(rings - 1, 1), id(rings - 1, 2), id(rings - 1, 3)});
       for (int ring = 0; ring + 1 < rings; ++ring)
-        for (int k = 0; k < 4; ++k) soup.add_face(std::vector<Point_id>{id(ring, k), id(ring, k + 1), id(ring + 1, k + 1), id(ring + 1, k)});
+        for (int k = 0; k < 4; ++k)
+          soup.add_face(std::vector<Point_id>{id(ring, k), id(ring, k + 1), id(ring + 1, k + 1), id(ring + 1, k)});
       if (end > 0) {
         const Point_id first = soup.point_count();
         const Rational far(Integer(1) << end);
-        soup.add_point(far, far, far), soup.add_point(far, Rational(far + 1), far), soup.add_point(far, far, Rational(far + 1));
+        soup.add_point(far, far, far), soup.add_point(far, Rational(far + 1), far),
+            soup.add_point(far, far, Rational(far + 1));
         soup.add_face(std::vector<Point_id>{first, first + 1, first + 2});
       }
       const Stage stage(soup);
@@ -226,7 +242,8 @@ TEST(Tracker, walks_over_a_barrel_that_doubles_take_for_a_box) {
         for (const int sense : {1, -1}) {
           const Rational height = sense * Rational(Integer(1) << z);
           see({0, 0, -height}, false), see({0, 0, Rational(sense * 5)}, false), see({0, 0, 0}, false);
-          see({0, 0, Rational(-sense * 5)}, false), see({Rational(1, 3), Rational(1, 7), height}, false), see({0, 0, Rational(-sense)}, true), see({0, 0, Rational(sense)}, true);
+          see({0, 0, Rational(-sense * 5)}, false), see({Rational(1, 3), Rational(1, 7), height}, false),
+              see({0, 0, Rational(-sense)}, true), see({0, 0, Rational(sense)}, true);
         }
     }
 }
@@ -237,7 +254,8 @@ TEST(Tracker, forgets_a_far_visit) {
   const auto tests_near_by = [&](bool visit) {
     Cut_set_tracker tracker(stage.traits, stage.graph);
     tracker.move_to({box[1], false});
-    if (visit) tracker.move_to({{exact_decimal(1, 18), 0, exact_decimal(1, 17)}, false}), tracker.move_to({box[1], false});
+    if (visit)
+      tracker.move_to({{exact_decimal(1, 18), 0, exact_decimal(1, 17)}, false}), tracker.move_to({box[1], false});
     const std::uint64_t before = tracker.counters().tests;
     Exact_point at = box[1];
     for (int k = 0; k < 50; ++k) at[2] += Rational(1, 10000), tracker.move_to({at, false});

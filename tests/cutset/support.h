@@ -18,10 +18,14 @@ using namespace sightline;
 using Wide = __int128;
 using Whole = std::array<std::int64_t, 3>;
 
-inline std::int64_t between(std::mt19937_64& random, std::int64_t low, std::int64_t high) { return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1)); }
+inline std::int64_t between(std::mt19937_64& random, std::int64_t low, std::int64_t high) {
+  return low + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(high - low + 1));
+}
 
 inline Whole minus(const Whole& a, const Whole& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Whole cross(const Whole& a, const Whole& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+inline Whole cross(const Whole& a, const Whole& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 inline std::int64_t dot(const Whole& a, const Whole& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// A polyhedron in small integers: face k's corners, counterclockwise seen from outside.
@@ -31,7 +35,8 @@ struct Body {
 
   Whole normal(std::size_t f) const {
     const auto& c = faces[f];
-    return cross(minus(points[c[1]], points[c[0]]), minus(points[c[2]], points[c[0]]));  // Pre: convex faces without straight corners
+    return cross(minus(points[c[1]], points[c[0]]),
+                 minus(points[c[2]], points[c[0]]));  // Pre: convex faces without straight corners
   }
   Polygon_soup soup() const {
     Polygon_soup soup;
@@ -41,7 +46,8 @@ struct Body {
   }
 };
 
-/// The convex hull of points with small integer coordinates, coplanar ones in one face: every plane through three of them with nothing in front. Empty faces where they are all coplanar.
+/// The convex hull of points with small integer coordinates, coplanar ones in one face: every plane through three of
+/// them with nothing in front. Empty faces where they are all coplanar.
 inline Body hull(std::vector<Whole> points) {
   std::sort(points.begin(), points.end());
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -112,11 +118,13 @@ inline std::vector<bool> on_view(const Face_graph& graph, const Viewpoint& view)
     Exact_point normal{0, 0, 0};
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const Exact_point p = corner(k), q = corner(k + 1 == corners.size() ? 0 : k + 1);
-      for (std::size_t a = 0; a < 3; ++a) normal[a] += p[(a + 1) % 3] * q[(a + 2) % 3] - p[(a + 2) % 3] * q[(a + 1) % 3];
+      for (std::size_t a = 0; a < 3; ++a)
+        normal[a] += p[(a + 1) % 3] * q[(a + 2) % 3] - p[(a + 2) % 3] * q[(a + 1) % 3];
     }
     const Exact_point p = corner(0);
     Rational height = 0;
-    for (std::size_t a = 0; a < 3; ++a) height += normal[a] * (view.at_infinity ? view.at[a] : Rational(view.at[a] - p[a]));
+    for (std::size_t a = 0; a < 3; ++a)
+      height += normal[a] * (view.at_infinity ? view.at[a] : Rational(view.at[a] - p[a]));
     on[i] = height > 0;
   }
   return on;
@@ -153,8 +161,10 @@ struct Stage {
 /// An axis-parallel box.
 inline Body box(const Whole& low, const Whole& high) {
   Body body;
-  for (int k = 0; k < 8; ++k) body.points.push_back({k & 1 ? high[0] : low[0], k & 2 ? high[1] : low[1], k & 4 ? high[2] : low[2]});
-  body.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};  // -x +x -y +y -z +z
+  for (int k = 0; k < 8; ++k)
+    body.points.push_back({k & 1 ? high[0] : low[0], k & 2 ? high[1] : low[1], k & 4 ? high[2] : low[2]});
+  body.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};  // -x +x -y +y -z +z
   return body;
 }
 

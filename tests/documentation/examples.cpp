@@ -1,4 +1,5 @@
-// The examples of the documentation pages of kernel, io, generate, baseline, compare and verify; those of other pages are beside their tests.
+// The examples of the documentation pages of kernel, io, generate, baseline, compare and verify; those of other pages
+// are beside their tests.
 
 // ---- kernel/README.md
 
@@ -37,10 +38,12 @@ void convert(const std::filesystem::path& from, const std::filesystem::path& to,
 
 namespace generate = sightline::generate;
 
-/// A town elsewhere, turned by a rational rotation, its faces in another order: every answer must be the same as for make("city_rotated", boxes, seed).
+/// A town elsewhere, turned by a rational rotation, its faces in another order: every answer must be the same as for
+/// make("city_rotated", boxes, seed).
 sightline::Polygon_soup town_elsewhere(std::size_t boxes, std::uint64_t seed) {
   const sightline::Polygon_soup town = generate::city(boxes, seed, /* rotated */ true);
-  const sightline::Polygon_soup other = generate::rotated(generate::translated(town, {sightline::Rational(1, 3), 0, 0}), generate::rotation(3, 1, -2, 1));
+  const sightline::Polygon_soup other =
+      generate::rotated(generate::translated(town, {sightline::Rational(1, 3), 0, 0}), generate::rotation(3, 1, -2, 1));
   return generate::faces_permuted(other, seed);
 }
 
@@ -56,7 +59,8 @@ void count_pixels(const sightline::Scene& scene, const sightline::Exact_point& e
   options.size = 512, options.bits = 24;
   const sightline::Depth_buffer buffer = sightline::depth_buffer(scene, eye, options);
   for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
-    out << "face " << scene.pieces()[piece].face << ": " << std::count(buffer.pieces.begin(), buffer.pieces.end(), piece) << " pixels\n";
+    out << "face " << scene.pieces()[piece].face << ": "
+        << std::count(buffer.pieces.begin(), buffer.pieces.end(), piece) << " pixels\n";
 }
 
 // ---- algorithms/compare/README.md
@@ -66,8 +70,10 @@ void count_pixels(const sightline::Scene& scene, const sightline::Exact_point& e
 #include <iostream>
 
 /// fragments: back to front, as some method drew them; vertices as the exact numbers that its doubles are.
-void judge(const sightline::Scene& scene, const sightline::Exact_point& eye, const std::vector<sightline::Order_fragment>& fragments, std::ostream& out) {
-  const sightline::Order_errors errors = sightline::order_errors(scene, eye, fragments, /* compare all pairs of at most */ 3000);
+void judge(const sightline::Scene& scene, const sightline::Exact_point& eye,
+           const std::vector<sightline::Order_fragment>& fragments, std::ostream& out) {
+  const sightline::Order_errors errors =
+      sightline::order_errors(scene, eye, fragments, /* compare all pairs of at most */ 3000);
   out << errors.wrong_beyond_rounding << " pairs in the wrong order, " << errors.lost << " of the area lost\n";
 }
 
@@ -82,7 +88,8 @@ void judge_views(const sightline::Scene& scene, const sightline::Exact_point& ey
   const sightline::Visible_errors pixels = exact.errors(depth_buffer(scene, eye, {256, 24, 0, 0}));
   const sightline::Number_view<double> doubles(scene, eye);
   const sightline::Visible_errors parts = exact.errors(doubles, visible_surface(doubles, boxes));
-  out << "pixels: " << pixels.wrong << " wrong, " << pixels.missing << " faces missing; doubles: " << parts.wrong << " wrong\n";
+  out << "pixels: " << pixels.wrong << " wrong, " << pixels.missing << " faces missing; doubles: " << parts.wrong
+      << " wrong\n";
 }
 
 // ---- algorithms/verify/README.md
@@ -114,7 +121,8 @@ using namespace sightline;
 Polygon_soup two_squares() {
   Polygon_soup soup;
   for (const double z : {0.0, 1.0}) {
-    const auto p = soup.add_point(0.1, 0.0, z), q = soup.add_point(1.0, 0.0, z), r = soup.add_point(1.0, 1.0, z), s = soup.add_point(0.0, 1.0, z);
+    const auto p = soup.add_point(0.1, 0.0, z), q = soup.add_point(1.0, 0.0, z), r = soup.add_point(1.0, 1.0, z),
+               s = soup.add_point(0.0, 1.0, z);
     soup.add_face({p, q, r, s});
   }
   return soup;
@@ -124,7 +132,8 @@ std::vector<Order_fragment> whole_faces(const Scene& scene, const std::vector<Fa
   for (const Face_id face : order) {
     Order_fragment& fragment = fragments.emplace_back();
     fragment.face = face, fragment.piece = 0;
-    for (const Piece_corner& corner : scene.corners(scene.pieces()[face])) fragment.vertices.push_back(scene.position(corner.point));
+    for (const Piece_corner& corner : scene.corners(scene.pieces()[face]))
+      fragment.vertices.push_back(scene.position(corner.point));
   }
   return fragments;
 }
@@ -136,7 +145,8 @@ TEST(Examples, of_the_kernel) {
 }
 
 TEST(Examples, of_reading_and_writing) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("sightline-examples-" + std::to_string(std::random_device()()));
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("sightline-examples-" + std::to_string(std::random_device()()));
   std::filesystem::create_directory(folder);
   std::ofstream(folder / "a.obj") << "v 0.1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
   std::ostringstream out;
@@ -158,9 +168,11 @@ TEST(Examples, of_errors_of_orders_and_their_check) {
   const Exact_point eye{Rational(1, 2), Rational(1, 2), 5};
   std::ostringstream out;
   judge(scene, eye, whole_faces(scene, {0, 1}), out), judge(scene, eye, whole_faces(scene, {1, 0}), out);
-  EXPECT_EQ(out.str(), "0 pairs in the wrong order, 0 of the area lost\n1 pairs in the wrong order, 0 of the area lost\n");
+  EXPECT_EQ(out.str(),
+            "0 pairs in the wrong order, 0 of the area lost\n1 pairs in the wrong order, 0 of the area lost\n");
 
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("sightline-examples-" + std::to_string(std::random_device()()) + ".json");
+  const std::filesystem::path file = std::filesystem::temp_directory_path() /
+                                     ("sightline-examples-" + std::to_string(std::random_device()()) + ".json");
   for (const bool right : {true, false}) {
     Order_certificate certificate;
     certificate.eye = eye;

@@ -47,7 +47,8 @@ TEST(Pages, have_examples_that_are_compiled_and_run_by_tests) {
   for (const fs::path& page : pages()) {
     const std::vector<std::string> examples = examples_of(read(page));
     EXPECT_FALSE(examples.empty()) << page << " has no example";
-    for (const std::string& example : examples) EXPECT_NE(tests.find(example), std::string::npos) << page << ": no test holds this example:\n" << example;
+    for (const std::string& example : examples)
+      EXPECT_NE(tests.find(example), std::string::npos) << page << ": no test holds this example:\n" << example;
   }
 }
 
@@ -60,7 +61,8 @@ TEST(Pages, name_headers_and_pictures_that_are_there) {
         EXPECT_TRUE(fs::exists(page.parent_path() / link)) << page << " links to " << link;
       }
     }
-    for (std::size_t at = text.find("#include <sightline/"); at != std::string::npos; at = text.find("#include <sightline/", at + 1)) {
+    for (std::size_t at = text.find("#include <sightline/"); at != std::string::npos;
+         at = text.find("#include <sightline/", at + 1)) {
       const std::string header = text.substr(at + 20, text.find('>', at) - at - 20);
       EXPECT_TRUE(fs::is_regular_file(root / header)) << page << " includes " << header;
     }

@@ -23,7 +23,8 @@ TEST(Faults, each_text_is_found_exactly_once) {
   std::set<std::string> names;
   std::map<std::string, std::string> files;
   for (const auto& fault : faults) {
-    const std::string name = fault.at("name"), file = fault.at("file"), expression = fault.at("expression"), faulty = fault.at("faulty");
+    const std::string name = fault.at("name"), file = fault.at("file"), expression = fault.at("expression"),
+                      faulty = fault.at("faulty");
     EXPECT_TRUE(names.insert(name).second) << name << " comes twice";
     EXPECT_NE(expression, faulty) << name;
     EXPECT_FALSE(fault.at("what").get<std::string>().empty()) << name;

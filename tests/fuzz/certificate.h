@@ -1,5 +1,6 @@
 #pragma once
-// Certificates of all kinds, on one small scene: read or refused, accepted or rejected in one line; and what is accepted is true where it is tried (claims.h).
+// Certificates of all kinds, on one small scene: read or refused, accepted or rejected in one line; and what is
+// accepted is true where it is tried (claims.h).
 
 #include "claims.h"
 
@@ -13,14 +14,17 @@ namespace fuzz {
 /// tests/corpus/general/lamp_and_screens.off, which its certificates in tests/corpus/certificates are for.
 inline const Known_scene& known_scene() {
   static const Known_scene scene = [] {
-    Known_scene known{read_scene(std::string(SIGHTLINE_SOURCE_DIR) + "/tests/corpus/general/lamp_and_screens.off"), {}, {}};
+    Known_scene known{
+        read_scene(std::string(SIGHTLINE_SOURCE_DIR) + "/tests/corpus/general/lamp_and_screens.off"), {}, {}};
     for (Face_id f = 0; f < known.soup.face_count(); ++f) {
       Points corners;
       for (const Point_id p : known.soup.loop(f)) corners.push_back(known.soup.point(p));
       std::vector<Flat>& parts = known.parts.emplace_back();
       known.set_aside.push_back(f == 6 || f == 7 || f == 10);  // a duplicate, one without area, one that winds twice
       if (f < 5 || f == 9) parts.emplace_back(corners);
-      if (f == 5) parts = {Flat({corners[0], corners[1], corners[2], corners[3]}), Flat({corners[0], corners[3], corners[4], corners[5]})};  // an L
+      if (f == 5)
+        parts = {Flat({corners[0], corners[1], corners[2], corners[3]}),
+                 Flat({corners[0], corners[3], corners[4], corners[5]})};  // an L
     }
     return known;
   }();
@@ -50,7 +54,8 @@ inline std::optional<Verdict> checked_certificate(std::string_view bytes) {
       [](const auto& claim) {
         const Verdict verdict = verdict_on(claim);
         require(!verdict.why.empty() && verdict.why.find('\n') == std::string::npos, "a verdict is one line");
-        for (const std::size_t i : verdict.fragments) require(i < claim.fragments.size(), "a verdict names fragments that there are");
+        for (const std::size_t i : verdict.fragments)
+          require(i < claim.fragments.size(), "a verdict names fragments that there are");
         require(certificate_in(to_json(claim).dump()).has_value(), "what is written is read");
         if (verdict.accepted) try_claims(known_scene(), claim);
         return verdict;

@@ -1,6 +1,6 @@
 #pragma once
-// What certificates claim, tried at a few points by plain rationals: a claim that a checker accepted and that a sample contradicts is a finding.
-// Samples prove nothing right; they share no code with the checkers.
+// What certificates claim, tried at a few points by plain rationals: a claim that a checker accepted and that a sample
+// contradicts is a finding. Samples prove nothing right; they share no code with the checkers.
 
 #include "support.h"
 
@@ -17,7 +17,9 @@ inline Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a
 inline Exact_point plus(const Exact_point& a, const Exact_point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 inline Exact_point times(const Rational& r, const Exact_point& a) { return {r * a[0], r * a[1], r * a[2]}; }
 inline Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Exact_point cross(const Exact_point& a, const Exact_point& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+inline Exact_point cross(const Exact_point& a, const Exact_point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 
 /// Points strictly inside the convex hull, or the cone, of others: positive mixtures. Pre: there are some.
 inline Points mixtures(const Points& of, bool sum_one = true) {
@@ -40,7 +42,8 @@ struct Flat {
   Exact_point normal;  // by Newell, towards its front
 
   explicit Flat(Points of) : corners(std::move(of)), normal{0, 0, 0} {
-    for (std::size_t i = 0; i < corners.size(); ++i) normal = plus(normal, cross(minus(corners[i], corners[0]), minus(corners[(i + 1) % corners.size()], corners[0])));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      normal = plus(normal, cross(minus(corners[i], corners[0]), minus(corners[(i + 1) % corners.size()], corners[0])));
   }
   int side(const Exact_point& p) const { return sgn(dot(normal, minus(p, corners[0]))); }
   /// Of a point in the plane: 1 inside, 0 on the boundary, -1 outside.
@@ -52,7 +55,8 @@ struct Flat {
     }
     return least;
   }
-  /// Where the line p + t (q - p) meets the polygon: t, and the location there. Nothing where it is parallel to the plane or passes the polygon by.
+  /// Where the line p + t (q - p) meets the polygon: t, and the location there. Nothing where it is parallel to the
+  /// plane or passes the polygon by.
   std::optional<std::pair<Rational, int>> hit(const Exact_point& p, const Exact_point& q) const {
     const Rational at_p = dot(normal, minus(p, corners[0])), at_q = dot(normal, minus(q, corners[0]));
     if (at_p == at_q) return std::nullopt;
@@ -76,13 +80,16 @@ inline std::vector<Flat> flats(const Covering& covering) {
   return all;
 }
 
-/// Each fragment is in its face, and each point of a face is in one fragment; faces that the eye is not in front of may have none.
-inline void try_covering(const Known_scene& scene, const Covering& covering, const std::vector<Flat>& fragments, const Exact_point* eye = nullptr) {
+/// Each fragment is in its face, and each point of a face is in one fragment; faces that the eye is not in front of may
+/// have none.
+inline void try_covering(const Known_scene& scene, const Covering& covering, const std::vector<Flat>& fragments,
+                         const Exact_point* eye = nullptr) {
   std::vector<bool> set_aside(scene.parts.size());
   for (const Covering::Set_aside& entry : covering.set_aside) set_aside[entry.face] = true;
   require(set_aside == scene.set_aside, "what is set aside has to be");
   const auto in = [](const std::vector<Flat>& parts, const Exact_point& p) {
-    return std::any_of(parts.begin(), parts.end(), [&](const Flat& part) { return part.side(p) == 0 && part.location(p) >= 0; });
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const Flat& part) { return part.side(p) == 0 && part.location(p) >= 0; });
   };
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const std::vector<Flat>& parts = scene.parts[covering.fragments[i].face];
@@ -102,7 +109,8 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
         std::size_t inside = 0, touching = 0;
         for (std::size_t i = 0; i < fragments.size(); ++i)
           if (own(i)) inside += fragments[i].location(p) > 0, touching += fragments[i].location(p) == 0;
-        if (eye == nullptr || scene.parts[f][0].side(*eye) > 0) require(inside == 1 || (inside == 0 && touching >= 2), "a point of a face is in one fragment");
+        if (eye == nullptr || scene.parts[f][0].side(*eye) > 0)
+          require(inside == 1 || (inside == 0 && touching >= 2), "a point of a face is in one fragment");
       }
   }
 }
@@ -114,7 +122,8 @@ inline void try_claims(const Known_scene& scene, const Order_certificate& claim)
     if (fragments[later].side(claim.eye) == 0) continue;
     for (const Exact_point& p : mixtures(fragments[later].corners))
       for (std::size_t earlier = 0; earlier < later; ++earlier)
-        if (const auto hit = fragments[earlier].hit(claim.eye, p)) require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing that is drawn earlier is nearer");
+        if (const auto hit = fragments[earlier].hit(claim.eye, p))
+          require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing that is drawn earlier is nearer");
   }
 }
 
@@ -123,7 +132,8 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
   try_covering(scene, claim, fragments);
   const std::size_t n = fragments.size();
   const auto has_corner = [&](std::size_t of, int side, std::size_t plane) {
-    return std::any_of(fragments[of].corners.begin(), fragments[of].corners.end(), [&](const Exact_point& p) { return fragments[plane].side(p) == side; });
+    return std::any_of(fragments[of].corners.begin(), fragments[of].corners.end(),
+                       [&](const Exact_point& p) { return fragments[plane].side(p) == side; });
   };
   std::vector<std::vector<char>> reaches(n, std::vector<char>(n));
   std::vector<std::size_t> component;
@@ -138,7 +148,8 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t j = 0; j < n; ++j) reaches[i][j] = reaches[i][j] || (reaches[i][k] && reaches[k][j]);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < n; ++j) require(component[i] != component[j] || reaches[i][j], "a component is strongly connected");
+    for (std::size_t j = 0; j < n; ++j)
+      require(component[i] != component[j] || reaches[i][j], "a component is strongly connected");
 }
 
 /// A convex cone: 1 strictly inside, 0 on the boundary, -1 outside.
@@ -160,25 +171,32 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
     Points& rays = tiles.emplace_back();
     for (const Exact_point& p : part.vertices) rays.push_back(minus(p, claim.eye));
     for (const Exact_point& p : mixtures(part.vertices)) {
-      require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0, "a part is in its fragment");
+      require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0,
+              "a part is in its fragment");
       for (const Flat& other : fragments)
-        if (const auto hit = other.hit(claim.eye, p)) require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing is before a visible part");
+        if (const auto hit = other.hit(claim.eye, p))
+          require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing is before a visible part");
     }
   }
   for (const Points& cone : claim.empty)
     for (const Exact_point& d : mixtures(cone, false))
       for (const Flat& other : fragments)
-        if (const auto hit = other.hit(claim.eye, plus(claim.eye, d))) require(hit->first <= 0 || hit->second == 0, "nothing is in an empty cone");
+        if (const auto hit = other.hit(claim.eye, plus(claim.eye, d)))
+          require(hit->first <= 0 || hit->second == 0, "nothing is in an empty cone");
   for (const Points& tile : tiles)
     for (const Exact_point& d : mixtures(tile, false)) {
       require(claim.field.empty() || location_in_cone(claim.field, d) >= 0, "what is seen is in the field");
-      require(std::count_if(tiles.begin(), tiles.end(), [&](const Points& other) { return location_in_cone(other, d) > 0; }) == 1, "a direction is in one cone");
+      require(std::count_if(tiles.begin(), tiles.end(),
+                            [&](const Points& other) { return location_in_cone(other, d) > 0; }) == 1,
+              "a direction is in one cone");
     }
   for (const Flat& fragment : fragments)
     for (const Exact_point& p : mixtures(fragment.corners)) {
       const Exact_point d = minus(p, claim.eye);
       if (fragment.side(claim.eye) == 0 || (!claim.field.empty() && location_in_cone(claim.field, d) <= 0)) continue;
-      require(std::any_of(tiles.begin(), tiles.end(), [&](const Points& tile) { return location_in_cone(tile, d) >= 0; }), "a direction of the field is in a cone");
+      require(
+          std::any_of(tiles.begin(), tiles.end(), [&](const Points& tile) { return location_in_cone(tile, d) >= 0; }),
+          "a direction of the field is in a cone");
     }
 }
 
@@ -210,12 +228,15 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
     hidden.insert({entry.fragment, entry.source});
     const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
     for (const Exact_point& p : mixtures(source.corners))
-      for (const Exact_point& q : mixtures(fragment.corners)) require(!looks(p, source, q, fragment) || blocked(p, q), "what is hidden is not seen");
+      for (const Exact_point& q : mixtures(fragment.corners))
+        require(!looks(p, source, q, fragment) || blocked(p, q), "what is hidden is not seen");
   }
   for (const Face_id face : claim.undecided) undecided[face] = true;
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const Face_id face = claim.fragments[i].face;
-    for (std::size_t s = 0; s < sources.size(); ++s) require(visible[face] || undecided[face] || hidden.count({i, s}) > 0, "a face that is not visible is hidden from each source, with all its fragments");
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      require(visible[face] || undecided[face] || hidden.count({i, s}) > 0,
+              "a face that is not visible is hidden from each source, with all its fragments");
   }
 }
 

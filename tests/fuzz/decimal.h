@@ -9,7 +9,9 @@
 
 namespace fuzz {
 
-inline bool is_digits(std::string_view text) { return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos; }
+inline bool is_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
 
 /// A number as the grammar has it.
 struct Plain_decimal {
@@ -36,7 +38,8 @@ inline std::optional<Plain_decimal> plain_decimal(std::string text) {
     if (negative) result.exponent = -result.exponent;
   }
   result.negative = sign(text);
-  if (const std::size_t point = text.find('.'); point != std::string::npos) result.places = text.size() - point - 1, text.erase(point, 1);
+  if (const std::size_t point = text.find('.'); point != std::string::npos)
+    result.places = text.size() - point - 1, text.erase(point, 1);
   if (!is_digits(text)) return std::nullopt;
   result.digits = Integer(text, 10);
   return result;
@@ -61,7 +64,8 @@ inline std::optional<Rational> plain_rational(std::string_view text) {
     return negative ? Integer(-n) : n;
   };
   const std::size_t slash = text.find('/');
-  const std::optional<Integer> p = integer(text.substr(0, slash)), q = slash == std::string_view::npos ? Integer(1) : integer(text.substr(slash + 1));
+  const std::optional<Integer> p = integer(text.substr(0, slash)),
+                               q = slash == std::string_view::npos ? Integer(1) : integer(text.substr(slash + 1));
   if (!p || !q || sgn(*q) == 0) return std::nullopt;
   Rational value(*p, *q);
   value.canonicalize();
@@ -102,15 +106,20 @@ std::optional<Number> number_in(std::string_view word, Parse parse) {
 inline void check_number(const Number& number, const Rational& truth) {
   require(sightline::value_of(number) == truth, "the number is what the text says");
   const auto* decimal = std::get_if<Decimal>(&number);
-  if (decimal) require(decimal->exponent <= 0 && (decimal->exponent == 0 || decimal->mantissa % 10 != 0), "a Decimal is canonical");
+  if (decimal)
+    require(decimal->exponent <= 0 && (decimal->exponent == 0 || decimal->mantissa % 10 != 0),
+            "a Decimal is canonical");
   require(is_nearest_double(nearest_double(number), truth), "the nearest double is the nearest");
   Coordinates coordinates;
   for (int copies = 0; copies < 2; ++copies) push(coordinates, number);
   coordinates.push(Rational(1, 3));
   require(coordinates[0] == truth && coordinates[1] == truth, "coordinates hold the number");
   const Integer common = coordinates.common_denominator();
-  const auto check = [&](std::size_t i, const Integer& scaled) { require(scaled == (i < 2 ? truth : Rational(1, 3)) * common, "scaled coordinates are integers"); };
-  coordinates.for_each_scaled(common, [&](std::size_t i, std::int64_t n) { check(i, Integer(static_cast<long>(n))); }, check);
+  const auto check = [&](std::size_t i, const Integer& scaled) {
+    require(scaled == (i < 2 ? truth : Rational(1, 3)) * common, "scaled coordinates are integers");
+  };
+  coordinates.for_each_scaled(
+      common, [&](std::size_t i, std::int64_t n) { check(i, Integer(static_cast<long>(n))); }, check);
 }
 
 inline void decimal(std::string_view bytes) {
@@ -119,7 +128,8 @@ inline void decimal(std::string_view bytes) {
   std::optional<std::pair<Number, Rational>> before;
   for (std::string_view word = text.next_token_of_any_line(); !word.empty(); word = text.next_token_of_any_line()) {
     const std::optional<Plain_decimal> plain = plain_decimal(std::string(word));
-    const std::optional<Number> number = number_in(word, [](const Text_reader& of, std::string_view token) { return parse_decimal(of, token); });
+    const std::optional<Number> number =
+        number_in(word, [](const Text_reader& of, std::string_view token) { return parse_decimal(of, token); });
     if (number) {
       require(plain.has_value(), "what is read is a decimal");
       const Rational truth = plain->digits == 0 ? Rational(0) : value_of(*plain);
@@ -127,13 +137,21 @@ inline void decimal(std::string_view bytes) {
       if (before) require((before->first == *number) == (before->second == truth), "numbers are == iff they are equal");
       before = {*number, truth};
       const std::optional<std::string> again = decimal_text(truth);
-      if (again) require(number_in(*again, [](const Text_reader& of, std::string_view token) { return parse_decimal(of, token); }) == number, "decimal_text gives the number back");
-      else require(abs(plain->exponent) + static_cast<unsigned long>(plain->places) > largest_decimal_exponent, "decimals have a text");
+      if (again)
+        require(number_in(*again, [](const Text_reader& of,
+                                     std::string_view token) { return parse_decimal(of, token); }) == number,
+                "decimal_text gives the number back");
+      else
+        require(abs(plain->exponent) + static_cast<unsigned long>(plain->places) > largest_decimal_exponent,
+                "decimals have a text");
     } else if (plain) {
-      require(plain->digits != 0 && abs(plain->exponent) + static_cast<unsigned long>(plain->places) > largest_decimal_exponent, "decimals within the range are read");
+      require(plain->digits != 0 &&
+                  abs(plain->exponent) + static_cast<unsigned long>(plain->places) > largest_decimal_exponent,
+              "decimals within the range are read");
     }
     const std::optional<Rational> ratio = plain_rational(word);
-    const std::optional<Number> as_ratio = number_in(word, [](const Text_reader& of, std::string_view token) { return parse_rational(of, token); });
+    const std::optional<Number> as_ratio =
+        number_in(word, [](const Text_reader& of, std::string_view token) { return parse_rational(of, token); });
     require(ratio.has_value() == as_ratio.has_value(), "p/q is read, and nothing else");
     if (ratio) check_number(*as_ratio, *ratio);
   }

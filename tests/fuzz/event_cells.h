@@ -1,5 +1,6 @@
 #pragma once
-// Cells of lines beside an event line: their signs are those of the line that is moved there, and lines near by have no others.
+// Cells of lines beside an event line: their signs are those of the line that is moved there, and lines near by have no
+// others.
 
 #include "support.h"
 
@@ -20,7 +21,8 @@ inline Homogeneous combined(const std::array<Homogeneous, 4>& points, const std:
   return x;
 }
 
-/// Lines that a whole ruling of a quadric meets, or a whole pencil: those through its vertex, those in its plane, those with both. Empty where the bytes make none.
+/// Lines that a whole ruling of a quadric meets, or a whole pencil: those through its vertex, those in its plane, those
+/// with both. Empty where the bytes make none.
 inline Touching touching_in(Bytes& from, bool at_regulus) {
   std::array<Homogeneous, 4> points;
   for (Homogeneous& x : points)
@@ -31,14 +33,18 @@ inline Touching touching_in(Bytes& from, bool at_regulus) {
   const std::size_t count = 3 + from.below(4);
   std::set<std::array<long, 3>> known;  // a kind of line, and where it differs from others of its kind: a quotient
   for (std::size_t k = 0; k < count; ++k) {
-    const long kind = at_regulus ? 0 : static_cast<long>(from.below(3)), m = static_cast<long>(from.below(16)) - 8, c = 1 + static_cast<long>(from.below(4)), free = static_cast<long>(from.below(16)) - 8;
+    const long kind = at_regulus ? 0 : static_cast<long>(from.below(3)), m = static_cast<long>(from.below(16)) - 8,
+               c = 1 + static_cast<long>(from.below(4)), free = static_cast<long>(from.below(16)) - 8;
     const long common = std::gcd(m, c);
     if (!known.insert({kind, m / common, c / common}).second) continue;
-    const auto line = [&](const std::array<long, 4>& a, const std::array<long, 4>& b) { return from.below(2) == 0 ? join(combined(points, a), combined(points, b)) : join(combined(points, b), combined(points, a)); };
-    touching.lines.push_back(at_regulus ? line({c, m, 0, 0}, {0, 0, c, m})
-                             : kind == 0 ? line({1, 0, 0, 0}, {0, free, m, c})      // through v
-                             : kind == 1 ? line({m, c, 0, 0}, {free, 0, 1, 0})      // in the plane of v, w, r
-                                         : line({1, 0, 0, 0}, {0, m, c, 0}));       // both
+    const auto line = [&](const std::array<long, 4>& a, const std::array<long, 4>& b) {
+      return from.below(2) == 0 ? join(combined(points, a), combined(points, b))
+                                : join(combined(points, b), combined(points, a));
+    };
+    touching.lines.push_back(at_regulus  ? line({c, m, 0, 0}, {0, 0, c, m})
+                             : kind == 0 ? line({1, 0, 0, 0}, {0, free, m, c})  // through v
+                             : kind == 1 ? line({m, c, 0, 0}, {free, 0, 1, 0})  // in the plane of v, w, r
+                                         : line({1, 0, 0, 0}, {0, m, c, 0}));   // both
   }
   return at_regulus && touching.lines.size() < 3 ? Touching{} : touching;
 }
@@ -71,9 +77,12 @@ inline void event_cells(std::string_view bytes) {
   // 2. Those that other lines near by are in.
   for (int k = 0; k < 60; ++k) {
     Event_move move;
-    for (Rational& x : move.first) x = Rational(from.integer(10), Integer(1) << (from.below(3) == 0 ? 100 + from.byte() % 8 : from.byte() % 16)), x.canonicalize();
+    for (Rational& x : move.first)
+      x = Rational(from.integer(10), Integer(1) << (from.below(3) == 0 ? 100 + from.byte() % 8 : from.byte() % 16)),
+      x.canonicalize();
     const std::vector<int> signs = signs_of(move, t);
-    if (std::find(signs.begin(), signs.end(), 0) == signs.end()) require(said.count(signs) == 1, "each cell near the line is visited");
+    if (std::find(signs.begin(), signs.end(), 0) == signs.end())
+      require(said.count(signs) == 1, "each cell near the line is visited");
   }
 }
 

@@ -32,7 +32,9 @@ void check_width(std::string_view bytes) {
   to_limbs(a, of_a.data(), Limbs), to_limbs(b, of_b.data(), Limbs);
   require(value_of_limbs(of_a.data(), Limbs) == a && from_limbs(of_a.data(), Limbs) == a, "limbs hold the number");
   const Fixed_integer<Limbs> x(of_a.data(), Limbs), y(of_b.data(), Limbs);
-  const auto same = [](const Fixed_integer<Limbs>& fixed, const Integer& n) { return value_of_limbs(fixed.limbs(), Limbs) == wrapped(n, bits); };
+  const auto same = [](const Fixed_integer<Limbs>& fixed, const Integer& n) {
+    return value_of_limbs(fixed.limbs(), Limbs) == wrapped(n, bits);
+  };
   require(same(x + y, a + b), "a sum is one");
   require(same(x - y, a - b), "a difference is one");
   require(same(x * y, a * b), "a product is one");
@@ -42,7 +44,8 @@ void check_width(std::string_view bytes) {
   if (wrapped(a - b, bits) == a - b) require((x < y) == (a < b), "an order is one");
   if (wrapped(b - a, bits) == b - a) require((x > y) == (a > b), "an order is one");
   const auto small = static_cast<std::int64_t>(from.word());
-  require(same(Fixed_integer<Limbs>(small), Integer(static_cast<long>(small))), "a machine integer is extended by its sign");
+  require(same(Fixed_integer<Limbs>(small), Integer(static_cast<long>(small))),
+          "a machine integer is extended by its sign");
   const Fixed_integer<Limbs + 3> wider(of_a.data(), Limbs);
   require(value_of_limbs(wider.limbs(), Limbs + 3) == a, "a narrower number is extended by its sign");
 

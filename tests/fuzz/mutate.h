@@ -1,5 +1,6 @@
 #pragma once
-// Damage to inputs: of bytes, of the words and lines of text, and of the values of JSON. The same seed gives the same damage.
+// Damage to inputs: of bytes, of the words and lines of text, and of the values of JSON. The same seed gives the same
+// damage.
 
 #include <nlohmann/json.hpp>
 
@@ -75,8 +76,34 @@ class Mutator {
   /// Puts another word of the text, or one that is odd, in the place of a word.
   void exchange_word(std::string& text) {
     static constexpr std::string_view blanks = " \t\r\n,:[]{}\"";
-    static constexpr std::string_view odd[] = {"0", "-0", "-1", "1", "2", "4294967295", "4294967296", "9223372036854775807", "9223372036854775808", "1e400", "1e-400", "1e1100", "1e-1101",
-                                               "0.1", "-.5", "1.", "1/3", "-7/0", "+3", "nan", "inf", "#", "\\", "\xEF\xBB\xBF", "1//2", "1/2/3", "9007199254740993", "1e99999999999999999999"};
+    static constexpr std::string_view odd[] = {"0",
+                                               "-0",
+                                               "-1",
+                                               "1",
+                                               "2",
+                                               "4294967295",
+                                               "4294967296",
+                                               "9223372036854775807",
+                                               "9223372036854775808",
+                                               "1e400",
+                                               "1e-400",
+                                               "1e1100",
+                                               "1e-1101",
+                                               "0.1",
+                                               "-.5",
+                                               "1.",
+                                               "1/3",
+                                               "-7/0",
+                                               "+3",
+                                               "nan",
+                                               "inf",
+                                               "#",
+                                               "\\",
+                                               "\xEF\xBB\xBF",
+                                               "1//2",
+                                               "1/2/3",
+                                               "9007199254740993",
+                                               "1e99999999999999999999"};
     const auto word_at = [&](std::size_t place) {
       const std::size_t begin = text.find_first_not_of(blanks, place);
       if (begin == std::string::npos) return std::pair(text.size(), std::size_t{0});
@@ -91,7 +118,8 @@ class Mutator {
   /// A value within another one, however many there are beside it: at each level one is as likely as the next.
   Json& somewhere(Json& value) {
     Json* at = &value;
-    while (at->is_structured() && !at->empty() && (at == &value || below(4) != 0)) at = &*std::next(at->begin(), static_cast<std::ptrdiff_t>(below(at->size())));
+    while (at->is_structured() && !at->empty() && (at == &value || below(4) != 0))
+      at = &*std::next(at->begin(), static_cast<std::ptrdiff_t>(below(at->size())));
     return *at;
   }
 
@@ -100,7 +128,8 @@ class Mutator {
     else if (value.is_number()) value = below(3) == 0 && other.is_number() ? other : Json(below(12));
     else if (value.is_string()) value = exact_number(value.get<std::string>(), other);
     else if (value.is_array() && !value.empty()) damage_list(value, other);
-    else if (value.is_object() && !value.empty() && below(8) == 0) value.erase(std::next(value.begin(), static_cast<std::ptrdiff_t>(below(value.size()))));
+    else if (value.is_object() && !value.empty() && below(8) == 0)
+      value.erase(std::next(value.begin(), static_cast<std::ptrdiff_t>(below(value.size()))));
   }
 
   void damage_list(Json& list, const Json& other) {
@@ -119,11 +148,19 @@ class Mutator {
   }
 
   Json exact_number(const std::string& text, const Json& other) {
-    static constexpr std::string_view some[] = {"0", "1", "-1", "2", "3", "4", "6", "1/2", "-1/2", "5/2", "7/3", "1/1099511627776", "1000000007", "-1000000007/3"};
+    static constexpr std::string_view some[] = {"0",          "1",
+                                                "-1",         "2",
+                                                "3",          "4",
+                                                "6",          "1/2",
+                                                "-1/2",       "5/2",
+                                                "7/3",        "1/1099511627776",
+                                                "1000000007", "-1000000007/3"};
     switch (below(4)) {
       case 0: return other.is_string() ? other : Json(std::string(some[below(std::size(some))]));
       case 1: return text.starts_with('-') ? text.substr(1) : "-" + text;
-      case 2: return text.find('/') == std::string::npos ? text + "/" + std::string(below(2) == 0 ? "2" : "3") : text.substr(0, text.find('/'));
+      case 2:
+        return text.find('/') == std::string::npos ? text + "/" + std::string(below(2) == 0 ? "2" : "3")
+                                                   : text.substr(0, text.find('/'));
       default: return std::string(some[below(std::size(some))]);
     }
   }

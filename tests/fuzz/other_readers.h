@@ -1,5 +1,6 @@
 #pragma once
-// Readers of JSON and of lists of numbers: what is taken is written and read alike, what is refused is refused in one line.
+// Readers of JSON and of lists of numbers: what is taken is written and read alike, what is refused is refused in one
+// line.
 
 #include "support.h"
 
@@ -12,7 +13,8 @@
 namespace fuzz {
 
 inline bool is_one_line(std::string_view text) {
-  return !text.empty() && std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; });
+  return !text.empty() &&
+         std::none_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; });
 }
 
 /// What read() makes of the bytes; nothing where it refuses them, as it must: in one line that begins so.
@@ -21,7 +23,8 @@ auto taken(const char* begin, Read&& read) -> std::optional<decltype(read())> {
   try {
     return read();
   } catch (const std::invalid_argument& error) {
-    require(is_one_line(error.what()) && std::string_view(error.what()).starts_with(begin), "an error is one line that says whose it is");
+    require(is_one_line(error.what()) && std::string_view(error.what()).starts_with(begin),
+            "an error is one line that says whose it is");
     return std::nullopt;
   }
 }
@@ -34,7 +37,9 @@ inline void read_certificate(std::string_view bytes) {
       return sightline::read_certificate(in);
     });
   };
-  const auto written = [](const Certificate& certificate) { return std::visit([](const auto& claim) { return to_json(claim).dump(); }, certificate); };
+  const auto written = [](const Certificate& certificate) {
+    return std::visit([](const auto& claim) { return to_json(claim).dump(); }, certificate);
+  };
   const std::optional<Certificate> certificate = read(bytes);
   if (!certificate) return;
   const std::string text = written(*certificate);
@@ -54,32 +59,44 @@ inline void query(std::string_view bytes) {
       for (const Face_id face : *list) require(face < faces, "a query names faces that there are");
     const auto text = harness::query_json(posed->scene, posed->seed).dump();
     const auto again = taken("query: ", [&] { return harness::query_from_json(nlohmann::json::parse(text), faces); });
-    require(again && harness::query_json(again->scene, again->seed).dump() == text, "what is written is the same query when read");
+    require(again && harness::query_json(again->scene, again->seed).dump() == text,
+            "what is written is the same query when read");
   }
   const auto asked = taken("", [&] { return judge::query_from_json(value); });
   if (asked) {
     const auto text = judge::to_json(*asked).dump();
     const auto again = taken("", [&] { return judge::query_from_json(nlohmann::json::parse(text)); });
-    require(again && again->eye == asked->eye && again->source == asked->source && judge::to_json(*again).dump() == text, "what is asked is the same query when read");
+    require(
+        again && again->eye == asked->eye && again->source == asked->source && judge::to_json(*again).dump() == text,
+        "what is asked is the same query when read");
   }
 }
 
 /// Answers of somebody's program about a scene of twelve faces, to each question.
 inline void answer(std::string_view bytes) {
   constexpr std::size_t faces = 12;
-  const auto ascends = [](const std::vector<Face_id>& list) { return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end() && (list.empty() || list.back() < faces); };
+  const auto ascends = [](const std::vector<Face_id>& list) {
+    return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end() &&
+           (list.empty() || list.back() < faces);
+  };
   for (const judge::Question question : {judge::Question::order, judge::Question::see, judge::Question::weak}) {
     const auto taken_answer = taken("", [&] { return judge::read_answer(std::string(bytes), question, faces); });
     if (!taken_answer) continue;
-    require(ascends(taken_answer->visible) && ascends(taken_answer->abstained), "faces are sorted, once, and of the scene");
-    require(question == judge::Question::order ? taken_answer->visible.empty() : taken_answer->order.empty(), "an answer is to what was asked");
+    require(ascends(taken_answer->visible) && ascends(taken_answer->abstained),
+            "faces are sorted, once, and of the scene");
+    require(question == judge::Question::order ? taken_answer->visible.empty() : taken_answer->order.empty(),
+            "an answer is to what was asked");
     std::set<Face_id> whole, in_parts;
     for (const judge::Drawn_face& drawn : taken_answer->order) {
-      require(drawn.face < faces && (drawn.part.empty() || drawn.part.size() >= 3), "what is drawn is a face or a part of it");
-      require(drawn.part.empty() ? whole.insert(drawn.face).second : (in_parts.insert(drawn.face), true), "a face is drawn once");
+      require(drawn.face < faces && (drawn.part.empty() || drawn.part.size() >= 3),
+              "what is drawn is a face or a part of it");
+      require(drawn.part.empty() ? whole.insert(drawn.face).second : (in_parts.insert(drawn.face), true),
+              "a face is drawn once");
     }
     for (const Face_id face : taken_answer->abstained)
-      require(!whole.contains(face) && !in_parts.contains(face) && !std::binary_search(taken_answer->visible.begin(), taken_answer->visible.end(), face), "nothing is answered and abstained from");
+      require(!whole.contains(face) && !in_parts.contains(face) &&
+                  !std::binary_search(taken_answer->visible.begin(), taken_answer->visible.end(), face),
+              "nothing is answered and abstained from");
     for (const Face_id face : in_parts) require(!whole.contains(face), "a face is drawn whole or in parts");
   }
 }
@@ -95,7 +112,8 @@ inline void number_lines(std::string_view bytes) {
       });
       return lines;
     } catch (const Input_error& error) {
-      require(is_one_line(error.what()) && std::string_view(error.what()).starts_with("numbers:"), "an error is one line that names the file");
+      require(is_one_line(error.what()) && std::string_view(error.what()).starts_with("numbers:"),
+              "an error is one line that names the file");
       require(error.line <= text.size() + 1 && error.column <= text.size() + 1, "an error is at a place in the file");
       return std::nullopt;
     }

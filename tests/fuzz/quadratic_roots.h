@@ -13,8 +13,9 @@ struct Narrow {
   bool same(const Narrow& other) const { return abs(low - other.low) <= 4; }
 };
 
-/// Roots of two quadratics with coefficients below 2^bits, and the numbers 0 and 1, differ by more than this many binary places can hide: Mahler's bound on the distance
-/// of two roots of a polynomial P of degree n <= 6 with integer coefficients is above n^-(n+2)/2 |P|^-(n-1), |P| the length of its coefficients, here below 2^(2 bits + 8).
+/// Roots of two quadratics with coefficients below 2^bits, and the numbers 0 and 1, differ by more than this many
+/// binary places can hide: Mahler's bound on the distance of two roots of a polynomial P of degree n <= 6 with integer
+/// coefficients is above n^-(n+2)/2 |P|^-(n-1), |P| the length of its coefficients, here below 2^(2 bits + 8).
 inline unsigned long places_for(int bits) { return static_cast<unsigned long>(5 * (2 * bits + 8) + 16 + 8); }
 
 /// All real roots, by completing the square with integer square roots of many places.
@@ -68,7 +69,8 @@ inline void quadratic_roots(std::string_view bytes) {
     std::sort(found.begin(), found.end());
     require(found.size() == truth.size(), "as many roots as there are");
     for (std::size_t k = 0; k < found.size(); ++k) all.emplace_back(found[k], truth[k]);
-    if (!q.is_zero() && q.certain_sign() != 0) require(q.sign(Rational(1, 3)) != -q.certain_sign() && truth.empty(), "a certain sign is that of all values");
+    if (!q.is_zero() && q.certain_sign() != 0)
+      require(q.sign(Rational(1, 3)) != -q.certain_sign() && truth.empty(), "a certain sign is that of all values");
   }
 
   // Comparison, and what is between.
@@ -89,7 +91,8 @@ inline void quadratic_roots(std::string_view bytes) {
   const std::vector<Parameter_range> parts = divided(whole, f);
   for (const Parameter_range& part : parts) {
     const Rational s = inner_rational(part), t = inner_rational(part, 1);
-    for (const Quadratic& q : f) require(q.is_zero() || (q.sign(s) == q.sign(t) && q.sign(s) != 0), "no root is within a part");
+    for (const Quadratic& q : f)
+      require(q.is_zero() || (q.sign(s) == q.sign(t) && q.sign(s) != 0), "no root is within a part");
   }
 
   // What some signs leave of the range.
@@ -101,7 +104,8 @@ inline void quadratic_roots(std::string_view bytes) {
   for (const Parameter_range& part : parts) {
     const Rational s = inner_rational(part);
     const Quadratic_root at(s.get_num(), 0, Integer(0), s.get_den());
-    const bool is_left = std::any_of(left.begin(), left.end(), [&](const Parameter_range& range) { return range.low < at && at < range.high; });
+    const bool is_left = std::any_of(left.begin(), left.end(),
+                                     [&](const Parameter_range& range) { return range.low < at && at < range.high; });
     require(is_left == !holds(s), "what is left is where it does not hold");
     runs += is_left && !before, before = is_left;
   }

@@ -1,5 +1,6 @@
 #pragma once
-// What every reader owes whatever bytes it is given: a scene or an error of one line; and a scene that the writers and it agree on.
+// What every reader owes whatever bytes it is given: a scene or an error of one line; and a scene that the writers and
+// it agree on.
 
 #include "support.h"
 
@@ -10,15 +11,20 @@
 
 namespace fuzz {
 
-/// What the bytes hold; nothing where they are refused, as they must be: in one line that begins with the file's name, at a place in the file.
+/// What the bytes hold; nothing where they are refused, as they must be: in one line that begins with the file's name,
+/// at a place in the file.
 inline std::optional<Polygon_soup> scene_in(std::string_view bytes, Format format, const Read_options& options = {}) {
   try {
     return read_scene(bytes, format, "scene", options);
   } catch (const Input_error& error) {
     const std::string_view line = error.what();
     require(line.starts_with("scene:") && line.size() > 10, "an error begins with the file's name");
-    require(std::all_of(line.begin(), line.end(), [](char c) { return static_cast<unsigned char>(c) >= 32 && static_cast<unsigned char>(c) < 127; }), "an error is one printable line");
-    require(error.line <= bytes.size() + 1 && error.column <= bytes.size() + 1, "an error in text is at a place in the file");
+    require(
+        std::all_of(line.begin(), line.end(),
+                    [](char c) { return static_cast<unsigned char>(c) >= 32 && static_cast<unsigned char>(c) < 127; }),
+        "an error is one printable line");
+    require(error.line <= bytes.size() + 1 && error.column <= bytes.size() + 1,
+            "an error in text is at a place in the file");
     require(!error.byte || *error.byte <= bytes.size(), "an error in binary data is at a place in the file");
     return std::nullopt;
   }
@@ -66,10 +72,13 @@ inline void check_reader(std::string_view bytes, Format format) {
   }
   if (const std::optional<Polygon_soup> rounded = scene_in(bytes, format, {true})) {
     require(rounded->face_count() == soup->face_count(), "rounding leaves the faces");
-    if (format != Format::stl) require(rounded->point_count() == soup->point_count() && same_faces(*soup, *rounded), "rounding leaves the points' numbers");
+    if (format != Format::stl)
+      require(rounded->point_count() == soup->point_count() && same_faces(*soup, *rounded),
+              "rounding leaves the points' numbers");
   }
   require(comes_back(*soup, Format::qoff), "QOFF holds any scene that was read");
-  if (format == Format::stl ? triangles && soup->face_count() > 0 : format != Format::qoff) require(comes_back(*soup, format), "a format holds what was read from it");
+  if (format == Format::stl ? triangles && soup->face_count() > 0 : format != Format::qoff)
+    require(comes_back(*soup, format), "a format holds what was read from it");
   if (format == Format::ply) comes_back(*soup, Format::ply_binary);  // where coordinates are doubles
 }
 

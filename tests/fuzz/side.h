@@ -19,14 +19,16 @@ inline Grid grid_in(Bytes& from, std::vector<std::uint32_t>& points) {
   for (std::size_t k = 3 + from.below(6); k > 0; --k) {
     std::array<Integer, 3> p;
     const bool whole = from.below(2) == 1;
-    for (Integer& x : p) x = whole ? Integer(from.integer(bits - static_cast<int>(bit_length(divisor))) * divisor) : from.integer(bits);
+    for (Integer& x : p)
+      x = whole ? Integer(from.integer(bits - static_cast<int>(bit_length(divisor))) * divisor) : from.integer(bits);
     points.push_back(grid.point(p));
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;
   for (std::size_t k = 3 + from.below(5); k > 0; --k) {
     std::array<std::uint32_t, 3> corner;
     for (std::uint32_t& p : corner) p = points[from.below(points.size())];
-    const kernel_test::Coefficients h = kernel_test::through(grid.at(corner[0]), grid.at(corner[1]), grid.at(corner[2]));
+    const kernel_test::Coefficients h =
+        kernel_test::through(grid.at(corner[0]), grid.at(corner[1]), grid.at(corner[2]));
     if (h[0] == 0 && h[1] == 0 && h[2] == 0) continue;
     const Plane plane = grid.plane(h);
     if (from.below(2) == 0) continue;
@@ -36,7 +38,8 @@ inline Grid grid_in(Bytes& from, std::vector<std::uint32_t>& points) {
   return grid;
 }
 
-inline void check_side(const Grid& grid, const Predicates& predicates, const Vertex& v, const Position& x, Plane plane, const kernel_test::Coefficients& h) {
+inline void check_side(const Grid& grid, const Predicates& predicates, const Vertex& v, const Position& x, Plane plane,
+                       const kernel_test::Coefficients& h) {
   const Sign truth = kernel_test::sign(kernel_test::evaluate(h, x));
   for (const bool opposite : {false, true}) {
     const Plane g = opposite ? plane.opposite() : plane;
@@ -48,7 +51,8 @@ inline void check_side(const Grid& grid, const Predicates& predicates, const Ver
     require(!predicates.incident(v, g.id()) || expected == CGAL::ZERO, "incident is on");
     const CGAL::Uncertain<Sign> filtered = Predicates::side_filtered(v, prepared), fixed = predicates.side_fixed(v, g);
     require(!CGAL::is_certain(filtered) || filtered.inf() == expected, "doubles are right where they are certain");
-    require(CGAL::is_certain(fixed) == (predicates.arithmetic() != Arithmetic::gmp), "fixed width is certain iff the scene fits it");
+    require(CGAL::is_certain(fixed) == (predicates.arithmetic() != Arithmetic::gmp),
+            "fixed width is certain iff the scene fits it");
     require(!CGAL::is_certain(fixed) || fixed.inf() == expected, "fixed width is right");
     require(predicates.side_exact<Integer>(v, g) == expected, "GMP is right");
     const int width = grid.planes.budget().side();
@@ -58,7 +62,9 @@ inline void check_side(const Grid& grid, const Predicates& predicates, const Ver
   }
   if (v.error == std::numeric_limits<double>::infinity()) return;
   const std::array<double, 3> rounded{v.x, v.y, v.z};
-  for (std::size_t k = 0; k < 3; ++k) require(abs(exact(rounded[k]) - grid.approximated(x[k])) <= exact(v.error), "the doubles of a vertex are within its error");
+  for (std::size_t k = 0; k < 3; ++k)
+    require(abs(exact(rounded[k]) - grid.approximated(x[k])) <= exact(v.error),
+            "the doubles of a vertex are within its error");
 }
 
 inline void side(std::string_view bytes) {
@@ -81,13 +87,17 @@ inline void side(std::string_view bytes) {
     for (const auto& [plane, h] : planes) check_side(grid, predicates, v, {at[0], at[1], at[2]}, plane, h);
   }
   for (std::size_t round = 0; round < 4; ++round) {
-    const std::array<std::size_t, 3> triple{from.below(planes.size()), from.below(planes.size()), from.below(planes.size())};
+    const std::array<std::size_t, 3> triple{from.below(planes.size()), from.below(planes.size()),
+                                            from.below(planes.size())};
     std::array<std::uint32_t, 3> ids;
     for (std::size_t k = 0; k < 3; ++k) ids[k] = planes[triple[k]].first.id();
     const auto [p, q, r] = ids;
-    const std::optional<Position> meet = kernel_test::meeting_point(planes[triple[0]].second, planes[triple[1]].second, planes[triple[2]].second);
+    const std::optional<Position> meet =
+        kernel_test::meeting_point(planes[triple[0]].second, planes[triple[1]].second, planes[triple[2]].second);
     Predicate_counts counts;
-    require((predicates.orientation(planes[triple[0]].first, planes[triple[1]].first, planes[triple[2]].first, counts) == CGAL::ZERO) == !meet, "normals are dependent iff planes do not meet in a point");
+    require((predicates.orientation(planes[triple[0]].first, planes[triple[1]].first, planes[triple[2]].first,
+                                    counts) == CGAL::ZERO) == !meet,
+            "normals are dependent iff planes do not meet in a point");
     if (!meet) {
       try {
         predicates.meet(p, q, r);

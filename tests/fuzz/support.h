@@ -40,7 +40,8 @@ class Bytes {
     for (int k = 0; k < 8; ++k) value = value << 8 | byte();
     return value;
   }
-  /// |n| < 2^bits. One byte may stand for a small number or for a power of two and a little, so that coincidences come about often.
+  /// |n| < 2^bits. One byte may stand for a small number or for a power of two and a little, so that coincidences come
+  /// about often.
   Integer integer(int bits) {
     const std::uint8_t kind = byte();
     Integer n = 0;

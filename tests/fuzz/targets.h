@@ -1,5 +1,6 @@
 #pragma once
-// All targets by name. A target is a function of bytes that throws where something is wrong; whatever the bytes are, it returns soon.
+// All targets by name. A target is a function of bytes that throws where something is wrong; whatever the bytes are, it
+// returns soon.
 
 #include "certificate.h"
 #include "decimal.h"
@@ -20,7 +21,8 @@ namespace fuzz {
 struct Target {
   const char* name;
   void (*run)(std::string_view bytes);
-  std::vector<std::string> seeds;  ///< endings, or folders, of the files of the corpus that it begins with; none: it begins with random bytes
+  std::vector<std::string> seeds;  ///< endings, or folders, of the files of the corpus that it begins with; none: it
+                                   ///< begins with random bytes
 };
 
 inline const std::vector<Target>& targets() {
@@ -53,7 +55,9 @@ inline std::vector<Seed> seeds_of(const Target& target) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(corpus)) {
     const std::filesystem::path& file = entry.path();
     const std::string name = file.lexically_relative(corpus).string();
-    const auto is_meant = [&](const std::string& seed) { return seed.ends_with('/') ? name.starts_with(seed) : file.extension() == seed; };
+    const auto is_meant = [&](const std::string& seed) {
+      return seed.ends_with('/') ? name.starts_with(seed) : file.extension() == seed;
+    };
     if (std::none_of(target.seeds.begin(), target.seeds.end(), is_meant)) continue;
     std::ifstream in(file, std::ios::binary);
     seeds.push_back({file.string(), std::string(std::istreambuf_iterator<char>(in), {})});
@@ -66,7 +70,9 @@ inline std::vector<Seed> seeds_of(const Target& target) {
 inline std::string input_near(const std::vector<Seed>& seeds, Mutator& mutator) {
   if (seeds.empty()) return mutator.random_bytes(300);
   const Seed& seed = seeds[mutator.below(seeds.size())];
-  const nlohmann::json value = seed.file.ends_with(".json") && mutator.below(4) != 0 ? nlohmann::json::parse(seed.bytes, nullptr, false) : nlohmann::json();
+  const nlohmann::json value = seed.file.ends_with(".json") && mutator.below(4) != 0
+                                   ? nlohmann::json::parse(seed.bytes, nullptr, false)
+                                   : nlohmann::json();
   if (value.is_structured()) return mutator.damaged(value).dump();
   return mutator.damaged(seed.bytes);
 }

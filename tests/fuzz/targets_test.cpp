@@ -27,7 +27,8 @@ std::string escaped(std::string_view bytes) {
   std::string text;
   for (const char c : bytes.substr(0, 4000)) {
     char code[8];
-    std::snprintf(code, sizeof code, c >= 32 && c < 127 && c != '"' && c != '\\' ? "%c" : "\\%03o", static_cast<unsigned char>(c));
+    std::snprintf(code, sizeof code, c >= 32 && c < 127 && c != '"' && c != '\\' ? "%c" : "\\%03o",
+                  static_cast<unsigned char>(c));
     text += code;
   }
   return text;
@@ -53,7 +54,8 @@ TEST_P(Fuzz, the_corpus) {
 TEST_P(Fuzz, inputs_near_the_corpus) {
   const std::vector<fuzz::Seed> seeds = seeds_of(GetParam());
   fuzz::Mutator mutator(7);
-  for (std::size_t k = 0; k < 1500 * times() / share; ++k) ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
+  for (std::size_t k = 0; k < 1500 * times() / share; ++k)
+    ASSERT_TRUE(survives(GetParam(), input_near(seeds, mutator))) << "input " << k;
 }
 
 TEST(Fuzz_certificates, of_the_corpus_are_accepted_but_for_those_that_are_wrong) {
@@ -70,6 +72,7 @@ TEST(Fuzz_certificates, of_the_corpus_are_accepted_but_for_those_that_are_wrong)
   EXPECT_GE(rejected, 16u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()), [](const auto& target) { return std::string(target.param.name); });
+INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()),
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Families: the same from the same parameters, exactly degenerate where they say so and beside it else, and where the parameters put them.
+// Families: the same from the same parameters, exactly degenerate where they say so and beside it else, and where the
+// parameters put them.
 
 #include <sightline/algorithms/generate/families.h>
 
@@ -39,7 +40,9 @@ std::string text_of(const Posed_scene& scene) {
 }
 std::size_t set_aside(const Posed_scene& scene, const std::string& why) {
   const Scene read(scene.soup);
-  return static_cast<std::size_t>(std::count_if(read.set_aside().begin(), read.set_aside().end(), [&](const sightline::Set_aside& entry) { return entry.why.starts_with(why); }));
+  return static_cast<std::size_t>(
+      std::count_if(read.set_aside().begin(), read.set_aside().end(),
+                    [&](const sightline::Set_aside& entry) { return entry.why.starts_with(why); }));
 }
 std::size_t planes(const Posed_scene& scene) { return Scene(scene.soup).planes().size(); }
 
@@ -78,7 +81,8 @@ TEST(Families, are_where_the_offset_and_the_scale_put_them) {
       const Posed_scene there = family.make(parameters);
       ASSERT_EQ(here.soup.point_count(), there.soup.point_count());
       const auto place = [&](const Exact_point& p) { return generate::along(parameters.offset, parameters.scale, p); };
-      for (Point_id p = 0; p < here.soup.point_count(); ++p) ASSERT_EQ(place(here.soup.point(p)), there.soup.point(p)) << family.name;
+      for (Point_id p = 0; p < here.soup.point_count(); ++p)
+        ASSERT_EQ(place(here.soup.point(p)), there.soup.point(p)) << family.name;
       EXPECT_EQ(place(here.eye), there.eye);
       for (std::size_t k = 0; k < here.source.size(); ++k) EXPECT_EQ(place(here.source[k]), there.source[k]);
       EXPECT_EQ(here.visible, there.visible);
@@ -92,8 +96,14 @@ TEST(Families, are_where_the_offset_and_the_scale_put_them) {
 
 TEST(Families, say_how_far_from_their_degeneracy_they_are) {
   const generate::Family& leaves = generate::family("leaves");
-  for (const auto& [ulps, distance] : std::map<std::int64_t, generate::Distance>{{0, generate::Distance::exact}, {1, generate::Distance::beside}, {-1, generate::Distance::beside}, {generate::far_ulps - 1, generate::Distance::beside},
-                                                                                 {generate::far_ulps, generate::Distance::far}, {-generate::far_ulps, generate::Distance::far}, {std::numeric_limits<std::int64_t>::min(), generate::Distance::far}})
+  for (const auto& [ulps, distance] :
+       std::map<std::int64_t, generate::Distance>{{0, generate::Distance::exact},
+                                                  {1, generate::Distance::beside},
+                                                  {-1, generate::Distance::beside},
+                                                  {generate::far_ulps - 1, generate::Distance::beside},
+                                                  {generate::far_ulps, generate::Distance::far},
+                                                  {-generate::far_ulps, generate::Distance::far},
+                                                  {std::numeric_limits<std::int64_t>::min(), generate::Distance::far}})
     EXPECT_EQ(leaves.make(with(1, ulps)).distance, distance) << ulps;
 }
 
@@ -102,7 +112,8 @@ TEST(Families, are_exactly_degenerate_at_0_ulps_and_not_beside) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     thin += set_aside(generate::family("slender").make(with(seed)), "zero area");
     twice += set_aside(generate::family("duplicates").make(with(seed)), "duplicate");
-    const std::size_t in_one_plane = planes(generate::family("near_parallel").make(with(seed))), in_one_stack = planes(generate::family("leaves").make(with(seed)));
+    const std::size_t in_one_plane = planes(generate::family("near_parallel").make(with(seed))),
+                      in_one_stack = planes(generate::family("leaves").make(with(seed)));
     for (const std::int64_t ulps : {1, -1, 1000}) {
       EXPECT_LE(set_aside(generate::family("slender").make(with(seed, ulps)), "zero area"), 0u) << seed;
       EXPECT_LE(in_one_plane, planes(generate::family("near_parallel").make(with(seed, ulps)))) << seed;
@@ -117,22 +128,26 @@ TEST(Families, beside_their_degeneracy_move_by_so_many_ulps_of_their_size) {
   for (const char* name : {"uniform", "coplanar", "aligned", "tangle"}) {
     bool moved = false;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-      const Posed_scene exact = generate::family(name).make(with(seed)), beside = generate::family(name).make(with(seed, 7));
+      const Posed_scene exact = generate::family(name).make(with(seed)),
+                        beside = generate::family(name).make(with(seed, 7));
       ASSERT_EQ(exact.soup.point_count(), beside.soup.point_count());
       const Rational step = Rational(7 * generate::power_of_two(3 - 52));
       for (Point_id p = 0; p < exact.soup.point_count(); ++p)
         for (std::size_t k = 0; k < 3; ++k) {
           const Rational difference = Rational((beside.soup.point(p)[k] - exact.soup.point(p)[k]) / step);
-          EXPECT_TRUE(difference.get_den() == 1 && difference >= 0 && difference <= 3) << name << ' ' << seed << ": " << difference;
+          EXPECT_TRUE(difference.get_den() == 1 && difference >= 0 && difference <= 3)
+              << name << ' ' << seed << ": " << difference;
           moved = moved || difference != 0;
         }
     }
     EXPECT_TRUE(moved) << name;
   }
-  const Posed_scene exact = generate::family("city").make(with(1, 0, 3)), beside = generate::family("city").make(with(1, -2, 3));
+  const Posed_scene exact = generate::family("city").make(with(1, 0, 3)),
+                    beside = generate::family("city").make(with(1, -2, 3));
   const Rational step = Rational(2 * generate::power_of_two(generate::size_bits(exact.soup) - 52));
   for (Point_id p = 0; p < exact.soup.point_count(); ++p)
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_LE(abs(Rational(beside.soup.point(p)[k] - exact.soup.point(p)[k])), step);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_LE(abs(Rational(beside.soup.point(p)[k] - exact.soup.point(p)[k])), step);
 }
 
 TEST(Families, have_doubles_for_coordinates_at_every_scale_where_they_have_them_at_one) {
@@ -147,7 +162,8 @@ TEST(Families, have_doubles_for_coordinates_at_every_scale_where_they_have_them_
         const Posed_scene there = family.make(parameters);
         const auto is_double = [](const Rational& x) { return sightline::exact(sightline::nearest_double(x)) == x; };
         for (std::size_t k = 0; k < here.soup.coordinates.size(); ++k, ++all) {
-          EXPECT_EQ(is_double(here.soup.coordinates[k]), is_double(there.soup.coordinates[k])) << family.name << ' ' << seed;
+          EXPECT_EQ(is_double(here.soup.coordinates[k]), is_double(there.soup.coordinates[k]))
+              << family.name << ' ' << seed;
           doubles += is_double(here.soup.coordinates[k]);
         }
       }

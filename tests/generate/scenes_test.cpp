@@ -37,13 +37,16 @@ struct Integer_soup {
   std::vector<std::int64_t> c;
   explicit Integer_soup(const Polygon_soup& s) : soup(s), c(s.coordinates.size()) {
     s.coordinates.for_each_scaled(
-        s.coordinates.common_denominator(), [&](std::size_t i, std::int64_t n) { c[i] = n; }, [](std::size_t, const Integer&) { FAIL() << "too large"; });
+        s.coordinates.common_denominator(), [&](std::size_t i, std::int64_t n) { c[i] = n; },
+        [](std::size_t, const Integer&) { FAIL() << "too large"; });
   }
   using Wide = __int128;
   using Vector = std::array<Wide, 3>;
   Vector point(Point_id p) const { return {c[3 * p], c[3 * p + 1], c[3 * p + 2]}; }
   static Vector minus(const Vector& a, const Vector& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-  static Vector cross(const Vector& a, const Vector& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+  static Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
   static Wide dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   Vector normal(Face_id f) const {
     Vector sum{0, 0, 0};
@@ -66,7 +69,8 @@ void expect_good_faces(const Polygon_soup& soup) {
     for (const Point_id p : loop) ASSERT_LT(p, soup.point_count());
     const auto n = s.normal(f);
     for (std::size_t i = 0; i < loop.size(); ++i) {
-      const auto a = s.point(loop[i]), b = s.point(loop[(i + 1) % loop.size()]), c = s.point(loop[(i + 2) % loop.size()]);
+      const auto a = s.point(loop[i]), b = s.point(loop[(i + 1) % loop.size()]),
+                 c = s.point(loop[(i + 2) % loop.size()]);
       const auto corner = Integer_soup::cross(Integer_soup::minus(b, a), Integer_soup::minus(c, b));
       bool parallel_to_normal = false;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -110,7 +114,8 @@ bool convex(const Polygon_soup& soup) {
     for (Point_id p = 0; p < soup.point_count(); ++p) {
       const auto here = Integer_soup::dot(n, s.point(p));
       if (here > level) return false;
-      if (here == level && std::find(soup.loop(f).begin(), soup.loop(f).end(), p) == soup.loop(f).end()) return false;  // coplanar neighbour
+      if (here == level && std::find(soup.loop(f).begin(), soup.loop(f).end(), p) == soup.loop(f).end())
+        return false;  // coplanar neighbour
     }
   }
   return true;
@@ -179,7 +184,8 @@ TEST(Generate, scenes_are_the_same_everywhere_and_differ_by_seed) {
     const std::uint64_t h = hash(generate::make(kind.name, kind.example_size, 1));
     const auto known = expected.find(kind.name);
     EXPECT_TRUE(known != expected.end() && known->second == h) << "{\"" << kind.name << "\", " << h << "u},";
-    const std::set<std::string_view> without_chance{"bars", "crossing", "grid", "lattice", "menger_sponge", "menger_sponge_merged", "stacked"};
+    const std::set<std::string_view> without_chance{
+        "bars", "crossing", "grid", "lattice", "menger_sponge", "menger_sponge_merged", "stacked"};
     const bool random = without_chance.count(kind.name) == 0;
     EXPECT_EQ(h != hash(generate::make(kind.name, kind.example_size, 2)), random) << kind.name;
   }
@@ -245,8 +251,12 @@ TEST(Generate, lattice_and_merged_sponge_have_the_area_of_their_unit_quads) {
     const Polygon_soup merged = generate::menger_sponge(level, true), unit = generate::menger_sponge(level);
     EXPECT_EQ(area(merged), area(unit));
     EXPECT_EQ(area(merged), static_cast<long>(unit.face_count()));
-    if (level == 0) { EXPECT_EQ(merged.face_count(), 6u); }
-    if (level > 0) { EXPECT_LE(3 * merged.face_count(), 2 * unit.face_count()); }
+    if (level == 0) {
+      EXPECT_EQ(merged.face_count(), 6u);
+    }
+    if (level > 0) {
+      EXPECT_LE(3 * merged.face_count(), 2 * unit.face_count());
+    }
   }
 }
 
@@ -282,7 +292,8 @@ TEST(Generate, constant_density_shrinks_edges_with_the_cube_root) {
   const auto mean_extent = [](std::size_t n) {
     const Polygon_soup soup = generate::soup_constant_density(n, 1);
     Rational sum = 0;
-    for (Face_id f = 0; f < soup.face_count(); ++f) sum += abs(Rational(soup.point(soup.loop(f)[0])[0] - soup.point(soup.loop(f)[1])[0]));
+    for (Face_id f = 0; f < soup.face_count(); ++f)
+      sum += abs(Rational(soup.point(soup.loop(f)[0])[0] - soup.point(soup.loop(f)[1])[0]));
     return sum.get_d() / static_cast<double>(n);
   };
   EXPECT_NEAR(mean_extent(1000) / mean_extent(8000), 2.0, 0.1);
@@ -313,7 +324,8 @@ TEST(Generate, convex_sphere_is_exactly_convex_and_closed) {
   for (const std::size_t n : {0u, 1u, 8u, 9u, 16u, 17u, 24u, 32u, 100u, 1000u, 10000u}) {
     const Polygon_soup soup = generate::convex_sphere(n);
     EXPECT_GE(soup.face_count(), std::max<std::size_t>(n, 8));
-    EXPECT_LE(static_cast<double>(soup.face_count()), static_cast<double>(std::max<std::size_t>(n, 8)) + std::sqrt(8.0 * static_cast<double>(n)));
+    EXPECT_LE(static_cast<double>(soup.face_count()),
+              static_cast<double>(std::max<std::size_t>(n, 8)) + std::sqrt(8.0 * static_cast<double>(n)));
     EXPECT_TRUE(closed(soup)) << n;
     EXPECT_TRUE(convex(soup)) << n;
     EXPECT_GT(volume(soup), 0);
@@ -343,7 +355,8 @@ TEST(Generate, circle_points_are_near_the_circle_and_in_order) {
       const auto p = generate::circle_point(k, n, radius), q = generate::circle_point((k + 1) % n, n, radius);
       EXPECT_LE(std::abs(std::hypot(static_cast<double>(p[0]), static_cast<double>(p[1])) - radius), 1.0);
       if (n >= 3) {
-        const double turn = std::atan2(static_cast<double>(p[0] * q[1] - p[1] * q[0]), static_cast<double>(p[0] * q[0] + p[1] * q[1]));
+        const double turn =
+            std::atan2(static_cast<double>(p[0] * q[1] - p[1] * q[0]), static_cast<double>(p[0] * q[0] + p[1] * q[1]));
         EXPECT_NEAR(turn * static_cast<double>(n) / 6.283185307179586, 1.0, 0.12) << k << " of " << n;
       }
     }
@@ -383,7 +396,8 @@ TEST(Generate, city_boxes_are_disjoint_boxes_on_the_ground) {
       box.add_face({b + 3, b + 2, b + 1, b});
       EXPECT_TRUE(closed(box));
       EXPECT_GT(volume(box), 0);
-      const auto u = Integer_soup::minus(s.point(b + 1), s.point(b)), v = Integer_soup::minus(s.point(b + 3), s.point(b));
+      const auto u = Integer_soup::minus(s.point(b + 1), s.point(b)),
+                 v = Integer_soup::minus(s.point(b + 3), s.point(b));
       EXPECT_EQ(Integer_soup::dot(u, v), 0);
       some_turned = some_turned || u[1] != 0;
     }
@@ -472,10 +486,17 @@ TEST(Generate, bars_form_a_cycle) {
         const bool next = g == (f + 1) % n, previous = f == (g + 1) % n;
         EXPECT_EQ(separated(f, g), !next && !previous) << f << " " << g << " of " << n;
         if (!next) continue;
-        // Where the projections meet f is higher: its end is in front of g's plane, g's beginning behind f's. (Then, with
-        // both planes' fronts up, f's height minus g's is positive at f's end and at g's beginning, which holds the meeting.)
-        for (const std::size_t i : {1u, 2u}) EXPECT_GT(Integer_soup::dot(s.normal(g), Integer_soup::minus(s.point(soup.loop(f)[i]), s.point(soup.loop(g)[0]))), 0);
-        for (const std::size_t i : {0u, 3u}) EXPECT_LT(Integer_soup::dot(s.normal(f), Integer_soup::minus(s.point(soup.loop(g)[i]), s.point(soup.loop(f)[0]))), 0);
+        // Where the projections meet f is higher: its end is in front of g's plane, g's beginning behind f's. (Then,
+        // with both planes' fronts up, f's height minus g's is positive at f's end and at g's beginning, which holds
+        // the meeting.)
+        for (const std::size_t i : {1u, 2u})
+          EXPECT_GT(
+              Integer_soup::dot(s.normal(g), Integer_soup::minus(s.point(soup.loop(f)[i]), s.point(soup.loop(g)[0]))),
+              0);
+        for (const std::size_t i : {0u, 3u})
+          EXPECT_LT(
+              Integer_soup::dot(s.normal(f), Integer_soup::minus(s.point(soup.loop(g)[i]), s.point(soup.loop(f)[0]))),
+              0);
       }
     }
   }
@@ -504,13 +525,21 @@ TEST(Generate, stacked_faces_are_parallel) {
 }
 
 TEST(Generate, a_million_faces_in_about_a_second) {
-  for (const auto& [kind, size] : {std::pair<std::string_view, std::size_t>{"soup", 1000000}, {"soup_constant_density", 1000000}, {"terrain", 1000000}, {"city", 200000},
-                                   {"city_rotated", 20000}, {"convex_sphere", 100000}, {"convex_sphere", 1000000}, {"grid", 69}, {"menger_sponge", 4}, {"rooms", 60}}) {
+  for (const auto& [kind, size] : {std::pair<std::string_view, std::size_t>{"soup", 1000000},
+                                   {"soup_constant_density", 1000000},
+                                   {"terrain", 1000000},
+                                   {"city", 200000},
+                                   {"city_rotated", 20000},
+                                   {"convex_sphere", 100000},
+                                   {"convex_sphere", 1000000},
+                                   {"grid", 69},
+                                   {"menger_sponge", 4},
+                                   {"rooms", 60}}) {
     const auto start = std::chrono::steady_clock::now();
     const Polygon_soup soup = generate::make(kind, size, 1);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    std::printf("  %-22s %8zu faces %8zu points %.2f s, common denominator of %zu bits\n", std::string(kind).c_str(), soup.face_count(), soup.point_count(), seconds,
-                bit_length(soup.coordinates.common_denominator()));
+    std::printf("  %-22s %8zu faces %8zu points %.2f s, common denominator of %zu bits\n", std::string(kind).c_str(),
+                soup.face_count(), soup.point_count(), seconds, bit_length(soup.coordinates.common_denominator()));
     EXPECT_LT(seconds, 60);  // generous: sanitizers and shared machines
   }
 }

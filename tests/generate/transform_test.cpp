@@ -71,7 +71,8 @@ TEST(Transform, scaling_can_be_undone_and_must_be_positive) {
 }
 
 TEST(Transform, rotations_are_orthogonal_with_determinant_one) {
-  for (const auto& q : {std::array<long, 4>{1, 0, 0, 0}, {1, 0, 0, 1}, {2, 0, 0, 1}, {1, 2, 3, 4}, {-5, 1, 0, 7}, {0, 0, 3, 0}}) {
+  for (const auto& q :
+       {std::array<long, 4>{1, 0, 0, 0}, {1, 0, 0, 1}, {2, 0, 0, 1}, {1, 2, 3, 4}, {-5, 1, 0, 7}, {0, 0, 3, 0}}) {
     const generate::Rational_matrix m = generate::rotation(q[0], q[1], q[2], q[3]);
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
@@ -121,7 +122,9 @@ TEST(Transform, reversed_faces_run_backwards_with_their_holes) {
   const Polygon_soup soup = sample(), reversed = generate::faces_reversed(soup);
   EXPECT_TRUE(same_points(soup, reversed));
   for (Face_id f = 0; f < soup.face_count(); ++f)
-    for (std::size_t k = 0; k < soup.loop_count(f); ++k) EXPECT_TRUE(std::equal(soup.loop(f, k).rbegin(), soup.loop(f, k).rend(), reversed.loop(f, k).begin(), reversed.loop(f, k).end()));
+    for (std::size_t k = 0; k < soup.loop_count(f); ++k)
+      EXPECT_TRUE(std::equal(soup.loop(f, k).rbegin(), soup.loop(f, k).rend(), reversed.loop(f, k).begin(),
+                             reversed.loop(f, k).end()));
   EXPECT_TRUE(same_faces(soup, generate::faces_reversed(reversed)));
 }
 

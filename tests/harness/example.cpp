@@ -12,9 +12,11 @@ harness::Answer in_front(const harness::Posed_scene& posed) {
     std::array<std::array<double, 3>, 3> d{};  // from the eye to three corners
     const auto loop = posed.soup.loop(face);
     for (std::size_t k = 0; k < 3; ++k)
-      for (std::size_t axis = 0; axis < 3; ++axis) d[k][axis] = posed.soup.point(loop[k])[axis].get_d() - posed.eye[axis].get_d();
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        d[k][axis] = posed.soup.point(loop[k])[axis].get_d() - posed.eye[axis].get_d();
     double volume = 0;
-    for (std::size_t k = 0; k < 3; ++k) volume += d[0][k] * (d[1][(k + 1) % 3] * d[2][(k + 2) % 3] - d[1][(k + 2) % 3] * d[2][(k + 1) % 3]);
+    for (std::size_t k = 0; k < 3; ++k)
+      volume += d[0][k] * (d[1][(k + 1) % 3] * d[2][(k + 2) % 3] - d[1][(k + 2) % 3] * d[2][(k + 1) % 3]);
     answer.labels.push_back(volume < 0 ? 1 : 0);
   }
   return answer;
@@ -37,8 +39,6 @@ std::string try_it(std::size_t scenes) {
 
 namespace {
 
-TEST(Harness_example, finds_what_doubles_get_wrong_and_makes_it_small) {
-  EXPECT_EQ(try_it(1000), "rotate, 1 face");
-}
+TEST(Harness_example, finds_what_doubles_get_wrong_and_makes_it_small) { EXPECT_EQ(try_it(1000), "rotate, 1 face"); }
 
 }  // namespace

@@ -37,7 +37,8 @@ bool is_one_face(const Posed_scene& scene, std::size_t corners) {
   return places.size() == corners;
 }
 
-// ---- Fuzzing -------------------------------------------------------------------------------------------------------------------------
+// ---- Fuzzing
+// -------------------------------------------------------------------------------------------------------------------------
 
 TEST(Fuzz_options, keep_scenes_out_that_are_too_large_or_have_no_source) {
   harness::Subject subject;
@@ -75,7 +76,8 @@ TEST(First_disagreement, runs_the_named_check_alone_and_each_with_numbers_of_its
   EXPECT_EQ(drawn[0], drawn[3]);
 }
 
-// ---- Making scenes small ---------------------------------------------------------------------------------------------------------------
+// ---- Making scenes small
+// ---------------------------------------------------------------------------------------------------------------
 
 TEST(Reduce, stays_with_the_check_that_failed) {
   harness::Subject subject;
@@ -84,14 +86,16 @@ TEST(Reduce, stays_with_the_check_that_failed) {
     if (posed.soup.face_count() < 3) answer.flaw = "another failure";
     return answer;
   };
-  subject.checks = {{"always", "", [](const Posed_scene&, const Answer&, generate::Random&) { return Outcome::failed("always"); }}};
+  subject.checks = {
+      {"always", "", [](const Posed_scene&, const Answer&, generate::Random&) { return Outcome::failed("always"); }}};
   const Posed_scene tower = generate::family("stacked").make({1, 8});
   EXPECT_EQ(harness::reduce(subject, tower, 1, {"always", "always"}).scene.soup.face_count(), 3u);
 }
 
 TEST(Reduce, rounds_one_point_where_another_must_keep_the_value) {
   const Posed_scene scene = scene_of({{generate::at(7, 0, 0), generate::at(7, 3, 0), generate::at(5, 5, 0)}});
-  const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene& posed) { return is_one_face(posed, 3) && values_of(posed, 0).count(7) > 0; });
+  const harness::Reduced reduced = harness::reduce(
+      scene, [](const Posed_scene& posed) { return is_one_face(posed, 3) && values_of(posed, 0).count(7) > 0; });
   EXPECT_EQ(values_of(reduced.scene, 0), (std::multiset<Rational>{0, 0, 7}));
 }
 
@@ -111,7 +115,8 @@ TEST(Reduce, moves_what_keeps_its_shape) {
   const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene& posed) {
     if (!is_one_face(posed, 3)) return false;
     const auto corner = [&](std::size_t k) { return posed.soup.point(posed.soup.loop(0)[k]); };
-    return generate::minus(corner(1), corner(0)) == generate::at(3, 0, 0) && generate::minus(corner(2), corner(0)) == generate::at(0, 7, 0);
+    return generate::minus(corner(1), corner(0)) == generate::at(3, 0, 0) &&
+           generate::minus(corner(2), corner(0)) == generate::at(0, 7, 0);
   });
   EXPECT_EQ(reduced.scene.soup.point(reduced.scene.soup.loop(0)[0]), generate::at(0, 0, 0));
 }

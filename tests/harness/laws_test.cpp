@@ -1,4 +1,5 @@
-// Laws, fuzzing and reducing on subjects that are wrong on purpose: each law catches what it is for, and lets through what is right.
+// Laws, fuzzing and reducing on subjects that are wrong on purpose: each law catches what it is for, and lets through
+// what is right.
 
 #include <sightline/algorithms/harness/fuzz.h>
 #include <sightline/algorithms/harness/laws.h>
@@ -8,17 +9,19 @@
 namespace {
 
 using namespace sightline;
+using generate::Points;
 using harness::Answer;
 using harness::Outcome;
 using harness::Posed_scene;
-using generate::Points;
 
 Points corners_of(const Polygon_soup& soup, Face_id face) {
   Points corners;
   for (const Point_id p : soup.loop(face)) corners.push_back(soup.point(p));
   return corners;
 }
-Exact_point normal_of(const Points& c) { return generate::cross(generate::minus(c[1], c[0]), generate::minus(c[2], c[0])); }
+Exact_point normal_of(const Points& c) {
+  return generate::cross(generate::minus(c[1], c[0]), generate::minus(c[2], c[0]));
+}
 Rational dot(const Exact_point& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
 
 /// A label for each face, by a function of the scene and the face's corners.
@@ -26,7 +29,8 @@ template <class Label>
 std::function<Answer(const Posed_scene&)> labels(Label label) {
   return [label](const Posed_scene& posed) {
     Answer answer;
-    for (Face_id f = 0; f < posed.soup.face_count(); ++f) answer.labels.push_back(label(posed, f, corners_of(posed.soup, f)));
+    for (Face_id f = 0; f < posed.soup.face_count(); ++f)
+      answer.labels.push_back(label(posed, f, corners_of(posed.soup, f)));
     return answer;
   };
 }
@@ -59,21 +63,42 @@ std::size_t failures(const std::string& name, const std::function<Answer(const P
 TEST(Laws, let_a_right_answer_through) {
   for (const harness::Law& l : harness::laws()) EXPECT_EQ(failures(l.name, labels(side_of_eye)), 0u) << l.name;
   // Halves of a face may have different labels.
-  EXPECT_EQ(failures("cut", labels([](const Posed_scene&, Face_id, const Points& c) { return std::any_of(c.begin(), c.end(), [](const Exact_point& p) { return p[0] > 0; }) ? 1u : 0u; })), 0u);
+  EXPECT_EQ(failures("cut", labels([](const Posed_scene&, Face_id, const Points& c) {
+                       return std::any_of(c.begin(), c.end(), [](const Exact_point& p) { return p[0] > 0; }) ? 1u : 0u;
+                     })),
+            0u);
 }
 
 TEST(Laws, catch_answers_that_depend_on_what_they_must_not) {
   EXPECT_GT(failures("permute", labels([](const Posed_scene&, Face_id f, const Points&) { return f % 2; })), 5u);
-  EXPECT_GT(failures("translate", labels([](const Posed_scene&, Face_id, const Points& c) { return c[0][0] > 5 ? 1u : 0u; })), 5u);
-  EXPECT_GT(failures("scale", labels([](const Posed_scene&, Face_id, const Points& c) { return dot(normal_of(c), normal_of(c)) > 4 ? 1u : 0u; })), 5u);
-  EXPECT_GT(failures("rotate", labels([](const Posed_scene&, Face_id, const Points& c) { return normal_of(c)[2] > 0 ? 1u : 0u; })), 5u);
-  EXPECT_GT(failures("mirror", labels([](const Posed_scene& posed, Face_id, const Points& c) { return c[0][0] > posed.eye[0] ? 1u : 0u; })), 5u);
+  EXPECT_GT(
+      failures("translate", labels([](const Posed_scene&, Face_id, const Points& c) { return c[0][0] > 5 ? 1u : 0u; })),
+      5u);
+  EXPECT_GT(failures("scale", labels([](const Posed_scene&, Face_id, const Points& c) {
+                       return dot(normal_of(c), normal_of(c)) > 4 ? 1u : 0u;
+                     })),
+            5u);
+  EXPECT_GT(failures("rotate", labels([](const Posed_scene&, Face_id, const Points& c) {
+                       return normal_of(c)[2] > 0 ? 1u : 0u;
+                     })),
+            5u);
+  EXPECT_GT(failures("mirror", labels([](const Posed_scene& posed, Face_id, const Points& c) {
+                       return c[0][0] > posed.eye[0] ? 1u : 0u;
+                     })),
+            5u);
   EXPECT_GT(failures("turn", labels([](const Posed_scene&, Face_id, const Points&) { return 1u; })), 5u);
-  EXPECT_GT(failures("cut", labels([](const Posed_scene&, Face_id, const Points& c) { return static_cast<std::uint32_t>(c.size()); })), 5u);
-  EXPECT_GT(failures("bystander", labels([](const Posed_scene& posed, Face_id, const Points&) { return static_cast<std::uint32_t>(posed.soup.face_count()); })), 5u);
+  EXPECT_GT(failures("cut", labels([](const Posed_scene&, Face_id, const Points& c) {
+                       return static_cast<std::uint32_t>(c.size());
+                     })),
+            5u);
+  EXPECT_GT(failures("bystander", labels([](const Posed_scene& posed, Face_id, const Points&) {
+                       return static_cast<std::uint32_t>(posed.soup.face_count());
+                     })),
+            5u);
 }
 
-TEST(Laws, mirror_catches_a_wrong_sense) {  // right but for the loop's sense, which a mirror turns and the law turns back
+TEST(Laws,
+     mirror_catches_a_wrong_sense) {  // right but for the loop's sense, which a mirror turns and the law turns back
   const auto unturned = labels([](const Posed_scene& posed, Face_id, const Points& c) {
     const Exact_point n = normal_of(c), e = generate::minus(posed.eye, c[0]);
     return sgn(n[0]) * sgn(e[0]) * sgn(n[1]) > 0 ? 1u : 0u;
@@ -82,16 +107,18 @@ TEST(Laws, mirror_catches_a_wrong_sense) {  // right but for the loop's sense, w
 }
 
 TEST(Laws, partitions_are_compared_by_who_is_together) {
-  const auto by_plane = [](const Posed_scene& posed) {  // faces with the same normal are together; names are places, backwards
-    Answer answer = labels([](const Posed_scene& p, Face_id f, const Points& c) {
-      for (Face_id g = 0; g < f; ++g)
-        if (generate::is_zero(generate::cross(normal_of(c), normal_of(corners_of(p.soup, g))))) return 1000u - g;
-      return 1000u - f;
-    })(posed);
-    answer.is_partition = true;
-    return answer;
-  };
-  for (const char* name : {"permute", "translate", "rotate", "mirror", "turn"}) EXPECT_EQ(failures(name, by_plane), 0u) << name;
+  const auto by_plane =
+      [](const Posed_scene& posed) {  // faces with the same normal are together; names are places, backwards
+        Answer answer = labels([](const Posed_scene& p, Face_id f, const Points& c) {
+          for (Face_id g = 0; g < f; ++g)
+            if (generate::is_zero(generate::cross(normal_of(c), normal_of(corners_of(p.soup, g))))) return 1000u - g;
+          return 1000u - f;
+        })(posed);
+        answer.is_partition = true;
+        return answer;
+      };
+  for (const char* name : {"permute", "translate", "rotate", "mirror", "turn"})
+    EXPECT_EQ(failures(name, by_plane), 0u) << name;
   const auto by_place = [](const Posed_scene& posed) {
     Answer answer = labels([](const Posed_scene&, Face_id f, const Points&) { return f / 2; })(posed);
     answer.is_partition = true;
@@ -133,12 +160,16 @@ TEST(Laws, are_not_for_what_depends_on_the_place_or_on_pieces) {
 }
 
 TEST(Laws, move_the_source_with_the_scene) {
-  const auto side_of_source = labels([](const Posed_scene& posed, Face_id, const Points& c) { return static_cast<std::uint32_t>(1 + sgn(dot(normal_of(c), generate::minus(posed.source[0], c[0])))); });
+  const auto side_of_source = labels([](const Posed_scene& posed, Face_id, const Points& c) {
+    return static_cast<std::uint32_t>(1 + sgn(dot(normal_of(c), generate::minus(posed.source[0], c[0]))));
+  });
   for (const char* name : {"translate", "scale", "rotate", "mirror"})
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
       const Posed_scene posed = generate::family("slats").make({seed});
       generate::Random random(seed);
-      EXPECT_EQ(harness::check_of(law(name), side_of_source).run(posed, side_of_source(posed), random).state, Outcome::State::passed) << name << ' ' << seed;
+      EXPECT_EQ(harness::check_of(law(name), side_of_source).run(posed, side_of_source(posed), random).state,
+                Outcome::State::passed)
+          << name << ' ' << seed;
     }
 }
 
@@ -162,7 +193,8 @@ TEST(Laws, a_cut_keeps_a_face_and_a_bystander_is_out_of_sight) {
     ASSERT_EQ(cut->scene.soup.face_count(), posed.soup.face_count() + 1);
     std::vector<Exact_point> area(posed.soup.face_count(), {0, 0, 0});
     const auto add_area = [](Exact_point& sum, const Points& c) {
-      for (std::size_t k = 0; k < c.size(); ++k) sum = generate::along(sum, 1, generate::cross(c[k], c[(k + 1) % c.size()]));
+      for (std::size_t k = 0; k < c.size(); ++k)
+        sum = generate::along(sum, 1, generate::cross(c[k], c[(k + 1) % c.size()]));
     };
     for (Face_id f = 0; f < cut->scene.soup.face_count(); ++f) {
       const Points corners = harness::convex_corners(cut->scene.soup, f);
@@ -188,7 +220,8 @@ TEST(Laws, a_cut_keeps_a_face_and_a_bystander_is_out_of_sight) {
   }
 }
 
-// ---- Cases --------------------------------------------------------------------------------------------------------------------------
+// ---- Cases
+// --------------------------------------------------------------------------------------------------------------------------
 
 TEST(Cases, are_named_and_made_again_from_their_names) {
   generate::Random random(3);
@@ -205,12 +238,14 @@ TEST(Cases, are_named_and_made_again_from_their_names) {
 }
 
 TEST(Cases, that_make_no_sense_are_told) {
-  for (const char* text : {"", "castle:1", "regulus:x", "regulus:-1", "regulus:1:2:3:4", "regulus:1:2:3:1,2:0", "regulus:1:2:3:1,2,3,4:0", "regulus:1:2:3:1,,3:0", "regulus:1:2:3:1,2,1/0:0", "regulus:1:2:3:0,0,0:5000",
-                           "regulus:1:2:3:0,0,0:0:0", "regulus:99999999999999999999"})
+  for (const char* text : {"", "castle:1", "regulus:x", "regulus:-1", "regulus:1:2:3:4", "regulus:1:2:3:1,2:0",
+                           "regulus:1:2:3:1,2,3,4:0", "regulus:1:2:3:1,,3:0", "regulus:1:2:3:1,2,1/0:0",
+                           "regulus:1:2:3:0,0,0:5000", "regulus:1:2:3:0,0,0:0:0", "regulus:99999999999999999999"})
     EXPECT_THROW(harness::parse_case(text), std::invalid_argument) << text;
 }
 
-// ---- Fuzzing and reducing ---------------------------------------------------------------------------------------------------------------
+// ---- Fuzzing and reducing
+// ---------------------------------------------------------------------------------------------------------------
 
 /// Wrong where a face has a corner with x + y = 1 and the eye is in its plane.
 harness::Subject wrong_now_and_then() {
@@ -240,7 +275,8 @@ TEST(Fuzz, finds_a_planted_fault_replays_it_by_name_and_makes_it_small) {
   const harness::Fuzz_case read = harness::parse_case(to_string(found->which));
   EXPECT_TRUE(harness::first_disagreement(subject, harness::make(read), read.parameters.seed));
 
-  const harness::Reduced reduced = harness::reduce(subject, found->scene, found->which.parameters.seed, found->disagreement);
+  const harness::Reduced reduced =
+      harness::reduce(subject, found->scene, found->which.parameters.seed, found->disagreement);
   EXPECT_TRUE(reduced.finished);
   EXPECT_TRUE(harness::first_disagreement(subject, reduced.scene, found->which.parameters.seed));
   EXPECT_EQ(reduced.scene.soup.face_count(), 1u);
@@ -341,7 +377,8 @@ TEST(Reduce, rounds_a_point_where_its_value_must_stay_elsewhere) {
     return count;
   };
   ASSERT_EQ(corners_at_one(tower), 4u);
-  const harness::Reduced reduced = harness::reduce(tower, [&](const Posed_scene& posed) { return corners_at_one(posed) > 0; });
+  const harness::Reduced reduced =
+      harness::reduce(tower, [&](const Posed_scene& posed) { return corners_at_one(posed) > 0; });
   EXPECT_EQ(corners_at_one(reduced.scene), 1u);
   ASSERT_EQ(reduced.scene.soup.face_count(), 1u);
   EXPECT_EQ(reduced.scene.soup.loop(0).size(), 3u);
@@ -374,7 +411,8 @@ TEST(Reduce, ends_with_a_scene_that_fails_and_has_nothing_to_spare) {
   EXPECT_TRUE(fails(cut_short.scene));
   EXPECT_FALSE(cut_short.finished);
   EXPECT_EQ(cut_short.tests, 5u);
-  const harness::Reduced stays = harness::reduce(city, [](const Posed_scene& posed) { return posed.soup.file == "city"; });
+  const harness::Reduced stays =
+      harness::reduce(city, [](const Posed_scene& posed) { return posed.soup.file == "city"; });
   EXPECT_EQ(stays.scene.soup.face_count(), city.soup.face_count());
 }
 

@@ -49,10 +49,12 @@ class PlantedBreach : public testing::Test {
     write("kernel/number.h", "#pragma once\n#include <vector>\n#include <gmpxx.h>\n");
     write("kernel/scene/scene.h", "#pragma once\n#include <sightline/kernel/number.h>\n");
     write("algorithms/order.h", "#pragma once\n#include <sightline/kernel/number.h>\n#include <CGAL/Gmpq.h>\n");
-    write("algorithms/bsp/tree.h", "#pragma once\n#include <sightline/algorithms/order.h>\n// #include <sightline/io/obj.h>\n");
+    write("algorithms/bsp/tree.h",
+          "#pragma once\n#include <sightline/algorithms/order.h>\n// #include <sightline/io/obj.h>\n");
     write("io/obj.h", "#pragma once\n#include <sightline/kernel/scene/scene.h>\n");
     write("apps/command.h", "#pragma once\n#include <CLI/CLI.hpp>\n");
-    write("apps/main.cpp", "#include \"command.h\"\n#include <sightline/io/obj.h>\n#include <sightline/algorithms/bsp/tree.h>\n");
+    write("apps/main.cpp",
+          "#include \"command.h\"\n#include <sightline/io/obj.h>\n#include <sightline/algorithms/bsp/tree.h>\n");
   }
   void TearDown() override { fs::remove_all(root_); }
 
@@ -90,7 +92,8 @@ TEST_F(PlantedBreach, quotes_in_the_library) {
 TEST_F(PlantedBreach, a_header_that_is_not_there) {
   write("io/off.h", "#pragma once\n#include <sightline/kernel/scene.h>\n");
   write("apps/info.cpp", "#include \"commands.h\"\n");
-  EXPECT_EQ(found(), (Found{"apps/info.cpp:1: no such neighbour: \"commands.h\"", "io/off.h:2: no such header: <sightline/kernel/scene.h>"}));
+  EXPECT_EQ(found(), (Found{"apps/info.cpp:1: no such neighbour: \"commands.h\"",
+                            "io/off.h:2: no such header: <sightline/kernel/scene.h>"}));
 }
 
 TEST_F(PlantedBreach, no_guard) {

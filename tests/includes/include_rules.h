@@ -13,8 +13,9 @@
 namespace include_rules {
 
 struct Rules {
-  std::filesystem::path root;         ///< the folder that holds kernel/, algorithms/, io/, apps/ ...
-  std::vector<std::string> outside;   ///< what library headers may include of other libraries: "gmp.h", or a folder "CGAL/"
+  std::filesystem::path root;  ///< the folder that holds kernel/, algorithms/, io/, apps/ ...
+  std::vector<std::string>
+      outside;  ///< what library headers may include of other libraries: "gmp.h", or a folder "CGAL/"
 };
 
 struct Include {
@@ -57,15 +58,20 @@ inline std::vector<std::string> sources_in(const std::filesystem::path& root, co
 
 /// Every breach of the rules, as "file:line: what is wrong"; sorted by file. Empty: all is well.
 inline std::vector<std::string> breaches(const Rules& rules) {
-  const std::map<std::string, std::set<std::string>> may_include = {
-      {"kernel", {"kernel"}}, {"algorithms", {"kernel", "algorithms"}}, {"io", {"kernel", "io"}},
-      {"apps", {"kernel", "algorithms", "io"}}, {"tests", {"kernel", "algorithms", "io"}}, {"bench", {"kernel", "algorithms", "io"}}};
+  const std::map<std::string, std::set<std::string>> may_include = {{"kernel", {"kernel"}},
+                                                                    {"algorithms", {"kernel", "algorithms"}},
+                                                                    {"io", {"kernel", "io"}},
+                                                                    {"apps", {"kernel", "algorithms", "io"}},
+                                                                    {"tests", {"kernel", "algorithms", "io"}},
+                                                                    {"bench", {"kernel", "algorithms", "io"}}};
   std::vector<std::string> found;
   for (const auto& [layer, allowed] : may_include) {
     const bool library = layer == "kernel" || layer == "algorithms" || layer == "io";
     for (const std::string& file : sources_in(rules.root, layer)) {
       const std::filesystem::path path = rules.root / file;
-      const auto report = [&](std::size_t line, const std::string& what) { found.push_back(file + ':' + std::to_string(line) + ": " + what); };
+      const auto report = [&](std::size_t line, const std::string& what) {
+        found.push_back(file + ':' + std::to_string(line) + ": " + what);
+      };
 
       // A library file is a header that guards itself in its first line.
       if (path.extension() == ".h") {
@@ -81,7 +87,8 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         // Quotes are for a neighbour that is no part of the library.
         if (open == '"') {
           if (library) report(line, "own includes are spelled <sightline/...>: \"" + name + '"');
-          else if (!std::filesystem::is_regular_file(path.parent_path() / name)) report(line, "no such neighbour: \"" + name + '"');
+          else if (!std::filesystem::is_regular_file(path.parent_path() / name))
+            report(line, "no such neighbour: \"" + name + '"');
           continue;
         }
         // Our own headers: the direction, and that they are there.
@@ -94,10 +101,12 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         }
         // Other libraries' headers: a package that is not announced would be missing where the library is installed.
         const bool standard = name.find('/') == std::string::npos && name.find('.') == std::string::npos;
-        const bool announced = std::any_of(rules.outside.begin(), rules.outside.end(), [&, &name = name](const std::string& known) {
-          return known.ends_with('/') ? name.starts_with(known) : name == known;
-        });
-        if (library && !standard && !announced) report(line, "<" + name + "> is not among the dependencies in CMakeLists.txt");
+        const bool announced =
+            std::any_of(rules.outside.begin(), rules.outside.end(), [&, &name = name](const std::string& known) {
+              return known.ends_with('/') ? name.starts_with(known) : name == known;
+            });
+        if (library && !standard && !announced)
+          report(line, "<" + name + "> is not among the dependencies in CMakeLists.txt");
       }
     }
   }

@@ -19,7 +19,8 @@ sightline::Polygon_soup converted(const std::string& name, const std::string& te
   const fs::path folder = fs::temp_directory_path() / ("sightline-cityjson-" + std::to_string(std::random_device()()));
   fs::create_directory(folder);
   std::ofstream(folder / name) << text;
-  const std::string command = "python3 '" SIGHTLINE_SOURCE_DIR "/bench/cityjson.py' '" + (folder / name).string() + "' --out '" + folder.string() + "' 2>'" + (folder / "said").string() + "'";
+  const std::string command = "python3 '" SIGHTLINE_SOURCE_DIR "/bench/cityjson.py' '" + (folder / name).string() +
+                              "' --out '" + folder.string() + "' 2>'" + (folder / "said").string() + "'";
   const int status = std::system(command.c_str());
   std::ifstream said(folder / "said");
   EXPECT_EQ(status, 0) << said.rdbuf();
@@ -29,7 +30,9 @@ sightline::Polygon_soup converted(const std::string& name, const std::string& te
 }
 bool has_python() { return std::system("command -v python3 >/dev/null 2>&1") == 0; }
 
-sightline::Exact_point corner(const sightline::Polygon_soup& soup, sightline::Face_id face, std::size_t k) { return soup.point(soup.loop(face, 0)[k]); }
+sightline::Exact_point corner(const sightline::Polygon_soup& soup, sightline::Face_id face, std::size_t k) {
+  return soup.point(soup.loop(face, 0)[k]);
+}
 sightline::Exact_point thousandths(long x, long y, long z) {
   sightline::Exact_point p{sightline::Rational(x, 1000), sightline::Rational(y, 1000), sightline::Rational(z, 1000)};
   for (sightline::Rational& c : p) c.canonicalize();
@@ -57,9 +60,13 @@ TEST(City_json, becomes_a_scene_with_the_coordinates_that_it_says_and_the_highes
 
 TEST(City_json, of_a_sequence_is_all_its_features_by_the_transform_of_its_first_line) {
   if (!has_python()) GTEST_SKIP() << "needs python3";
-  const std::string feature = R"({"type": "CityJSONFeature", "CityObjects": {"a": {"type": "Building", "geometry": [{"type": "MultiSolid", "boundaries": [[[[[0, 1, 2]]]], [[[[0, 2, 1]]]]]}]}}, "vertices": )";
-  const sightline::Polygon_soup soup = converted("tile.jsonl", R"({"type": "CityJSON", "CityObjects": {}, "vertices": [], "transform": {"scale": [0.5, 0.5, 0.5], "translate": [0, 0, 1]}})"
-                                                               "\n" + feature + "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\n" + feature + "[[0, 0, 0], [3, 0, 0], [0, 3, 0]]}\n");
+  const std::string feature =
+      R"({"type": "CityJSONFeature", "CityObjects": {"a": {"type": "Building", "geometry": [{"type": "MultiSolid", "boundaries": [[[[[0, 1, 2]]]], [[[[0, 2, 1]]]]]}]}}, "vertices": )";
+  const sightline::Polygon_soup soup = converted(
+      "tile.jsonl",
+      R"({"type": "CityJSON", "CityObjects": {}, "vertices": [], "transform": {"scale": [0.5, 0.5, 0.5], "translate": [0, 0, 1]}})"
+      "\n" +
+          feature + "[[0, 0, 0], [1, 0, 0], [0, 1, 0]]}\n" + feature + "[[0, 0, 0], [3, 0, 0], [0, 3, 0]]}\n");
   ASSERT_EQ(soup.face_count(), 4u);
   EXPECT_EQ(soup.point_count(), 5u);
   EXPECT_EQ(corner(soup, 0, 1), thousandths(500, 0, 1000));

@@ -42,7 +42,8 @@ TEST(Number_lines, may_begin_with_names_and_only_once) {
   EXPECT_EQ(lines_of("# a comment\nWeight Face\n1,2\n"), "1,2");
   expect_error("1,2\nx,y\n", "file:2:1: ", "\"x\" is none");
   expect_error("x,y\nx,y\n1,2\n", "file:2:1: ", "\"x\" is none");
-  for (const char* text : {"nan,1\n", "NaN,1\n", "inf,1\n", "Infinity,1\n"}) expect_error(text, "file:1:1: ", "is none");
+  for (const char* text : {"nan,1\n", "NaN,1\n", "inf,1\n", "Infinity,1\n"})
+    expect_error(text, "file:1:1: ", "is none");
   for (const char* text : {"{1,2}\n", "\xC3\xA9,1\n"}) expect_error(text, "file:1:1: ", "is none");
 }
 
@@ -54,11 +55,13 @@ TEST(Number_lines, of_numbers_without_a_comma_between_them_are_refused) {
 
 TEST(Number_lines, that_are_not_what_is_wanted_are_named_with_their_place) {
   expect_error("1\n  1,2,3,4\n", "file:2:3: ", "expected one to three numbers, found \"1,2,3,4\"");
-  for (const char* text : {"1,,2", "1,", ",1", ",", "1/0", "1/", "0x1", "1;2", "1e99999"}) expect_error(text, "file:1:1: ", "a line wants one to three numbers");
+  for (const char* text : {"1,,2", "1,", ",1", ",", "1/0", "1/", "0x1", "1;2", "1e99999"})
+    expect_error(text, "file:1:1: ", "a line wants one to three numbers");
 }
 
 TEST(Number_lines, of_which_there_is_none_are_an_error) {
-  for (const char* text : {"", "\n\n", "# only this", "x,y,z\n"}) expect_error(text, "file", "has no line; write one to three numbers a line");
+  for (const char* text : {"", "\n\n", "# only this", "x,y,z\n"})
+    expect_error(text, "file", "has no line; write one to three numbers a line");
 }
 
 TEST(Number_lines, of_the_corpus_are_taken_or_refused_at_their_place) {

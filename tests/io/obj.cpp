@@ -6,22 +6,32 @@ namespace sightline::test {
 namespace {
 
 TEST(Obj, corners_may_carry_texture_and_normal) {
-  EXPECT_EQ(read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 2/1/1 3/1/1\nf 1/ 2// 3//-1\n", obj),
+  EXPECT_EQ(read_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\nf 1 2 3\nf 1/1 2/1 3/1\nf 1//1 2//1 3//1\nf 1/1/1 "
+                      "2/1/1 3/1/1\nf 1/ 2// 3//-1\n",
+                      obj),
             "0 0 0, 1 0 0, 0 1 0 | 0 1 2, 0 1 2, 0 1 2, 0 1 2, 0 1 2");
 }
 
 TEST(Obj, negative_indices_count_back_from_the_last_vertex_so_far) {
-  EXPECT_EQ(read_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf -3 -2 -1\nv 3 0 0\nf -1//-1 -4/-1 +2\n", obj), "0 0 0, 1 0 0, 2 0 0, 3 0 0 | 0 1 2, 3 0 1");
+  EXPECT_EQ(read_text("v 0 0 0\nv 1 0 0\nv 2 0 0\nf -3 -2 -1\nv 3 0 0\nf -1//-1 -4/-1 +2\n", obj),
+            "0 0 0, 1 0 0, 2 0 0, 3 0 0 | 0 1 2, 3 0 1");
 }
 
-TEST(Obj, a_face_may_come_before_its_vertices) { EXPECT_EQ(read_text("f 1 2 3\nv 0 0 0\nv 1 0 0\nf 2 3 1\nv 2 0 0\n", obj), "0 0 0, 1 0 0, 2 0 0 | 0 1 2, 1 2 0"); }
+TEST(Obj, a_face_may_come_before_its_vertices) {
+  EXPECT_EQ(read_text("f 1 2 3\nv 0 0 0\nv 1 0 0\nf 2 3 1\nv 2 0 0\n", obj), "0 0 0, 1 0 0, 2 0 0 | 0 1 2, 1 2 0");
+}
 
 TEST(Obj, what_only_dresses_faces_is_passed_over) {
-  EXPECT_EQ(read_text("mtllib a.mtl\no x\ng a b\ns off\nusemtl m\nv 0 0 0\nvt nonsense\nvn 0 0 1\nvp 1\nl 1 1\np 1\nlod 3\nfo 1\n", obj), "0 0 0 | 0");
+  EXPECT_EQ(
+      read_text(
+          "mtllib a.mtl\no x\ng a b\ns off\nusemtl m\nv 0 0 0\nvt nonsense\nvn 0 0 1\nvp 1\nl 1 1\np 1\nlod 3\nfo 1\n",
+          obj),
+      "0 0 0 | 0");
 }
 
 TEST(Obj, a_vertex_may_carry_weight_one_and_a_colour) {
-  EXPECT_EQ(read_text("v 1 2 3 1\nv 1 2 3 1.0\nv 1 2 3 0.5 0.5 0.5\nv 1 2 3 1 0.5 0.5 0.5\n", obj), "1 2 3, 1 2 3, 1 2 3, 1 2 3 |");
+  EXPECT_EQ(read_text("v 1 2 3 1\nv 1 2 3 1.0\nv 1 2 3 0.5 0.5 0.5\nv 1 2 3 1 0.5 0.5 0.5\n", obj),
+            "1 2 3, 1 2 3, 1 2 3, 1 2 3 |");
   expect_error_at(1, 9, "weight w other than 1", "v 1 2 3 0.5\n", obj);
   expect_error_at(1, 9, "weight w other than 1", "v 1 2 3 2 0.5 0.5 0.5\n", obj);
   expect_error_at(1, 11, "5 numbers after v", "v 1 2 3 1 2\n", obj);
@@ -77,7 +87,8 @@ TEST(Obj, a_coordinate_that_is_none_is_an_error) {
 TEST(Obj, a_statement_that_is_unknown_is_an_error) {
   expect_error_at(2, 1, "unknown statement \"vertex\"", "v 0 0 0\nvertex 0 0 0\n", obj);
   expect_error_at(1, 1, "unknown statement \"\\x00\\x01\\xFF\"", std::string_view("\0\1\xFF\n\n", 5), obj);
-  expect_error_at(2, 2, "free-form curves and surfaces (\"surf\") are not supported", "v 0 0 0\n surf 0 1 0 1 1\n", obj);
+  expect_error_at(2, 2, "free-form curves and surfaces (\"surf\") are not supported", "v 0 0 0\n surf 0 1 0 1 1\n",
+                  obj);
 }
 
 }  // namespace

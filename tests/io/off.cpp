@@ -8,8 +8,10 @@ namespace {
 constexpr Format qoff = Format::qoff;
 
 TEST(Off, header_and_counts_stand_on_one_line_or_two_or_the_header_is_missing) {
-  for (const char* text : {"OFF\n1 1 0\n0 0.5 0\n3 0 0 0\n", "OFF 1 1 0\n0 0.5 0\n3 0 0 0\n", "1 1 0\n0 0.5 0\n3 0 0 0\n", "OFF\n1 1\n0 0.5 0\n3 0 0 0",
-                           "# c\nOFF # c\n# c\n1 1 0 # c\n\n0 0.5 0 # c\n\n3 0 0 0 # c\n#", "\xEF\xBB\xBFOFF\r\n1 1 0\r\n0 0.5 0\r\n3 0 0 0\r\n"})
+  for (const char* text :
+       {"OFF\n1 1 0\n0 0.5 0\n3 0 0 0\n", "OFF 1 1 0\n0 0.5 0\n3 0 0 0\n", "1 1 0\n0 0.5 0\n3 0 0 0\n",
+        "OFF\n1 1\n0 0.5 0\n3 0 0 0", "# c\nOFF # c\n# c\n1 1 0 # c\n\n0 0.5 0 # c\n\n3 0 0 0 # c\n#",
+        "\xEF\xBB\xBFOFF\r\n1 1 0\r\n0 0.5 0\r\n3 0 0 0\r\n"})
     EXPECT_EQ(read_text(text, off), "0 1/2 0 | 0 0 0") << text;
   EXPECT_EQ(read_text("OFF 0 0 0", off), " |");
 }
@@ -47,7 +49,8 @@ TEST(Off, counts_that_are_missing_or_none_are_an_error) {
 }
 
 TEST(Off, counts_larger_than_the_file_are_an_error_before_any_memory_is_taken) {
-  expect_error_at(2, 1, "1000000000 vertices are announced, but only 16 bytes follow", "OFF\n1000000000 6 0\n0 0 0\n0 0 0", off);
+  expect_error_at(2, 1, "1000000000 vertices are announced, but only 16 bytes follow",
+                  "OFF\n1000000000 6 0\n0 0 0\n0 0 0", off);
   expect_error_at(2, 3, "1000000000 faces are announced", "OFF\n1 1000000000 0\n0 0 0\n", off);
   expect_error_at(2, 1, "1000000000000000000 vertices", "OFF\n99999999999999999999999999 6 0\n0 0 0\n", off);
   expect_error_at(4, 1, "4000000000 corners are announced", "OFF\n1 1 0\n0 0 0\n4000000000 0 0\n", off);
@@ -68,7 +71,8 @@ TEST(Off, more_lines_than_announced_are_an_error) {
 }
 
 TEST(Off, faces_of_any_number_of_corners_are_kept) {
-  EXPECT_EQ(read_text("OFF 2 4 0\n0 0 0\n1 0 0\n0\n1 1\n2 1 0\n5 0 1 0 1 0\n", off), "0 0 0, 1 0 0 |, 1, 1 0, 0 1 0 1 0");
+  EXPECT_EQ(read_text("OFF 2 4 0\n0 0 0\n1 0 0\n0\n1 1\n2 1 0\n5 0 1 0 1 0\n", off),
+            "0 0 0, 1 0 0 |, 1, 1 0, 0 1 0 1 0");
 }
 
 TEST(Off, an_index_out_of_range_is_an_error) {
@@ -83,14 +87,16 @@ TEST(Off, an_index_out_of_range_is_an_error) {
 TEST(Off, a_coordinate_that_is_none_is_an_error) {
   expect_error_at(2, 3, "\"nan\" is not a finite number", "OFF 1 0 0\n0 nan 0\n", off);
   expect_error_at(2, 5, "\"Infinity\" is not a finite number", "OFF 1 0 0\n0 0 Infinity\n", off);
-  expect_error_at(2, 3, "\"1/2\" is not a decimal; coordinates p/q belong into a .qoff file", "OFF 1 0 0\n0 1/2 0\n", off);
+  expect_error_at(2, 3, "\"1/2\" is not a decimal; coordinates p/q belong into a .qoff file", "OFF 1 0 0\n0 1/2 0\n",
+                  off);
   expect_error_at(2, 3, "\"1.5\" is not a number p or p/q", "OFF 1 0 0\n0 1.5 0\n", qoff);
   expect_error_at(2, 3, "\"1/0\" has the denominator 0", "OFF 1 0 0\n0 1/0 0\n", qoff);
 }
 
 TEST(Qoff, coordinates_are_integers_or_fractions) {
-  EXPECT_EQ(read_text("OFF\n2 1 0\n1/3 -22/7 4/2\n-12345678901234567890123 1/12345678901234567890123 0/9\n3 0 1 0\n", qoff),
-            "1/3 -22/7 2, -12345678901234567890123 1/12345678901234567890123 0 | 0 1 0");
+  EXPECT_EQ(
+      read_text("OFF\n2 1 0\n1/3 -22/7 4/2\n-12345678901234567890123 1/12345678901234567890123 0/9\n3 0 1 0\n", qoff),
+      "1/3 -22/7 2, -12345678901234567890123 1/12345678901234567890123 0 | 0 1 0");
 }
 
 /// The soup of the points (1/d, 0, 0).
@@ -112,7 +118,8 @@ TEST(Qoff, a_common_denominator_of_8192_bits_is_read_and_no_more) {
   expect_error_at(3, 1, too_long, reciprocals({power(2, 8192)}), qoff);
   // Two of them: 2^a 3^b, just within and just beyond. 3^2584 has 4096 bits, and is more than 2^4095.4.
   EXPECT_EQ(bit_length(power(3, 2584)), 4096u);
-  EXPECT_NO_THROW(read_scene(reciprocals({power(2, 4096), power(3, 2584), power(2, 4095), power(3, 2583), power(2, 4096)}), qoff, "scene"));
+  EXPECT_NO_THROW(read_scene(
+      reciprocals({power(2, 4096), power(3, 2584), power(2, 4095), power(3, 2583), power(2, 4096)}), qoff, "scene"));
   expect_error_at(4, 1, too_long, reciprocals({power(2, 4097), power(3, 2584)}), qoff);
 }
 

@@ -37,17 +37,20 @@ double any_double() {
 Rational any_decimal() {
   const auto mantissa = *rc::gen::arbitrary<std::int64_t>();
   Rational value = exact_decimal(Integer(static_cast<long>(mantissa)), *rc::gen::inRange(-30, 30));
-  if (*rc::gen::inRange(0, 10) == 0) value *= exact_decimal(Integer("123456789012345678901234567890123"), *rc::gen::inRange(-900, 900));
+  if (*rc::gen::inRange(0, 10) == 0)
+    value *= exact_decimal(Integer("123456789012345678901234567890123"), *rc::gen::inRange(-900, 900));
   return value;
 }
 Rational any_rational() {
   const auto denominator = *rc::gen::inRange<std::int64_t>(1, 1000);
-  Rational value(Integer(static_cast<long>(*rc::gen::arbitrary<std::int64_t>())), Integer(static_cast<long>(denominator)));
+  Rational value(Integer(static_cast<long>(*rc::gen::arbitrary<std::int64_t>())),
+                 Integer(static_cast<long>(denominator)));
   value.canonicalize();
   return value;
 }
 
-/// A soup of up to 9 points, whose coordinates `any` draws, and up to 6 faces of up to `most` corners, or of exactly `most` where only those will do.
+/// A soup of up to 9 points, whose coordinates `any` draws, and up to 6 faces of up to `most` corners, or of exactly
+/// `most` where only those will do.
 template <class Any>
 Polygon_soup any_soup(Any any, std::size_t least, std::size_t most) {
   Polygon_soup soup;
@@ -59,7 +62,8 @@ Polygon_soup any_soup(Any any, std::size_t least, std::size_t most) {
   const auto faces = *rc::gen::inRange<std::size_t>(0, 7);
   for (std::size_t f = 0; f < faces; ++f) {
     const auto size = *rc::gen::inRange<std::size_t>(least, most + 1);
-    soup.add_face(*rc::gen::container<std::vector<Point_id>>(size, rc::gen::inRange<Point_id>(0, static_cast<Point_id>(points))));
+    soup.add_face(
+        *rc::gen::container<std::vector<Point_id>>(size, rc::gen::inRange<Point_id>(0, static_cast<Point_id>(points))));
   }
   return soup;
 }
@@ -88,7 +92,8 @@ TEST(Round_trip, of_the_least_and_the_greatest_double_is_exact) {
   soup.add_point(std::ldexp(1.0, -1074), -std::numeric_limits<double>::max(), std::numeric_limits<double>::min());
   soup.add_point(-0.0, std::nextafter(1.0, 2.0), -0.1);
   soup.add_face({0, 1, 0});
-  for (const Format format : all_formats) EXPECT_EQ(text_of(read_scene(written(soup, format), format, "again")), text_of(soup));
+  for (const Format format : all_formats)
+    EXPECT_EQ(text_of(read_scene(written(soup, format), format, "again")), text_of(soup));
 }
 
 TEST(Round_trip, of_the_empty_soup_is_the_empty_soup) {
@@ -100,7 +105,8 @@ TEST(Round_trip, of_a_polygon_of_300_corners_outgrows_short_lists) {
   std::vector<Point_id> corners;
   for (int i = 0; i < 300; ++i) corners.push_back(soup.add_point(double(i), i * i / 4.0, 0));
   soup.add_face(corners);
-  for (const Format format : {Format::ply, Format::ply_binary}) EXPECT_EQ(text_of(read_scene(written(soup, format), format, "again")), text_of(soup));
+  for (const Format format : {Format::ply, Format::ply_binary})
+    EXPECT_EQ(text_of(read_scene(written(soup, format), format, "again")), text_of(soup));
   EXPECT_NE(written(soup, Format::ply).find("list uint uint"), std::string::npos);
   Polygon_soup short_soup;
   short_soup.add_point(0.0, 0.0, 0.0);
@@ -110,8 +116,15 @@ TEST(Round_trip, of_a_polygon_of_300_corners_outgrows_short_lists) {
 }
 
 TEST(Decimal_text, is_short_where_the_number_is) {
-  const std::vector<std::pair<Rational, std::string>> cases{{0, "0"}, {-25, "-25"}, {Rational(1, 2), "0.5"}, {Rational(-1, 8), "-0.125"}, {Rational(5, 4), "1.25"},
-                                                            {Rational(1, 5), "0.2"}, {Rational(-3, 1000), "-0.003"}, {exact_decimal(12, -9), "12e-9"}, {exact_decimal(7, 3), "7000"}};
+  const std::vector<std::pair<Rational, std::string>> cases{{0, "0"},
+                                                            {-25, "-25"},
+                                                            {Rational(1, 2), "0.5"},
+                                                            {Rational(-1, 8), "-0.125"},
+                                                            {Rational(5, 4), "1.25"},
+                                                            {Rational(1, 5), "0.2"},
+                                                            {Rational(-3, 1000), "-0.003"},
+                                                            {exact_decimal(12, -9), "12e-9"},
+                                                            {exact_decimal(7, 3), "7000"}};
   for (const auto& [value, text] : cases) EXPECT_EQ(decimal_text(value), text);
   EXPECT_FALSE(decimal_text(Rational(1, 3)));
   EXPECT_FALSE(decimal_text(Rational(1, 30)));
@@ -134,13 +147,15 @@ TEST(Not_representable, is_a_third_outside_qoff) {
   soup.add_point(0.0, 0.0, 0.0);
   soup.add_point(Rational(0), Rational(1, 3), Rational(0));
   soup.add_face({0, 1, 0});
-  for (const Format format : {Format::obj, Format::off, Format::ply, Format::stl}) expect_not_representable(soup, format, "cannot hold the coordinate 1/3 of point 1, which is no finite decimal");
+  for (const Format format : {Format::obj, Format::off, Format::ply, Format::stl})
+    expect_not_representable(soup, format, "cannot hold the coordinate 1/3 of point 1, which is no finite decimal");
   expect_not_representable(soup, Format::ply_binary, "cannot hold the coordinate 1/3 of point 1, which is no double");
   EXPECT_EQ(text_of(read_scene(written(soup, Format::qoff), Format::qoff, "again")), text_of(soup));
 }
 
 TEST(Not_representable, is_a_decimal_that_is_no_double_in_binary_ply) {
-  for (const Rational& value : {Rational(1, 10), exact_decimal(1, 400), exact_decimal(1, -400), Rational(Integer("9007199254740993"))}) {
+  for (const Rational& value :
+       {Rational(1, 10), exact_decimal(1, 400), exact_decimal(1, -400), Rational(Integer("9007199254740993"))}) {
     Polygon_soup soup;
     soup.add_point(Rational(0), Rational(0), value);
     expect_not_representable(soup, Format::ply_binary, "of point 0, which is no double");
@@ -184,7 +199,8 @@ TEST(Write_scene, to_a_file_goes_by_its_ending) {
     write_scene(soup, folder / "none" / "a.obj");
     ADD_FAILURE();
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("none/a.obj: cannot be written; check"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("none/a.obj: cannot be written; check"), std::string::npos)
+        << error.what();
   }
 
   // What cannot be written leaves the old file as it was.

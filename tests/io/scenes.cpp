@@ -31,7 +31,8 @@ std::map<std::string, std::array<std::size_t, 2>> announced_counts(const fs::pat
   for (std::string line; std::getline(readme, line);) {
     std::istringstream cells(line);
     std::string bar, file, kilobytes, vertices, faces;
-    std::getline(cells, bar, '|'), std::getline(cells, file, '|'), std::getline(cells, kilobytes, '|'), std::getline(cells, vertices, '|'), std::getline(cells, faces, '|');
+    std::getline(cells, bar, '|'), std::getline(cells, file, '|'), std::getline(cells, kilobytes, '|'),
+        std::getline(cells, vertices, '|'), std::getline(cells, faces, '|');
     std::istringstream(file) >> file;
     std::array<std::size_t, 2> row{};
     if (std::istringstream(vertices) >> row[0] && std::istringstream(faces) >> row[1]) counts[file] = row;
@@ -41,7 +42,8 @@ std::map<std::string, std::array<std::size_t, 2>> announced_counts(const fs::pat
 
 TEST(Real_scenes, are_read_with_the_counts_that_their_table_says) {
   const fs::path folder = scenes_folder();
-  if (folder.empty() || !fs::is_directory(folder)) GTEST_SKIP() << "no folder of scenes; name one in the environment variable SIGHTLINE_SCENES";
+  if (folder.empty() || !fs::is_directory(folder))
+    GTEST_SKIP() << "no folder of scenes; name one in the environment variable SIGHTLINE_SCENES";
   const auto counts = announced_counts(folder);
   std::size_t read = 0, compared = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {

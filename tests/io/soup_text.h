@@ -29,7 +29,9 @@ inline std::string text_of(const Polygon_soup& soup) {
   return text;
 }
 
-inline std::string read_text(std::string_view bytes, Format format, const Read_options& options = {}) { return text_of(read_scene(bytes, format, "scene", options)); }
+inline std::string read_text(std::string_view bytes, Format format, const Read_options& options = {}) {
+  return text_of(read_scene(bytes, format, "scene", options));
+}
 
 /// The Input_error of bytes that must not be read; fails where they are.
 inline std::optional<Input_error> error_of(std::string_view bytes, Format format, const Read_options& options = {}) {
@@ -47,14 +49,17 @@ inline std::optional<Input_error> error_of(std::string_view bytes, Format format
 }
 
 /// Expects an error in text at a line and column, whose message holds `part`.
-inline void expect_error_at(std::size_t line, std::size_t column, const std::string& part, std::string_view bytes, Format format, const Read_options& options = {}) {
+inline void expect_error_at(std::size_t line, std::size_t column, const std::string& part, std::string_view bytes,
+                            Format format, const Read_options& options = {}) {
   SCOPED_TRACE(printable(bytes, 200, true));
   const std::optional<Input_error> error = error_of(bytes, format, options);
   if (!error) return;
   EXPECT_EQ(error->line, line) << error->what();
   EXPECT_EQ(error->column, column) << error->what();
   EXPECT_FALSE(error->byte);
-  EXPECT_TRUE(std::string(error->what()).starts_with("scene:" + std::to_string(line) + ":" + std::to_string(column) + ": ")) << error->what();
+  EXPECT_TRUE(
+      std::string(error->what()).starts_with("scene:" + std::to_string(line) + ":" + std::to_string(column) + ": "))
+      << error->what();
   EXPECT_NE(std::string(error->what()).find(part), std::string::npos) << error->what();
 }
 

@@ -6,7 +6,8 @@ namespace sightline::test {
 namespace {
 
 std::string facet(const std::string& a, const std::string& b, const std::string& c) {
-  return "facet normal 0 0 1\n outer loop\n  vertex " + a + "\n  vertex " + b + "\n  vertex " + c + "\n endloop\nendfacet\n";
+  return "facet normal 0 0 1\n outer loop\n  vertex " + a + "\n  vertex " + b + "\n  vertex " + c +
+         "\n endloop\nendfacet\n";
 }
 std::string binary(const std::string& beginning, const std::vector<std::array<float, 9>>& facets) {
   std::string bytes = beginning;
@@ -21,7 +22,9 @@ std::string binary(const std::string& beginning, const std::vector<std::array<fl
 }
 
 TEST(Stl, text_merges_points_by_exact_value) {
-  EXPECT_EQ(read_text("solid a name # of words\n" + facet("0 0 0", "1 0 0", "0 1.50 0") + facet("0.15e1 0 0", "1.0 -0 0", "-0.0 15e-1 0") + "endsolid a name\n", stl),
+  EXPECT_EQ(read_text("solid a name # of words\n" + facet("0 0 0", "1 0 0", "0 1.50 0") +
+                          facet("0.15e1 0 0", "1.0 -0 0", "-0.0 15e-1 0") + "endsolid a name\n",
+                      stl),
             "0 0 0, 1 0 0, 0 3/2 0, 3/2 0 0 | 0 1 2, 3 1 2");
 }
 
@@ -32,9 +35,14 @@ TEST(Stl, text_keeps_points_apart_that_are_one_double) {
 }
 
 TEST(Stl, text_may_hold_several_solids_and_capitals) {
-  EXPECT_EQ(read_text("SOLID\nEndSolid\nsolid b\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid\nsolid\n" + facet("0 0 0", "0 1 0", "1 0 0") + "endsolid c", stl),
+  EXPECT_EQ(read_text("SOLID\nEndSolid\nsolid b\n" + facet("0 0 0", "1 0 0", "0 1 0") + "endsolid\nsolid\n" +
+                          facet("0 0 0", "0 1 0", "1 0 0") + "endsolid c",
+                      stl),
             "0 0 0, 1 0 0, 0 1 0 | 0 1 2, 0 2 1");
-  EXPECT_EQ(read_text("solid\nFACET NORMAL nan -nan 0 OUTER LOOP VERTEX 1 0 0\nVertex 2 0 0 ENDLOOP ENDFACET\nendsolid\n", stl), "1 0 0, 2 0 0 | 0 1");
+  EXPECT_EQ(
+      read_text("solid\nFACET NORMAL nan -nan 0 OUTER LOOP VERTEX 1 0 0\nVertex 2 0 0 ENDLOOP ENDFACET\nendsolid\n",
+                stl),
+      "1 0 0, 2 0 0 | 0 1");
 }
 
 TEST(Stl, text_that_is_cut_off_is_an_error_at_its_end) {
@@ -46,7 +54,8 @@ TEST(Stl, text_that_is_cut_off_is_an_error_at_its_end) {
     EXPECT_NE(error->line, 0u);
   }
   expect_error_at(2, 1, "the file ends where facet should follow", "solid\n", stl);
-  expect_error_at(4, 14, "the file ends where a coordinate should follow", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0.5 1 ", stl);
+  expect_error_at(4, 14, "the file ends where a coordinate should follow",
+                  "solid\nfacet normal 0 0 1\nouter loop\nvertex 0.5 1 ", stl);
 }
 
 TEST(Stl, a_word_out_of_place_is_an_error) {
@@ -54,8 +63,10 @@ TEST(Stl, a_word_out_of_place_is_an_error) {
   expect_error_at(2, 7, "unexpected \"0\"; write normal", "solid\nfacet 0 0 1\n", stl);
   expect_error_at(2, 14, "\"outer\" is not a number", "solid\nfacet normal outer loop\n", stl);
   expect_error_at(3, 7, "unexpected \"vertex\"; write loop", "solid\nfacet normal 0 0 1\nouter vertex\n", stl);
-  expect_error_at(4, 1, "unexpected \"endfacet\"; write vertex or endloop", "solid\nfacet normal 0 0 1\nouter loop\nendfacet\n", stl);
-  expect_error_at(5, 1, "unexpected \"facet\"; write endfacet", "solid\nfacet normal 0 0 1\nouter loop\nendloop\nfacet\n", stl);
+  expect_error_at(4, 1, "unexpected \"endfacet\"; write vertex or endloop",
+                  "solid\nfacet normal 0 0 1\nouter loop\nendfacet\n", stl);
+  expect_error_at(5, 1, "unexpected \"facet\"; write endfacet",
+                  "solid\nfacet normal 0 0 1\nouter loop\nendloop\nfacet\n", stl);
   expect_error_at(2, 1, "unexpected \"#\"; write facet or endsolid", "solid\n# no comments here\nendsolid\n", stl);
   expect_error_at(3, 1, "unexpected \"facet\"; write solid", "solid\nendsolid\nfacet\n", stl);
 }
@@ -66,7 +77,9 @@ TEST(Stl, a_coordinate_in_text_that_is_none_is_an_error) {
 }
 
 TEST(Stl, binary_merges_points_by_exact_value) {
-  EXPECT_EQ(read_text(binary("made by hand", {{0, 0, 0, 1, 0, 0, 0, 0.5f, 0}, {-0.0f, 0, 0, 0, 0.5f, -0.0f, 1, 0, 1}}), stl), "0 0 0, 1 0 0, 0 1/2 0, 1 0 1 | 0 1 2, 0 2 3");
+  EXPECT_EQ(
+      read_text(binary("made by hand", {{0, 0, 0, 1, 0, 0, 0, 0.5f, 0}, {-0.0f, 0, 0, 0, 0.5f, -0.0f, 1, 0, 1}}), stl),
+      "0 0 0, 1 0 0, 0 1/2 0, 1 0 1 | 0 1 2, 0 2 3");
   EXPECT_EQ(read_text(binary("none", {}), stl), " |");
   const Polygon_soup soup = read_scene(binary("", {{1e-45f, 3e38f, 0.1f, 0, 0, 0, 0, 0, 1e-45f}}), stl, "scene");
   EXPECT_EQ(soup.point(0), (Exact_point{exact(std::ldexp(1.0, -149)), exact(double{3e38f}), exact(double{0.1f})}));
@@ -79,7 +92,8 @@ TEST(Stl, binary_that_begins_with_solid_is_told_by_its_size) {
 
 TEST(Stl, binary_that_is_cut_off_or_too_long_is_an_error) {
   const std::string bytes = binary("solid of facets", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 1, 0, 0, 0, 1, 0}});
-  expect_error_at_byte(bytes.size() - 1, "2 facets are announced, but the file ends after 1", bytes.substr(0, bytes.size() - 1), stl);
+  expect_error_at_byte(bytes.size() - 1, "2 facets are announced, but the file ends after 1",
+                       bytes.substr(0, bytes.size() - 1), stl);
   expect_error_at_byte(84, "2 facets are announced, but the file ends after 0", bytes.substr(0, 84), stl);
   expect_error_at_byte(184, "the file goes on after the 2 facets", bytes + "x", stl);
   expect_error_at_byte(70, "the file ends within the header", "made by hand" + std::string(58, ' '), stl);
@@ -90,7 +104,8 @@ TEST(Stl, binary_that_is_cut_off_or_too_long_is_an_error) {
 
 TEST(Stl, binary_coordinates_must_be_finite) {
   for (const float bad : {std::nanf(""), HUGE_VALF, -HUGE_VALF})
-    expect_error_at_byte(84 + 50 + 12 + 20, "a coordinate is not a finite number", binary("", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 1, 0, bad, 0, 1, 0}}), stl);
+    expect_error_at_byte(84 + 50 + 12 + 20, "a coordinate is not a finite number",
+                         binary("", {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 0, 1, 0, bad, 0, 1, 0}}), stl);
 }
 
 }  // namespace

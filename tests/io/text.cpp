@@ -7,9 +7,11 @@ namespace {
 
 TEST(Text, line_ends_blanks_comments_and_byte_order_mark_are_all_welcome) {
   const std::string expected = "1 2 3, 4 5 6 | 0 1 0";
-  for (const char* text : {"v 1 2 3\nv 4 5 6\nf 1 2 1\n", "v 1 2 3\nv 4 5 6\nf 1 2 1", "v 1 2 3\r\nv 4 5 6\r\nf 1 2 1\r\n", "v 1 2 3\rv 4 5 6\rf 1 2 1\r",
-                           "v 1 2 3\r\n\n\r\rv 4 5 6\nf 1 2 1", "\tv\t1 \t2\v3\f \n  v 4 5 6\t\t\nf 1 2 1 \t", "\xEF\xBB\xBFv 1 2 3\nv 4 5 6\nf 1 2 1",
-                           "# v 9 9 9\nv 1 2 3 # v 8 8 8\n  #\nv 4 5 6 #\nf 1 2 1 # \\\n"})
+  for (const char* text :
+       {"v 1 2 3\nv 4 5 6\nf 1 2 1\n", "v 1 2 3\nv 4 5 6\nf 1 2 1", "v 1 2 3\r\nv 4 5 6\r\nf 1 2 1\r\n",
+        "v 1 2 3\rv 4 5 6\rf 1 2 1\r", "v 1 2 3\r\n\n\r\rv 4 5 6\nf 1 2 1",
+        "\tv\t1 \t2\v3\f \n  v 4 5 6\t\t\nf 1 2 1 \t", "\xEF\xBB\xBFv 1 2 3\nv 4 5 6\nf 1 2 1",
+        "# v 9 9 9\nv 1 2 3 # v 8 8 8\n  #\nv 4 5 6 #\nf 1 2 1 # \\\n"})
     EXPECT_EQ(read_text(text, Format::obj), expected) << printable(text, 100, true);
 }
 
@@ -33,7 +35,9 @@ TEST(Text, a_missing_token_is_reported_behind_the_last_one) {
   expect_error_at(2, 2, "a coordinate is missing", "v 1 2 3\nv # 1 2 3\n", Format::obj);
 }
 
-TEST(Text, a_hash_within_a_token_begins_no_comment) { expect_error_at(1, 7, "\"1.#INF\" is not a finite number", "v 1 2 1.#INF", Format::obj); }
+TEST(Text, a_hash_within_a_token_begins_no_comment) {
+  expect_error_at(1, 7, "\"1.#INF\" is not a finite number", "v 1 2 1.#INF", Format::obj);
+}
 
 TEST(Text, messages_stay_on_one_line_and_short_whatever_the_file_holds) {
   expect_error_at(1, 3, "\"\\x01\\x7F\\xFF\" is not a number", "v \x01\x7F\xFF 0 0", Format::obj);

@@ -17,7 +17,8 @@
 #include <sightline/algorithms/judge/truth.h>
 
 /// text: what a program answered to the query.
-void grade_text(const sightline::Polygon_soup& soup, const sightline::judge::Query& query, const std::string& text, std::ostream& out) {
+void grade_text(const sightline::Polygon_soup& soup, const sightline::judge::Query& query, const std::string& text,
+                std::ostream& out) {
   const sightline::judge::Truth truth = sightline::judge::truth_of(soup, query);
   const sightline::judge::Answer answer = sightline::judge::read_answer(text, query.question, soup.face_count());
   const sightline::judge::Grade grade = sightline::judge::grade(truth, answer);
@@ -39,7 +40,8 @@ constexpr std::uint64_t rounds = 40;
 /// A square of side 2 around the axis of z that looks up.
 void add_square(Polygon_soup& soup, const Rational& x, const Rational& z, const Rational& half = 1) {
   std::vector<Point_id> loop;
-  for (const auto& [dx, dy] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) loop.push_back(soup.add_point(x + half * dx, half * dy, z));
+  for (const auto& [dx, dy] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)})
+    loop.push_back(soup.add_point(x + half * dx, half * dy, z));
   soup.add_face(loop);
 }
 /// Squares at these heights, one above the other.
@@ -62,10 +64,12 @@ Grade graded(const Polygon_soup& soup, const Query& query, const std::string& te
 }
 using Faces = std::vector<Face_id>;
 
-// ---- The protocol -----------------------------------------------------------------------------------------------------------
+// ---- The protocol
+// -----------------------------------------------------------------------------------------------------------
 
 TEST(Protocol, writes_doubles_as_numbers_and_others_as_fractions) {
-  EXPECT_EQ(to_json(question(Question::see, {Rational(1, 2), Rational(1, 3), -3}, true)).dump(), R"({"query":"see","eye":[0.5,"1/3",-3.0],"two_sided":true})");
+  EXPECT_EQ(to_json(question(Question::see, {Rational(1, 2), Rational(1, 3), -3}, true)).dump(),
+            R"({"query":"see","eye":[0.5,"1/3",-3.0],"two_sided":true})");
   Query weak = question(Question::weak, {0, 0, 0});
   weak.source = {{0, 0, 1}, {exact(0x1p-1074), 0, 1}, {0, 1, 1}};
   for (const Query& query : {weak, question(Question::order, {exact(0.1), Rational(1, 10), exact(1e300)}, true)}) {
@@ -75,8 +79,10 @@ TEST(Protocol, writes_doubles_as_numbers_and_others_as_fractions) {
     EXPECT_EQ(again.source == query.source, true);
     EXPECT_EQ(again.two_sided, query.two_sided);
   }
-  for (const char* bad : {"[]", R"({"eye":[0,0,0],"two_sided":false})", R"({"query":"look","eye":[0,0,0],"two_sided":false})", R"({"query":"see","eye":[0,0],"two_sided":false})", R"({"query":"see","eye":[0,0,0],"two_sided":1})",
-                          R"({"query":"weak","source":[[0,0,"a"]],"two_sided":false})"})
+  for (const char* bad :
+       {"[]", R"({"eye":[0,0,0],"two_sided":false})", R"({"query":"look","eye":[0,0,0],"two_sided":false})",
+        R"({"query":"see","eye":[0,0],"two_sided":false})", R"({"query":"see","eye":[0,0,0],"two_sided":1})",
+        R"({"query":"weak","source":[[0,0,"a"]],"two_sided":false})"})
     EXPECT_THROW(query_from_json(nlohmann::json::parse(bad)), std::invalid_argument) << bad;
 }
 
@@ -87,8 +93,10 @@ TEST(Protocol, reads_answers_as_json_and_as_lines) {
     EXPECT_EQ(answer.abstained, (Faces{2})) << text;
   }
   EXPECT_TRUE(read_answer("", Question::weak, 4).visible.empty());
-  for (const char* text : {R"({"abstained": "all"})", "abstained all\n"}) EXPECT_EQ(read_answer(text, Question::see, 3).abstained, (Faces{0, 1, 2})) << text;
-  const Answer order = read_answer(R"({"order": [2, {"face": 0, "vertices": [[0, 0.5, "1/3"], [1, 0, 0], [0, 1, 0]]}, 1]})", Question::order, 3);
+  for (const char* text : {R"({"abstained": "all"})", "abstained all\n"})
+    EXPECT_EQ(read_answer(text, Question::see, 3).abstained, (Faces{0, 1, 2})) << text;
+  const Answer order = read_answer(
+      R"({"order": [2, {"face": 0, "vertices": [[0, 0.5, "1/3"], [1, 0, 0], [0, 1, 0]]}, 1]})", Question::order, 3);
   ASSERT_EQ(order.order.size(), 3u);
   EXPECT_EQ(order.order[0].face, 2u);
   EXPECT_TRUE(order.order[0].part.empty());
@@ -110,7 +118,8 @@ TEST(Protocol, says_what_is_wrong_with_an_answer) {
   EXPECT_EQ(what("{\"visible\": [0, -1]}"), "visible[1] is no face; write its number, from 0");
   EXPECT_EQ(what("{\"visible\": [3]}"), "visible[0] names face 3; the scene has faces 0 to 2");
   EXPECT_EQ(what("{\"visible\": [1], \"abstained\": [1]}"), "face 1 is both answered and abstained from");
-  EXPECT_EQ(what("{\"visible\": [1], \"abstained\": \"some\"}"), "\"abstained\" is neither a list of faces nor \"all\"");
+  EXPECT_EQ(what("{\"visible\": [1], \"abstained\": \"some\"}"),
+            "\"abstained\" is neither a list of faces nor \"all\"");
   EXPECT_EQ(what("0\nface 1\n"), "line 2 holds more than one face; write one a line");
   EXPECT_EQ(what("0\n1.0\n"), "line 2: \"1.0\" is no face; write its number, from 0");
   EXPECT_EQ(what("abstained\n"), "line 1: \"\" is no face; write its number, from 0");
@@ -118,10 +127,14 @@ TEST(Protocol, says_what_is_wrong_with_an_answer) {
   EXPECT_EQ(what("99999999999999999999\n"), "line 1: \"99999999999999999999\" is no face; write its number, from 0");
   EXPECT_EQ(what("0\n1\n0\n", Question::order), "face 0 is in the order twice");
   EXPECT_EQ(what("0\nabstained 0\n", Question::order), "face 0 is both answered and abstained from");
-  EXPECT_EQ(what("{\"order\": [{\"face\": 0}]}", Question::order), "order[0] is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
-  EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0]]}]}", Question::order), "order[0] has fewer than three vertices; give the corners of a convex part of the face");
-  EXPECT_EQ(what("{\"order\": [0, {\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}]}", Question::order), "face 0 is in the order as a whole and in parts");
-  EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, null], [0, 1, 0]]}]}", Question::order), "order[0].vertices[1] is no number; write 0.5, or \"1/3\" where it is no double");
+  EXPECT_EQ(what("{\"order\": [{\"face\": 0}]}", Question::order),
+            "order[0] is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
+  EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0]]}]}", Question::order),
+            "order[0] has fewer than three vertices; give the corners of a convex part of the face");
+  EXPECT_EQ(what("{\"order\": [0, {\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, 0], [0, 1, 0]]}]}", Question::order),
+            "face 0 is in the order as a whole and in parts");
+  EXPECT_EQ(what("{\"order\": [{\"face\": 0, \"vertices\": [[0, 0, 0], [1, 0, null], [0, 1, 0]]}]}", Question::order),
+            "order[0].vertices[1] is no number; write 0.5, or \"1/3\" where it is no double");
 }
 
 TEST(Protocol, takes_memory_in_proportion_to_an_answer_and_its_scene) {
@@ -133,7 +146,8 @@ TEST(Protocol, takes_memory_in_proportion_to_an_answer_and_its_scene) {
   EXPECT_LE(answer.abstained.capacity(), 2 * faces);
 }
 
-// ---- See and weak -----------------------------------------------------------------------------------------------------------
+// ---- See and weak
+// -----------------------------------------------------------------------------------------------------------
 
 TEST(Truth, of_an_eye_above_two_squares) {
   const Polygon_soup soup = tower({0, 1});
@@ -173,14 +187,15 @@ TEST(Truth, of_a_lamp_above_two_squares) {
 
 TEST(Truth, leaves_out_faces_that_are_none) {
   Polygon_soup soup = tower({0, 1});
-  soup.add_face({0, 1, 1});                                   // 2: no area
-  soup.add_face({soup.loop(1)[2], soup.loop(1)[3], 4, 5});    // 3: face 1 once more
+  soup.add_face({0, 1, 1});                                 // 2: no area
+  soup.add_face({soup.loop(1)[2], soup.loop(1)[3], 4, 5});  // 3: face 1 once more
   const Query above = question(Question::see, {0, 0, 5});
   EXPECT_EQ(graded(soup, above, "1\n").judged, 2u);
   EXPECT_FALSE(graded(soup, above, "1\n2\n3\n").wrong());
   EXPECT_FALSE(graded(soup, question(Question::order, {0, 0, 5}), "2\n0\n1\n").wrong());
   Polygon_soup bow;
-  for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 1), std::pair(1, 0), std::pair(0, 1)}) bow.add_point(Rational(x), Rational(y), Rational(0));
+  for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 1), std::pair(1, 0), std::pair(0, 1)})
+    bow.add_point(Rational(x), Rational(y), Rational(0));
   bow.add_face({0, 1, 2, 3});
   bow.add_face({0, 1, 2});
   EXPECT_NE(truth_of(bow, above).not_asked, "");
@@ -200,7 +215,8 @@ TEST(Truth, is_about_planar_faces_on_doubles) {
   EXPECT_EQ(with_planar_faces(planar).face_count(), 4u);
 
   const Polygon_soup doubles = rounded_to_doubles(soup);
-  for (std::size_t k = 0; k < doubles.coordinates.size(); ++k) EXPECT_EQ(exact(nearest_double(soup.coordinates[k])), doubles.coordinates[k]);
+  for (std::size_t k = 0; k < doubles.coordinates.size(); ++k)
+    EXPECT_EQ(exact(nearest_double(soup.coordinates[k])), doubles.coordinates[k]);
   EXPECT_NE(doubles.coordinates[12], soup.coordinates[12]);
   Query query = question(Question::weak, {0, 0, Rational(1, 3)});
   query.source = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
@@ -212,7 +228,8 @@ TEST(Truth, is_about_planar_faces_on_doubles) {
   EXPECT_THROW(rounded_to_doubles(Exact_point{exact_decimal(1, 400), 0, 0}), std::domain_error);
 }
 
-// ---- Orders -----------------------------------------------------------------------------------------------------------------
+// ---- Orders
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Orders, of_a_tower) {
   const Polygon_soup soup = tower({0, 1, 2});
@@ -233,7 +250,8 @@ TEST(Orders, of_a_tower) {
   EXPECT_EQ(graded(soup, question(Question::order, {0, 0, -5}), "0\n1\n").wrong_pairs.size(), 1u);
   EXPECT_EQ(graded(soup, question(Question::order, {0, 0, -5}, true), "").wrong_hidden.size(), 3u);
   // In the plane of one of them: it may stand anywhere.
-  for (const char* order : {"0\n1\n2\n", "1\n0\n2\n", "0\n2\n"}) EXPECT_FALSE(graded(soup, question(Question::order, {0, 0, 1}, true), order).wrong()) << order;
+  for (const char* order : {"0\n1\n2\n", "1\n0\n2\n", "0\n2\n"})
+    EXPECT_FALSE(graded(soup, question(Question::order, {0, 0, 1}, true), order).wrong()) << order;
 }
 
 TEST(Orders, of_squares_a_hair_apart_are_judged_exactly) {
@@ -246,7 +264,8 @@ TEST(Orders, of_squares_a_hair_apart_are_judged_exactly) {
 
 std::string part(int face, double x0, double x1, double z) {
   Json corners = Json::array();
-  for (const auto& [x, y] : {std::pair(x0, -1), std::pair(x1, -1), std::pair(x1, 1), std::pair(x0, 1)}) corners.push_back({x, y, z});
+  for (const auto& [x, y] : {std::pair(x0, -1), std::pair(x1, -1), std::pair(x1, 1), std::pair(x0, 1)})
+    corners.push_back({x, y, z});
   return Json{{"face", face}, {"vertices", corners}}.dump();
 }
 
@@ -255,9 +274,12 @@ TEST(Orders, may_hold_parts_with_rounded_corners) {
   const Query above = question(Question::order, {0, 0, 5});
   const auto order = [](const std::string& entries) { return "{\"order\": [" + entries + "]}"; };
   EXPECT_FALSE(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.25, 1, 0) + ", 1")).wrong());
-  EXPECT_FALSE(graded(soup, above, order(part(0, -1, 0.25, 1e-9) + "," + part(0, 0.2500001, 1, 0) + ", 1")).wrong());  // beside the plane; a gap that nobody sees
-  EXPECT_EQ(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.3, 1, 0) + ", 1")).wrong_hidden, (Faces{0}));
-  EXPECT_EQ(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.25, 1.5, 0) + ", 1")).wrong_visible, (Faces{0}));
+  EXPECT_FALSE(graded(soup, above, order(part(0, -1, 0.25, 1e-9) + "," + part(0, 0.2500001, 1, 0) + ", 1"))
+                   .wrong());  // beside the plane; a gap that nobody sees
+  EXPECT_EQ(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.3, 1, 0) + ", 1")).wrong_hidden,
+            (Faces{0}));
+  EXPECT_EQ(graded(soup, above, order(part(0, -1, 0.25, 0) + "," + part(0, 0.25, 1.5, 0) + ", 1")).wrong_visible,
+            (Faces{0}));
   const Grade over = graded(soup, above, order(part(0, -1, 0.25, 0) + ", 1, " + part(0, 0.25, 1, 0)));
   EXPECT_EQ(over.wrong_pairs.size(), 1u);
   EXPECT_EQ(over.wrong_hidden, (Faces{1}));
@@ -324,7 +346,8 @@ TEST(Orders, by_exact_trees_are_right_with_rounded_corners_and_wrong_when_revers
   std::size_t cut = 0, wrong = 0;
   for (std::uint64_t seed = 0; seed < rounds; ++seed) {
     Heap made = heap(seed, 12);
-    if (seed % 2 == 0) {  // in the plane of a face: what is on different sides of it is beside each other, however far apart
+    if (seed % 2 ==
+        0) {  // in the plane of a face: what is on different sides of it is beside each other, however far apart
       const std::array<Exact_point, 3> p{made.soup.point(0), made.soup.point(1), made.soup.point(2)};
       for (std::size_t k = 0; k < 3; ++k) made.eye[k] = p[0][k] + 2 * (p[1][k] - p[0][k]) - 3 * (p[2][k] - p[0][k]);
     }
@@ -339,7 +362,8 @@ TEST(Orders, by_exact_trees_are_right_with_rounded_corners_and_wrong_when_revers
       drawn.face = scene.pieces()[fragment.polygon.piece].face;
       if (fragments[drawn.face] == 1) return;
       ++cut;
-      for (const auto& corner : fragment.polygon) drawn.part.push_back(rounded_to_doubles(traits.position(*corner.vertex)));
+      for (const auto& corner : fragment.polygon)
+        drawn.part.push_back(rounded_to_doubles(traits.position(*corner.vertex)));
     });
     const Truth truth = truth_of(made.soup, question(Question::order, made.eye, true), {1, 20, true});
     EXPECT_FALSE(grade(truth, answer).wrong()) << "seed " << seed;
@@ -350,7 +374,8 @@ TEST(Orders, by_exact_trees_are_right_with_rounded_corners_and_wrong_when_revers
   EXPECT_GT(wrong, rounds / 2);
 }
 
-// ---- Contracts --------------------------------------------------------------------------------------------------------------
+// ---- Contracts
+// --------------------------------------------------------------------------------------------------------------
 
 TEST(Contracts, are_broken_by_what_they_forbid) {
   Grade shows, hides, open;
@@ -369,7 +394,9 @@ TEST(Contracts, are_broken_by_what_they_forbid) {
                                    {Mark::timed_out, {}, {false, false, false}},
                                    {Mark::out_of_memory, {}, {false, false, false}}}};
   for (const Case& c : cases)
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(breaks(static_cast<Contract>(k), c.mark, c.grade), c.broken[k]) << mark_names[static_cast<std::size_t>(c.mark)] << ", " << contract_names[k];
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(breaks(static_cast<Contract>(k), c.mark, c.grade), c.broken[k])
+          << mark_names[static_cast<std::size_t>(c.mark)] << ", " << contract_names[k];
   EXPECT_EQ(mark_of({}), Mark::right);
   EXPECT_EQ(mark_of(open), Mark::abstained);
   EXPECT_EQ(mark_of(shows), Mark::wrong);

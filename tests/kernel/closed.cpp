@@ -58,7 +58,9 @@ TEST(Closure, a_turned_face_opens) {
 TEST(Closure, T_junctions_do_not_open) {
   Polygon_soup soup;
   add_cube(soup, 0, 0, 0, 4, 5);
-  const Point_id a = soup.add_point(Rational(1), Rational(0), Rational(4)), b = soup.add_point(Rational(3), Rational(4), Rational(4)), c = soup.add_point(Rational(2), Rational(2), Rational(4));
+  const Point_id a = soup.add_point(Rational(1), Rational(0), Rational(4)),
+                 b = soup.add_point(Rational(3), Rational(4), Rational(4)),
+                 c = soup.add_point(Rational(2), Rational(2), Rational(4));
   soup.add_face({4, a, c, b, 6});  // the top in two, joined along a bent line; its neighbours know nothing of a and b
   soup.add_face({a, 5, 7, b, c});
   EXPECT_TRUE(closed(soup));
@@ -69,7 +71,8 @@ TEST(Closure, a_hole_in_a_wall_opens_and_a_window_pane_closes_it) {
     Polygon_soup soup;
     add_cube(soup, 0, 0, 0, 8, 5);
     std::vector<Point_id> hole;
-    for (const auto& [x, y] : {std::pair{2, 2}, {4, 2}, {4, 4}, {2, 4}}) hole.push_back(soup.add_point(Rational(x), Rational(y), Rational(8)));
+    for (const auto& [x, y] : {std::pair{2, 2}, {4, 2}, {4, 4}, {2, 4}})
+      hole.push_back(soup.add_point(Rational(x), Rational(y), Rational(8)));
     soup.add_face({4, 5, 7, 6});
     soup.add_hole(hole);
     if (pane) soup.add_face(hole);
@@ -77,7 +80,8 @@ TEST(Closure, a_hole_in_a_wall_opens_and_a_window_pane_closes_it) {
   }
 }
 TEST(Closure, two_cubes_are_closed_apart_touching_at_a_face_at_an_edge_and_through_one_another) {
-  for (const auto& [x, y, z] : {std::array<long, 3>{9, 0, 0}, {4, 0, 0}, {4, 1, 1}, {4, 4, 0}, {4, 4, 4}, {1, 1, 1}, {2, 0, 0}}) {
+  for (const auto& [x, y, z] :
+       {std::array<long, 3>{9, 0, 0}, {4, 0, 0}, {4, 1, 1}, {4, 4, 0}, {4, 4, 4}, {1, 1, 1}, {2, 0, 0}}) {
     Polygon_soup soup;
     add_cube(soup, 0, 0, 0, 4), add_cube(soup, x, y, z, 4);
     EXPECT_TRUE(closed(soup)) << x << ' ' << y << ' ' << z;
@@ -86,7 +90,8 @@ TEST(Closure, two_cubes_are_closed_apart_touching_at_a_face_at_an_edge_and_throu
 TEST(Closure, a_non_planar_wall_closes_where_its_triangles_do) {
   // A cube with one corner lifted: three walls are not planar any more.
   Polygon_soup soup = soup_of({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 4, 0}, {0, 0, 4}, {4, 0, 4}, {0, 4, 4}, {5, 6, 7}});
-  static const Point_id faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  static const Point_id faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (const auto& f : faces) soup.add_face({f[0], f[1], f[2], f[3]});
   EXPECT_EQ(Scene(soup).counters().non_planar, 3u);
   EXPECT_TRUE(closed(soup));

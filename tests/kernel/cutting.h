@@ -1,5 +1,6 @@
 #pragma once
-// Cutting polygons by planes, for every model of Partition_traits: what an exact one must obey and what can be counted of the others.
+// Cutting polygons by planes, for every model of Partition_traits: what an exact one must obey and what can be counted
+// of the others.
 
 #include "soup.h"
 
@@ -20,15 +21,19 @@ inline bool is_strictly_convex(const std::vector<Exact_point>& polygon, const Ve
   if (n < 3 || dot(normal, area_vector(polygon)) <= 0) return false;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)  // all of a small one, the neighbours of a large one
-      if ((n <= 8 || j == (i + 2) % n) && j != i && j != (i + 1) % n && dot(normal, cross(minus(polygon[(i + 1) % n], polygon[i]), minus(polygon[j], polygon[i]))) <= 0) return false;
+      if ((n <= 8 || j == (i + 2) % n) && j != i && j != (i + 1) % n &&
+          dot(normal, cross(minus(polygon[(i + 1) % n], polygon[i]), minus(polygon[j], polygon[i]))) <= 0)
+        return false;
   return true;
 }
 
-/// Splits a polygon across a plane and checks the laws of split(): the parts tile it, share the crossings, and touch the plane where they should.
-/// `plane` is the cutter's plane in the file's coordinates. Only for exact models.
+/// Splits a polygon across a plane and checks the laws of split(): the parts tile it, share the crossings, and touch
+/// the plane where they should. `plane` is the cutter's plane in the file's coordinates. Only for exact models.
 template <class Traits>
-std::array<Convex_polygon<Traits>, 2> checked_split(const Traits& traits, const Convex_polygon<Traits>& polygon, const typename Traits::Cutter& cutter,
-                                                    const std::array<Rational, 4>& plane, Polygon_store<Traits>& store, Predicate_counts& counts) {
+std::array<Convex_polygon<Traits>, 2> checked_split(const Traits& traits, const Convex_polygon<Traits>& polygon,
+                                                    const typename Traits::Cutter& cutter,
+                                                    const std::array<Rational, 4>& plane, Polygon_store<Traits>& store,
+                                                    Predicate_counts& counts) {
   Split_scratch<Traits> scratch;
   EXPECT_EQ(classify(traits, polygon, cutter, scratch, counts), Position::across);
   EXPECT_EQ(position(traits, polygon, cutter, counts), Position::across);
@@ -68,7 +73,8 @@ std::array<Convex_polygon<Traits>, 2> checked_split(const Traits& traits, const 
 
 /// Cuts one polygon by many planes, each time keeping the larger part. Returns how often it was across.
 template <class Traits, class Plane_of>
-int cut_deep(const Traits& traits, Convex_polygon<Traits> polygon, const std::vector<Plane>& planes, Plane_of plane_of, Polygon_store<Traits>& store, Predicate_counts& counts) {
+int cut_deep(const Traits& traits, Convex_polygon<Traits> polygon, const std::vector<Plane>& planes, Plane_of plane_of,
+             Polygon_store<Traits>& store, Predicate_counts& counts) {
   int cuts = 0;
   for (const Plane plane : planes) {
     const auto cutter = traits.prepare(plane);
@@ -85,9 +91,11 @@ int cut_deep(const Traits& traits, Convex_polygon<Traits> polygon, const std::ve
   return cuts;
 }
 
-/// Splits each piece of the scene by the planes of all others, down to convex cells: what a tree does. All sides asked are in `counts`.
+/// Splits each piece of the scene by the planes of all others, down to convex cells: what a tree does. All sides asked
+/// are in `counts`.
 template <class Traits>
-std::size_t split_all(const Traits& traits, Polygon_store<Traits>& store, Predicate_counts& counts, std::size_t most = 400) {
+std::size_t split_all(const Traits& traits, Polygon_store<Traits>& store, Predicate_counts& counts,
+                      std::size_t most = 400) {
   Split_scratch<Traits> scratch;
   std::size_t total = 0;
   for (std::uint32_t i = 0; i < traits.piece_count(); ++i) {

@@ -19,18 +19,22 @@ Polygon_soup polyhedron(const Corners& points, const std::vector<std::vector<Poi
   return soup;
 }
 
-/// Every point of the body's component behind all its planes: convex by definition, in rationals; and the point inside strictly so.
+/// Every point of the body's component behind all its planes: convex by definition, in rationals; and the point inside
+/// strictly so.
 void expect_convex(const Scene& scene, const Face_graph& graph, std::uint32_t component) {
   const Face_graph::Component& c = graph.components()[component];
   ASSERT_TRUE(c.inside.has_value());
   for (std::uint32_t node = 0; node < graph.size(); ++node) {
     if (graph.component(node) != component) continue;
     const auto h = scene.file_coefficients(graph.plane(node));
-    const auto height = [&](const Exact_point& p) { return sgn(Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3])); };
+    const auto height = [&](const Exact_point& p) {
+      return sgn(Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]));
+    };
     EXPECT_LT(height(*c.inside), 0);
     for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
       if (graph.component(graph.node(i)) != component) continue;
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) EXPECT_LE(height(scene.position(corner.point)), 0);
+      for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
+        EXPECT_LE(height(scene.position(corner.point)), 0);
     }
   }
 }
@@ -38,9 +42,12 @@ void expect_convex(const Scene& scene, const Face_graph& graph, std::uint32_t co
 /// A bipyramid over a pentagram whose first face has the ray from inside run through an edge of the other winding.
 Polygon_soup pentagram(const Rational& scale, const Exact_point& offset) {
   Polygon_soup soup;
-  for (const auto& p : std::vector<std::array<long, 3>>{{1, -4, 0}, {1, 4, 0}, {-3, -2, 0}, {4, 0, 0}, {-3, 2, 0}, {0, 0, 3}, {0, 0, -30}})
-    soup.add_point(Rational(scale * p[0] + offset[0]), Rational(scale * p[1] + offset[1]), Rational(scale * p[2] + offset[2]));
-  for (Point_id k = 0; k < 5; ++k) soup.add_face(std::vector<Point_id>{k, (k + 1) % 5, 5}), soup.add_face(std::vector<Point_id>{(k + 1) % 5, k, 6});
+  for (const auto& p : std::vector<std::array<long, 3>>{
+           {1, -4, 0}, {1, 4, 0}, {-3, -2, 0}, {4, 0, 0}, {-3, 2, 0}, {0, 0, 3}, {0, 0, -30}})
+    soup.add_point(Rational(scale * p[0] + offset[0]), Rational(scale * p[1] + offset[1]),
+                   Rational(scale * p[2] + offset[2]));
+  for (Point_id k = 0; k < 5; ++k)
+    soup.add_face(std::vector<Point_id>{k, (k + 1) % 5, 5}), soup.add_face(std::vector<Point_id>{(k + 1) % 5, k, 6});
   return soup;
 }
 
@@ -69,7 +76,8 @@ TEST(Face_graph, a_cube_has_six_nodes_and_twelve_edges) {
   for (const Face_graph::Edge& edge : graph.edges()) {
     const auto corners = scene.corners(scene.pieces()[graph.piece(edge.first)]);
     bool found = false;
-    for (std::size_t k = 0; k < corners.size(); ++k) found |= corners[k].point == edge.from && corners[(k + 1) % corners.size()].point == edge.to;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      found |= corners[k].point == edge.from && corners[(k + 1) % corners.size()].point == edge.to;
     EXPECT_TRUE(found);
   }
 }
@@ -87,7 +95,8 @@ TEST(Face_graph, triangles_of_one_plane_are_one_node) {
 
 TEST(Face_graph, a_body_turned_inside_out_is_not_convex) {
   const Corners points{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
-  const Scene right(polyhedron(points, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})), turned(polyhedron(points, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}));
+  const Scene right(polyhedron(points, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}})),
+      turned(polyhedron(points, {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}));
   const Face_graph out(right), in(turned);
   EXPECT_TRUE(out.is_convex(0));
   EXPECT_TRUE(in.components()[0].closed);
@@ -98,8 +107,17 @@ TEST(Face_graph, a_dent_however_small_is_not_convex) {
   // A pyramid's apex over the upper square of a box: above it, in its plane, below it, by one step of the last bit.
   const double step = 0x1p-52;
   for (const double height : {1 + step, 1.0, 1 - step}) {
-    const Corners points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, height}};
-    const Scene scene(polyhedron(points, {{0, 3, 2, 1}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}}));
+    const Corners points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},         {0, 0, 1},
+                         {1, 0, 1}, {1, 1, 1}, {0, 1, 1}, {0.5, 0.5, height}};
+    const Scene scene(polyhedron(points, {{0, 3, 2, 1},
+                                          {0, 1, 5, 4},
+                                          {1, 2, 6, 5},
+                                          {2, 3, 7, 6},
+                                          {3, 0, 4, 7},
+                                          {4, 5, 8},
+                                          {5, 6, 8},
+                                          {6, 7, 8},
+                                          {7, 4, 8}}));
     const Face_graph graph(scene);
     EXPECT_EQ(graph.is_convex(0), height >= 1);
     EXPECT_EQ(graph.size(), height == 1 ? 6u : 9u);
@@ -110,7 +128,9 @@ TEST(Face_graph, a_dent_however_small_is_not_convex) {
 TEST(Face_graph, a_surface_wound_twice_round_is_bent_outwards_everywhere_and_still_not_convex) {
   // A bipyramid over a pentagram.
   Corners points;
-  for (std::size_t k = 0; k < 5; ++k) points.push_back(std::array<std::array<double, 3>, 5>{{{4, 0, 0}, {1, 4, 0}, {-3, 2, 0}, {-3, -2, 0}, {1, -4, 0}}}[2 * k % 5]);
+  for (std::size_t k = 0; k < 5; ++k)
+    points.push_back(
+        std::array<std::array<double, 3>, 5>{{{4, 0, 0}, {1, 4, 0}, {-3, 2, 0}, {-3, -2, 0}, {1, -4, 0}}}[2 * k % 5]);
   points.push_back({0, 0, 3}), points.push_back({0, 0, -3});
   std::vector<std::vector<Point_id>> faces;
   for (Point_id k = 0; k < 5; ++k) faces.push_back({k, (k + 1) % 5, 5}), faces.push_back({(k + 1) % 5, k, 6});
@@ -176,7 +196,8 @@ TEST(Face_graph, an_empty_scene_has_an_empty_graph) {
 }
 
 TEST(Face_graph, holds_far_away_and_scaled) {
-  for (const auto& [scale, offset] : std::vector<std::pair<double, double>>{{1, 1e8}, {1e-50, 0}, {1e-310, 0}, {1e300, 0}, {1e-30, 1}}) {
+  for (const auto& [scale, offset] :
+       std::vector<std::pair<double, double>>{{1, 1e8}, {1e-50, 0}, {1e-310, 0}, {1e300, 0}, {1e-30, 1}}) {
     const Polygon_soup sphere = generate::convex_sphere(48);
     Polygon_soup soup;
     const Rational s = exact(scale), o = exact(offset);
@@ -226,12 +247,15 @@ TEST(Face_graph, tells_small_bodies_in_large_scenes) {
         if (!wound_twice) {
           for (Point_id p = 0; p < sphere.point_count(); ++p) {
             const Exact_point at = sphere.point(p);
-            soup.add_point(Rational(at[0] * scale + offset[0]), Rational(at[1] * scale + offset[1]), Rational(at[2] * scale + offset[2]));
+            soup.add_point(Rational(at[0] * scale + offset[0]), Rational(at[1] * scale + offset[1]),
+                           Rational(at[2] * scale + offset[2]));
           }
           for (Face_id f = 0; f < sphere.face_count(); ++f) soup.add_face(sphere.loop(f));
         }
         const Point_id first = soup.point_count();
-        soup.add_point(Rational(1'000'000), Rational(0), Rational(0)), soup.add_point(Rational(0), Rational(1'000'000), Rational(0)), soup.add_point(Rational(0), Rational(0), Rational(-1'000'000));
+        soup.add_point(Rational(1'000'000), Rational(0), Rational(0)),
+            soup.add_point(Rational(0), Rational(1'000'000), Rational(0)),
+            soup.add_point(Rational(0), Rational(0), Rational(-1'000'000));
         soup.add_face(std::vector<Point_id>{first, first + 1, first + 2});
         const Scene scene(soup);
         const Face_graph graph(scene);

@@ -86,7 +86,8 @@ void check_limb_conversions() {
   std::mt19937_64 random(99 + L);
   std::vector<Integer> numbers{0, 1, -1, 2, -2};
   for (int k = 1; k < 64 * L; ++k)
-    for (const int off : {-1, 0, 1}) numbers.push_back(power_of_two(k) + off), numbers.push_back(-power_of_two(k) + off);
+    for (const int off : {-1, 0, 1})
+      numbers.push_back(power_of_two(k) + off), numbers.push_back(-power_of_two(k) + off);
   for (int i = 0; i < 100; ++i) numbers.push_back(sample<L>(random));
   for (const Integer& n : numbers) {
     Limb limbs[L];
@@ -164,7 +165,8 @@ TEST(Fixed_integer, limbs_hold_every_number_of_their_width_and_no_other) {
 }
 
 TEST(Fixed_integer, a_machine_integer_is_sign_extended) {
-  for (const std::int64_t n : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
+  for (const std::int64_t n : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1},
+                               std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max()}) {
     EXPECT_EQ(number_in(Fixed_integer<1>(n)), Integer(static_cast<long>(n)));
     EXPECT_EQ(number_in(Fixed_integer<4>(n)), Integer(static_cast<long>(n)));
   }

@@ -29,7 +29,9 @@ inline Integer uniform(Random& random, int bits) {
   return random() % 2 ? n : Integer(-n);
 }
 /// Uniform in its bit length, so that small numbers come too.
-inline Integer any_size(Random& random, int bits) { return uniform(random, 1 + static_cast<int>(random() % static_cast<std::uint64_t>(bits))); }
+inline Integer any_size(Random& random, int bits) {
+  return uniform(random, 1 + static_cast<int>(random() % static_cast<std::uint64_t>(bits)));
+}
 
 inline Rational rational(const Integer& p, const Integer& q) {
   Rational r(p, q);
@@ -46,10 +48,13 @@ inline Coefficients negated(Coefficients h) {
   for (Integer& x : h) x = -x;
   return h;
 }
-inline Rational evaluate(const Coefficients& h, const Position& x) { return h[0] * x[0] + h[1] * x[1] + h[2] * x[2] + h[3]; }
+inline Rational evaluate(const Coefficients& h, const Position& x) {
+  return h[0] * x[0] + h[1] * x[1] + h[2] * x[2] + h[3];
+}
 
 /// The plane through three points; its normal is zero where they are collinear.
-inline Coefficients through(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b, const std::array<Integer, 3>& c) {
+inline Coefficients through(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b,
+                            const std::array<Integer, 3>& c) {
   std::array<Integer, 3> u, v;
   for (std::size_t k = 0; k < 3; ++k) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
   Coefficients h{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0], 0};
@@ -84,7 +89,7 @@ struct Grid {
   Grid_points points;
   Plane_table planes;
   Point_planes incidences;
-  std::vector<Coefficients> made;   // of handles[i], oriented
+  std::vector<Coefficients> made;  // of handles[i], oriented
   std::vector<Plane> handles;
 
   explicit Grid(int bits, const Integer& divisor = 1) : points(bits, divisor), planes(points) {}
@@ -95,7 +100,9 @@ struct Grid {
     handles.push_back(planes.intern(h[0], h[1], h[2], h[3]));
     return handles.back();
   }
-  std::array<Integer, 3> at(std::uint32_t p) const { return {points.integer(p, 0), points.integer(p, 1), points.integer(p, 2)}; }
+  std::array<Integer, 3> at(std::uint32_t p) const {
+    return {points.integer(p, 0), points.integer(p, 1), points.integer(p, 2)};
+  }
   /// A grid coordinate in the scale of the doubles.
   Rational approximated(const Rational& x) const { return shifted(x / points.divisor(), points.shift()); }
   Predicates predicates() const { return {points, planes, incidences}; }

@@ -64,7 +64,8 @@ RC_GTEST_PROP(Number, every_finite_double_survives_exact_and_back, (std::uint64_
 }
 
 TEST(Number, the_ends_of_the_double_range_survive_exact_and_back) {
-  for (const double d : {0.0, 4.9e-324, 2 * 4.9e-324, 0x1p-1022, std::nextafter(0x1p-1022, 0.0), 1e308, std::numeric_limits<double>::max(), 0x1p53, 0x1p53 + 2, 0.1})
+  for (const double d : {0.0, 4.9e-324, 2 * 4.9e-324, 0x1p-1022, std::nextafter(0x1p-1022, 0.0), 1e308,
+                         std::numeric_limits<double>::max(), 0x1p53, 0x1p53 + 2, 0.1})
     for (const double s : {d, -d}) EXPECT_EQ(nearest_double(exact(s)), s) << s;
 }
 
@@ -72,11 +73,13 @@ RC_GTEST_PROP(Number, nearest_double_reads_decimals_as_strtod_does, (std::int64_
   const long exponent = power % 360;
   char text[64];
   std::snprintf(text, sizeof text, "%llde%ld", static_cast<long long>(mantissa), exponent);
-  const double expected = std::strtod(text, nullptr), got = nearest_double(exact_decimal(Integer(static_cast<long>(mantissa)), exponent));
+  const double expected = std::strtod(text, nullptr),
+               got = nearest_double(exact_decimal(Integer(static_cast<long>(mantissa)), exponent));
   RC_ASSERT(got == expected);
 }
 
-RC_GTEST_PROP(Number, nearest_double_rounds_halfway_cases_to_even_and_their_neighbours_to_the_nearer, (std::uint64_t bits, std::int8_t nudge)) {
+RC_GTEST_PROP(Number, nearest_double_rounds_halfway_cases_to_even_and_their_neighbours_to_the_nearer,
+              (std::uint64_t bits, std::int8_t nudge)) {
   const double d = std::fabs(any_double(bits)), next = std::nextafter(d, HUGE_VAL);
   RC_PRE(std::isfinite(next));
   const Rational middle = (exact(d) + exact(next)) / 2;
@@ -115,7 +118,8 @@ TEST(Number, nearest_double_overflows_to_infinity_from_half_a_unit_beyond_the_la
   EXPECT_EQ(nearest_double(exact_decimal(1, -400)), 0.0);
 }
 
-RC_GTEST_PROP(Number, nearest_double_of_a_fraction_is_not_beaten_by_a_neighbour, (std::int64_t p, std::uint64_t q, std::int16_t power)) {
+RC_GTEST_PROP(Number, nearest_double_of_a_fraction_is_not_beaten_by_a_neighbour,
+              (std::int64_t p, std::uint64_t q, std::int16_t power)) {
   Rational value(Integer(static_cast<long>(p)), Integer(static_cast<unsigned long>(q | 1)));
   value.canonicalize();
   const long shift = power % 1100;
@@ -145,7 +149,8 @@ TEST(Number, leading_zeros_do_not_make_a_number_octal) {
 }
 
 TEST(Number, what_is_not_a_number_is_refused) {
-  for (const char* text : {"", "-", "+", "1/", "/2", "1/0", "1/00", "0x10", "1.5", "1e3", " 1", "1 ", "--1", "-+1", "1/2/3", "nan", "inf", "1/ 2"})
+  for (const char* text : {"", "-", "+", "1/", "/2", "1/0", "1/00", "0x10", "1.5", "1e3", " 1", "1 ", "--1", "-+1",
+                           "1/2/3", "nan", "inf", "1/ 2"})
     EXPECT_THROW(rational_from_string(text), std::invalid_argument) << text;
 }
 
@@ -155,9 +160,11 @@ RC_GTEST_PROP(Number, every_rational_survives_its_text, (std::int64_t p, std::ui
   RC_ASSERT(rational_from_string(to_string(value)) == value);
 }
 
-// ---- Coordinates ------------------------------------------------------------------------------------------------------------------------
+// ---- Coordinates
+// ------------------------------------------------------------------------------------------------------------------------
 
-RC_GTEST_PROP(Coordinates, doubles_decimals_and_rationals_come_back_exactly, (std::vector<std::pair<std::uint64_t, std::int16_t>> seeds)) {
+RC_GTEST_PROP(Coordinates, doubles_decimals_and_rationals_come_back_exactly,
+              (std::vector<std::pair<std::uint64_t, std::int16_t>> seeds)) {
   Coordinates column;
   std::vector<Rational> expected;
   for (const auto& [bits, power] : seeds) {
@@ -171,7 +178,8 @@ RC_GTEST_PROP(Coordinates, doubles_decimals_and_rationals_come_back_exactly, (st
         expected.push_back(exact_decimal(Integer(static_cast<long>(bits)), power % 400));
         break;
       case 2: {
-        Rational value(Integer(static_cast<long>(bits)) * (power % 2 ? 1 : Integer("123456789012345678901234567890")), Integer(static_cast<long>(power) * 2 + 1));
+        Rational value(Integer(static_cast<long>(bits)) * (power % 2 ? 1 : Integer("123456789012345678901234567890")),
+                       Integer(static_cast<long>(power) * 2 + 1));
         value.canonicalize();
         column.push(value);
         expected.push_back(value);
@@ -207,7 +215,8 @@ RC_GTEST_PROP(Coordinates, doubles_decimals_and_rationals_come_back_exactly, (st
 }
 
 TEST(Coordinates, the_ends_of_the_double_range_come_back_exactly) {
-  const double values[] = {0.0, -0.0, 4.9e-324, -4.9e-324, 0x1p-1022, 1e308, -std::numeric_limits<double>::max(), 0.1, 0x1p53, 0x1p62, 0x1p63, -0x1p63, 0x1p64, 1.5};
+  const double values[] = {0.0, -0.0,   4.9e-324, -4.9e-324, 0x1p-1022, 1e308,  -std::numeric_limits<double>::max(),
+                           0.1, 0x1p53, 0x1p62,   0x1p63,    -0x1p63,   0x1p64, 1.5};
   Coordinates column;
   for (const double d : values) column.push_double(d);
   for (std::size_t i = 0; i < std::size(values); ++i) EXPECT_EQ(column[i], exact(values[i])) << values[i];
@@ -215,7 +224,8 @@ TEST(Coordinates, the_ends_of_the_double_range_come_back_exactly) {
 
 TEST(Coordinates, no_numbers_have_the_common_denominator_one) { EXPECT_EQ(Coordinates().common_denominator(), 1); }
 
-RC_GTEST_PROP(Coordinates, the_common_denominator_is_the_least_and_denominators_are_counted, (std::vector<std::pair<std::int32_t, std::uint8_t>> numbers)) {
+RC_GTEST_PROP(Coordinates, the_common_denominator_is_the_least_and_denominators_are_counted,
+              (std::vector<std::pair<std::int32_t, std::uint8_t>> numbers)) {
   Coordinates column;
   Integer least = 1;
   for (const auto& [mantissa, power] : numbers) {
@@ -256,6 +266,7 @@ TEST(Coordinates, small_numbers_end_just_below_two_to_the_61) {
   column.push(Rational(Integer(static_cast<long>(1 - limit))));
   column.push(Rational(Integer(std::numeric_limits<long>::min())));
   std::string kinds(5, '?');
-  column.for_each_scaled(1, [&](std::size_t i, std::int64_t) { kinds[i] = 's'; }, [&](std::size_t i, const Integer&) { kinds[i] = 'l'; });
+  column.for_each_scaled(
+      1, [&](std::size_t i, std::int64_t) { kinds[i] = 's'; }, [&](std::size_t i, const Integer&) { kinds[i] = 'l'; });
   EXPECT_EQ(kinds, "sllsl");
 }

@@ -20,9 +20,11 @@ using Gmpq = Point_traits<CGAL::Cartesian<CGAL::Gmpq>>;
 using Epick = Point_traits<CGAL::Exact_predicates_inexact_constructions_kernel>;
 using Epeck = Point_traits<CGAL::Exact_predicates_exact_constructions_kernel>;
 
-static_assert(Partition_traits<Float> && Partition_traits<Double> && Partition_traits<Gmpq> && Partition_traits<Epick> && Partition_traits<Epeck>);
+static_assert(Partition_traits<Float> && Partition_traits<Double> && Partition_traits<Gmpq> &&
+              Partition_traits<Epick> && Partition_traits<Epeck>);
 static_assert(Partition_traits<Lockstep_traits<Exact_traits, Float>> && Partition_traits<Lockstep_traits<Gmpq, Float>>);
-static_assert(Exact_traits::is_exact && Gmpq::is_exact && Epeck::is_exact && !Float::is_exact && !Double::is_exact && !Epick::is_exact);
+static_assert(Exact_traits::is_exact && Gmpq::is_exact && Epeck::is_exact && !Float::is_exact && !Double::is_exact &&
+              !Epick::is_exact);
 
 /// Tenths, and planes that pass through common points: the fan of a tilted pyramid and squares through its apex.
 Polygon_soup degenerate_soup() {
@@ -33,12 +35,14 @@ Polygon_soup degenerate_soup() {
   };
   const Point_id apex = add(3, 7, 11);
   std::vector<Point_id> rim;
-  for (int i = 0; i < 8; ++i) rim.push_back(add(3 + 13 * ((i * 5) % 8 - 4) + i, 7 + 9 * ((i * 3) % 8 - 3), 11 + 7 * (i % 3 - 1) + (i % 2)));
+  for (int i = 0; i < 8; ++i)
+    rim.push_back(add(3 + 13 * ((i * 5) % 8 - 4) + i, 7 + 9 * ((i * 3) % 8 - 3), 11 + 7 * (i % 3 - 1) + (i % 2)));
   for (std::size_t i = 0; i < 8; ++i)
     for (std::size_t j = i + 1; j < 8; j += 2) soup.add_face({apex, rim[i], rim[j]});
   for (int i = 0; i < 5; ++i) {
     const long a = 17 + i, b = 23 - 3 * i, c = 5 * i - 7;
-    soup.add_face({add(3 - a, 7 - b, 11 - c), add(3 + b, 7 - a, 11 + c), add(3 + a, 7 + b, 11 + c), add(3 - b, 7 + a, 11 - c)});
+    soup.add_face(
+        {add(3 - a, 7 - b, 11 - c), add(3 + b, 7 - a, 11 + c), add(3 + a, 7 + b, 11 + c), add(3 - b, 7 + a, 11 - c)});
   }
   return soup;
 }
@@ -51,7 +55,8 @@ struct Wrong : Gmpq {
     return s == CGAL::POSITIVE ? CGAL::NEGATIVE : s == CGAL::NEGATIVE ? CGAL::ZERO : CGAL::POSITIVE;
   }
   Sign side(const Eye& eye, Plane plane, Predicate_counts& counts) const { return Gmpq::side(eye, plane, counts); }
-  Vertex meet(std::uint32_t piece, const Corner<Wrong>& from, const Corner<Wrong>& to, Sign s, const Cutter& cutter) const {
+  Vertex meet(std::uint32_t piece, const Corner<Wrong>& from, const Corner<Wrong>& to, Sign s,
+              const Cutter& cutter) const {
     return Gmpq::meet(piece, Corner<Gmpq>{from.vertex, {}}, Corner<Gmpq>{to.vertex, {}}, s, cutter);
   }
 };
@@ -68,7 +73,8 @@ typename Lockstep_traits<Truth, Judged>::Mistakes mistakes(const Scene& scene, s
   for (std::uint32_t i = 0; i < both.piece_count(); ++i)
     for (std::uint32_t j = 0; j < both.piece_count(); ++j) {
       const auto eye = both.eye(truth.position(store.piece(both, j).corners[0].vertex->truth));
-      EXPECT_EQ(both.side(eye, both.supporting_plane(i), counts), truth.side(eye.truth, truth.supporting_plane(i), counts));
+      EXPECT_EQ(both.side(eye, both.supporting_plane(i), counts),
+                truth.side(eye.truth, truth.supporting_plane(i), counts));
     }
   return both.mistakes();
 }
@@ -77,21 +83,27 @@ template <class Traits>
 void check_exact_model() {
   Random random(5);
   for (const int bits : {3, 20}) {
-    const Polygon_soup soup = random_soup(random, 9, bits, [](long n) { Rational r(n, 10); r.canonicalize(); return r; });
+    const Polygon_soup soup = random_soup(random, 9, bits, [](long n) {
+      Rational r(n, 10);
+      r.canonicalize();
+      return r;
+    });
     const Scene scene(soup);
     const Traits traits(scene);
     Polygon_store<Traits> store;
     for (std::uint32_t i = 0; i < traits.piece_count(); ++i) {
       EXPECT_EQ(positions(traits, store.piece(traits, i)), corners_of(scene, scene.pieces()[i]));
       std::vector<Plane> planes;
-      for (std::uint32_t j = 0; j < traits.piece_count(); ++j) planes.push_back(random() % 2 ? traits.supporting_plane(j) : traits.supporting_plane(j).opposite());
+      for (std::uint32_t j = 0; j < traits.piece_count(); ++j)
+        planes.push_back(random() % 2 ? traits.supporting_plane(j) : traits.supporting_plane(j).opposite());
       Predicate_counts counts;
-      cut_deep(traits, store.piece(traits, i), planes,
-               [&](Plane plane) {
-                 const Plane support = scene.pieces()[plane.id()].support;
-                 return scene.file_coefficients(plane.flipped() ? support.opposite() : support);
-               },
-               store, counts);
+      cut_deep(
+          traits, store.piece(traits, i), planes,
+          [&](Plane plane) {
+            const Plane support = scene.pieces()[plane.id()].support;
+            return scene.file_coefficients(plane.flipped() ? support.opposite() : support);
+          },
+          store, counts);
       ASSERT_FALSE(testing::Test::HasFailure());
     }
   }
@@ -99,7 +111,8 @@ void check_exact_model() {
 }  // namespace
 
 TEST(Field_number, goes_to_and_fro_exactly_in_exact_kernels) {
-  for (const Rational& value : {Rational(1, 3), Rational(-7), exact(0.1), exact_decimal(1, -400), exact_decimal(3, 400), Rational(0)}) {
+  for (const Rational& value :
+       {Rational(1, 3), Rational(-7), exact(0.1), exact_decimal(1, -400), exact_decimal(3, 400), Rational(0)}) {
     EXPECT_EQ(Field_number<CGAL::Gmpq>::to(Field_number<CGAL::Gmpq>::from(value)), value);
     EXPECT_EQ(Field_number<CGAL::Epeck::FT>::to(Field_number<CGAL::Epeck::FT>::from(value)), value);
     EXPECT_EQ(Field_number<Rational>::to(Field_number<Rational>::from(value)), value);
@@ -121,7 +134,8 @@ TEST(Point_traits, the_side_of_a_plane_and_of_its_opposite_are_opposite) {
     for (std::uint32_t i = 0; i < traits.piece_count(); ++i)
       for (const auto& corner : store.piece(traits, 0)) {
         const Plane h = traits.supporting_plane(i);
-        EXPECT_EQ(traits.side(*corner.vertex, traits.prepare(h), counts), -traits.side(*corner.vertex, traits.prepare(h.opposite()), counts));
+        EXPECT_EQ(traits.side(*corner.vertex, traits.prepare(h), counts),
+                  -traits.side(*corner.vertex, traits.prepare(h.opposite()), counts));
         const std::optional<Plane> across = traits.axis_plane(1, *corner.vertex);
         ASSERT_TRUE(across);
         EXPECT_EQ(traits.side(*corner.vertex, traits.prepare(*across), counts), CGAL::ZERO);
@@ -159,7 +173,8 @@ TEST(Point_traits, a_plane_of_ones_own_is_where_its_coefficients_say) {
   Predicate_counts counts;
   EXPECT_EQ(traits.side(traits.eye({Rational(0), Rational(6, 7), Rational(5)}), plane, counts), CGAL::ZERO);
   EXPECT_EQ(traits.side(traits.eye({Rational(1), Rational(6, 7), Rational(5)}), plane, counts), CGAL::POSITIVE);
-  EXPECT_EQ(traits.side(traits.eye({Rational(1), Rational(6, 7), Rational(5)}), plane.opposite(), counts), CGAL::NEGATIVE);
+  EXPECT_EQ(traits.side(traits.eye({Rational(1), Rational(6, 7), Rational(5)}), plane.opposite(), counts),
+            CGAL::NEGATIVE);
 }
 
 TEST(Lockstep, floats_and_doubles_are_caught_on_degenerate_input) {
@@ -175,7 +190,9 @@ TEST(Lockstep, floats_and_doubles_are_caught_on_degenerate_input) {
   EXPECT_EQ(by_float.asked, by_double.asked) << "both see the same queries";
 }
 
-TEST(Lockstep, constructions_of_Epick_are_caught_on_degenerate_input) { EXPECT_GT((mistakes<Exact_traits, Epick>(Scene(degenerate_soup())).wrong()), 0u); }
+TEST(Lockstep, constructions_of_Epick_are_caught_on_degenerate_input) {
+  EXPECT_GT((mistakes<Exact_traits, Epick>(Scene(degenerate_soup())).wrong()), 0u);
+}
 
 TEST(Lockstep, exact_kernels_make_no_mistake_on_degenerate_input) {
   const Scene scene(degenerate_soup());
@@ -196,7 +213,9 @@ TEST(Lockstep, each_kind_of_mistake_is_counted_as_what_it_is) {
   std::array<std::uint64_t, 3> expected{};
   for (std::uint32_t i = 0; i < both.piece_count(); ++i)
     for (const auto& corner : store.piece(both, i))
-      for (std::uint32_t j = 0; j < both.piece_count(); ++j) ++expected[static_cast<std::size_t>(both.side(*corner.vertex, both.prepare(both.supporting_plane(j)), counts) + 1)];
+      for (std::uint32_t j = 0; j < both.piece_count(); ++j)
+        ++expected[static_cast<std::size_t>(both.side(*corner.vertex, both.prepare(both.supporting_plane(j)), counts) +
+                                            1)];
   const auto found = both.mistakes();
   EXPECT_EQ(found.asked, expected[0] + expected[1] + expected[2]);
   EXPECT_EQ(found.false_zero, expected[0]);

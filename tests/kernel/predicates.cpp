@@ -40,7 +40,8 @@ Coefficients random_plane(Random& random, int bits, bool small) {
 }
 
 /// Asks every stage for the side of a vertex, and all must agree with the oracle's position of it.
-void expect_agreement(const Grid& grid, const Predicates& predicates, const Vertex& v, const kernel_test::Position& x, Plane plane, const Coefficients& h) {
+void expect_agreement(const Grid& grid, const Predicates& predicates, const Vertex& v, const kernel_test::Position& x,
+                      Plane plane, const Coefficients& h) {
   const Sign truth = sign(evaluate(h, x));
   for (const bool opposite : {false, true}) {
     const Plane g = opposite ? plane.opposite() : plane;
@@ -62,11 +63,11 @@ void expect_agreement(const Grid& grid, const Predicates& predicates, const Vert
     }
     // The first stage that can decides.
     const bool nonzero_in_doubles = CGAL::is_certain(filtered) && filtered.inf() != CGAL::ZERO;
-    ASSERT_EQ(deciding_stage(counts), nonzero_in_doubles                     ? "filtered"
-                                      : predicates.incident(v, g.id())       ? "combinatorial"
-                                      : CGAL::is_certain(filtered)           ? "filtered"
-                                      : CGAL::is_certain(fixed)              ? "fixed"
-                                                                             : "gmp");
+    ASSERT_EQ(deciding_stage(counts), nonzero_in_doubles               ? "filtered"
+                                      : predicates.incident(v, g.id()) ? "combinatorial"
+                                      : CGAL::is_certain(filtered)     ? "filtered"
+                                      : CGAL::is_certain(fixed)        ? "fixed"
+                                                                       : "gmp");
     // The determinant fits the budget: its bits and its sign.
     const std::array<Integer, 4> at = predicates.homogeneous(v), c = predicates.coefficients(g);
     const Integer determinant = c[0] * at[0] + c[1] * at[1] + c[2] * at[2] + c[3] * at[3];
@@ -79,7 +80,9 @@ void expect_agreement(const Grid& grid, const Predicates& predicates, const Vert
 void expect_error_bound(const Grid& grid, const Vertex& v, const kernel_test::Position& x) {
   if (v.error == infinity) return;
   const std::array<double, 3> rounded{v.x, v.y, v.z};
-  for (std::size_t k = 0; k < 3; ++k) ASSERT_TRUE(abs(exact(rounded[k]) - grid.approximated(x[k])) <= exact(v.error)) << v.x << ' ' << v.y << ' ' << v.z << " error " << v.error;
+  for (std::size_t k = 0; k < 3; ++k)
+    ASSERT_TRUE(abs(exact(rounded[k]) - grid.approximated(x[k])) <= exact(v.error))
+        << v.x << ' ' << v.y << ' ' << v.z << " error " << v.error;
 }
 
 /// All planes of the grid against each other: every triple's meet, in all orders, against every plane.
@@ -120,7 +123,9 @@ void check_all(const Grid& grid, std::size_t most_triples = 60) {
 int bits_of(const Integer& n) { return static_cast<int>(bit_length(n)); }
 
 /// One input point, as a corner of planes that no one asks about.
-Vertex lone_input(const Predicates& predicates, std::uint32_t point) { return predicates.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane); }
+Vertex lone_input(const Predicates& predicates, std::uint32_t point) {
+  return predicates.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane);
+}
 
 kernel_test::Position position_of(const Grid& grid, std::uint32_t point) {
   const std::array<Integer, 3> p = grid.at(point);
@@ -129,7 +134,8 @@ kernel_test::Position position_of(const Grid& grid, std::uint32_t point) {
 
 }  // namespace
 
-// ---- Each stage by name -----------------------------------------------------------------------------------------------------------------
+// ---- Each stage by name
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Side_combinatorial, a_meet_is_on_the_planes_that_made_it) {
   Grid grid(20);
@@ -144,7 +150,8 @@ TEST(Side_combinatorial, a_meet_is_on_the_planes_that_made_it) {
 
 TEST(Side_combinatorial, a_meet_is_on_the_fourth_plane_that_it_was_told_of) {
   Grid grid(20);
-  const Plane p = grid.plane({3, 0, 0, -1}), q = grid.plane({0, 3, 0, -1}), r = grid.plane({0, 0, 3, -1}), s = grid.plane({1, 1, 1, -1}), t = grid.plane({1, 1, -2, 0});
+  const Plane p = grid.plane({3, 0, 0, -1}), q = grid.plane({0, 3, 0, -1}), r = grid.plane({0, 0, 3, -1}),
+              s = grid.plane({1, 1, 1, -1}), t = grid.plane({1, 1, -2, 0});
   const Predicates predicates = grid.predicates();
   const Vertex told = predicates.meet(p.id(), q.id(), r.id(), s.id()), untold = predicates.meet(p.id(), q.id(), r.id());
   EXPECT_FALSE(told.is_input());
@@ -162,7 +169,8 @@ TEST(Side_combinatorial, a_meet_is_on_the_fourth_plane_that_it_was_told_of) {
 }
 
 TEST(Side_combinatorial, every_plane_id_fits_beside_a_meet) {
-  for (const std::uint32_t id : {0u, 1u, Plane::max_table_planes - 1, Plane::across(0, 0).id(), Plane::across(2, Plane::max_axis_point - 1).id()}) {
+  for (const std::uint32_t id : {0u, 1u, Plane::max_table_planes - 1, Plane::across(0, 0).id(),
+                                 Plane::across(2, Plane::max_axis_point - 1).id()}) {
     Vertex v{};
     v.point = Vertex::with_plane(id);
     EXPECT_FALSE(v.is_input());
@@ -177,7 +185,8 @@ TEST(Side_combinatorial, an_input_point_is_on_the_planes_of_faces_that_have_it_a
   Grid grid(60);  // doubles know nothing exactly here
   const std::uint32_t point = grid.point({power_of_two(59) + 1, power_of_two(58) + 3, -power_of_two(57) - 1});
   const std::array<Integer, 3> x = grid.at(point);
-  const Plane known = grid.plane({1, 1, 1, -(x[0] + x[1] + x[2])}), unknown = grid.plane({1, -1, 1, -(x[0] - x[1] + x[2])});
+  const Plane known = grid.plane({1, 1, 1, -(x[0] + x[1] + x[2])}),
+              unknown = grid.plane({1, -1, 1, -(x[0] - x[1] + x[2])});
   const std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{{point, known.id()}};
   grid.incidences = Point_planes(grid.points.size(), pairs);
   const Predicates predicates = grid.predicates();
@@ -196,7 +205,12 @@ TEST(Side_filtered, signs_far_from_zero_and_zeros_of_grid_points_need_no_more_th
   const Predicates predicates = grid.predicates();
   const std::uint32_t point = grid.point({5, 6, 7});
   for (const Vertex& v : {predicates.meet(p.id(), q.id(), r.id()), lone_input(predicates, point)})
-    for (const auto& [plane, expected] : {std::pair{front, CGAL::POSITIVE}, {front.opposite(), CGAL::NEGATIVE}, {behind, CGAL::NEGATIVE}, {behind.opposite(), CGAL::POSITIVE}, {on, CGAL::ZERO}, {on.opposite(), CGAL::ZERO}}) {
+    for (const auto& [plane, expected] : {std::pair{front, CGAL::POSITIVE},
+                                          {front.opposite(), CGAL::NEGATIVE},
+                                          {behind, CGAL::NEGATIVE},
+                                          {behind.opposite(), CGAL::POSITIVE},
+                                          {on, CGAL::ZERO},
+                                          {on.opposite(), CGAL::ZERO}}) {
       Predicate_counts counts;
       EXPECT_EQ(v.error, 0.0);
       EXPECT_EQ(predicates.side(v, predicates.prepare(plane), counts), expected);
@@ -205,8 +219,10 @@ TEST(Side_filtered, signs_far_from_zero_and_zeros_of_grid_points_need_no_more_th
 }
 
 namespace {
-/// Four planes through one point that is not on the grid, then the fourth one unit up and down: the signs 0, +, - and the stage that must decide.
-void expect_stage(int bits, int normal_bits, int denominator_bits, Arithmetic arithmetic, const std::string& stage, bool also_beside) {
+/// Four planes through one point that is not on the grid, then the fourth one unit up and down: the signs 0, +, - and
+/// the stage that must decide.
+void expect_stage(int bits, int normal_bits, int denominator_bits, Arithmetic arithmetic, const std::string& stage,
+                  bool also_beside) {
   Random random(static_cast<std::uint64_t>(bits));
   int done = 0;
   while (done < 20) {
@@ -230,7 +246,10 @@ void expect_stage(int bits, int normal_bits, int denominator_bits, Arithmetic ar
     Predicate_counts counts;
     ASSERT_EQ(predicates.side(v, predicates.prepare(zero), counts), CGAL::ZERO);
     ASSERT_EQ(deciding_stage(counts), stage);
-    for (const auto& [plane, expected] : {std::pair{front, CGAL::POSITIVE}, {behind, CGAL::NEGATIVE}, {front.opposite(), CGAL::NEGATIVE}, {behind.opposite(), CGAL::POSITIVE}}) {
+    for (const auto& [plane, expected] : {std::pair{front, CGAL::POSITIVE},
+                                          {behind, CGAL::NEGATIVE},
+                                          {front.opposite(), CGAL::NEGATIVE},
+                                          {behind.opposite(), CGAL::POSITIVE}}) {
       Predicate_counts beside;
       ASSERT_EQ(predicates.side(v, predicates.prepare(plane), beside), expected);
       if (also_beside) {
@@ -241,24 +260,39 @@ void expect_stage(int bits, int normal_bits, int denominator_bits, Arithmetic ar
 }
 }  // namespace
 
-TEST(Side_fixed, a_degenerate_meet_is_decided_in_128_bits) { expect_stage(12, 15, 6, Arithmetic::bits128, "fixed", false); }
-TEST(Side_fixed, a_degenerate_meet_and_one_unit_beside_it_are_decided_in_256_bits) { expect_stage(26, 38, 10, Arithmetic::bits256, "fixed", true); }
-TEST(Side_fixed, a_degenerate_meet_and_one_unit_beside_it_are_decided_in_512_bits) { expect_stage(45, 70, 18, Arithmetic::bits512, "fixed", true); }
-TEST(Side_gmp, a_degenerate_meet_and_one_unit_beside_it_are_decided_by_gmp) { expect_stage(60, 110, 10, Arithmetic::gmp, "gmp", true); }
-TEST(Side_gmp, a_degenerate_meet_in_a_scene_of_a_thousand_bits_is_decided_by_gmp) { expect_stage(1000, 1900, 90, Arithmetic::gmp, "gmp", true); }
+TEST(Side_fixed, a_degenerate_meet_is_decided_in_128_bits) {
+  expect_stage(12, 15, 6, Arithmetic::bits128, "fixed", false);
+}
+TEST(Side_fixed, a_degenerate_meet_and_one_unit_beside_it_are_decided_in_256_bits) {
+  expect_stage(26, 38, 10, Arithmetic::bits256, "fixed", true);
+}
+TEST(Side_fixed, a_degenerate_meet_and_one_unit_beside_it_are_decided_in_512_bits) {
+  expect_stage(45, 70, 18, Arithmetic::bits512, "fixed", true);
+}
+TEST(Side_gmp, a_degenerate_meet_and_one_unit_beside_it_are_decided_by_gmp) {
+  expect_stage(60, 110, 10, Arithmetic::gmp, "gmp", true);
+}
+TEST(Side_gmp, a_degenerate_meet_in_a_scene_of_a_thousand_bits_is_decided_by_gmp) {
+  expect_stage(1000, 1900, 90, Arithmetic::gmp, "gmp", true);
+}
 
-// ---- Every stage against the oracle -----------------------------------------------------------------------------------------------------
+// ---- Every stage against the oracle
+// -----------------------------------------------------------------------------------------------------
 
 /// Bits of the grid's coordinates, and its divisor (see Grid_points).
 struct Width {
   int bits;
   Integer divisor = 1;
-  friend std::ostream& operator<<(std::ostream& out, const Width& w) { return out << w.bits << " bits over " << w.divisor; }
+  friend std::ostream& operator<<(std::ostream& out, const Width& w) {
+    return out << w.bits << " bits over " << w.divisor;
+  }
 };
 class Side_at_width : public testing::TestWithParam<Width> {};
 INSTANTIATE_TEST_SUITE_P(Predicates, Side_at_width,
-                         testing::Values(Width{4}, Width{8}, Width{12}, Width{20}, Width{26}, Width{31}, Width{45}, Width{53}, Width{54}, Width{60}, Width{64}, Width{128}, Width{400},
-                                         Width{54, power_of_two(30)}, Width{64, Integer(1000000007)}, Width{128, power_of_two(100)}, Width{400, 3 * power_of_two(390)},
+                         testing::Values(Width{4}, Width{8}, Width{12}, Width{20}, Width{26}, Width{31}, Width{45},
+                                         Width{53}, Width{54}, Width{60}, Width{64}, Width{128}, Width{400},
+                                         Width{54, power_of_two(30)}, Width{64, Integer(1000000007)},
+                                         Width{128, power_of_two(100)}, Width{400, 3 * power_of_two(390)},
                                          Width{90, power_of_two(1200)}, Width{1500, power_of_two(60)}));
 
 TEST_P(Side_at_width, all_stages_agree_on_random_planes_through_grid_points) {
@@ -302,11 +336,16 @@ TEST_P(Side_at_width, all_stages_agree_at_input_points_and_across_axes) {
   Random random(4000 + static_cast<std::uint64_t>(bits));
   Grid grid(bits, GetParam().divisor);
   std::vector<std::uint32_t> points;
-  for (int i = 0; i < 12; ++i) points.push_back(grid.point({uniform(random, bits), any_size(random, bits), uniform(random, bits)}));
+  for (int i = 0; i < 12; ++i)
+    points.push_back(grid.point({uniform(random, bits), any_size(random, bits), uniform(random, bits)}));
   if (bits_of(grid.points.divisor()) < bits)  // some that the divisor takes back to small integers
-    for (int i = 0; i < 6; ++i) points[random() % 12] = grid.point({uniform(random, bits - bits_of(grid.points.divisor())) * grid.points.divisor(), 0, (any_size(random, bits) / grid.points.divisor()) * grid.points.divisor()});
+    for (int i = 0; i < 6; ++i)
+      points[random() % 12] =
+          grid.point({uniform(random, bits - bits_of(grid.points.divisor())) * grid.points.divisor(), 0,
+                      (any_size(random, bits) / grid.points.divisor()) * grid.points.divisor()});
   for (int i = 0; i < 12; ++i) {
-    const Coefficients h = through(grid.at(points[random() % 12]), grid.at(points[random() % 12]), grid.at(points[random() % 12]));
+    const Coefficients h =
+        through(grid.at(points[random() % 12]), grid.at(points[random() % 12]), grid.at(points[random() % 12]));
     if (h[0] != 0 || h[1] != 0 || h[2] != 0) grid.plane(h);
   }
   const Predicates predicates = grid.predicates();
@@ -317,7 +356,8 @@ TEST_P(Side_at_width, all_stages_agree_at_input_points_and_across_axes) {
     }
     ASSERT_NO_FATAL_FAILURE(expect_error_bound(grid, v, position_of(grid, p)));
     for (std::size_t l = 0; l < grid.handles.size(); ++l) {
-      ASSERT_NO_FATAL_FAILURE(expect_agreement(grid, predicates, v, position_of(grid, p), grid.handles[l], grid.made[l]));
+      ASSERT_NO_FATAL_FAILURE(
+          expect_agreement(grid, predicates, v, position_of(grid, p), grid.handles[l], grid.made[l]));
     }
     for (const std::uint32_t q : points)
       for (int axis = 0; axis < 3; ++axis) {
@@ -365,7 +405,8 @@ TEST_P(Side_at_width, planes_that_do_not_meet_in_a_point_are_refused) {
   }
 }
 
-// ---- Bounds -----------------------------------------------------------------------------------------------------------------------------
+// ---- Bounds
+// -----------------------------------------------------------------------------------------------------------------------------
 
 TEST_P(Side_at_width, the_bound_of_a_prepared_plane_covers_its_rounding_at_any_doubles_in_range) {
   const int bits = GetParam().bits;
@@ -386,7 +427,8 @@ TEST_P(Side_at_width, the_bound_of_a_prepared_plane_covers_its_rounding_at_any_d
     ASSERT_GE(exact(h.norm), abs(truth[0]) + abs(truth[1]) + abs(truth[2]));
     for (int i = 0; i < 200; ++i) {
       std::array<double, 3> x;
-      for (double& t : x) t = std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), -62) * range;  // in [-2, 2] ranges
+      for (double& t : x)
+        t = std::ldexp(static_cast<double>(static_cast<std::int64_t>(random())), -62) * range;  // in [-2, 2] ranges
       if (i % 2 == 0) {  // nearly on the plane: solve for one coordinate
         const std::array<double, 3> n{h.a, h.b, h.c};
         const std::size_t k = random() % 3;
@@ -423,7 +465,8 @@ TEST_P(Side_at_width, the_error_of_a_meet_covers_its_doubles_and_not_by_far) {
       const Integer n = power_of_two(2 * bits) - 1, d = power_of_two(3 * bits) - 1;
       for (int i = 0; i < 3; ++i) {
         Coefficients h;
-        for (std::size_t k = 0; k < 4; ++k) h[k] = (k == 3 ? d : n) * (random() % 2 ? 1 : -1) + uniform(random, 2 * bits - 2);
+        for (std::size_t k = 0; k < 4; ++k)
+          h[k] = (k == 3 ? d : n) * (random() % 2 ? 1 : -1) + uniform(random, 2 * bits - 2);
         grid.plane(h);
       }
     } else {
@@ -436,7 +479,9 @@ TEST_P(Side_at_width, the_error_of_a_meet_covers_its_doubles_and_not_by_far) {
     ASSERT_NO_FATAL_FAILURE(expect_error_bound(grid, v, *x));
     if (v.error == infinity || v.error == 0) continue;
     const std::array<double, 3> rounded{v.x, v.y, v.z};
-    for (std::size_t k = 0; k < 3; ++k) largest_ratio = std::max(largest_ratio, Rational(abs(exact(rounded[k]) - grid.approximated((*x)[k])) / exact(v.error)).get_d());
+    for (std::size_t k = 0; k < 3; ++k)
+      largest_ratio = std::max(largest_ratio,
+                               Rational(abs(exact(rounded[k]) - grid.approximated((*x)[k])) / exact(v.error)).get_d());
   }
   if (grid_range > 0x1p-900 && grid_range < infinity) {
     EXPECT_GT(largest_ratio, 1.0 / 1024) << "the bound is far from what happens";
@@ -445,7 +490,8 @@ TEST_P(Side_at_width, the_error_of_a_meet_covers_its_doubles_and_not_by_far) {
 
 TEST(Meet, a_grid_point_is_known_to_be_one_and_others_are_not) {
   Grid grid(12);
-  const Plane p = grid.plane({2, 0, 0, -6}), q = grid.plane({3, 5, 0, 1}), r = grid.plane({1, 1, 2, 3}), half = grid.plane({1, 1, 2, 4});
+  const Plane p = grid.plane({2, 0, 0, -6}), q = grid.plane({3, 5, 0, 1}), r = grid.plane({1, 1, 2, 3}),
+              half = grid.plane({1, 1, 2, 4});
   const Predicates predicates = grid.predicates();
   const Vertex whole = predicates.meet(p.id(), q.id(), r.id()), broken = predicates.meet(p.id(), q.id(), half.id());
   EXPECT_EQ(whole.error, 0.0);  // (3, -2, -2)
@@ -459,12 +505,15 @@ TEST(Meet, and_points_that_the_divisor_makes_exact_see_planes_that_miss_them_by_
   const Integer d = power_of_two(100);
   Grid grid(128, d);
   const std::uint32_t point = grid.point({5 * d, 6 * d, 7 * d});
-  const Plane on = grid.plane({1, 1, 1, -18 * d}), front = grid.plane({1, 1, 1, -18 * d + 1}), behind = grid.plane({1, 1, 1, -18 * d - 1});
-  const Plane p = grid.plane({1, 0, 0, -5 * d}), q = grid.plane({0, 1, 0, -6 * d}), r = grid.plane({0, 0, 1, -7 * d}), almost = grid.plane({0, 0, 1, -7 * d - 1});
+  const Plane on = grid.plane({1, 1, 1, -18 * d}), front = grid.plane({1, 1, 1, -18 * d + 1}),
+              behind = grid.plane({1, 1, 1, -18 * d - 1});
+  const Plane p = grid.plane({1, 0, 0, -5 * d}), q = grid.plane({0, 1, 0, -6 * d}), r = grid.plane({0, 0, 1, -7 * d}),
+              almost = grid.plane({0, 0, 1, -7 * d - 1});
   const Predicates predicates = grid.predicates();
   for (const Vertex& v : {lone_input(predicates, point), predicates.meet(p.id(), q.id(), r.id())}) {
     EXPECT_EQ(v.error, 0.0);
-    for (const auto& [plane, expected] : {std::pair{on, CGAL::ZERO}, {front, CGAL::POSITIVE}, {behind, CGAL::NEGATIVE}}) {
+    for (const auto& [plane, expected] :
+         {std::pair{on, CGAL::ZERO}, {front, CGAL::POSITIVE}, {behind, CGAL::NEGATIVE}}) {
       Predicate_counts counts;
       EXPECT_EQ(predicates.side(v, predicates.prepare(plane), counts), expected);
       EXPECT_EQ(deciding_stage(counts), plane == on ? "filtered" : "fixed");
@@ -479,9 +528,10 @@ TEST(Meet, and_points_that_the_divisor_makes_exact_see_planes_that_miss_them_by_
 
 TEST(Meet, far_outside_the_range_the_doubles_say_nothing) {
   Grid grid(8);
-  const Plane p = grid.plane({1, 0, 0, 0}), q = grid.plane({100, 1, 0, -300}), r = grid.plane({0, 0, 1, 0}), near = grid.plane({100, 1, 0, -100});
+  const Plane p = grid.plane({1, 0, 0, 0}), q = grid.plane({100, 1, 0, -300}), r = grid.plane({0, 0, 1, 0}),
+              near = grid.plane({100, 1, 0, -100});
   const Predicates predicates = grid.predicates();
-  EXPECT_EQ(predicates.meet(p.id(), q.id(), r.id()).error, 0.0);       // y = 300, within twice 256
+  EXPECT_EQ(predicates.meet(p.id(), q.id(), r.id()).error, 0.0);  // y = 300, within twice 256
   EXPECT_EQ(predicates.meet(p.id(), near.id(), r.id()).error, 0.0);
   const Plane far = grid.plane({100, 1, 0, -600});
   EXPECT_EQ(grid.predicates().meet(p.id(), far.id(), r.id()).error, infinity);
@@ -510,13 +560,16 @@ TEST(Filter, of_sides_of_vertices_in_range_fewer_than_one_in_a_thousand_fail) {
       const double range = grid.points.range();
       for (std::size_t i = 0; i < 6; ++i) {
         const Vertex v = predicates.meet(grid.handles[i].id(), grid.handles[i + 1].id(), grid.handles[i + 2].id());
-        if (!(std::fabs(v.x) < range && std::fabs(v.y) < range && std::fabs(v.z) < range) || v.error == infinity) continue;
+        if (!(std::fabs(v.x) < range && std::fabs(v.y) < range && std::fabs(v.z) < range) || v.error == infinity)
+          continue;
         for (std::size_t l = 0; l < 8; ++l)
-          if (l < i || l > i + 2) ++asked, failed += !CGAL::is_certain(Predicates::side_filtered(v, predicates.prepare(grid.handles[l])));
+          if (l < i || l > i + 2)
+            ++asked, failed += !CGAL::is_certain(Predicates::side_filtered(v, predicates.prepare(grid.handles[l])));
       }
     }
     EXPECT_GT(asked, 2000u);
-    EXPECT_LT(static_cast<double>(failed), 1e-3 * static_cast<double>(asked)) << bits << " bits: " << failed << " of " << asked;
+    EXPECT_LT(static_cast<double>(failed), 1e-3 * static_cast<double>(asked))
+        << bits << " bits: " << failed << " of " << asked;
   }
 }
 
@@ -528,20 +581,24 @@ TEST(Filter, no_vertex_in_range_has_doubles_that_say_nothing_but_for_near_parall
     const Bundle bundle(random, 26, 4);
     for (int i = 0; i < 3; ++i) grid.plane(bundle.plane(random, 40));
     if (!meeting_point(grid.made[0], grid.made[1], grid.made[2])) continue;
-    ++all, silent += grid.predicates().meet(grid.handles[0].id(), grid.handles[1].id(), grid.handles[2].id()).error == infinity;
+    ++all, silent +=
+           grid.predicates().meet(grid.handles[0].id(), grid.handles[1].id(), grid.handles[2].id()).error == infinity;
   }
   EXPECT_LT(static_cast<double>(silent), 1e-3 * static_cast<double>(all));
 }
 
-// ---- The bit budget ---------------------------------------------------------------------------------------------------------------------
+// ---- The bit budget
+// ---------------------------------------------------------------------------------------------------------------------
 
 TEST(Bit_budget, the_narrowest_sufficient_arithmetic_is_chosen) {
-  const auto chosen = [](int coordinate, int normal, int offset) { return Bit_budget{coordinate, normal, offset}.arithmetic(); };
+  const auto chosen = [](int coordinate, int normal, int offset) {
+    return Bit_budget{coordinate, normal, offset}.arithmetic();
+  };
   static_assert(Bit_budget{1, 0, 0}.side() == 10);
   static_assert(Bit_budget{26, 53, 80}.side() == 245);
-  EXPECT_EQ(chosen(10, 30, 32), Arithmetic::bits128);   // 3 x 30 + 32 + 6
+  EXPECT_EQ(chosen(10, 30, 32), Arithmetic::bits128);  // 3 x 30 + 32 + 6
   EXPECT_EQ(chosen(10, 30, 33), Arithmetic::bits256);
-  EXPECT_EQ(chosen(33, 30, 10), Arithmetic::bits256);   // an axis plane's offset
+  EXPECT_EQ(chosen(33, 30, 10), Arithmetic::bits256);  // an axis plane's offset
   EXPECT_EQ(chosen(10, 60, 70), Arithmetic::bits256);
   EXPECT_EQ(chosen(10, 60, 71), Arithmetic::bits512);
   EXPECT_EQ(chosen(10, 100, 206), Arithmetic::bits512);
@@ -574,13 +631,15 @@ TEST(Bit_budget, no_determinant_of_planes_through_the_corners_of_the_grid_exceed
   for (const int bits : {3, 10, 12, 13, 25, 26, 27, 53, 54, 55}) {
     const Integer m = power_of_two(bits) - 1;
     std::vector<std::array<Integer, 3>> corners;
-    for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? m : Integer(-m)});
+    for (int i = 0; i < 8; ++i)
+      corners.push_back({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? m : Integer(-m)});
     corners.push_back({m - 1, -m, 1 - m}), corners.push_back({-m, m - 1, m}), corners.push_back({m, 1 - m, -m});
     Random random(static_cast<std::uint64_t>(bits));
     for (int round = 0; round < 6; ++round) {
       Grid grid(bits);
       while (grid.handles.size() < 5) {
-        const Coefficients h = through(corners[random() % corners.size()], corners[random() % corners.size()], corners[random() % corners.size()]);
+        const Coefficients h = through(corners[random() % corners.size()], corners[random() % corners.size()],
+                                       corners[random() % corners.size()]);
         if (h[0] != 0 || h[1] != 0 || h[2] != 0) grid.plane(h);
       }
       ASSERT_LE(grid.planes.budget().normal, 2 * bits + 3);
@@ -605,7 +664,8 @@ TEST(Bit_budget, narrow_planes_on_a_wide_grid_are_read_from_more_limbs_than_the_
   ASSERT_NO_FATAL_FAILURE(check_all(grid));
 }
 
-// ---- Points that are not of the scene ---------------------------------------------------------------------------------------------------
+// ---- Points that are not of the scene
+// ---------------------------------------------------------------------------------------------------
 
 namespace {
 /// The point (x, y, z) / w of the grid, with doubles and their error as Scene::locate makes them.
@@ -642,7 +702,8 @@ TEST(Side_of_a_located_point, agrees_with_rationals_on_the_plane_and_beside_it) 
           for (const bool opposite : {false, true}) {
             Predicate_counts counts;
             const Sign truth = sign(evaluate(grid.made[l], {rational(x[0], w), rational(x[1], w), rational(x[2], w)}));
-            ASSERT_EQ(predicates.side(q, opposite ? grid.handles[l].opposite() : grid.handles[l], counts), opposite ? -truth : truth);
+            ASSERT_EQ(predicates.side(q, opposite ? grid.handles[l].opposite() : grid.handles[l], counts),
+                      opposite ? -truth : truth);
             filtered += counts.filtered, by_gmp += counts.gmp;
             if (truth == CGAL::ZERO) {
               ASSERT_EQ(deciding_stage(counts), "gmp");
@@ -667,13 +728,15 @@ TEST(Side_of_a_located_point, is_filtered_in_general_position) {
 }
 
 TEST(Side_of_a_located_point, is_right_where_products_underflow) {
-  // On a wide grid planes have doubles below 1, so products of subnormal coordinates round by whole units: 0.375 x 4 is 2 units, 0.8125 x 4 is 3.
+  // On a wide grid planes have doubles below 1, so products of subnormal coordinates round by whole units: 0.375 x 4 is
+  // 2 units, 0.8125 x 4 is 3.
   Grid grid(60);
   const Plane h = grid.plane({6, 6, -13, 0});
   for (const int m : {1, 2, 3, 4, 5, 6, 7, 12, -4, -1}) {
     const Integer w = power_of_two(1074 - 60);
     Predicate_counts counts;
-    ASSERT_EQ(grid.predicates().side(located(grid, {m, m, m}, w), h, counts), m > 0 ? CGAL::NEGATIVE : CGAL::POSITIVE) << m;
+    ASSERT_EQ(grid.predicates().side(located(grid, {m, m, m}, w), h, counts), m > 0 ? CGAL::NEGATIVE : CGAL::POSITIVE)
+        << m;
   }
 }
 
@@ -697,18 +760,24 @@ TEST(Side_of_a_located_point, is_right_beyond_the_range_of_doubles) {
   EXPECT_EQ(grid.predicates().side(q, g, counts), CGAL::POSITIVE);
   EXPECT_EQ(counts.gmp, 2u);
   // Doubles whose products and sums overflow.
-  EXPECT_EQ(grid.predicates().side(located(grid, {power_of_two(1023), power_of_two(1023) + 1, 0}, 1), h, counts), CGAL::ZERO);
-  EXPECT_EQ(grid.predicates().side(located(grid, {power_of_two(1023), power_of_two(1023), -power_of_two(1023)}, 1), g, counts), CGAL::POSITIVE);
+  EXPECT_EQ(grid.predicates().side(located(grid, {power_of_two(1023), power_of_two(1023) + 1, 0}, 1), h, counts),
+            CGAL::ZERO);
+  EXPECT_EQ(grid.predicates().side(located(grid, {power_of_two(1023), power_of_two(1023), -power_of_two(1023)}, 1), g,
+                                   counts),
+            CGAL::POSITIVE);
 }
 
-// ---- Known incidences -------------------------------------------------------------------------------------------------------------------
+// ---- Known incidences
+// -------------------------------------------------------------------------------------------------------------------
 
 TEST(Point_planes, hold_the_pairs_that_they_were_made_of) {
   const std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{{2, 9}, {0, 4}, {2, 1}, {0, 4}, {3, 9}, {2, 4}};
   const Point_planes table(4, pairs);
   for (std::uint32_t point = 0; point < 6; ++point)
     for (std::uint32_t plane = 0; plane < 12; ++plane)
-      EXPECT_EQ(table.contains(point, plane), std::find(pairs.begin(), pairs.end(), std::pair{point, plane}) != pairs.end()) << point << ' ' << plane;
+      EXPECT_EQ(table.contains(point, plane),
+                std::find(pairs.begin(), pairs.end(), std::pair{point, plane}) != pairs.end())
+          << point << ' ' << plane;
   EXPECT_EQ(table.other_plane(2, 3, 4), 9u);
   EXPECT_EQ(table.other_plane(2, 3, 9), Vertex::no_plane);
   EXPECT_EQ(table.other_plane(0, 2, 9), 4u);

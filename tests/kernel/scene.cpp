@@ -8,12 +8,14 @@ namespace {
 
 using Points = std::vector<std::array<long, 3>>;
 
-/// One face, each of its loops given as points, scaled; where that is not by 1, a point that no face uses keeps the grid as fine as it was.
+/// One face, each of its loops given as points, scaled; where that is not by 1, a point that no face uses keeps the
+/// grid as fine as it was.
 Polygon_soup one_face(const std::vector<Points>& loops, const Integer& scale = 1) {
   Polygon_soup soup;
   for (const Points& loop : loops) {
     std::vector<Point_id> ids;
-    for (const auto& p : loop) ids.push_back(soup.add_point(Rational(p[0] * scale), Rational(p[1] * scale), Rational(p[2] * scale)));
+    for (const auto& p : loop)
+      ids.push_back(soup.add_point(Rational(p[0] * scale), Rational(p[1] * scale), Rational(p[2] * scale)));
     if (&loop == &loops[0]) soup.add_face(ids);
     else soup.add_hole(ids);
   }
@@ -45,7 +47,8 @@ std::vector<Polygon_soup> variants(const std::vector<Points>& loops) {
           for (Points& loop : moved)
             for (auto& p : loop) {
               p = {p[0], p[1], p[2] + shear * p[0] - 2 * shear * p[1]};
-              p = {p[static_cast<std::size_t>(turn)], p[static_cast<std::size_t>((turn + 1) % 3)], p[static_cast<std::size_t>((turn + 2) % 3)] + 5};
+              p = {p[static_cast<std::size_t>(turn)], p[static_cast<std::size_t>((turn + 1) % 3)],
+                   p[static_cast<std::size_t>((turn + 2) % 3)] + 5};
               if (mirrored) p[0] = -p[0];
             }
           all.push_back(one_face(moved, Integer(1) << scale_bits));
@@ -61,13 +64,15 @@ Rational tenth(long n) {
 
 }  // namespace
 
-// ---- What is kept -----------------------------------------------------------------------------------------------------------------------
+// ---- What is kept
+// -----------------------------------------------------------------------------------------------------------------------
 
 TEST(Scene_policy, a_convex_face_is_one_piece_whichever_way_it_faces) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}})) expect_kept(soup, 1);
 }
 TEST(Scene_policy, straight_and_repeated_points_of_a_convex_face_are_no_corners) {
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {2, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 4, 0}, {1, 4, 0}, {0, 4, 0}, {0, 0, 0}}})) {
+  for (const Polygon_soup& soup : variants(
+           {{{0, 0, 0}, {2, 0, 0}, {2, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 4, 0}, {1, 4, 0}, {0, 4, 0}, {0, 0, 0}}})) {
     expect_kept(soup, 1);
     const Scene scene(soup);
     EXPECT_EQ(scene.pieces()[0].size, 4u);
@@ -101,14 +106,24 @@ TEST(Scene_policy, a_face_with_a_hole_of_either_sense_is_cut_around_it) {
   }
 }
 TEST(Scene_policy, a_keyhole_is_a_hole) {
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}, {1, 1, 0}, {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}}})) {
+  for (const Polygon_soup& soup : variants({{{0, 0, 0},
+                                             {4, 0, 0},
+                                             {4, 4, 0},
+                                             {0, 4, 0},
+                                             {0, 0, 0},
+                                             {1, 1, 0},
+                                             {1, 2, 0},
+                                             {2, 2, 0},
+                                             {2, 1, 0},
+                                             {1, 1, 0}}})) {
     const Scene scene(soup);
     ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
     EXPECT_GE(scene.pieces().size(), 4u);
   }
 }
 TEST(Scene_policy, a_spike_is_left_out) {
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {4, 0, 0}, {4, 4, 0}}})) expect_kept(soup, 1);
+  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {4, 0, 0}, {4, 4, 0}}}))
+    expect_kept(soup, 1);
 }
 TEST(Scene_policy, a_non_planar_quad_is_two_triangles) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 1}, {0, 4, 0}}})) {
@@ -117,7 +132,8 @@ TEST(Scene_policy, a_non_planar_quad_is_two_triangles) {
   }
 }
 TEST(Scene_policy, a_non_planar_pentagon_is_three_triangles_concave_or_not) {
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 1}, {6, 3, 0}, {3, 6, 2}, {-1, 4, 0}}})) expect_kept(soup, 3, false);
+  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 1}, {6, 3, 0}, {3, 6, 2}, {-1, 4, 0}}}))
+    expect_kept(soup, 3, false);
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 1}, {2, 1, 0}, {3, 6, 2}, {-1, 4, 0}}})) {
     expect_kept(soup, 3, false);
     EXPECT_EQ(Scene(soup).counters().fanned, 0u);
@@ -131,12 +147,14 @@ TEST(Scene_policy, a_non_planar_face_is_cut_as_its_largest_projection_is) {
   ASSERT_EQ(scene.pieces().size(), 2u);
   for (const Piece& piece : scene.pieces()) {
     const std::vector<Exact_point> corners = corners_of(scene, piece);
-    for (const Point_id p : {1u, 3u}) EXPECT_NE(std::find(corners.begin(), corners.end(), soup.point(p)), corners.end());
+    for (const Point_id p : {1u, 3u})
+      EXPECT_NE(std::find(corners.begin(), corners.end(), soup.point(p)), corners.end());
   }
 }
 TEST(Scene_policy, a_non_planar_face_whose_projection_crosses_itself_is_triangulated_all_the_same) {
   // A closed path whose three projections all cross themselves.
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {10, 0, 10}, {0, 10, 10}, {10, 10, 0}, {5, -5, 5}, {-3, 7, -4}}})) {
+  for (const Polygon_soup& soup :
+       variants({{{0, 0, 0}, {10, 0, 10}, {0, 10, 10}, {10, 10, 0}, {5, -5, 5}, {-3, 7, -4}}})) {
     const Scene scene(soup);
     ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
     EXPECT_EQ(why(scene, 0), "");
@@ -155,55 +173,61 @@ TEST(Scene_policy, a_non_planar_face_with_a_hole_is_cut_around_it) {
 }
 TEST(Scene_policy, a_non_planar_face_with_an_edge_along_the_projection_keeps_all_its_corners) {
   // The last corner is straight above the first.
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {40, 0, 0}, {40, 40, 0}, {0, 40, 1}, {0, 0, 1}}})) expect_kept(soup, 3, false);
+  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {40, 0, 0}, {40, 40, 0}, {0, 40, 1}, {0, 0, 1}}}))
+    expect_kept(soup, 3, false);
 }
 
 TEST(Scene_policy, two_corners_of_a_non_planar_face_above_one_another_stay_two) {
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {40, 0, 0}, {20, 20, 1}, {40, 40, 0}, {0, 40, 0}, {20, 20, 2}}})) {
+  for (const Polygon_soup& soup :
+       variants({{{0, 0, 0}, {40, 0, 0}, {20, 20, 1}, {40, 40, 0}, {0, 40, 0}, {20, 20, 2}}})) {
     const Scene scene(soup);
     ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
     EXPECT_EQ(pieces_of(scene, 0), 4u);
   }
 }
 
-// ---- What is set aside ------------------------------------------------------------------------------------------------------------------
+// ---- What is set aside
+// ------------------------------------------------------------------------------------------------------------------
 
 TEST(Scene_policy, faces_without_area_are_set_aside) {
   for (const std::vector<Points>& loops : std::vector<std::vector<Points>>{
-           {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},                        // collinear
-           {{{0, 0, 0}, {1, 2, 3}, {3, 6, 9}, {2, 4, 6}}},             // collinear, four
-           {{{1, 2, 3}, {1, 2, 3}, {4, 5, 6}}},                        // a repeated point
-           {{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}},             // a point
-           {{{1, 2, 3}, {4, 5, 6}}},                                   // fewer than three
+           {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}},             // collinear
+           {{{0, 0, 0}, {1, 2, 3}, {3, 6, 9}, {2, 4, 6}}},  // collinear, four
+           {{{1, 2, 3}, {1, 2, 3}, {4, 5, 6}}},             // a repeated point
+           {{{1, 2, 3}, {1, 2, 3}, {1, 2, 3}, {1, 2, 3}}},  // a point
+           {{{1, 2, 3}, {4, 5, 6}}},                        // fewer than three
            {{{1, 2, 3}}},
            {{}},
-           {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 0, 0}}}})            // there and back around a bend
+           {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {4, 0, 0}}}})  // there and back around a bend
     for (const Polygon_soup& soup : variants(loops)) expect_aside(soup, "zero area");
 }
 TEST(Scene_policy, a_hole_as_large_as_its_face_leaves_zero_area) {
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}}})) expect_aside(soup, "zero area");
+  for (const Polygon_soup& soup :
+       variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {0, 0, 0}}}))
+    expect_aside(soup, "zero area");
 }
 TEST(Scene_policy, a_star_of_spikes_in_space_has_zero_area) {
-  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 1}}})) expect_aside(soup, "zero area");
+  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 1}}}))
+    expect_aside(soup, "zero area");
 }
 TEST(Scene_policy, a_contour_that_crosses_itself_is_set_aside) {
   for (const std::vector<Points>& loops : std::vector<std::vector<Points>>{
-           {{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}}},                                            // a bow tie of no net area
-           {{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 6, 0}}},                                            // and of some
-           {{{0, 0, 0}, {10, 0, 0}, {2, 7, 0}, {5, -3, 0}, {8, 7, 0}}},                               // a pentagram
-           {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}},                      // twice around
-           {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{9, 9, 0}, {10, 9, 0}, {9, 10, 0}}}})                 // a hole outside
+           {{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}}},                             // a bow tie of no net area
+           {{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 6, 0}}},                             // and of some
+           {{{0, 0, 0}, {10, 0, 0}, {2, 7, 0}, {5, -3, 0}, {8, 7, 0}}},                // a pentagram
+           {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {0, 0, 0}, {4, 0, 0}, {0, 4, 0}}},       // twice around
+           {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{9, 9, 0}, {10, 9, 0}, {9, 10, 0}}}})  // a hole outside
     for (const Polygon_soup& soup : variants(loops)) expect_aside(soup, "self-intersecting");
 }
 
 TEST(Scene_policy, an_exact_duplicate_is_set_aside_and_says_of_what) {
   Polygon_soup soup = soup_of({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {4, 4, 0}});
   soup.add_face({0, 1, 2, 3});
-  soup.add_face({2, 3, 0, 1});           // rotated
-  soup.add_face({0, 1, 4, 3});           // through another point of the same coordinates
-  soup.add_face({0, 1, 1, 2, 3, 0});     // with repetitions
-  soup.add_face({3, 2, 1, 0});           // the other side: no duplicate
-  soup.add_face({1, 0, 3, 2});           // but this one is, of it
+  soup.add_face({2, 3, 0, 1});        // rotated
+  soup.add_face({0, 1, 4, 3});        // through another point of the same coordinates
+  soup.add_face({0, 1, 1, 2, 3, 0});  // with repetitions
+  soup.add_face({3, 2, 1, 0});        // the other side: no duplicate
+  soup.add_face({1, 0, 3, 2});        // but this one is, of it
   soup.add_face({0, 1, 2});
   soup.add_face({0, 2, 1});
   soup.add_face({1, 2, 0});
@@ -236,7 +260,8 @@ TEST(Scene_policy, a_rotated_keyhole_is_a_duplicate_though_its_points_repeat) {
   for (Face_id f = 1; f < 8; ++f) EXPECT_EQ(why(scene, f), "duplicate of 0") << f;
 }
 TEST(Scene_policy, faces_that_differ_in_a_hole_are_no_duplicates) {
-  Polygon_soup soup = soup_of({{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}, {5, 5, 0}, {6, 5, 0}, {5, 6, 0}});
+  Polygon_soup soup = soup_of(
+      {{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 9, 0}, {1, 1, 0}, {2, 1, 0}, {1, 2, 0}, {5, 5, 0}, {6, 5, 0}, {5, 6, 0}});
   soup.add_face({0, 1, 2, 3});
   soup.add_face({0, 1, 2, 3}), soup.add_hole({4, 5, 6});
   soup.add_face({0, 1, 2, 3}), soup.add_hole({7, 8, 9});
@@ -282,7 +307,8 @@ TEST(Scene_policy, coplanar_faces_share_a_plane_and_know_which_way_they_face) {
   EXPECT_EQ(scene.pieces()[5].support, scene.pieces()[11].support);
 }
 
-// ---- The grid ---------------------------------------------------------------------------------------------------------------------------
+// ---- The grid
+// ---------------------------------------------------------------------------------------------------------------------------
 
 namespace {
 /// Every soup point is a scene point of the very same coordinates, whichever way one asks.
@@ -292,12 +318,15 @@ void expect_exact_points(const Polygon_soup& soup, const Scene& scene) {
   for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
     const Exact_point x = scene.position(p);
     ASSERT_TRUE(place.emplace(x, p).second) << "equal points are merged";
-    ASSERT_EQ(scene.position(predicates.homogeneous(predicates.input_vertex(p, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane))), x);
+    ASSERT_EQ(scene.position(predicates.homogeneous(
+                  predicates.input_vertex(p, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane))),
+              x);
     for (const Rational& c : x) ASSERT_EQ(gcd(c.get_num(), c.get_den()), 1);
     const Located_point q = scene.locate(x);
     ASSERT_EQ(scene.position({q.x, q.y, q.z, q.w}), x);
     ASSERT_EQ(q.w, 1);
-    const std::array<Integer, 3> grid{scene.points().integer(p, 0), scene.points().integer(p, 1), scene.points().integer(p, 2)};
+    const std::array<Integer, 3> grid{scene.points().integer(p, 0), scene.points().integer(p, 1),
+                                      scene.points().integer(p, 2)};
     ASSERT_TRUE(q.x == grid[0] && q.y == grid[1] && q.z == grid[2]);
     for (const Integer& g : grid) ASSERT_LE(bit_length(g), static_cast<std::size_t>(scene.points().bits()));
   }
@@ -307,7 +336,8 @@ void expect_exact_points(const Polygon_soup& soup, const Scene& scene) {
   // The box of all points.
   std::array<Exact_point, 2> box{soup.point(0), soup.point(0)};
   for (Point_id p = 0; p < soup.point_count(); ++p)
-    for (std::size_t k = 0; k < 3; ++k) box[0][k] = std::min(box[0][k], soup.point(p)[k]), box[1][k] = std::max(box[1][k], soup.point(p)[k]);
+    for (std::size_t k = 0; k < 3; ++k)
+      box[0][k] = std::min(box[0][k], soup.point(p)[k]), box[1][k] = std::max(box[1][k], soup.point(p)[k]);
   ASSERT_EQ(scene.box(), box);
 }
 
@@ -322,10 +352,12 @@ void expect_right_sides(const Scene& scene, Random& random, int asked) {
     Vertex v{};
     if (random() % 3 == 0) {
       const std::size_t k = random() % f.size;
-      v = predicates.input_vertex(scene.corners(f)[k].point, f.support.id(), scene.corners(f)[k].edge.id(), f.support.id());
+      v = predicates.input_vertex(scene.corners(f)[k].point, f.support.id(), scene.corners(f)[k].edge.id(),
+                                  f.support.id());
     } else {
       try {
-        v = predicates.meet(f.support.id(), g.support.id(), random() % 2 ? h.support.id() : scene.corners(f)[random() % f.size].edge.id());
+        v = predicates.meet(f.support.id(), g.support.id(),
+                            random() % 2 ? h.support.id() : scene.corners(f)[random() % f.size].edge.id());
       } catch (const std::domain_error&) {
         continue;
       }
@@ -362,18 +394,28 @@ struct Transformation {
 Rational power_of_ten(long k) { return exact_decimal(1, k); }
 
 class Scene_moved : public testing::TestWithParam<Transformation> {};
-INSTANTIATE_TEST_SUITE_P(All, Scene_moved,
-                         testing::Values(Transformation{"as_it_is", [](long n) { return Rational(n); }, 21},
-                                         Transformation{"moved_by_1e8", [](long n) { return Rational(n + 100000000); }, 21},
-                                         Transformation{"scaled_by_1e_minus_50", [](long n) { return Rational(n * power_of_ten(-50)); }, 21},
-                                         Transformation{"scaled_by_1e_minus_50_in_doubles", [](long n) { return exact(static_cast<double>(n) * 1e-50); }, 75},
-                                         Transformation{"tenths", [](long n) { return Rational(n * power_of_ten(-1)); }, 21},
-                                         Transformation{"tenths_in_doubles", [](long n) { return exact(static_cast<double>(n) / 10); }, 80},
-                                         Transformation{"subnormals", [](long n) { return exact(static_cast<double>(n) * 4.9406564584124654e-324); }, 21},
-                                         Transformation{"thirds_far_away", [](long n) { return Rational(n * Rational(1, 3) + power_of_ten(30)); }, 21},
-                                         Transformation{"up_to_1e308", [](long n) { return exact(static_cast<double>(n) * 0x1p1000); }, 21},
-                                         Transformation{"from_subnormals_to_1e308", [](long n) { return n % 5 == 0 ? exact(static_cast<double>(n) * 0x1p1000) : n % 5 == 1 ? exact(static_cast<double>(n) * 4.9406564584124654e-324) : Rational(n); }, 2200}),
-                         [](const auto& of) { return std::string(of.param.name); });
+INSTANTIATE_TEST_SUITE_P(
+    All, Scene_moved,
+    testing::Values(Transformation{"as_it_is", [](long n) { return Rational(n); }, 21},
+                    Transformation{"moved_by_1e8", [](long n) { return Rational(n + 100000000); }, 21},
+                    Transformation{"scaled_by_1e_minus_50", [](long n) { return Rational(n * power_of_ten(-50)); }, 21},
+                    Transformation{"scaled_by_1e_minus_50_in_doubles",
+                                   [](long n) { return exact(static_cast<double>(n) * 1e-50); }, 75},
+                    Transformation{"tenths", [](long n) { return Rational(n * power_of_ten(-1)); }, 21},
+                    Transformation{"tenths_in_doubles", [](long n) { return exact(static_cast<double>(n) / 10); }, 80},
+                    Transformation{"subnormals",
+                                   [](long n) { return exact(static_cast<double>(n) * 4.9406564584124654e-324); }, 21},
+                    Transformation{"thirds_far_away",
+                                   [](long n) { return Rational(n * Rational(1, 3) + power_of_ten(30)); }, 21},
+                    Transformation{"up_to_1e308", [](long n) { return exact(static_cast<double>(n) * 0x1p1000); }, 21},
+                    Transformation{"from_subnormals_to_1e308",
+                                   [](long n) {
+                                     return n % 5 == 0   ? exact(static_cast<double>(n) * 0x1p1000)
+                                            : n % 5 == 1 ? exact(static_cast<double>(n) * 4.9406564584124654e-324)
+                                                         : Rational(n);
+                                   },
+                                   2200}),
+    [](const auto& of) { return std::string(of.param.name); });
 
 TEST_P(Scene_moved, points_are_exact_pieces_sound_and_sides_right) {
   Random random(42);
@@ -417,7 +459,8 @@ TEST(Scene_grid, a_few_fine_coordinates_among_many_coarse_ones_are_exact) {
   for (const long shift : {30l, 70l, 600l, 1074l}) {
     Random random(static_cast<std::uint64_t>(shift));
     const Rational tiny = exact(std::ldexp(1.0, -static_cast<int>(shift)));
-    const Polygon_soup soup = random_soup(random, 40, 20, [&](long n) { return n % 16 == 3 ? Rational(n + tiny * (n % 7 + 1)) : Rational(n); });
+    const Polygon_soup soup = random_soup(
+        random, 40, 20, [&](long n) { return n % 16 == 3 ? Rational(n + tiny * (n % 7 + 1)) : Rational(n); });
     const Scene scene(soup);
     ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
     ASSERT_NO_FATAL_FAILURE(expect_exact_points(soup, scene));
@@ -460,7 +503,9 @@ TEST(Scene_grid, a_scene_of_one_point_is_that_point) {
 }
 TEST(Scene_grid, decimals_are_what_the_file_says) {
   Polygon_soup soup;
-  for (const long n : {1l, 2l, 3l}) soup.coordinates.push_decimal(n, -1), soup.coordinates.push_decimal(n * n, -2), soup.coordinates.push_decimal(0, -9);
+  for (const long n : {1l, 2l, 3l})
+    soup.coordinates.push_decimal(n, -1), soup.coordinates.push_decimal(n * n, -2),
+        soup.coordinates.push_decimal(0, -9);
   soup.add_face({0, 1, 2});
   const Scene scene(soup);
   EXPECT_EQ(scene.position(0)[0], Rational(1, 10));
@@ -484,11 +529,13 @@ TEST(Scene_grid, bits_are_those_of_the_largest_coordinate_at_the_common_scale) {
   EXPECT_EQ(scene.bits(), 9);  // 403
 }
 
-// ---- Planes of one's own, and back to the file's coordinates ------------------------------------------------------------------------------
+// ---- Planes of one's own, and back to the file's coordinates
+// ------------------------------------------------------------------------------
 
 TEST(Scene_planes, coefficients_in_the_file_and_on_the_grid_are_one_plane) {
   Polygon_soup soup;
-  for (const auto& p : {std::array<long, 3>{1000001, 7, 3}, {1000011, 27, -3}, {1000005, -1, 9}, {1000021, 3, 5}}) soup.add_point(tenth(p[0]), tenth(p[1]), tenth(p[2]));
+  for (const auto& p : {std::array<long, 3>{1000001, 7, 3}, {1000011, 27, -3}, {1000005, -1, 9}, {1000021, 3, 5}})
+    soup.add_point(tenth(p[0]), tenth(p[1]), tenth(p[2]));
   soup.add_face({0, 1, 2}), soup.add_face({0, 2, 3});
   Scene scene(soup);
   const std::array<Integer, 4> own{3, -2, 5, 17};
@@ -504,7 +551,8 @@ TEST(Scene_planes, coefficients_in_the_file_and_on_the_grid_are_one_plane) {
     EXPECT_EQ(static_cast<int>(predicates.side(scene.locate(scene.position(p)), plane, counts)), sgn(on_grid));
   }
   for (const Piece& piece : scene.pieces())
-    for (const Exact_point& p : corners_of(scene, piece)) EXPECT_EQ(value(scene.file_coefficients(piece.support), p), 0);
+    for (const Exact_point& p : corners_of(scene, piece))
+      EXPECT_EQ(value(scene.file_coefficients(piece.support), p), 0);
   EXPECT_EQ(scene.add_plane({-6, 4, -10, -34}), plane.opposite());
   EXPECT_THROW(scene.add_plane({Integer(1) << 200, 1, 1, 1}), std::overflow_error);
   EXPECT_THROW(scene.add_plane({0, 0, 0, 1}), std::domain_error);
@@ -515,7 +563,9 @@ TEST(Scene_planes, a_located_point_comes_back_exactly_and_knows_its_error) {
   soup.add_point(0.1, 0.2, 0.3), soup.add_point(1e3, 5.0, 7.0), soup.add_point(-3.0, 2e3, 1.0);
   soup.add_face({0, 1, 2});
   const Scene scene(soup);
-  for (const Exact_point& p : {Exact_point{Rational(1, 3), Rational(2, 7), Rational(-5)}, Exact_point{exact(0.1), exact(0.2), exact(0.3)}, Exact_point{power_of_ten(400), Rational(1), power_of_ten(-400)}}) {
+  for (const Exact_point& p :
+       {Exact_point{Rational(1, 3), Rational(2, 7), Rational(-5)}, Exact_point{exact(0.1), exact(0.2), exact(0.3)},
+        Exact_point{power_of_ten(400), Rational(1), power_of_ten(-400)}}) {
     const Located_point q = scene.locate(p);
     EXPECT_GT(q.w, 0);
     EXPECT_EQ(scene.position({q.x, q.y, q.z, q.w}), p);
@@ -541,7 +591,8 @@ TEST(Scene_planes, incidences_are_those_of_the_corners) {
     EXPECT_EQ(scene.incidences().at(p).size(), 3u);
     for (const Piece& piece : scene.pieces()) {
       const std::span<const Piece_corner> corners = scene.corners(piece);
-      const bool corner = std::any_of(corners.begin(), corners.end(), [&](const Piece_corner& c) { return c.point == p; });
+      const bool corner =
+          std::any_of(corners.begin(), corners.end(), [&](const Piece_corner& c) { return c.point == p; });
       EXPECT_EQ(scene.incidences().contains(p, piece.support.id()), corner);
     }
   }

@@ -24,13 +24,18 @@ inline Polygon_soup soup_of(const std::vector<std::array<long, 3>>& points) {
 /// Fronts outside.
 inline void add_cube(Polygon_soup& soup, long x, long y, long z, long side, int without = -1) {
   const Point_id first = static_cast<Point_id>(soup.point_count());
-  for (int i = 0; i < 8; ++i) soup.add_point(Rational(x + (i & 1 ? side : 0)), Rational(y + (i & 2 ? side : 0)), Rational(z + (i & 4 ? side : 0)));
-  static const Point_id faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  for (int i = 0; i < 8; ++i)
+    soup.add_point(Rational(x + (i & 1 ? side : 0)), Rational(y + (i & 2 ? side : 0)),
+                   Rational(z + (i & 4 ? side : 0)));
+  static const Point_id faces[6][4] = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                       {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
   for (int f = 0; f < 6; ++f)
-    if (f != without) soup.add_face({first + faces[f][0], first + faces[f][1], first + faces[f][2], first + faces[f][3]});
+    if (f != without)
+      soup.add_face({first + faces[f][0], first + faces[f][1], first + faces[f][2], first + faces[f][3]});
 }
 
-/// Random triangles and convex quads, some of them sharing points, with coordinates made by `number` from an integer in [-2^bits, 2^bits].
+/// Random triangles and convex quads, some of them sharing points, with coordinates made by `number` from an integer in
+/// [-2^bits, 2^bits].
 template <class Number>
 Polygon_soup random_soup(Random& random, int faces, int bits, Number number) {
   Polygon_soup soup;
@@ -43,10 +48,12 @@ Polygon_soup random_soup(Random& random, int faces, int bits, Number number) {
       long o[3], u[3], v[3];
       for (int k = 0; k < 3; ++k) o[k] = coordinate() / 2, u[k] = coordinate() / 4, v[k] = coordinate() / 4;
       const Point_id a = add(o[0], o[1], o[2]), b = add(o[0] + u[0], o[1] + u[1], o[2] + u[2]);
-      const Point_id c = add(o[0] + u[0] + v[0], o[1] + u[1] + v[1], o[2] + u[2] + v[2]), d = add(o[0] + v[0], o[1] + v[1], o[2] + v[2]);
+      const Point_id c = add(o[0] + u[0] + v[0], o[1] + u[1] + v[1], o[2] + u[2] + v[2]),
+                     d = add(o[0] + v[0], o[1] + v[1], o[2] + v[2]);
       soup.add_face({a, b, c, d});
     } else {
-      soup.add_face({points[random() % points.size()], points[random() % points.size()], points[random() % points.size()]});
+      soup.add_face(
+          {points[random() % points.size()], points[random() % points.size()], points[random() % points.size()]});
     }
   }
   return soup;
@@ -58,12 +65,15 @@ inline std::string why(const Scene& scene, Face_id face) {
   return "";
 }
 inline std::size_t pieces_of(const Scene& scene, Face_id face) {
-  return static_cast<std::size_t>(std::count_if(scene.pieces().begin(), scene.pieces().end(), [&](const Piece& p) { return p.face == face; }));
+  return static_cast<std::size_t>(
+      std::count_if(scene.pieces().begin(), scene.pieces().end(), [&](const Piece& p) { return p.face == face; }));
 }
 
 using Vector = std::array<Rational, 3>;
 inline Vector minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Vector cross(const Vector& a, const Vector& b) { return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+inline Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
 inline Rational dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 /// Twice the area vector of a closed polygon.
 inline Vector area_vector(const std::vector<Exact_point>& polygon) {
@@ -84,10 +94,13 @@ inline std::vector<Exact_point> corners_of(const Scene& scene, const Piece& piec
   for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
   return polygon;
 }
-inline Rational value(const std::array<Rational, 4>& h, const Exact_point& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]; }
+inline Rational value(const std::array<Rational, 4>& h, const Exact_point& p) {
+  return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3];
+}
 
-/// An oriented boundary: on each line (direction and moment, scaled so that the direction's first non-zero is 1) the net arrivals at each point. Zero
-/// nets are left out, so two chains are equal iff the boundaries are, T-junctions and spikes aside.
+/// An oriented boundary: on each line (direction and moment, scaled so that the direction's first non-zero is 1) the
+/// net arrivals at each point. Zero nets are left out, so two chains are equal iff the boundaries are, T-junctions and
+/// spikes aside.
 class Chain {
  public:
   void add(const std::vector<Exact_point>& polygon, long times = 1) {
@@ -113,8 +126,9 @@ class Chain {
   std::map<std::pair<std::array<Rational, 6>, Exact_point>, long> net_;
 };
 
-/// What every scene promises of its pieces: points of the face, convex, counterclockwise about the support, edge planes through their edges
-/// with the piece in front; numbers 0, 1, ... within each face; every kept face has a piece and no face set aside has one.
+/// What every scene promises of its pieces: points of the face, convex, counterclockwise about the support, edge planes
+/// through their edges with the piece in front; numbers 0, 1, ... within each face; every kept face has a piece and no
+/// face set aside has one.
 inline void expect_sound_pieces(const Polygon_soup& soup, const Scene& scene) {
   std::vector<std::uint32_t> next(soup.face_count(), 0);
   for (const Piece& piece : scene.pieces()) {
@@ -132,7 +146,10 @@ inline void expect_sound_pieces(const Polygon_soup& soup, const Scene& scene) {
     for (std::size_t i = 0; i < n; ++i) {
       ASSERT_NE(std::find(own.begin(), own.end(), polygon[i]), own.end()) << "a corner that is no point of the face";
       ASSERT_EQ(value(support, polygon[i]), 0);
-      ASSERT_GT(dot(normal, cross(minus(polygon[(i + 1) % n], polygon[i]), minus(polygon[(i + 2) % n], polygon[(i + 1) % n]))), 0) << "not strictly convex";
+      ASSERT_GT(dot(normal,
+                    cross(minus(polygon[(i + 1) % n], polygon[i]), minus(polygon[(i + 2) % n], polygon[(i + 1) % n]))),
+                0)
+          << "not strictly convex";
       const Plane edge = scene.corners(piece)[i].edge;
       ASSERT_NE(edge.id(), piece.support.id());
       const std::array<Rational, 4> bound = scene.file_coefficients(edge);
@@ -145,7 +162,9 @@ inline void expect_sound_pieces(const Polygon_soup& soup, const Scene& scene) {
       }
     }
   }
-  for (Face_id f = 0; f < soup.face_count(); ++f) ASSERT_EQ(next[f] == 0, !why(scene, f).empty()) << "face " << f << " has " << next[f] << " pieces and is set aside for '" << why(scene, f) << "'";
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    ASSERT_EQ(next[f] == 0, !why(scene, f).empty())
+        << "face " << f << " has " << next[f] << " pieces and is set aside for '" << why(scene, f) << "'";
   // The pieces of a face have its boundary, holes against the outer contour.
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     if (next[f] == 0) continue;

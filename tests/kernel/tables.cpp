@@ -10,9 +10,11 @@
 
 using namespace kernel_test;
 
-// ---- Rows -------------------------------------------------------------------------------------------------------------------------------
+// ---- Rows
+// -------------------------------------------------------------------------------------------------------------------------------
 
-RC_GTEST_PROP(Row_table, numbers_equal_rows_alike_in_the_order_of_their_first_appearance, (std::vector<std::pair<std::uint8_t, std::uint8_t>> rows)) {
+RC_GTEST_PROP(Row_table, numbers_equal_rows_alike_in_the_order_of_their_first_appearance,
+              (std::vector<std::pair<std::uint8_t, std::uint8_t>> rows)) {
   Row_table table(2);
   std::map<std::pair<Limb, Limb>, std::uint32_t> oracle;
   for (const auto& [a, b] : rows) {
@@ -57,11 +59,13 @@ TEST(Row_table, rows_that_differ_in_one_limb_differ) {
   for (std::uint32_t i = 0; i < rows.size(); ++i) ASSERT_EQ(table.intern(rows[i].data()), i);
 }
 
-// ---- Handles ----------------------------------------------------------------------------------------------------------------------------
+// ---- Handles
+// ----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Plane, a_handle_knows_its_plane_and_side) {
   constexpr Plane h(12, true);
-  static_assert(h.id() == 12 && h.flipped() && h.opposite() == Plane(12, false) && h.opposite().opposite() == h && h.valid() && !h.is_axis_plane());
+  static_assert(h.id() == 12 && h.flipped() && h.opposite() == Plane(12, false) && h.opposite().opposite() == h &&
+                h.valid() && !h.is_axis_plane());
   static_assert(!Plane().valid());
   for (const int axis : {0, 1, 2})
     for (const std::uint32_t point : {0u, 1u, Plane::max_axis_point - 1}) {
@@ -74,7 +78,8 @@ TEST(Plane, a_handle_knows_its_plane_and_side) {
     }
 }
 
-// ---- Points -----------------------------------------------------------------------------------------------------------------------------
+// ---- Points
+// -----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Grid_points, equal_points_have_one_id_at_every_width) {
   for (const int bits : {1, 20, 53, 54, 63, 64, 65, 127, 128, 200}) {
@@ -83,7 +88,8 @@ TEST(Grid_points, equal_points_have_one_id_at_every_width) {
     EXPECT_EQ(grid.points.bits(), bits);
     const Integer most = power_of_two(bits) - 1;
     std::vector<std::array<Integer, 3>> sample{{0, 0, 0}, {most, -most, most}, {-most, -most, -most}};
-    for (int i = 0; i < 40; ++i) sample.push_back({any_size(random, bits), any_size(random, bits), uniform(random, bits)});
+    for (int i = 0; i < 40; ++i)
+      sample.push_back({any_size(random, bits), any_size(random, bits), uniform(random, bits)});
     for (const auto& p : sample) {
       const std::uint32_t id = grid.point(p);
       ASSERT_EQ(grid.point(p), id);
@@ -109,18 +115,21 @@ TEST(Grid_points, a_coordinate_wider_than_its_limbs_is_refused) {
   EXPECT_EQ(points.size(), 0u);
 }
 
-// ---- Planes -----------------------------------------------------------------------------------------------------------------------------
+// ---- Planes
+// -----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Plane_table, the_form_is_canonical) {
   Grid grid(20);
   const Plane h = grid.planes.intern(Integer(-6), Integer(9), Integer(0), Integer(12));
   EXPECT_TRUE(h.flipped());
-  for (int k = 0; k < 4; ++k) EXPECT_EQ(grid.planes.integer(h.id(), k), (std::array<int, 4>{2, -3, 0, -4}[static_cast<std::size_t>(k)]));
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(grid.planes.integer(h.id(), k), (std::array<int, 4>{2, -3, 0, -4}[static_cast<std::size_t>(k)]));
   const Plane g = grid.planes.intern(Integer(0), Integer(0), Integer(-5), Integer(3));
   EXPECT_TRUE(g.flipped());
   EXPECT_EQ(grid.planes.integer(g.id(), 2), 5);
   EXPECT_EQ(grid.planes.integer(g.id(), 3), -3);
-  EXPECT_EQ(grid.planes.intern(Integer(0), Integer(7), Integer(-7), Integer(0)), grid.planes.intern(Integer(0), Integer(1), Integer(-1), Integer(0)));
+  EXPECT_EQ(grid.planes.intern(Integer(0), Integer(7), Integer(-7), Integer(0)),
+            grid.planes.intern(Integer(0), Integer(1), Integer(-1), Integer(0)));
   EXPECT_EQ(grid.predicates().coefficients(h)[0], -2);
   EXPECT_EQ(grid.predicates().coefficients(h.opposite())[0], 2);
 }
@@ -130,7 +139,8 @@ TEST(Plane_table, every_row_has_gcd_one_and_a_positive_lead) {
   for (const int bits : {8, 30, 60}) {
     Grid grid(bits);
     for (int i = 0; i < 200; ++i) {
-      const Coefficients h{any_size(random, bits) * (random() % 3 != 0), any_size(random, bits) * (random() % 2), any_size(random, bits), any_size(random, 2 * bits)};
+      const Coefficients h{any_size(random, bits) * (random() % 3 != 0), any_size(random, bits) * (random() % 2),
+                           any_size(random, bits), any_size(random, 2 * bits)};
       if (h[0] == 0 && h[1] == 0 && h[2] == 0) continue;
       const Plane plane = grid.plane(h);
       const auto k = [&](int j) { return grid.planes.integer(plane.id(), j); };
@@ -152,8 +162,12 @@ TEST(Plane_table, one_plane_has_one_id_whatever_points_and_orientation_it_was_ma
     for (int round = 0; round < 30; ++round) {
       // Points of one plane: o + i u + j v.
       std::array<Integer, 3> o, u, v;
-      for (std::size_t k = 0; k < 3; ++k) o[k] = uniform(random, bits - 4), u[k] = uniform(random, bits - 4), v[k] = uniform(random, bits - 4);
-      const auto at = [&](int i, int j) { return std::array<Integer, 3>{o[0] + i * u[0] + j * v[0], o[1] + i * u[1] + j * v[1], o[2] + i * u[2] + j * v[2]}; };
+      for (std::size_t k = 0; k < 3; ++k)
+        o[k] = uniform(random, bits - 4), u[k] = uniform(random, bits - 4), v[k] = uniform(random, bits - 4);
+      const auto at = [&](int i, int j) {
+        return std::array<Integer, 3>{o[0] + i * u[0] + j * v[0], o[1] + i * u[1] + j * v[1],
+                                      o[2] + i * u[2] + j * v[2]};
+      };
       const Coefficients h = through(at(0, 0), at(1, 0), at(0, 1));
       if (h[0] == 0 && h[1] == 0 && h[2] == 0) continue;
       const Plane plane = grid.plane(h);
@@ -178,13 +192,16 @@ TEST(Plane_table, machine_integers_and_gmp_integers_make_the_same_planes) {
       if (random() % 3 == 0)
         for (auto& x : n) x = x / 64 * 60;  // common divisors
       if (n[0] == 0 && n[1] == 0 && n[2] == 0) continue;
-      const Integer offset = random() % 3 == 0 ? Integer(any_size(random, 3 * bits) / 60 * 60) : random() % 7 == 0 ? Integer(0) : any_size(random, 3 * bits + 3);
+      const Integer offset = random() % 3 == 0   ? Integer(any_size(random, 3 * bits) / 60 * 60)
+                             : random() % 7 == 0 ? Integer(0)
+                                                 : any_size(random, 3 * bits + 3);
       __int128 d = 0;
       Limb limbs[2];
       to_limbs(offset, limbs, 2);
       d = static_cast<__int128>(static_cast<unsigned __int128>(limbs[1]) << 64 | limbs[0]);
       const Plane a = fast.intern(n[0], n[1], n[2], d);
-      const Plane b = wide.intern(Integer(static_cast<long>(n[0])), Integer(static_cast<long>(n[1])), Integer(static_cast<long>(n[2])), offset);
+      const Plane b = wide.intern(Integer(static_cast<long>(n[0])), Integer(static_cast<long>(n[1])),
+                                  Integer(static_cast<long>(n[2])), offset);
       ASSERT_EQ(a, b);
       for (int k = 0; k < 4; ++k) ASSERT_EQ(fast.integer(a.id(), k), wide.integer(b.id(), k));
       const Approximate_plane x = fast.approximate(a.id()), y = wide.approximate(b.id());
@@ -201,7 +218,8 @@ TEST(Plane_table, machine_integers_work_where_rows_have_more_limbs_than_they_nee
   Plane_table fast((Grid_points(80))), wide((Grid_points(80)));
   EXPECT_GT(fast.offset_limbs(), 2);
   for (const std::int64_t s : {1, -1}) {
-    const Plane a = fast.intern(3 * s, -5 * s, std::int64_t{0}, static_cast<__int128>(-7) * s), b = wide.intern(Integer(3 * s), Integer(-5 * s), Integer(0), Integer(-7 * s));
+    const Plane a = fast.intern(3 * s, -5 * s, std::int64_t{0}, static_cast<__int128>(-7) * s),
+                b = wide.intern(Integer(3 * s), Integer(-5 * s), Integer(0), Integer(-7 * s));
     EXPECT_EQ(a, b);
     for (int k = 0; k < 4; ++k) EXPECT_EQ(fast.integer(a.id(), k), wide.integer(b.id(), k));
   }
@@ -228,7 +246,8 @@ TEST(Plane_table, planes_wider_than_their_rows_are_refused_and_leave_no_trace) {
   Grid grid(10);  // one limb each
   EXPECT_THROW(grid.planes.intern(power_of_two(63), Integer(1), Integer(0), Integer(0)), std::overflow_error);
   EXPECT_THROW(grid.planes.intern(Integer(1), Integer(1), Integer(0), power_of_two(63)), std::overflow_error);
-  EXPECT_THROW(grid.planes.intern(std::int64_t{1}, std::int64_t{1}, std::int64_t{0}, __int128{1} << 63), std::overflow_error);
+  EXPECT_THROW(grid.planes.intern(std::int64_t{1}, std::int64_t{1}, std::int64_t{0}, __int128{1} << 63),
+               std::overflow_error);
   EXPECT_EQ(grid.planes.size(), 0u);
   EXPECT_EQ(grid.planes.budget().normal, 0);
   // Reduced they fit.
@@ -241,7 +260,8 @@ TEST(Plane_table, rows_hold_every_plane_through_three_grid_points) {
     Grid grid(bits);
     const Integer m = power_of_two(bits) - 1;
     std::vector<std::array<Integer, 3>> corners;
-    for (int i = 0; i < 8; ++i) corners.push_back({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? m : Integer(-m)});
+    for (int i = 0; i < 8; ++i)
+      corners.push_back({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? m : Integer(-m)});
     corners.push_back({m - 1, 1 - m, m}), corners.push_back({-m, m, m - 1});
     for (const auto& a : corners)
       for (const auto& b : corners)
@@ -259,12 +279,16 @@ TEST(Plane_table, axis_planes_are_found_where_they_are_and_only_there) {
     Random random(static_cast<std::uint64_t>(bits));
     Grid grid(bits);
     const Integer most = power_of_two(bits) - 1;
-    for (const Integer& x : {Integer(0), Integer(1), Integer(-1), most, Integer(-most), uniform(random, bits), bits > 64 ? power_of_two(64) : Integer(3), bits > 64 ? Integer(-power_of_two(64)) : Integer(-3)})
+    for (const Integer& x :
+         {Integer(0), Integer(1), Integer(-1), most, Integer(-most), uniform(random, bits),
+          bits > 64 ? power_of_two(64) : Integer(3), bits > 64 ? Integer(-power_of_two(64)) : Integer(-3)})
       for (int axis = 0; axis < 3; ++axis) {
         std::array<Integer, 3> p{7, 7, 7};
         p[static_cast<std::size_t>(axis)] = x;
         const std::uint32_t point = grid.point(p);
-        const auto find = [&] { return grid.planes.find_axis_plane(axis, grid.points.coordinate(point, axis), grid.points.limbs()); };
+        const auto find = [&] {
+          return grid.planes.find_axis_plane(axis, grid.points.coordinate(point, axis), grid.points.limbs());
+        };
         const std::size_t before = grid.planes.size();
         Coefficients h{0, 0, 0, -x};
         h[static_cast<std::size_t>(axis)] = 1;
@@ -295,11 +319,13 @@ TEST(Plane_table, approximations_of_wide_planes_are_within_their_bound_and_about
       const std::array<double, 4> rounded{f.a, f.b, f.c, f.d};
       // One power of two is common to all, but for the offset's own shift.
       int width = 0;
-      for (int k = 0; k < 3; ++k) width = std::max(width, static_cast<int>(bit_length(grid.planes.integer(plane.id(), k))));
+      for (int k = 0; k < 3; ++k)
+        width = std::max(width, static_cast<int>(bit_length(grid.planes.integer(plane.id(), k))));
       const long scale = grid.points.shift() == 0 ? 0 : width;
       for (int k = 0; k < 4; ++k) {
         const Rational truth = shifted(grid.planes.integer(plane.id(), k), scale + (k == 3 ? grid.points.shift() : 0));
-        ASSERT_LE(abs(exact(rounded[static_cast<std::size_t>(k)]) - truth), shifted(abs(truth), 52) + exact(4.9406564584124654e-324));
+        ASSERT_LE(abs(exact(rounded[static_cast<std::size_t>(k)]) - truth),
+                  shifted(abs(truth), 52) + exact(4.9406564584124654e-324));
       }
       if (scale != 0) {
         const double n = std::max({std::fabs(f.a), std::fabs(f.b), std::fabs(f.c)});
@@ -309,7 +335,8 @@ TEST(Plane_table, approximations_of_wide_planes_are_within_their_bound_and_about
   }
 }
 
-// ---- Lines ------------------------------------------------------------------------------------------------------------------------------
+// ---- Lines
+// ------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Line_table, edges_of_a_T_junction_share_their_line) {
   Grid_points points(10);
@@ -342,7 +369,8 @@ TEST(Line_table, one_line_has_one_id_and_its_coordinates_are_canonical) {
     Line_table lines(grid.points);
     for (int round = 0; round < 60; ++round) {
       std::array<Integer, 3> o, u;
-      for (std::size_t k = 0; k < 3; ++k) o[k] = uniform(random, bits - 3), u[k] = random() % 3 == 0 ? Integer(0) : uniform(random, bits - 4);
+      for (std::size_t k = 0; k < 3; ++k)
+        o[k] = uniform(random, bits - 3), u[k] = random() % 3 == 0 ? Integer(0) : uniform(random, bits - 4);
       if (u[0] == 0 && u[1] == 0 && u[2] == 0) continue;
       const auto at = [&](int i) { return grid.point({o[0] + i * u[0], o[1] + i * u[1], o[2] + i * u[2]}); };
       const Line line = lines.through(at(0), at(1));
@@ -368,7 +396,9 @@ TEST(Line_table, rows_hold_the_lines_through_the_corners_of_the_grid) {
     Grid grid(bits);
     const Integer m = power_of_two(bits) - 1;
     std::vector<std::uint32_t> corners;
-    for (int i = 0; i < 8; ++i) corners.push_back(grid.point({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? Integer(m - 1) : Integer(-m)}));
+    for (int i = 0; i < 8; ++i)
+      corners.push_back(
+          grid.point({i & 1 ? m : Integer(-m), i & 2 ? m : Integer(-m), i & 4 ? Integer(m - 1) : Integer(-m)}));
     Line_table lines(grid.points);
     for (const std::uint32_t a : corners)
       for (const std::uint32_t b : corners)

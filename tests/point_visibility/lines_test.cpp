@@ -33,7 +33,8 @@ TEST_P(Lines, are_hidden_as_brute_force_hides_them) {
       const oracle::Flats flats = oracle::flats_of(scene);
       for (const Drawn_edge& drawn : hidden_lines(view, surface)) {
         const Exact_point a = scene.position(drawn.edge.p), b = scene.position(drawn.edge.q);
-        SCOPED_TRACE("edge of face " + std::to_string(flats[drawn.edge.pieces[0]].face) + ", points " + std::to_string(drawn.edge.p) + " and " + std::to_string(drawn.edge.q));
+        SCOPED_TRACE("edge of face " + std::to_string(flats[drawn.edge.pieces[0]].face) + ", points " +
+                     std::to_string(drawn.edge.p) + " and " + std::to_string(drawn.edge.q));
         ASSERT_EQ(visible(drawn.parts), oracle::visible_on_edge(flats, given.eye, a, b));
         ++compared;
         // One after the other, from end to end; what hides a part meets the sightlines to it.
@@ -47,7 +48,9 @@ TEST_P(Lines, are_hidden_as_brute_force_hides_them) {
           if (part.hidden_by == Line_part::nothing) continue;
           ++hidden;
           for (const Rational& share : {Rational(1, 2), Rational(1, 1000), Rational(999, 1000)})
-            ASSERT_TRUE(oracle::blocks(flats[part.hidden_by], given.eye, oracle::along(a, part.from + share * (part.to - part.from), oracle::minus(b, a))));
+            ASSERT_TRUE(
+                oracle::blocks(flats[part.hidden_by], given.eye,
+                               oracle::along(a, part.from + share * (part.to - part.from), oracle::minus(b, a))));
         }
       }
     }
@@ -69,15 +72,20 @@ TEST(Edges, are_of_one_class_each) {
   const std::vector<view_scenes::Points> cube = view_scenes::box({0, 0, 0}, {1, 1, 1});
   EXPECT_EQ(classes(cube, {3, -4, 5}), (std::array{0, 6, 0, 6}));
   EXPECT_EQ(classes(cube, {view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), 5}), (std::array{0, 4, 0, 8}));
-  EXPECT_EQ(classes(cube, {view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), view_scenes::ratio(1, 2)}), (std::array{0, 0, 0, 12}));
+  EXPECT_EQ(classes(cube, {view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), view_scenes::ratio(1, 2)}),
+            (std::array{0, 0, 0, 12}));
   EXPECT_EQ(classes({rectangle(0, 1, 0, 1, 0), rectangle(1, 2, 0, 1, 0)}, {0, 0, 5}), (std::array{6, 0, 1, 0}));
   // An L is two pieces or more, and has six edges.
-  EXPECT_EQ(classes({{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}}, {0, 0, 5}), (std::array{6, 0, 0, 0}));
+  EXPECT_EQ(classes({{{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}}, {0, 0, 5}),
+            (std::array{6, 0, 0, 0}));
   // Folded over: both are seen, from one side each.
-  EXPECT_EQ(classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}}, {0, 5, 5})[1] + classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}, {0, 5, 5})[1], 1);
+  EXPECT_EQ(classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {0, 0, 1}, {1, 0, 1}, {1, 0, 0}}}, {0, 5, 5})[1] +
+                classes({rectangle(0, 1, 0, 1, 0), {{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}}}, {0, 5, 5})[1],
+            1);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Lines, testing::ValuesIn(view_scenes::families), [](const auto& of) { return std::string(view_scenes::name(of.param)); });
+INSTANTIATE_TEST_SUITE_P(All, Lines, testing::ValuesIn(view_scenes::families),
+                         [](const auto& of) { return std::string(view_scenes::name(of.param)); });
 
 }  // namespace
 }  // namespace sightline::see_test

@@ -1,6 +1,6 @@
 #pragma once
-// What an eye sees, by definition and by brute force: every piece against every other in plain rational arithmetic. Knows the scene's pieces and where
-// their corners are, nothing else of the library, and nothing of what it tests.
+// What an eye sees, by definition and by brute force: every piece against every other in plain rational arithmetic.
+// Knows the scene's pieces and where their corners are, nothing else of the library, and nothing of what it tests.
 
 #include <sightline/algorithms/generate/random.h>
 #include <sightline/kernel/scene/scene.h>
@@ -18,16 +18,22 @@ using sightline::Rational;
 using sightline::Scene;
 using Points = std::vector<Exact_point>;
 
-// ---- Vectors ---------------------------------------------------------------------------------------------------------------------
+// ---- Vectors
+// ---------------------------------------------------------------------------------------------------------------------
 
-inline Exact_point minus(const Exact_point& a, const Exact_point& b) { return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])}; }
+inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
+  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
+}
 /// p + t d
 inline Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
   return {Rational(p[0] + t * d[0]), Rational(p[1] + t * d[1]), Rational(p[2] + t * d[2])};
 }
-inline Rational dot(const Exact_point& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
+inline Rational dot(const Exact_point& a, const Exact_point& b) {
+  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
 inline Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]), Rational(a[0] * b[1] - a[1] * b[0])};
+  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
+          Rational(a[0] * b[1] - a[1] * b[0])};
 }
 inline bool is_zero(const Exact_point& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
 inline Exact_point centroid(const Points& points) {
@@ -37,7 +43,8 @@ inline Exact_point centroid(const Points& points) {
   return sum;
 }
 
-// ---- Convex polygons ---------------------------------------------------------------------------------------------------------------
+// ---- Convex polygons
+// ---------------------------------------------------------------------------------------------------------------
 
 /// A plane and its positive side.
 struct Half_space {
@@ -45,9 +52,12 @@ struct Half_space {
   Rational offset;
   Rational height(const Exact_point& p) const { return Rational(dot(normal, p) - offset); }
 };
-inline Half_space opposite(const Half_space& h) { return {{Rational(-h.normal[0]), Rational(-h.normal[1]), Rational(-h.normal[2])}, Rational(-h.offset)}; }
+inline Half_space opposite(const Half_space& h) {
+  return {{Rational(-h.normal[0]), Rational(-h.normal[1]), Rational(-h.normal[2])}, Rational(-h.offset)};
+}
 
-/// The part of a strictly convex polygon on the positive side, its corners in the same sense. Degenerate: none where that part has no area.
+/// The part of a strictly convex polygon on the positive side, its corners in the same sense. Degenerate: none where
+/// that part has no area.
 inline Points clipped(const Points& polygon, const Half_space& h) {
   std::vector<Rational> heights;
   for (const Exact_point& p : polygon) heights.push_back(h.height(p));
@@ -56,12 +66,14 @@ inline Points clipped(const Points& polygon, const Half_space& h) {
   for (std::size_t k = 0; k < polygon.size(); ++k) {
     const std::size_t next = (k + 1) % polygon.size();
     if (sgn(heights[k]) >= 0) part.push_back(polygon[k]);
-    if (sgn(heights[k]) * sgn(heights[next]) < 0) part.push_back(along(polygon[k], heights[k] / (heights[k] - heights[next]), minus(polygon[next], polygon[k])));
+    if (sgn(heights[k]) * sgn(heights[next]) < 0)
+      part.push_back(along(polygon[k], heights[k] / (heights[k] - heights[next]), minus(polygon[next], polygon[k])));
   }
   return part;
 }
 
-/// What is left of convex polygons without the interior of an intersection of half-spaces: convex polygons with disjoint interiors.
+/// What is left of convex polygons without the interior of an intersection of half-spaces: convex polygons with
+/// disjoint interiors.
 inline std::vector<Points> without(const std::vector<Points>& polygons, const std::vector<Half_space>& hole) {
   std::vector<Points> left;
   for (const Points& polygon : polygons) {
@@ -77,8 +89,8 @@ inline std::vector<Points> without(const std::vector<Points>& polygons, const st
   return left;
 }
 
-/// Where a point of its plane is in a convex polygon: strictly inside (1), on the boundary (0), outside (-1). `normal` is on the side from which the corners
-/// run counterclockwise.
+/// Where a point of its plane is in a convex polygon: strictly inside (1), on the boundary (0), outside (-1). `normal`
+/// is on the side from which the corners run counterclockwise.
 inline int holds(const Points& polygon, const Exact_point& normal, const Exact_point& q) {
   int least = 1;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -125,7 +137,8 @@ inline std::vector<Half_space> walls(const Points& polygon, const Exact_point& n
   }
   return sides;
 }
-/// Whether two lists of convex polygons in one plane, all counterclockwise seen from the normal's side, cover the same points up to area zero.
+/// Whether two lists of convex polygons in one plane, all counterclockwise seen from the normal's side, cover the same
+/// points up to area zero.
 inline bool same_points(const std::vector<Points>& a, const std::vector<Points>& b, const Exact_point& normal) {
   const auto covered = [&](std::vector<Points> left, const std::vector<Points>& by) {
     for (const Points& polygon : by) left = without(left, walls(polygon, normal));
@@ -134,7 +147,8 @@ inline bool same_points(const std::vector<Points>& a, const std::vector<Points>&
   return covered(a, b) && covered(b, a);
 }
 
-// ---- Pieces ----------------------------------------------------------------------------------------------------------------------------
+// ---- Pieces
+// ----------------------------------------------------------------------------------------------------------------------------
 
 /// A piece of the scene by its corners only. Heights are positive in front.
 struct Flat {
@@ -171,19 +185,22 @@ inline bool wins(const Flat& a, const Flat& b, const Exact_point& eye) {
   return std::pair(a.face, a.number) < std::pair(b.face, b.number);
 }
 
-// ---- 1. One direction --------------------------------------------------------------------------------------------------------------------
+// ---- 1. One direction
+// --------------------------------------------------------------------------------------------------------------------
 
-/// Where the ray from the eye meets a piece's plane, as eye + t direction with t > 0; none where it does not, or the eye is in the plane.
+/// Where the ray from the eye meets a piece's plane, as eye + t direction with t > 0; none where it does not, or the
+/// eye is in the plane.
 inline std::optional<Rational> crossing(const Flat& flat, const Exact_point& eye, const Exact_point& direction) {
   const Rational height = flat.height(eye), descent = dot(flat.plane.normal, direction);
   if (sgn(height) * sgn(descent) >= 0) return std::nullopt;
   return Rational(-height / descent);
 }
 
-/// The piece that is seen in a direction, as an index into scene.pieces(). `generic` becomes false where the answer is a matter of convention or about to
-/// change: the ray meets the boundary of a piece, is in the plane of a piece that is edge-on, or meets two pieces in different planes at once, nearest.
-/// Pre: direction != 0.
-inline std::optional<std::uint32_t> first_hit(const Flats& flats, const Exact_point& eye, const Exact_point& direction, bool* generic = nullptr) {
+/// The piece that is seen in a direction, as an index into scene.pieces(). `generic` becomes false where the answer is
+/// a matter of convention or about to change: the ray meets the boundary of a piece, is in the plane of a piece that is
+/// edge-on, or meets two pieces in different planes at once, nearest. Pre: direction != 0.
+inline std::optional<std::uint32_t> first_hit(const Flats& flats, const Exact_point& eye, const Exact_point& direction,
+                                              bool* generic = nullptr) {
   std::optional<std::uint32_t> first;
   Rational nearest;
   bool is_generic = true, tie = false;
@@ -207,13 +224,16 @@ inline std::optional<std::uint32_t> first_hit(const Flats& flats, const Exact_po
   if (generic) *generic = is_generic && !tie;
   return first;
 }
-inline std::optional<std::uint32_t> first_hit(const Scene& scene, const Exact_point& eye, const Exact_point& direction, bool* generic = nullptr) {
+inline std::optional<std::uint32_t> first_hit(const Scene& scene, const Exact_point& eye, const Exact_point& direction,
+                                              bool* generic = nullptr) {
   return first_hit(flats_of(scene), eye, direction, generic);
 }
 
-// ---- 2. All of what is seen ------------------------------------------------------------------------------------------------------------------
+// ---- 2. All of what is seen
+// ------------------------------------------------------------------------------------------------------------------
 
-/// The part of a piece that is seen: convex polygons in its plane with disjoint interiors, counterclockwise seen from the piece's front. Their closure counts.
+/// The part of a piece that is seen: convex polygons in its plane with disjoint interiors, counterclockwise seen from
+/// the piece's front. Their closure counts.
 struct Region {
   std::uint32_t piece;  ///< index into scene.pieces()
   Face_id face;
@@ -222,7 +242,8 @@ struct Region {
   Rational area;  ///< of the projection along the dominant axis of the piece's normal, in the file's coordinates
 };
 
-/// The half-spaces that bound the cone of a convex polygon with the eye as apex. Pre: the eye is not in the polygon's plane.
+/// The half-spaces that bound the cone of a convex polygon with the eye as apex. Pre: the eye is not in the polygon's
+/// plane.
 inline std::vector<Half_space> cone(const Exact_point& eye, const Points& polygon) {
   const Exact_point inside = centroid(polygon);
   std::vector<Half_space> sides;
@@ -234,7 +255,8 @@ inline std::vector<Half_space> cone(const Exact_point& eye, const Points& polygo
   return sides;
 }
 
-/// What the other pieces leave to be seen of flats[i]. Two coplanar pieces: the one that wins hides the other, or, without `ties`, none does.
+/// What the other pieces leave to be seen of flats[i]. Two coplanar pieces: the one that wins hides the other, or,
+/// without `ties`, none does.
 inline std::vector<Points> seen_of(const Flats& flats, std::size_t i, const Exact_point& eye, bool ties) {
   const Flat& flat = flats[i];
   const int side = sgn(flat.height(eye));
@@ -244,8 +266,10 @@ inline std::vector<Points> seen_of(const Flats& flats, std::size_t i, const Exac
     const Flat& other = flats[j];
     if (j == i || sgn(other.height(eye)) == 0) continue;
     if (coplanar(flat, other)) {
-      if (ties && wins(other, flat, eye)) seen = without(seen, cone(eye, other.corners));  // the cone meets the plane in the polygon itself
-    } else if (const Points nearer = clipped(other.corners, side > 0 ? flat.plane : opposite(flat.plane)); !nearer.empty()) {
+      if (ties && wins(other, flat, eye))
+        seen = without(seen, cone(eye, other.corners));  // the cone meets the plane in the polygon itself
+    } else if (const Points nearer = clipped(other.corners, side > 0 ? flat.plane : opposite(flat.plane));
+               !nearer.empty()) {
       seen = without(seen, cone(eye, nearer));
     }
   }
@@ -262,7 +286,9 @@ inline std::vector<Region> visible_parts(const Flats& flats, const Exact_point& 
   }
   return regions;
 }
-inline std::vector<Region> visible_parts(const Scene& scene, const Exact_point& eye) { return visible_parts(flats_of(scene), eye); }
+inline std::vector<Region> visible_parts(const Scene& scene, const Exact_point& eye) {
+  return visible_parts(flats_of(scene), eye);
+}
 
 /// The areas of what is seen of each face and side, where there is any: {face, whether its front}.
 inline std::map<std::pair<Face_id, bool>, Rational> visible_areas(const std::vector<Region>& regions) {
@@ -277,20 +303,27 @@ inline Rational visible_area(const std::vector<Region>& regions, Face_id face, b
     if (region.face == face && region.front == front) sum += region.area;
   return sum;
 }
-inline Rational visible_area(const Scene& scene, const Exact_point& eye, Face_id face, bool front) { return visible_area(visible_parts(scene, eye), face, front); }
+inline Rational visible_area(const Scene& scene, const Exact_point& eye, Face_id face, bool front) {
+  return visible_area(visible_parts(scene, eye), face, front);
+}
 
-// ---- 3. The law ----------------------------------------------------------------------------------------------------------------------------
+// ---- 3. The law
+// ----------------------------------------------------------------------------------------------------------------------------
 
-/// The faces that are visible by the law (P-00): the eye strictly in front, and sightlines to an open part of the face. Coplanar faces do not hide each other.
+/// The faces that are visible by the law (P-00): the eye strictly in front, and sightlines to an open part of the face.
+/// Coplanar faces do not hide each other.
 inline std::set<Face_id> visible_faces(const Flats& flats, const Exact_point& eye) {
   std::set<Face_id> faces;
   for (std::size_t i = 0; i < flats.size(); ++i)
     if (sgn(flats[i].height(eye)) > 0 && !seen_of(flats, i, eye, false).empty()) faces.insert(flats[i].face);
   return faces;
 }
-inline std::set<Face_id> visible_faces(const Scene& scene, const Exact_point& eye) { return visible_faces(flats_of(scene), eye); }
+inline std::set<Face_id> visible_faces(const Scene& scene, const Exact_point& eye) {
+  return visible_faces(flats_of(scene), eye);
+}
 
-// ---- 4. Hidden lines -----------------------------------------------------------------------------------------------------------------------
+// ---- 4. Hidden lines
+// -----------------------------------------------------------------------------------------------------------------------
 
 /// from < to
 struct Interval {
@@ -320,11 +353,13 @@ inline bool is_sightline(const Flats& flats, const Exact_point& p, const Exact_p
   return std::none_of(flats.begin(), flats.end(), [&](const Flat& flat) { return blocks(flat, p, q); });
 }
 
-/// The s in [0, 1] for which the open segment from the eye to a + s (b - a) meets the closed piece, up to finitely many: an interval, or none.
-/// Points of the plane of eye, a and b are eye + x (a - eye) + y (b - eye). Then t = x + y is how far along the segment a point is, and s = y / t. What the
-/// piece has in common with the triangle x, y >= 0, t <= 1 is convex, and s of one of its points is a mean of s of its corners, without the eye. It blocks
-/// unless all of it is the eye, or on the edge.
-inline std::optional<Interval> blocked_by(const Flat& flat, const Exact_point& eye, const Exact_point& a, const Exact_point& b) {
+/// The s in [0, 1] for which the open segment from the eye to a + s (b - a) meets the closed piece, up to finitely
+/// many: an interval, or none. Points of the plane of eye, a and b are eye + x (a - eye) + y (b - eye). Then t = x + y
+/// is how far along the segment a point is, and s = y / t. What the piece has in common with the triangle x, y >= 0, t
+/// <= 1 is convex, and s of one of its points is a mean of s of its corners, without the eye. It blocks unless all of
+/// it is the eye, or on the edge.
+inline std::optional<Interval> blocked_by(const Flat& flat, const Exact_point& eye, const Exact_point& a,
+                                          const Exact_point& b) {
   const Exact_point u = minus(a, eye), v = minus(b, eye), normal = cross(u, v);
   const Half_space plane{normal, dot(normal, eye)};
   const Rational size = dot(normal, normal);
@@ -374,9 +409,11 @@ inline std::optional<Interval> blocked_by(const Flat& flat, const Exact_point& e
   return blocked;
 }
 
-/// The intervals of s in [0, 1] where the open segment from the eye to a + s (b - a) meets no closed piece of the scene, whichever side and edge-on or not,
-/// up to finitely many points; ascending, disjoint, each as long as can be. Degenerate: none where eye, a and b are on one line.
-inline std::vector<Interval> visible_on_edge(const Flats& flats, const Exact_point& eye, const Exact_point& a, const Exact_point& b) {
+/// The intervals of s in [0, 1] where the open segment from the eye to a + s (b - a) meets no closed piece of the
+/// scene, whichever side and edge-on or not, up to finitely many points; ascending, disjoint, each as long as can be.
+/// Degenerate: none where eye, a and b are on one line.
+inline std::vector<Interval> visible_on_edge(const Flats& flats, const Exact_point& eye, const Exact_point& a,
+                                             const Exact_point& b) {
   if (is_zero(cross(minus(a, eye), minus(b, eye)))) return {};
   std::vector<Interval> blocked;
   for (const Flat& flat : flats)
@@ -391,11 +428,13 @@ inline std::vector<Interval> visible_on_edge(const Flats& flats, const Exact_poi
   if (reached < 1) free.push_back({reached, 1});
   return free;
 }
-inline std::vector<Interval> visible_on_edge(const Scene& scene, const Exact_point& eye, const Exact_point& a, const Exact_point& b) {
+inline std::vector<Interval> visible_on_edge(const Scene& scene, const Exact_point& eye, const Exact_point& a,
+                                             const Exact_point& b) {
   return visible_on_edge(flats_of(scene), eye, a, b);
 }
 
-// ---- 5. Directions at random -----------------------------------------------------------------------------------------------------------------
+// ---- 5. Directions at random
+// -----------------------------------------------------------------------------------------------------------------
 
 using sightline::generate::Random;
 

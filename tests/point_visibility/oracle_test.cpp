@@ -1,4 +1,5 @@
-// The oracle itself: by scenes whose answer is worked out by hand, and its parts against each other, each by another way to the same thing.
+// The oracle itself: by scenes whose answer is worked out by hand, and its parts against each other, each by another
+// way to the same thing.
 
 #include "scenes.h"
 
@@ -29,10 +30,13 @@ using Ids = std::set<Face_id>;
 
 Scene scene_of(const std::vector<Points>& faces) { return Scene(view_scenes::soup_of(faces)); }
 /// Seen from either side.
-Rational area(const Scene& scene, const Exact_point& eye, Face_id face) { return Rational(visible_area(scene, eye, face, true) + visible_area(scene, eye, face, false)); }
+Rational area(const Scene& scene, const Exact_point& eye, Face_id face) {
+  return Rational(visible_area(scene, eye, face, true) + visible_area(scene, eye, face, false));
+}
 Rational tiny() { return Rational(1, 1ul << 40); }
 
-// ---- By hand: areas ---------------------------------------------------------------------------------------------------------------------
+// ---- By hand: areas
+// ---------------------------------------------------------------------------------------------------------------------
 
 TEST(Oracle_parts, of_a_square_half_covered_is_the_other_half) {
   const Scene scene = scene_of({rectangle(0, 4, 0, 4, 0), rectangle(2, 3, 1, 3, 1)});
@@ -59,8 +63,10 @@ TEST(Oracle_parts, count_holes_and_areas_by_projection) {
   // A ring is left of the floor. Slopes are projected where they are largest.
   const Scene scene = scene_of({rectangle(-4, 4, -4, 4, 0), rectangle(-1, 1, -1, 1, 1)});
   EXPECT_EQ(area(scene, at(0, 0, 2), 0), 64 - 16);
-  EXPECT_EQ(area(scene_of({{at(0, 0, 0), at(2, 0, 1), at(2, 3, 1), at(0, 3, 0)}}), at(1, 1, 9), 0), 6);  // z = x / 2: along z
-  EXPECT_EQ(area(scene_of({{at(0, 0, 0), at(0, 1, 0), at(1, 1, 3), at(1, 0, 3)}}), at(1, 1, 9), 0), 3);  // z = 3 x: along x
+  EXPECT_EQ(area(scene_of({{at(0, 0, 0), at(2, 0, 1), at(2, 3, 1), at(0, 3, 0)}}), at(1, 1, 9), 0),
+            6);  // z = x / 2: along z
+  EXPECT_EQ(area(scene_of({{at(0, 0, 0), at(0, 1, 0), at(1, 1, 3), at(1, 0, 3)}}), at(1, 1, 9), 0),
+            3);  // z = 3 x: along x
 }
 
 TEST(Oracle_parts, of_what_is_behind_a_wall_higher_than_the_eye_go_on_beside_it) {
@@ -78,18 +84,23 @@ TEST(Oracle_parts, of_what_is_behind_a_wall_higher_than_the_eye_go_on_beside_it)
 
 TEST(Oracle_parts, of_crossing_faces_end_where_they_cross) {
   const Scene scene = scene_of({rectangle(-2, 2, -2, 2, 0), {at(0, -2, -1), at(0, 2, -1), at(0, 2, 1), at(0, -2, 1)}});
-  const Exact_point eye = at(3, 0, 3);  // the wall's upper half hides -3/2 < x < 0 of the floor, the floor hides the wall's lower half
+  const Exact_point eye =
+      at(3, 0, 3);  // the wall's upper half hides -3/2 < x < 0 of the floor, the floor hides the wall's lower half
   const std::vector<Region> regions = visible_parts(scene, eye);
   EXPECT_EQ(regions[0].area, 10);
   EXPECT_EQ(regions[1].area, 4);
   EXPECT_TRUE(same_points(regions[1].parts, {{at(0, -2, 0), at(0, 2, 0), at(0, 2, 1), at(0, -2, 1)}}, at(1, 0, 0)));
-  EXPECT_TRUE(same_points(regions[0].parts, {rectangle(-2, ratio(-3, 2), -2, 2, 0), rectangle(0, 2, -2, 2, 0)}, at(0, 0, 1)));
+  EXPECT_TRUE(
+      same_points(regions[0].parts, {rectangle(-2, ratio(-3, 2), -2, 2, 0), rectangle(0, 2, -2, 2, 0)}, at(0, 0, 1)));
 }
 
 TEST(Oracle_parts, of_coplanar_faces_go_to_the_front_then_to_the_lower_face) {
-  const Scene scene = scene_of({rectangle(0, 2, 0, 2, 0), rectangle(1, 3, 0, 2, 0), reversed(rectangle(0, 3, 0, 2, 0)), rectangle(0, 1, 0, 1, 0)});
+  const Scene scene = scene_of({rectangle(0, 2, 0, 2, 0), rectangle(1, 3, 0, 2, 0), reversed(rectangle(0, 3, 0, 2, 0)),
+                                rectangle(0, 1, 0, 1, 0)});
   const Exact_point above = at(1, 1, 5), below = at(1, 1, -5);
-  const auto areas = [&](const Exact_point& eye) { return std::vector<Rational>{area(scene, eye, 0), area(scene, eye, 1), area(scene, eye, 2), area(scene, eye, 3)}; };
+  const auto areas = [&](const Exact_point& eye) {
+    return std::vector<Rational>{area(scene, eye, 0), area(scene, eye, 1), area(scene, eye, 2), area(scene, eye, 3)};
+  };
   EXPECT_EQ(areas(above), (std::vector<Rational>{4, 2, 0, 0}));
   EXPECT_EQ(areas(below), (std::vector<Rational>{0, 0, 6, 0}));
   // By the law coplanar faces do not hide each other.
@@ -100,7 +111,8 @@ TEST(Oracle_parts, of_coplanar_faces_go_to_the_front_then_to_the_lower_face) {
   EXPECT_TRUE(generic);
   EXPECT_EQ(first_hit(scene, above, at(5, 1, -20)), 1u);
   EXPECT_EQ(first_hit(scene, below, at(-3, -1, 20)), 2u);
-  // A face that loses everywhere to a front, with a hidden one before it, is visible by the law only where nothing else hides it.
+  // A face that loses everywhere to a front, with a hidden one before it, is visible by the law only where nothing else
+  // hides it.
   const Scene covered = scene_of({rectangle(0, 2, 0, 2, 0), rectangle(0, 1, 0, 1, 0), rectangle(-1, 1, -1, 1, 1)});
   EXPECT_EQ(visible_faces(covered, at(0, 0, 3)), (Ids{0, 2}));
 }
@@ -109,7 +121,8 @@ TEST(Oracle_parts, of_the_pieces_of_one_face_add_up) {
   const Scene scene = scene_of({{at(0, 0, 0), at(2, 0, 0), at(2, 1, 0), at(1, 1, 0), at(1, 2, 0), at(0, 2, 0)}});
   ASSERT_GT(scene.pieces().size(), 1u);
   EXPECT_EQ(area(scene, at(1, 1, 4), 0), 3);
-  EXPECT_EQ(visible_areas(visible_parts(scene, at(1, 1, 4))), (std::map<std::pair<Face_id, bool>, Rational>{{{0, true}, 3}}));
+  EXPECT_EQ(visible_areas(visible_parts(scene, at(1, 1, 4))),
+            (std::map<std::pair<Face_id, bool>, Rational>{{{0, true}, 3}}));
 }
 
 TEST(Oracle_parts, of_faces_that_are_edge_on_are_none_and_nothing_is_behind_them) {
@@ -146,8 +159,9 @@ TEST(Oracle_parts, from_inside_a_cube_are_its_six_faces) {
 }
 
 TEST(Oracle_parts, of_a_floor_under_four_faces_with_a_corner_on_one_line_of_sight_are_the_rest_of_it) {
-  const Scene scene = scene_of({rectangle(-4, 4, -4, 4, 0), rectangle(0, 1, 0, 1, 2), rectangle(ratio(-1, 2), 0, ratio(-1, 2), 0, 3), rectangle(ratio(-3, 2), 0, 0, ratio(3, 2), 1),
-                                rectangle(0, 1, -1, 0, 2)});
+  const Scene scene =
+      scene_of({rectangle(-4, 4, -4, 4, 0), rectangle(0, 1, 0, 1, 2), rectangle(ratio(-1, 2), 0, ratio(-1, 2), 0, 3),
+                rectangle(ratio(-3, 2), 0, 0, ratio(3, 2), 1), rectangle(0, 1, -1, 0, 2)});
   const Exact_point eye = at(0, 0, 4);  // their shadows are the four quadrants of [-2, 2] x [-2, 2]
   EXPECT_EQ(area(scene, eye, 0), 48);
   bool generic = true;
@@ -156,7 +170,8 @@ TEST(Oracle_parts, of_a_floor_under_four_faces_with_a_corner_on_one_line_of_sigh
   EXPECT_EQ(first_hit(scene, eye, at(-1, 1, -8), &generic), 3u);
   EXPECT_TRUE(generic);
   EXPECT_EQ(visible_on_edge(scene, eye, at(-4, -4, 0), at(4, 4, 0)), (Intervals{{0, ratio(1, 4)}, {ratio(3, 4), 1}}));
-  EXPECT_EQ(visible_on_edge(scene, eye, at(-4, 0, 0), at(4, 0, 0)), (Intervals{{0, ratio(1, 4)}, {ratio(3, 4), 1}}));  // along the seam: grazing blocks
+  EXPECT_EQ(visible_on_edge(scene, eye, at(-4, 0, 0), at(4, 0, 0)),
+            (Intervals{{0, ratio(1, 4)}, {ratio(3, 4), 1}}));  // along the seam: grazing blocks
 }
 
 TEST(Oracle_parts, of_a_scaled_copy_behind_are_none_and_one_ulp_larger_they_are_a_frame) {
@@ -170,7 +185,8 @@ TEST(Oracle_parts, of_a_scaled_copy_behind_are_none_and_one_ulp_larger_they_are_
 }
 
 TEST(Oracle_first_hit, is_the_nearest_and_says_where_it_is_a_convention) {
-  const Scene scene = scene_of({rectangle(0, 4, 0, 4, 0), rectangle(0, 2, 0, 2, 1), {at(0, 0, -1), at(4, 4, -1), at(4, 4, 1)}});
+  const Scene scene =
+      scene_of({rectangle(0, 4, 0, 4, 0), rectangle(0, 2, 0, 2, 1), {at(0, 0, -1), at(4, 4, -1), at(4, 4, 1)}});
   bool generic = false;
   EXPECT_EQ(first_hit(scene, at(1, 2, 9), at(0, -1, -9), &generic), 1u);
   EXPECT_TRUE(generic);
@@ -190,7 +206,8 @@ TEST(Oracle_first_hit, is_the_nearest_and_says_where_it_is_a_convention) {
   EXPECT_FALSE(generic);
 }
 
-// ---- By hand: hidden lines -----------------------------------------------------------------------------------------------------------------
+// ---- By hand: hidden lines
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Oracle_edges, of_a_cube_hides_the_edges_at_the_back) {
   const Scene scene = scene_of(view_scenes::box(at(0, 0, 0), at(1, 1, 1)));
@@ -201,13 +218,16 @@ TEST(Oracle_edges, of_a_cube_hides_the_edges_at_the_back) {
       for (int bit = 1; bit < 8; bit *= 2) {
         if (from & bit) continue;
         const int to = from | bit;
-        const Intervals free = visible_on_edge(scene, eye, at(from & 1, from / 2 & 1, from / 4), at(to & 1, to / 2 & 1, to / 4));
+        const Intervals free =
+            visible_on_edge(scene, eye, at(from & 1, from / 2 & 1, from / 4), at(to & 1, to / 2 & 1, to / 4));
         EXPECT_TRUE(free.empty() || free == all);
         if (!free.empty()) edges.insert({from, to});
       }
     return edges;
   };
-  EXPECT_EQ(visible(at(3, 4, 5)), (std::set<std::pair<int, int>>{{1, 3}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 6}, {5, 7}, {6, 7}}));  // not those at the origin
+  EXPECT_EQ(visible(at(3, 4, 5)),
+            (std::set<std::pair<int, int>>{
+                {1, 3}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {4, 5}, {4, 6}, {5, 7}, {6, 7}}));  // not those at the origin
   const std::set<std::pair<int, int>> two_faces{{1, 3}, {1, 5}, {2, 3}, {2, 6}, {3, 7}, {5, 7}, {6, 7}};
   EXPECT_EQ(visible(at(3, 4, ratio(1, 2))), two_faces);
   EXPECT_EQ(visible(at(3, 4, 1)), two_faces);  // the lid is edge-on and hides its far edges
@@ -219,14 +239,24 @@ TEST(Oracle_edges, behind_an_obstacle_ends_at_its_shadow_and_grazing_blocks) {
   const Rational half = ratio(1, 2);
   const Intervals gap{{0, ratio(3, 8)}, {ratio(5, 8), 1}};
   EXPECT_EQ(visible_on_edge(scene_of({rectangle(Rational(-half), half, Rational(-half), half, 1)}), eye, a, b), gap);
-  EXPECT_EQ(visible_on_edge(scene_of({rectangle(Rational(-half), half, 0, half, 1)}), eye, a, b), gap);  // its edge is in the plane of the eye and the line
-  EXPECT_EQ(visible_on_edge(scene_of({rectangle(Rational(-half), half, tiny(), half, 1)}), eye, a, b), (Intervals{{0, 1}}));
-  EXPECT_EQ(visible_on_edge(scene_of({{at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)}}), eye, a, b), (Intervals{{0, 1}}));  // one point only
+  EXPECT_EQ(visible_on_edge(scene_of({rectangle(Rational(-half), half, 0, half, 1)}), eye, a, b),
+            gap);  // its edge is in the plane of the eye and the line
+  EXPECT_EQ(visible_on_edge(scene_of({rectangle(Rational(-half), half, tiny(), half, 1)}), eye, a, b),
+            (Intervals{{0, 1}}));
+  EXPECT_EQ(visible_on_edge(scene_of({{at(0, 0, 1), at(1, 1, 1), at(0, 1, 1)}}), eye, a, b),
+            (Intervals{{0, 1}}));  // one point only
   // Beyond the line, behind the eye, on the line, with one edge on it: not in the way.
-  EXPECT_EQ(visible_on_edge(scene_of({rectangle(-9, 9, -9, 9, -1), rectangle(-9, 9, -9, 9, 3), rectangle(-1, 1, -1, 1, 0), rectangle(1, 2, 0, 1, 0)}), eye, a, b), (Intervals{{0, 1}}));
+  EXPECT_EQ(visible_on_edge(scene_of({rectangle(-9, 9, -9, 9, -1), rectangle(-9, 9, -9, 9, 3),
+                                      rectangle(-1, 1, -1, 1, 0), rectangle(1, 2, 0, 1, 0)}),
+                            eye, a, b),
+            (Intervals{{0, 1}}));
   // Through the line: hidden where it is nearer. And two that meet leave nothing between them.
-  EXPECT_EQ(visible_on_edge(scene_of({{at(0, -1, 1), at(0, 1, 1), at(2, 0, -1)}}), eye, a, b), (Intervals{{0, half}, {ratio(5, 8), 1}}));
-  EXPECT_EQ(visible_on_edge(scene_of({rectangle(Rational(-half), 0, Rational(-half), half, 1), rectangle(0, half, Rational(-half), half, 1)}), eye, a, b), gap);
+  EXPECT_EQ(visible_on_edge(scene_of({{at(0, -1, 1), at(0, 1, 1), at(2, 0, -1)}}), eye, a, b),
+            (Intervals{{0, half}, {ratio(5, 8), 1}}));
+  EXPECT_EQ(visible_on_edge(scene_of({rectangle(Rational(-half), 0, Rational(-half), half, 1),
+                                      rectangle(0, half, Rational(-half), half, 1)}),
+                            eye, a, b),
+            gap);
   // All of it, and seen end-on.
   EXPECT_EQ(visible_on_edge(scene_of({rectangle(-2, 2, -1, 1, 1)}), eye, a, b), Intervals{});
   EXPECT_EQ(visible_on_edge(scene_of({rectangle(-2, 2, -1, 1, 1)}), eye, at(0, 0, 1), at(0, 0, 0)), Intervals{});
@@ -243,7 +273,8 @@ TEST(Oracle_edges, behind_a_face_that_is_edge_on_is_hidden_where_the_face_holds_
   EXPECT_EQ(visible_on_edge(scene, eye, at(-1, 4, 0), at(1, 4, 0)), (Intervals{{0, 1}}));  // but for one point
   EXPECT_EQ(visible_on_edge(scene, eye, at(0, 1, 0), at(0, 1, 3)), (Intervals{{0, 1}}));   // its near edge
   EXPECT_EQ(visible_on_edge(scene, eye, at(0, 2, 0), at(0, 2, 3)), Intervals{});           // its far edge
-  EXPECT_EQ(visible_on_edge(scene, eye, at(0, 2, 3), at(0, 2, 6)), (Intervals{{ratio(2, 3), 1}}));  // over its upper corner
+  EXPECT_EQ(visible_on_edge(scene, eye, at(0, 2, 3), at(0, 2, 6)),
+            (Intervals{{ratio(2, 3), 1}}));  // over its upper corner
   // The eye on the wall: only what is on the wall is behind it.
   EXPECT_EQ(visible_on_edge(scene, at(0, ratio(3, 2), 1), at(0, 3, 0), at(0, 3, 3)), Intervals{});
   EXPECT_EQ(visible_on_edge(scene, at(0, 2, 1), at(0, 3, 0), at(0, 3, 3)), (Intervals{{0, 1}}));
@@ -274,7 +305,8 @@ TEST(Oracle_segments, are_open_and_pieces_closed) {
   EXPECT_FALSE(blocked(at(3, 1, 0), at(4, 1, 0)));
 }
 
-// ---- At random: every family ---------------------------------------------------------------------------------------------------------------
+// ---- At random: every family
+// ---------------------------------------------------------------------------------------------------------------
 
 /// For each family.
 class Oracle_in_family : public testing::TestWithParam<Family> {
@@ -330,7 +362,8 @@ TEST_P(Oracle_in_family, is_hit_first_in_generic_directions_where_the_part_is_se
     for (std::size_t k = 0; k < 50; ++k) {
       const Exact_point direction = k % 2 == 0 ? random_direction(random) : random_direction_at(flats, eye, random);
       bool generic = false;
-      const std::optional<std::uint32_t> first = k == 0 ? first_hit(scene, eye, direction, &generic) : first_hit(flats, eye, direction, &generic);
+      const std::optional<std::uint32_t> first =
+          k == 0 ? first_hit(scene, eye, direction, &generic) : first_hit(flats, eye, direction, &generic);
       ++directions, generic_ones += generic, hits += generic && first.has_value();
       if (!generic) continue;
       for (std::uint32_t i = 0; i < flats.size(); ++i) {
@@ -341,9 +374,13 @@ TEST_P(Oracle_in_family, is_hit_first_in_generic_directions_where_the_part_is_se
         }
         const Exact_point q = along(eye, *t, direction);
         ASSERT_EQ(holds(regions[i].parts, flats[i].plane.normal, q) >= 0, first == i) << "piece " << i;
-        ASSERT_LE(std::count_if(regions[i].parts.begin(), regions[i].parts.end(), [&](const Points& part) { return holds(part, flats[i].plane.normal, q) > 0; }), 1);
+        ASSERT_LE(std::count_if(regions[i].parts.begin(), regions[i].parts.end(),
+                                [&](const Points& part) { return holds(part, flats[i].plane.normal, q) > 0; }),
+                  1);
         // By segments: a piece is hit first where nothing that is not coplanar or edge-on is in the way.
-        const bool free = std::none_of(flats.begin(), flats.end(), [&](const Flat& other) { return sgn(other.height(eye)) != 0 && !coplanar(flats[i], other) && blocks(other, eye, q); });
+        const bool free = std::none_of(flats.begin(), flats.end(), [&](const Flat& other) {
+          return sgn(other.height(eye)) != 0 && !coplanar(flats[i], other) && blocks(other, eye, q);
+        });
         if (first == i) {
           ASSERT_TRUE(free);
         } else if (free && flats[i].holds(q) > 0) {
@@ -398,7 +435,8 @@ TEST_P(Oracle_in_family, is_seen_in_parts_no_larger_than_its_pieces_and_from_the
       }
       for (const Points& part : free) {
         const Exact_point q = inside_of(part, random);
-        const bool sightline = std::none_of(flats.begin(), flats.end(), [&](const Flat& other) { return blocks(other, eye, q); });
+        const bool sightline =
+            std::none_of(flats.begin(), flats.end(), [&](const Flat& other) { return blocks(other, eye, q); });
         if (region.front && sightline) reached.insert(region.face);
       }
     }
@@ -461,7 +499,8 @@ TEST_P(Oracle_in_family, has_edges_whose_points_end_sightlines_in_the_intervals_
   for_each_case([&](const Scene& scene, const Flats& flats, const Exact_point& eye, Random& random) {
     std::vector<std::array<Exact_point, 2>> edges;
     for (const Flat& flat : flats)
-      for (std::size_t k = 0; k < flat.corners.size(); ++k) edges.push_back({flat.corners[k], flat.corners[(k + 1) % flat.corners.size()]});
+      for (std::size_t k = 0; k < flat.corners.size(); ++k)
+        edges.push_back({flat.corners[k], flat.corners[(k + 1) % flat.corners.size()]});
     for (std::size_t k = 0; k < 8; ++k) {  // others: between corners, from the eye's neighbourhood, through faces
       const Points &f = flats[random.below(flats.size())].corners, &g = flats[random.below(flats.size())].corners;
       edges.push_back({f[random.below(f.size())], along(eye, 1, view_scenes::lattice(random, 3))});
@@ -474,7 +513,8 @@ TEST_P(Oracle_in_family, has_edges_whose_points_end_sightlines_in_the_intervals_
         ASSERT_TRUE(free.empty());
         continue;
       }
-      const auto ends_sightlines = [&](const Rational& from, const Rational& to) {  // how many of four points that are unlikely to be special
+      const auto ends_sightlines = [&](const Rational& from,
+                                       const Rational& to) {  // how many of four points that are unlikely to be special
         int count = 0;
         for (int k = 0; k < 4; ++k) {
           const Rational s = Rational(from + (to - from) * ratio(random.between(1, 100002), 100003));
@@ -506,14 +546,17 @@ TEST_P(Oracle_in_family, has_edges_whose_points_end_sightlines_in_the_intervals_
   EXPECT_GT(partial, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(, Oracle_in_family, testing::ValuesIn(view_scenes::families), [](const auto& tested) { return std::string(view_scenes::name(tested.param)); });
+INSTANTIATE_TEST_SUITE_P(, Oracle_in_family, testing::ValuesIn(view_scenes::families),
+                         [](const auto& tested) { return std::string(view_scenes::name(tested.param)); });
 
-// ---- The families ------------------------------------------------------------------------------------------------------------------------------
+// ---- The families
+// ------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Scene_families, hold_what_they_are_for) {
   for (const Family family : view_scenes::families) {
     SCOPED_TRACE(view_scenes::name(family));
-    std::size_t cases = 0, coplanar_pairs = 0, ties = 0, edge_on = 0, holding = 0, crossing_pairs = 0, in_line = 0, largest = 0;
+    std::size_t cases = 0, coplanar_pairs = 0, ties = 0, edge_on = 0, holding = 0, crossing_pairs = 0, in_line = 0,
+                largest = 0;
     for (std::uint64_t seed = 0; seed < 2 * seeds_each; ++seed)
       for (const Case& made : view_scenes::make(family, seed)) {
         const Scene scene(made.soup);
@@ -526,21 +569,26 @@ TEST(Scene_families, hold_what_they_are_for) {
             if (i == j) continue;
             if (coplanar(flats[i], flats[j])) {
               ++coplanar_pairs;
-              ties += !in_plane && seen_of({flats[i], flats[j]}, 0, made.eye, true) != seen_of({flats[i], flats[j]}, 0, made.eye, false);
+              ties += !in_plane && seen_of({flats[i], flats[j]}, 0, made.eye, true) !=
+                                       seen_of({flats[i], flats[j]}, 0, made.eye, false);
               continue;
             }
             for (std::size_t k = 0; k < flats[i].corners.size(); ++k) {
               const Exact_point &p = flats[i].corners[k], &q = flats[i].corners[(k + 1) % flats[i].corners.size()];
               const Rational here = flats[j].height(p), next = flats[j].height(q);
-              crossing_pairs += sgn(here) * sgn(next) < 0 && flats[j].holds(along(p, here / (here - next), minus(q, p))) > 0;
-              for (const Exact_point& other : flats[j].corners) in_line += !is_zero(minus(other, p)) && is_zero(cross(minus(p, made.eye), minus(other, made.eye)));
+              crossing_pairs +=
+                  sgn(here) * sgn(next) < 0 && flats[j].holds(along(p, here / (here - next), minus(q, p))) > 0;
+              for (const Exact_point& other : flats[j].corners)
+                in_line += !is_zero(minus(other, p)) && is_zero(cross(minus(p, made.eye), minus(other, made.eye)));
             }
           }
         }
       }
     EXPECT_GE(cases, 2 * seeds_each);
     EXPECT_LE(largest, 14u);
-    const auto is_one_of = [&](std::initializer_list<Family> some) { return std::find(some.begin(), some.end(), family) != some.end(); };
+    const auto is_one_of = [&](std::initializer_list<Family> some) {
+      return std::find(some.begin(), some.end(), family) != some.end();
+    };
     if (is_one_of({Family::uniform, Family::crossing, Family::far, Family::tiny, Family::turned})) {
       EXPECT_GT(crossing_pairs, cases / 4);
     }
@@ -564,7 +612,8 @@ TEST(Scene_families, hold_what_they_are_for) {
 
 TEST(Scene_families, are_the_same_for_the_same_seed) {
   for (const Family family : view_scenes::families) {
-    const std::vector<Case> once = view_scenes::make(family, 3), again = view_scenes::make(family, 3), other = view_scenes::make(family, 4);
+    const std::vector<Case> once = view_scenes::make(family, 3), again = view_scenes::make(family, 3),
+                            other = view_scenes::make(family, 4);
     ASSERT_EQ(once.size(), again.size());
     const auto points = [](const Case& made) {
       Points all{made.eye};

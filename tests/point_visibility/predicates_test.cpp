@@ -18,7 +18,8 @@ struct Rational_view {
   Exact_point form(std::uint32_t piece) const {
     const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[piece]);
     const Exact_point a = direction(corners[0].point);
-    const Exact_point n = oracle::cross(oracle::minus(direction(corners[1].point), a), oracle::minus(direction(corners[2].point), a));
+    const Exact_point n =
+        oracle::cross(oracle::minus(direction(corners[1].point), a), oracle::minus(direction(corners[2].point), a));
     const Rational at = oracle::dot(n, a);
     return {Rational(n[0] / at), Rational(n[1] / at), Rational(n[2] / at)};
   }
@@ -43,29 +44,41 @@ TEST(Exact_view, decides_as_rationals_do_whichever_stage_it_is) {
         const auto some_point = [&] { return static_cast<std::uint32_t>(random.below(scene.points().size())); };
         const auto some_piece = [&] { return static_cast<std::uint32_t>(random.below(scene.pieces().size())); };
         for (int round = 0; round < 60; ++round) {
-          const std::uint32_t a = some_point(), b = some_point(), c = some_point(), d = round % 3 == 0 ? b : some_point(), e = some_point(), f = some_point();
+          const std::uint32_t a = some_point(), b = some_point(), c = some_point(),
+                              d = round % 3 == 0 ? b : some_point(), e = some_point(), f = some_point();
           const Exact_point first = book.normal(a, b), second = book.normal(d, c), third = book.normal(e, f);
-          ASSERT_EQ(view.side(view.edge(a, b), e, counts), static_cast<Sign>(sgn(oracle::dot(first, book.direction(e)))));
+          ASSERT_EQ(view.side(view.edge(a, b), e, counts),
+                    static_cast<Sign>(sgn(oracle::dot(first, book.direction(e)))));
           const std::uint32_t piece = some_piece(), other = some_piece();
           const bool faces = view.eye_side(piece) != CGAL::ZERO && view.eye_side(other) != CGAL::ZERO;
-          if (view.eye_side(piece) != CGAL::ZERO) { ASSERT_EQ(view.beyond(piece, e, counts), static_cast<Sign>(sgn(Rational(oracle::dot(book.form(piece), book.direction(e)) - 1)))); }
-          if (faces) { ASSERT_EQ(view.nearer(piece, other, view.ray(a), counts), static_cast<Sign>(sgn(oracle::dot(oracle::minus(book.form(piece), book.form(other)), book.direction(a))))); }
+          if (view.eye_side(piece) != CGAL::ZERO) {
+            ASSERT_EQ(view.beyond(piece, e, counts),
+                      static_cast<Sign>(sgn(Rational(oracle::dot(book.form(piece), book.direction(e)) - 1))));
+          }
+          if (faces) {
+            ASSERT_EQ(view.nearer(piece, other, view.ray(a), counts),
+                      static_cast<Sign>(
+                          sgn(oracle::dot(oracle::minus(book.form(piece), book.form(other)), book.direction(a)))));
+          }
           ++compared;
           const Exact_point ray = oracle::cross(first, second);
           if (oracle::is_zero(ray)) continue;  // the planes are one: not met
           const Exact_view::Ray meet = view.meet(view.edge(a, b), view.edge(d, c), counts);
           ASSERT_EQ(view.side(view.edge(e, f), meet, counts), static_cast<Sign>(sgn(oracle::dot(third, ray))));
-          ASSERT_EQ(view.side(view.opposite(view.edge(e, f)), meet, counts), static_cast<Sign>(-sgn(oracle::dot(third, ray))));
+          ASSERT_EQ(view.side(view.opposite(view.edge(e, f)), meet, counts),
+                    static_cast<Sign>(-sgn(oracle::dot(third, ray))));
           ASSERT_EQ(view.side(view.axis(1), meet, counts), static_cast<Sign>(sgn(ray[1])));
           ASSERT_EQ(view.side(view.edge(a, b), meet, counts), CGAL::ZERO);
           if (!faces) continue;
           const Exact_point across = oracle::minus(book.form(piece), book.form(other));
           ASSERT_EQ(view.nearer(piece, other, meet, counts), static_cast<Sign>(sgn(oracle::dot(across, ray))));
-          ASSERT_EQ(view.side(view.crossing(piece, other), meet, counts), static_cast<Sign>(sgn(oracle::dot(across, ray))));
+          ASSERT_EQ(view.side(view.crossing(piece, other), meet, counts),
+                    static_cast<Sign>(sgn(oracle::dot(across, ray))));
           const Exact_point third_ray = oracle::cross(across, third);
           if (oracle::is_zero(third_ray)) continue;
           const Exact_view::Ray on_crossing = view.meet(view.crossing(piece, other), view.edge(e, f), counts);
-          ASSERT_EQ(view.side(view.edge(a, b), on_crossing, counts), static_cast<Sign>(sgn(oracle::dot(first, third_ray))));
+          ASSERT_EQ(view.side(view.edge(a, b), on_crossing, counts),
+                    static_cast<Sign>(sgn(oracle::dot(first, third_ray))));
           ASSERT_EQ(view.nearer(piece, other, on_crossing, counts), CGAL::ZERO);
         }
       }
@@ -79,7 +92,8 @@ TEST(Exact_view, decides_as_rationals_do_whichever_stage_it_is) {
 TEST(Exact_view, tells_points_off_a_plane_by_less_than_doubles_know) {
   for (const double off : {0x1p-60, -0x1p-60, 0.0}) {
     Polygon_soup soup;
-    const Point_id a = soup.add_point(0.0, 0.0, 1.0), b = soup.add_point(3.0, 0.0, 1.0), c = soup.add_point(0.0, 3.0, 1.0), d = soup.add_point(0.0, 0.0, 0.0);
+    const Point_id a = soup.add_point(0.0, 0.0, 1.0), b = soup.add_point(3.0, 0.0, 1.0),
+                   c = soup.add_point(0.0, 3.0, 1.0), d = soup.add_point(0.0, 0.0, 0.0);
     Exact_point near{1, 1, 1};
     near[2] += exact(off);
     const Point_id e = soup.add_point(near[0], near[1], near[2]);

@@ -33,27 +33,30 @@ struct Case {
 };
 
 enum class Family {
-  uniform,       ///< on the lattice [-4, 4]^3
-  coplanar,      ///< overlapping in one plane, either sense, and others
-  cyclic,        ///< bars, each over the next
-  crossing,      ///< through each other, also three and more in one line or point
-  joined,        ///< planes subdivided with T-junctions, faces that share edges
-  boxes,         ///< boxes on boxes, walls in pieces
-  edge_on,       ///< planes through the eye
-  touching,      ///< the eye on a face, on an edge, at a corner
-  inside,        ///< the eye in a box, also at its walls
-  aligned,       ///< copies scaled about the eye: edges coincide in view
-  concurrent,    ///< many edges and corners in one line of sight
-  one_ulp,       ///< one of the degenerate ones, some coordinates moved by 2^-40
-  far,           ///< any one, moved by 1e8
-  tiny,          ///< any one, scaled by 2^-30
-  turned         ///< any one, by a rational rotation
+  uniform,     ///< on the lattice [-4, 4]^3
+  coplanar,    ///< overlapping in one plane, either sense, and others
+  cyclic,      ///< bars, each over the next
+  crossing,    ///< through each other, also three and more in one line or point
+  joined,      ///< planes subdivided with T-junctions, faces that share edges
+  boxes,       ///< boxes on boxes, walls in pieces
+  edge_on,     ///< planes through the eye
+  touching,    ///< the eye on a face, on an edge, at a corner
+  inside,      ///< the eye in a box, also at its walls
+  aligned,     ///< copies scaled about the eye: edges coincide in view
+  concurrent,  ///< many edges and corners in one line of sight
+  one_ulp,     ///< one of the degenerate ones, some coordinates moved by 2^-40
+  far,         ///< any one, moved by 1e8
+  tiny,        ///< any one, scaled by 2^-30
+  turned       ///< any one, by a rational rotation
 };
-inline constexpr std::array families{Family::uniform,  Family::coplanar, Family::cyclic,  Family::crossing,   Family::joined,  Family::boxes, Family::edge_on,
-                                     Family::touching, Family::inside,   Family::aligned, Family::concurrent, Family::one_ulp, Family::far,   Family::tiny,    Family::turned};
+inline constexpr std::array families{Family::uniform, Family::coplanar, Family::cyclic,     Family::crossing,
+                                     Family::joined,  Family::boxes,    Family::edge_on,    Family::touching,
+                                     Family::inside,  Family::aligned,  Family::concurrent, Family::one_ulp,
+                                     Family::far,     Family::tiny,     Family::turned};
 inline const char* name(Family family) {
-  static constexpr const char* names[] = {"uniform", "coplanar", "cyclic",     "crossing", "joined", "boxes", "edge_on", "touching",
-                                          "inside",  "aligned",  "concurrent", "one_ulp",  "far",    "tiny",  "turned"};
+  static constexpr const char* names[] = {"uniform",    "coplanar", "cyclic",   "crossing", "joined",
+                                          "boxes",      "edge_on",  "touching", "inside",   "aligned",
+                                          "concurrent", "one_ulp",  "far",      "tiny",     "turned"};
   return names[static_cast<std::size_t>(family)];
 }
 
@@ -88,13 +91,15 @@ inline std::vector<Case> make(Family family, std::uint64_t seed) {
   if (family == Family::one_ulp)
     for (std::size_t count = 1 + random.below(3); count > 0; --count) {
       Points& face = made.faces[random.below(made.faces.size())];
-      Exact_point& p = random.chance(1, 4) ? made.eyes[random.below(made.eyes.size())] : face[random.below(face.size())];
+      Exact_point& p =
+          random.chance(1, 4) ? made.eyes[random.below(made.eyes.size())] : face[random.below(face.size())];
       Rational& x = p[random.below(3)];
       x += Rational(random.chance(1, 2) ? 1 : -1, 1ul << 40);
     }
   std::vector<Case> cases;
   const std::string label = std::string(name(family)) + ' ' + std::to_string(seed) + '.';
-  for (const Exact_point& eye : made.eyes) cases.push_back({label + std::to_string(cases.size()), soup_of(made.faces), eye});
+  for (const Exact_point& eye : made.eyes)
+    cases.push_back({label + std::to_string(cases.size()), soup_of(made.faces), eye});
   return cases;
 }
 

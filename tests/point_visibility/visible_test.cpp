@@ -1,4 +1,5 @@
-// Visible surfaces against brute force: exact areas and points, directions, the law, other kernels, any number of threads.
+// Visible surfaces against brute force: exact areas and points, directions, the law, other kernels, any number of
+// threads.
 
 #include "support.h"
 
@@ -34,10 +35,12 @@ void expect_as_brute_force(const view_scenes::Case& given) {
     for (const auto& part : parts[i])
       for (std::size_t k = 0; k < part.size(); ++k) {  // in its plane, and counterclockwise as seen from the front
         ASSERT_EQ(flats[i].height(part[k]), 0);
-        const Exact_point turn = oracle::cross(oracle::minus(part[(k + 1) % part.size()], part[k]), oracle::minus(part[(k + 2) % part.size()], part[(k + 1) % part.size()]));
+        const Exact_point turn = oracle::cross(oracle::minus(part[(k + 1) % part.size()], part[k]),
+                                               oracle::minus(part[(k + 2) % part.size()], part[(k + 1) % part.size()]));
         ASSERT_GE(oracle::dot(turn, normal), 0) << "face " << flats[i].face;
       }
-    ASSERT_EQ(oracle::projected_area(parts[i], normal), oracle::projected_area(expected[i], normal)) << "face " << flats[i].face;
+    ASSERT_EQ(oracle::projected_area(parts[i], normal), oracle::projected_area(expected[i], normal))
+        << "face " << flats[i].face;
     ASSERT_TRUE(oracle::same_points(parts[i], expected[i], normal)) << "face " << flats[i].face;
   }
 
@@ -64,12 +67,15 @@ TEST_P(See, shows_in_each_direction_what_a_ray_meets_first) {
       const Visible_surface<Exact_view> surface = visible_surface(view, Piece_boxes(scene));
       const oracle::Flats flats = oracle::flats_of(scene);
       for (int k = 0; k < 100; ++k) {
-        const Exact_point direction = k % 2 == 0 || flats.empty() ? oracle::random_direction(random) : oracle::random_direction_at(flats, given.eye, random);
+        const Exact_point direction = k % 2 == 0 || flats.empty()
+                                          ? oracle::random_direction(random)
+                                          : oracle::random_direction_at(flats, given.eye, random);
         bool generic = true;
         const std::optional<std::uint32_t> hit = oracle::first_hit(flats, given.eye, direction, &generic);
         if (!generic) continue;
         ++compared;
-        for (const std::uint32_t seen : seen_in(view, surface, direction)) ASSERT_EQ(seen, hit.value_or(surface.nothing));
+        for (const std::uint32_t seen : seen_in(view, surface, direction))
+          ASSERT_EQ(seen, hit.value_or(surface.nothing));
         ASSERT_FALSE(seen_in(view, surface, direction).empty());
       }
     }
@@ -89,7 +95,8 @@ TEST_P(See, is_the_same_in_every_exact_kernel) {
       ASSERT_EQ(exactly.visible, rationally.visible);
       const auto parts = polygons(view, exactly), others = polygons(rational, rationally);
       const oracle::Flats flats = oracle::flats_of(scene);
-      for (std::size_t i = 0; i < flats.size(); ++i) ASSERT_TRUE(oracle::same_points(parts[i], others[i], flats[i].plane.normal)) << "face " << flats[i].face;
+      for (std::size_t i = 0; i < flats.size(); ++i)
+        ASSERT_TRUE(oracle::same_points(parts[i], others[i], flats[i].plane.normal)) << "face " << flats[i].face;
     }
 }
 
@@ -103,7 +110,8 @@ TEST_P(See, survives_doubles_and_floats) {
     }
 }
 
-/// Tiles on a floor, with higher ids, so that the floor is shown in their place: visible by the law all the same, unless walls hide them.
+/// Tiles on a floor, with higher ids, so that the floor is shown in their place: visible by the law all the same,
+/// unless walls hide them.
 TEST(Ties, tell_which_faces_the_law_calls_visible) {
   using view_scenes::rectangle, view_scenes::ratio;
   const view_scenes::Points floor = rectangle(-20, 20, -20, 20, 0);
@@ -114,11 +122,15 @@ TEST(Ties, tell_which_faces_the_law_calls_visible) {
     return visible_surface(view, Piece_boxes(scene)).visible;
   };
   EXPECT_EQ(visible({floor, tile}, {0, 0, 2}), (std::vector<Face_id>{0, 1}));
-  EXPECT_EQ(visible({floor, tile, wall}, {0, 0, 2}), (std::vector<Face_id>{0, 2}));  // all of the tile is behind the wall
+  EXPECT_EQ(visible({floor, tile, wall}, {0, 0, 2}),
+            (std::vector<Face_id>{0, 2}));  // all of the tile is behind the wall
   EXPECT_EQ(visible({floor, tile, wall}, {0, 0, 30}), (std::vector<Face_id>{0, 1, 2}));
-  EXPECT_EQ(visible({tile, rectangle(-1, 0, 8, 9, 0), rectangle(0, 1, 8, 9, 0)}, {0, 0, 2}), (std::vector<Face_id>{0, 1, 2}));
-  EXPECT_EQ(visible({view_scenes::reversed(floor), tile}, {0, 0, 2}), (std::vector<Face_id>{1}));  // the floor's back gives way
-  EXPECT_EQ(visible({rectangle(-1, 0, 8, 9, 0), rectangle(0, 1, 8, 9, 0), tile}, {0, 0, 2}), (std::vector<Face_id>{0, 1, 2}));
+  EXPECT_EQ(visible({tile, rectangle(-1, 0, 8, 9, 0), rectangle(0, 1, 8, 9, 0)}, {0, 0, 2}),
+            (std::vector<Face_id>{0, 1, 2}));
+  EXPECT_EQ(visible({view_scenes::reversed(floor), tile}, {0, 0, 2}),
+            (std::vector<Face_id>{1}));  // the floor's back gives way
+  EXPECT_EQ(visible({rectangle(-1, 0, 8, 9, 0), rectangle(0, 1, 8, 9, 0), tile}, {0, 0, 2}),
+            (std::vector<Face_id>{0, 1, 2}));
 
   generate::Random random(3);
   const auto number = [&](long low, long high) { return Rational(static_cast<long>(random.between(low, high))); };
@@ -126,20 +138,25 @@ TEST(Ties, tell_which_faces_the_law_calls_visible) {
     std::vector<view_scenes::Points> faces{floor};
     for (int k = 0; k < 4; ++k) {
       const Rational x = number(-9, 9), y = number(2, 12);
-      if (k % 2 == 0) faces.push_back({{x, y, 0}, {x + number(1, 3), y + number(-1, 1), 0}, {x + number(-1, 1), y + number(2, 3), 0}});
+      if (k % 2 == 0)
+        faces.push_back(
+            {{x, y, 0}, {x + number(1, 3), y + number(-1, 1), 0}, {x + number(-1, 1), y + number(2, 3), 0}});
       else faces.push_back(rectangle(x, x + number(1, 3), y, y + number(1, 3), 0));
     }
     for (int k = 0; k < 2; ++k) {
       const Rational x = number(-6, 6), y = number(1, 7), w = number(1, 6), h = number(1, 3), d = number(-2, 2);
       faces.push_back({{x, y, 0}, {x + w, y + d, 0}, {x + w, y + d, h}, {x, y, h}});
     }
-    expect_as_brute_force({"tiles " + std::to_string(round), view_scenes::soup_of(faces), {number(-1, 1), number(-2, 0), number(1, 3)}});
+    expect_as_brute_force(
+        {"tiles " + std::to_string(round), view_scenes::soup_of(faces), {number(-1, 1), number(-2, 0), number(1, 3)}});
   }
 }
 
 TEST(Crossings, are_cut_where_many_faces_that_cover_a_region_cross) {
   for (const std::uint64_t seed : {1, 2, 3, 4})
-    for (const Exact_point& eye : {Exact_point{view_scenes::ratio(1, 3), -2, view_scenes::ratio(1, 10)}, Exact_point{view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), view_scenes::ratio(1, 2)}}) {
+    for (const Exact_point& eye :
+         {Exact_point{view_scenes::ratio(1, 3), -2, view_scenes::ratio(1, 10)},
+          Exact_point{view_scenes::ratio(1, 2), view_scenes::ratio(1, 2), view_scenes::ratio(1, 2)}}) {
       const Scene scene(generate::soup(40, 0.5, seed));
       const Exact_view view(scene, eye);
       const auto surface = visible_surface(view, Piece_boxes(scene));
@@ -149,7 +166,8 @@ TEST(Crossings, are_cut_where_many_faces_that_cover_a_region_cross) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, See, testing::ValuesIn(view_scenes::families), [](const auto& of) { return std::string(view_scenes::name(of.param)); });
+INSTANTIATE_TEST_SUITE_P(All, See, testing::ValuesIn(view_scenes::families),
+                         [](const auto& of) { return std::string(view_scenes::name(of.param)); });
 
 }  // namespace
 }  // namespace sightline::see_test

@@ -13,10 +13,13 @@ namespace {
 
 static_assert(Slope_traits<Exact_traits>);
 
-/// A convex polygon of n edges with integer coordinates in the plane spanned by u and v: random edges, and one that closes it, in order of angle. Most of them look
-/// one way, so that few edges rise or few fall over a plane. Begun anywhere.
+/// A convex polygon of n edges with integer coordinates in the plane spanned by u and v: random edges, and one that
+/// closes it, in order of angle. Most of them look one way, so that few edges rise or few fall over a plane. Begun
+/// anywhere.
 Points lattice_polygon(long n, const std::array<long, 3>& u, const std::array<long, 3>& v, std::mt19937& random) {
-  const auto any = [&](long reach) { return static_cast<long>(random() % static_cast<unsigned long>(2 * reach + 1)) - reach; };
+  const auto any = [&](long reach) {
+    return static_cast<long>(random() % static_cast<unsigned long>(2 * reach + 1)) - reach;
+  };
   const long reach = n < 100 ? 4 : 1000, bias_x = any(9), bias_y = any(9);
   std::vector<std::pair<long, long>> edges;
   long x = 0, y = 0;
@@ -28,7 +31,9 @@ Points lattice_polygon(long n, const std::array<long, 3>& u, const std::array<lo
   }
   if (x != 0 || y != 0) edges.emplace_back(-x, -y);
   const auto half = [](const std::pair<long, long>& d) { return d.second < 0 || (d.second == 0 && d.first < 0); };
-  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return half(a) != half(b) ? half(a) < half(b) : a.first * b.second > a.second * b.first; });
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
+    return half(a) != half(b) ? half(a) < half(b) : a.first * b.second > a.second * b.first;
+  });
   Points corners;
   x = y = 0;
   for (const auto& [dx, dy] : edges) {
@@ -47,7 +52,8 @@ TEST(Bimodal, finds_the_highest_corner_of_any_polygon_over_any_plane) {
     const std::array<long, 3> u{small(), small(), small()}, v{small(), small(), small()};
     const long n = std::array<long, 5>{4, 6, 9, 20, 70}[static_cast<std::size_t>(trial % 5)];
     Polygon_soup soup = soup_of({lattice_polygon(n, u, v, random)});
-    for (int k = 0; k < 8; ++k) add_face(soup, {at(small(), small(), small()), at(small(), small(), small()), at(small(), small(), small())});
+    for (int k = 0; k < 8; ++k)
+      add_face(soup, {at(small(), small(), small()), at(small(), small(), small()), at(small(), small(), small())});
     add_face(soup, {at(0, 0, 9), at(u[0], u[1], 9 + u[2]), at(v[0], v[1], 9 + v[2])});  // parallel
     const Related scene(std::move(soup));
     if (scene.relation.size() == 0 || scene.traits.face(0) != 0) continue;  // u and v are parallel
@@ -66,7 +72,8 @@ TEST(Bimodal, finds_the_highest_corner_of_any_polygon_over_any_plane) {
         const Rational most = *std::max_element(heights.begin(), heights.end());
         ASSERT_EQ(heights[found], most) << "trial " << trial << ", plane " << j << ", " << polygon.size << " corners";
         Polygon_store<Exact_traits> store;
-        const std::uint32_t from_behind = highest_corner(scene.traits, turned_round(polygon, store), scene.traits.prepare(plane), counts);
+        const std::uint32_t from_behind =
+            highest_corner(scene.traits, turned_round(polygon, store), scene.traits.prepare(plane), counts);
         ASSERT_EQ(heights[polygon.size - 1 - from_behind], most) << "turned round, trial " << trial << ", plane " << j;
         const auto highest = std::count(heights.begin(), heights.end(), most);
         ++compared, level += highest > 1, parallel += highest == static_cast<long>(polygon.size);
@@ -92,7 +99,9 @@ TEST(Bimodal, takes_logarithmically_many_predicates) {
 TEST(Bimodal, decides_the_relation_of_polygons_of_many_corners) {
   // Discs above each other, one across both, and triangles.
   std::mt19937 random(3);
-  Polygon_soup soup = soup_of({lattice_polygon(300, {1, 0, 0}, {0, 1, 0}, random), lattice_polygon(600, {1, 0, 1}, {0, 1, 2}, random), reversed(lattice_polygon(300, {0, 1, 1}, {1, 0, 0}, random))});
+  Polygon_soup soup =
+      soup_of({lattice_polygon(300, {1, 0, 0}, {0, 1, 0}, random), lattice_polygon(600, {1, 0, 1}, {0, 1, 2}, random),
+               reversed(lattice_polygon(300, {0, 1, 1}, {1, 0, 0}, random))});
   for (int k = 0; k < 40; ++k) {
     const auto any = [&] { return ratio(static_cast<long>(random() % 200001) - 100000, 1); };
     add_face(soup, {at(any(), any(), any()), at(any(), any(), any()), at(any(), any(), any())});
@@ -122,7 +131,8 @@ TEST(Orientation, of_three_planes_is_the_determinant_of_their_normals) {
   std::mt19937 random(9);
   Polygon_soup soup;
   const auto any = [&] { return ratio(static_cast<long>(random() % 2001) - 1000, 1); };
-  for (int k = 0; k < 40; ++k) add_face(soup, {at(any(), any(), any()), at(any(), any(), any()), at(any(), any(), any())});
+  for (int k = 0; k < 40; ++k)
+    add_face(soup, {at(any(), any(), any()), at(any(), any(), any()), at(any(), any(), any())});
   for (int k = 0; k < 10; ++k) add_face(soup, {at(k, 0, 0), at(k + 1, 0, 0), at(k, 1, k % 3)});
   const Related scene(std::move(soup));
   Predicate_counts counts;
@@ -135,8 +145,12 @@ TEST(Orientation, of_three_planes_is_the_determinant_of_their_normals) {
     }
     std::array<std::array<Integer, 4>, 3> h;
     for (std::size_t k = 0; k < 3; ++k) h[k] = scene.traits.predicates().coefficients(planes[k]);
-    const Integer determinant = h[0][0] * (h[1][1] * h[2][2] - h[1][2] * h[2][1]) - h[0][1] * (h[1][0] * h[2][2] - h[1][2] * h[2][0]) + h[0][2] * (h[1][0] * h[2][1] - h[1][1] * h[2][0]);
-    ASSERT_EQ(static_cast<int>(scene.traits.predicates().orientation(planes[0], planes[1], planes[2], counts)), sgn(determinant)) << trial;
+    const Integer determinant = h[0][0] * (h[1][1] * h[2][2] - h[1][2] * h[2][1]) -
+                                h[0][1] * (h[1][0] * h[2][2] - h[1][2] * h[2][0]) +
+                                h[0][2] * (h[1][0] * h[2][1] - h[1][1] * h[2][0]);
+    ASSERT_EQ(static_cast<int>(scene.traits.predicates().orientation(planes[0], planes[1], planes[2], counts)),
+              sgn(determinant))
+        << trial;
     zeros += sgn(determinant) == 0;
   }
   EXPECT_GT(zeros, 500u);

@@ -1,4 +1,5 @@
-// The codes of pairs of faces against plain rationals: the Lemma, insides that meet, planes between, and what rays pierce first.
+// The codes of pairs of faces against plain rationals: the Lemma, insides that meet, planes between, and what rays
+// pierce first.
 
 #include "support.h"
 
@@ -29,7 +30,8 @@ bool parallel(const Flat& a, const Flat& b) {
 }
 bool coplanar(const Flat& a, const Flat& b) { return parallel(a, b) && a.height(b.corners[0]) == 0; }
 
-/// Whether the relative interiors meet, the planes being across one another: a's open chord in b's plane, cut down by the lines of b's edges, keeps a length.
+/// Whether the relative interiors meet, the planes being across one another: a's open chord in b's plane, cut down by
+/// the lines of b's edges, keeps a length.
 bool insides_meet(const Flat& a, const Flat& b) {
   if (parallel(a, b)) return false;
   Points chord;
@@ -40,7 +42,10 @@ bool insides_meet(const Flat& a, const Flat& b) {
     if (sgn(from) * sgn(to) < 0) chord.push_back(along(p, from / (from - to), minus(q, p)));
   }
   if (chord.size() != 2) return false;
-  const auto on_side = [&](int side) { return std::any_of(a.corners.begin(), a.corners.end(), [&](const Exact_point& p) { return sgn(b.height(p)) == side; }); };
+  const auto on_side = [&](int side) {
+    return std::any_of(a.corners.begin(), a.corners.end(),
+                       [&](const Exact_point& p) { return sgn(b.height(p)) == side; });
+  };
   if (!on_side(1) || !on_side(-1)) return false;  // the chord is an edge
   Rational low = 0, high = 1;
   for (std::size_t k = 0; k < b.corners.size(); ++k) {
@@ -64,7 +69,9 @@ bool is_between(const priority_detail::Normal_and_point& plane, const Flat& fron
     }
     return least_most;
   };
-  return extremes(front) == std::pair{0, 1} || extremes(front) == std::pair{1, 1} ? extremes(back) == std::pair{-1, 0} || extremes(back) == std::pair{-1, -1} : false;
+  return extremes(front) == std::pair{0, 1} || extremes(front) == std::pair{1, 1}
+             ? extremes(back) == std::pair{-1, 0} || extremes(back) == std::pair{-1, -1}
+             : false;
 }
 
 /// The code that the definitions ask for.
@@ -87,7 +94,8 @@ Hits pierced(const Flats& flats, const Exact_point& eye, const Exact_point& towa
   return hits;
 }
 
-/// Eyes of each kind: in general place, in a face's plane, at a corner, and where the line through two faces comes from.
+/// Eyes of each kind: in general place, in a face's plane, at a corner, and where the line through two faces comes
+/// from.
 Exact_point eye_towards(const Flats& flats, const Exact_point& target, std::uint64_t kind, Random& random) {
   const auto corner = [&] {
     const Points& corners = flats[random.below(flats.size())].corners;
@@ -101,7 +109,9 @@ Exact_point eye_towards(const Flats& flats, const Exact_point& target, std::uint
       return along(along(c[0], times(), minus(c[1], c[0])), times(), minus(c[2], c[0]));
     }
     case 2: return corner();
-    default: return along(target, ratio(random.between(1, 40), 8), minus(target, inside_of(flats[random.below(flats.size())].corners, random)));
+    default:
+      return along(target, ratio(random.between(1, 40), 8),
+                   minus(target, inside_of(flats[random.below(flats.size())].corners, random)));
   }
 }
 
@@ -116,7 +126,8 @@ TEST(Pair_code, is_that_of_the_definitions_on_2000_degenerate_scenes_and_its_pla
       for (std::uint32_t j = 0; j < codes.size(); ++j) {
         const Pair_code& code = codes[i][j];
         ASSERT_EQ(code.precedence, expected_code(scene.flats, arcs, i, j)) << "scene " << k << ": " << i << ", " << j;
-        ASSERT_EQ(code.plane.has_value(), code.precedence == Precedence::by_plane) << "scene " << k << ": " << i << ", " << j;
+        ASSERT_EQ(code.plane.has_value(), code.precedence == Precedence::by_plane)
+            << "scene " << k << ": " << i << ", " << j;
         ++met[code.precedence];
         if (!code.plane) continue;
         ASSERT_TRUE(is_between(*code.plane, scene.flats[i], scene.flats[j])) << "scene " << k << ": " << i << ", " << j;
@@ -126,7 +137,8 @@ TEST(Pair_code, is_that_of_the_definitions_on_2000_degenerate_scenes_and_its_pla
         touching_planes += scene.flats[i].crossing(scene.flats[j].corners[0], scene.flats[j].corners[1]) == Rational(0);
       }
   }
-  for (const Precedence p : {Precedence::never, Precedence::first, Precedence::second, Precedence::crossing}) EXPECT_GT(met[p], 5000u) << static_cast<int>(p);
+  for (const Precedence p : {Precedence::never, Precedence::first, Precedence::second, Precedence::crossing})
+    EXPECT_GT(met[p], 5000u) << static_cast<int>(p);
   EXPECT_GT(met[Precedence::by_plane], 500u);
   EXPECT_EQ(met[Precedence::first], met[Precedence::second]);
   EXPECT_GT(touching_planes, 10u);
@@ -141,7 +153,8 @@ TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_
     const Related scene(degenerate_soup(k));
     if (scene.flats.empty()) continue;
     for (std::uint64_t ray = 0; ray < 15; ++ray) {
-      const Exact_point target = inside_of(scene.flats[random.below(scene.flats.size())].corners, random), eye = eye_towards(scene.flats, target, ray, random);
+      const Exact_point target = inside_of(scene.flats[random.below(scene.flats.size())].corners, random),
+                        eye = eye_towards(scene.flats, target, ray, random);
       const Hits hits = pierced(scene.flats, eye, target);
       two += hits.size() >= 2, three += hits.size() >= 3, four += hits.size() >= 4;
       for (std::size_t a = 0; a < hits.size(); ++a)
@@ -152,12 +165,14 @@ TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_
           if (code.precedence == Precedence::crossing) {
             ++crossing;
           } else if (hits[a].first == hits[b].first) {  // insides at one distance: one plane, or they cross
-            ASSERT_TRUE(coplanar(scene.flats[i], scene.flats[j]) && code.precedence == Precedence::never) << "scene " << k << ": " << i << ", " << j;
+            ASSERT_TRUE(coplanar(scene.flats[i], scene.flats[j]) && code.precedence == Precedence::never)
+                << "scene " << k << ": " << i << ", " << j;
             ASSERT_EQ(code.first_is_nearer(eye), std::nullopt);
             ++in_one_plane;
           } else {
             ASSERT_NE(code.precedence, Precedence::never) << "scene " << k << ": " << i << ", " << j;
-            ASSERT_EQ(code.first_is_nearer(eye), std::optional<bool>(hits[a].first < hits[b].first)) << "scene " << k << ": " << i << ", " << j;
+            ASSERT_EQ(code.first_is_nearer(eye), std::optional<bool>(hits[a].first < hits[b].first))
+                << "scene " << k << ": " << i << ", " << j;
             ++decided[code.precedence];
           }
         }
@@ -173,7 +188,8 @@ TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_
   EXPECT_GT(decided[Precedence::by_plane], 200u);
 }
 
-// ---- The paper's components -----------------------------------------------------------------------------------------------------------
+// ---- The paper's components
+// -----------------------------------------------------------------------------------------------------------
 
 /// Rays through inner points of two different faces, from beyond the first: what they pierce, if they pierce both.
 template <class Function>
@@ -226,14 +242,19 @@ TEST(Figure_9, three_that_obscure_one_another_in_a_cycle_are_a_complete_subgraph
 TEST(Figure_9, three_bars_over_each_other_are_pierced_by_one_ray_only_from_eyes_whose_codes_are_an_order) {
   const Related scene(generate::bars(3));
   const Codes codes = codes_of(scene.relation);
-  const auto turns = [&](const Exact_point& eye) {  // of the three codes round the ring, those that say that the first is nearer
-    return (codes[0][1].first_is_nearer(eye) == true) + (codes[1][2].first_is_nearer(eye) == true) + (codes[2][0].first_is_nearer(eye) == true);
-  };
-  for (std::uint32_t i = 0; i < 3; ++i) EXPECT_EQ(codes[i][(i + 1) % 3].precedence, Precedence::by_plane) << "sloping bars: from low enough the other one is nearer";
+  const auto turns =
+      [&](const Exact_point& eye) {  // of the three codes round the ring, those that say that the first is nearer
+        return (codes[0][1].first_is_nearer(eye) == true) + (codes[1][2].first_is_nearer(eye) == true) +
+               (codes[2][0].first_is_nearer(eye) == true);
+      };
+  for (std::uint32_t i = 0; i < 3; ++i)
+    EXPECT_EQ(codes[i][(i + 1) % 3].precedence, Precedence::by_plane)
+        << "sloping bars: from low enough the other one is nearer";
   EXPECT_EQ(turns(at(0, 0, 1000)), 3) << "from above, each is over the next";
   std::size_t in_cycles = 0, in_orders = 0, all_three = 0;
   look_through_pairs(scene.flats, 6000, [&](const Exact_point& eye, const Hits& hits) {
-    for (std::size_t a = 0; a + 1 < hits.size(); ++a) EXPECT_EQ(codes[hits[a].second][hits[a + 1].second].first_is_nearer(eye), true);
+    for (std::size_t a = 0; a + 1 < hits.size(); ++a)
+      EXPECT_EQ(codes[hits[a].second][hits[a + 1].second].first_is_nearer(eye), true);
     const bool cycle = turns(eye) == 3 || turns(eye) == 0;
     ++(cycle ? in_cycles : in_orders);
     all_three += hits.size() == 3;
@@ -244,10 +265,13 @@ TEST(Figure_9, three_bars_over_each_other_are_pierced_by_one_ray_only_from_eyes_
   EXPECT_GT(all_three, 0u);
 }
 
-// ---- Laws ------------------------------------------------------------------------------------------------------------------------------
+// ---- Laws
+// ------------------------------------------------------------------------------------------------------------------------------
 
 /// The other one first.
-Precedence exchanged(Precedence p) { return p == Precedence::first ? Precedence::second : p == Precedence::second ? Precedence::first : p; }
+Precedence exchanged(Precedence p) {
+  return p == Precedence::first ? Precedence::second : p == Precedence::second ? Precedence::first : p;
+}
 
 /// The image in a mirror: x and -z exchange places, loops go round the other way so that fronts stay fronts.
 Polygon_soup mirrored(const Flats& flats) {
@@ -265,9 +289,13 @@ TEST(Pair_code, mirrors_with_the_scene_exchanges_with_the_arguments_and_reverses
   for (std::uint64_t k = 0; k < 500; ++k) {
     Random random(k);
     const Related scene(moved(touching_soup(random), k % 3 == 2 ? Move::far : Move::none, k));
-    const Related mirror(mirrored(scene.flats)), back(generate::faces_reversed(scene.soup)), rotated(generate::rotated(scene.soup, generate::rotation(2, 1, -1, 1)));
-    const Codes codes = codes_of(scene.relation), in_mirror = codes_of(mirror.relation), from_behind = codes_of(back.relation), elsewhere = codes_of(rotated.relation);
-    ASSERT_TRUE(in_mirror.size() == codes.size() && from_behind.size() == codes.size() && elsewhere.size() == codes.size()) << "scene " << k;
+    const Related mirror(mirrored(scene.flats)), back(generate::faces_reversed(scene.soup)),
+        rotated(generate::rotated(scene.soup, generate::rotation(2, 1, -1, 1)));
+    const Codes codes = codes_of(scene.relation), in_mirror = codes_of(mirror.relation),
+                from_behind = codes_of(back.relation), elsewhere = codes_of(rotated.relation);
+    ASSERT_TRUE(in_mirror.size() == codes.size() && from_behind.size() == codes.size() &&
+                elsewhere.size() == codes.size())
+        << "scene " << k;
     for (std::uint32_t i = 0; i < codes.size(); ++i)
       for (std::uint32_t j = 0; j < codes.size(); ++j) {
         const Precedence code = codes[i][j].precedence;
@@ -277,9 +305,13 @@ TEST(Pair_code, mirrors_with_the_scene_exchanges_with_the_arguments_and_reverses
         ASSERT_EQ(from_behind[i][j].precedence, exchanged(code)) << "scene " << k << ": " << i << ", " << j;
         ordered += code == Precedence::first, by_plane += code == Precedence::by_plane;
         if (code != Precedence::by_plane) continue;
-        for (const Pair_code* plane : {&from_behind[i][j], &codes[i][j]})  // the senses of planes do not follow the fronts, they follow the arguments
-          ASSERT_TRUE(is_between(*plane->plane, scene.flats[i], scene.flats[j])) << "scene " << k << ": " << i << ", " << j;
-        ASSERT_TRUE(is_between(*codes[j][i].plane, scene.flats[j], scene.flats[i])) << "scene " << k << ": " << i << ", " << j;
+        for (const Pair_code* plane :
+             {&from_behind[i][j],
+              &codes[i][j]})  // the senses of planes do not follow the fronts, they follow the arguments
+          ASSERT_TRUE(is_between(*plane->plane, scene.flats[i], scene.flats[j]))
+              << "scene " << k << ": " << i << ", " << j;
+        ASSERT_TRUE(is_between(*codes[j][i].plane, scene.flats[j], scene.flats[i]))
+            << "scene " << k << ": " << i << ", " << j;
       }
   }
   EXPECT_GT(ordered, 3000u);
@@ -292,7 +324,8 @@ TEST(Pair_code, is_the_same_under_other_exact_kernels) {
     const Related scene(degenerate_soup(k + 70000));
     const Point_traits<CGAL::Epeck> epeck(scene.scene);
     const Point_traits<CGAL::Cartesian<CGAL::Gmpq>> gmpq(scene.scene);
-    const Codes expected = codes_of(scene.relation), lazy = codes_of(Priority_relation(epeck)), eager = codes_of(Priority_relation(gmpq));
+    const Codes expected = codes_of(scene.relation), lazy = codes_of(Priority_relation(epeck)),
+                eager = codes_of(Priority_relation(gmpq));
     for (std::uint32_t i = 0; i < expected.size(); ++i)
       for (std::uint32_t j = 0; j < expected.size(); ++j) {
         ASSERT_EQ(lazy[i][j].precedence, expected[i][j].precedence) << "scene " << k << ": " << i << ", " << j;
@@ -300,8 +333,10 @@ TEST(Pair_code, is_the_same_under_other_exact_kernels) {
         ++pairs;
         if (expected[i][j].precedence != Precedence::by_plane) continue;
         ++planes;
-        ASSERT_TRUE(is_between(*lazy[i][j].plane, scene.flats[i], scene.flats[j])) << "scene " << k << ": " << i << ", " << j;
-        ASSERT_TRUE(is_between(*eager[i][j].plane, scene.flats[i], scene.flats[j])) << "scene " << k << ": " << i << ", " << j;
+        ASSERT_TRUE(is_between(*lazy[i][j].plane, scene.flats[i], scene.flats[j]))
+            << "scene " << k << ": " << i << ", " << j;
+        ASSERT_TRUE(is_between(*eager[i][j].plane, scene.flats[i], scene.flats[j]))
+            << "scene " << k << ": " << i << ", " << j;
       }
   }
   EXPECT_GT(pairs, 4000u);

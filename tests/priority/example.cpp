@@ -30,7 +30,8 @@ void draw(const sightline::Polygon_soup& soup, const sightline::Exact_point& eye
   const sightline::Exact_traits traits(scene);
   const auto tree = sightline::build_priority_tree(traits);  // once, for all eyes
   out << tree.counters.planes << " planes, " << tree.counters.left << " faces left in cycles\n";
-  for (const auto& polygon : sightline::back_to_front(traits, tree, eye).polygons) out << "face " << traits.face(polygon.piece) << '\n';
+  for (const auto& polygon : sightline::back_to_front(traits, tree, eye).polygons)
+    out << "face " << traits.face(polygon.piece) << '\n';
 }
 
 TEST(Example, of_the_documentation_page_prints_what_it_says) {

@@ -1,4 +1,5 @@
-// Orders by the priority graph: accepted by the checker, whole where they can be, for eyes in general places and in bad ones.
+// Orders by the priority graph: accepted by the checker, whole where they can be, for eyes in general places and in bad
+// ones.
 
 #include "support.h"
 
@@ -12,7 +13,8 @@ using namespace priority_test;
 
 namespace {
 
-Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye, const Eye_order<Exact_traits>& order, bool on_view) {
+Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye,
+                                 const Eye_order<Exact_traits>& order, bool on_view) {
   Order_certificate certificate;
   certificate.eye = eye, certificate.on_view = on_view;
   std::set<Face_id> cut(scene.non_planar().begin(), scene.non_planar().end());
@@ -41,17 +43,20 @@ struct Ordered {
 
   explicit Ordered(Polygon_soup given) : soup(std::move(given)), scene(soup), traits(scene) {}
 
-  /// The counters of an order of both sides that the checker must accept, as it must those of on-view faces, and of trees that were cut.
+  /// The counters of an order of both sides that the checker must accept, as it must those of on-view faces, and of
+  /// trees that were cut.
   Eye_order_counters check(const Exact_point& eye) const {
     const auto order = [&](bool two_sided, bool split) {
       const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {two_sided, split, {}});
       const Eye_order<Exact_traits> found = back_to_front(traits, tree, eye);
       const Verdict verdict = verify_order(soup, certificate_of(scene, traits, eye, found, !two_sided));
-      EXPECT_TRUE(verdict.accepted) << verdict.why << (two_sided ? ", both sides" : ", on-view") << (split ? ", cut" : "");
+      EXPECT_TRUE(verdict.accepted) << verdict.why << (two_sided ? ", both sides" : ", on-view")
+                                    << (split ? ", cut" : "");
       const Eye_order_counters& c = found.counters;
       EXPECT_EQ(c.fragments, found.polygons.size());
       if (!split) {
-        EXPECT_EQ(c.off_view + c.edge_on + c.fragments - c.splits - (two_sided ? c.edge_on / 2 : 0), tree.counters.polygons);
+        EXPECT_EQ(c.off_view + c.edge_on + c.fragments - c.splits - (two_sided ? c.edge_on / 2 : 0),
+                  tree.counters.polygons);
       }
       EXPECT_TRUE(c.cycles > 0 || c.splits == 0);
       EXPECT_TRUE(!split || c.searched == 0);
@@ -75,7 +80,8 @@ TEST(Eye_order, of_disjoint_bodies_draws_every_face_whole) {
     const auto box = given.scene.box();
     for (long k = 0; k < 6; ++k) {
       Exact_point eye;
-      for (std::size_t a = 0; a < 3; ++a) eye[a] = box[0][a] + (box[1][a] - box[0][a]) * ratio(3 * k + 7 * static_cast<long>(a) - 8, 7) + ratio(1, 1009);
+      for (std::size_t a = 0; a < 3; ++a)
+        eye[a] = box[0][a] + (box[1][a] - box[0][a]) * ratio(3 * k + 7 * static_cast<long>(a) - 8, 7) + ratio(1, 1009);
       const Eye_order_counters c = given.check(eye);
       EXPECT_TRUE(given.whole(c)) << kind << ' ' << k;
     }
@@ -84,7 +90,10 @@ TEST(Eye_order, of_disjoint_bodies_draws_every_face_whole) {
 
 TEST(Eye_order, of_bars_in_a_cycle_cuts_them_and_nothing_else) {
   // A ring of three as seen from above, and a square far below that is drawn whole.
-  Polygon_soup soup = soup_of({{at(0, 0, 0), at(6, 0, 2), at(6, 1, 2), at(0, 1, 0)}, {at(5, 0, 0), at(6, 0, 0), at(3, 6, 2), at(2, 6, 2)}, {at(4, 6, 0), at(3, 6, 0), at(0, 0, 2), at(1, 0, 2)}, rectangle(-9, 9, -9, 9, -5)});
+  Polygon_soup soup = soup_of({{at(0, 0, 0), at(6, 0, 2), at(6, 1, 2), at(0, 1, 0)},
+                               {at(5, 0, 0), at(6, 0, 0), at(3, 6, 2), at(2, 6, 2)},
+                               {at(4, 6, 0), at(3, 6, 0), at(0, 0, 2), at(1, 0, 2)},
+                               rectangle(-9, 9, -9, 9, -5)});
   const Ordered given(std::move(soup));
   const Eye_order_counters above = given.check(at(ratio(5, 2), 2, 30));
   EXPECT_EQ(above.cycles, 1u);
@@ -108,9 +117,12 @@ TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
     if (given.scene.pieces().empty()) continue;
     // In a face's plane, at a corner, in general place.
     const Piece& piece = given.scene.pieces()[k % given.scene.pieces().size()];
-    const Exact_point a = given.scene.position(given.scene.corners(piece)[0].point), b = given.scene.position(given.scene.corners(piece)[1].point);
+    const Exact_point a = given.scene.position(given.scene.corners(piece)[0].point),
+                      b = given.scene.position(given.scene.corners(piece)[1].point);
     Exact_point in_plane, outside;
-    for (std::size_t i = 0; i < 3; ++i) in_plane[i] = 3 * b[i] - 2 * a[i], outside[i] = a[i] + (b[i] - a[(i + 1) % 3]) * ratio(7, 3) + ratio(static_cast<long>(k % 5), 11);
+    for (std::size_t i = 0; i < 3; ++i)
+      in_plane[i] = 3 * b[i] - 2 * a[i],
+      outside[i] = a[i] + (b[i] - a[(i + 1) % 3]) * ratio(7, 3) + ratio(static_cast<long>(k % 5), 11);
     for (const Exact_point& eye : {a, in_plane, outside}) {
       const Eye_order_counters c = given.check(eye);
       cycles += c.cycles, edge_on += c.edge_on, cut += c.splits, whole += given.whole(c);
@@ -123,7 +135,12 @@ TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
 }
 
 TEST(Eye_order, of_generated_scenes_never_cuts_more_than_a_bsp_tree_does) {
-  for (const auto& [kind, size] : {std::pair{"soup", 120}, {"rooms", 1}, {"lattice", 3}, {"menger_sponge_merged", 1}, {"terrain", 100}, {"crossing", 8}}) {
+  for (const auto& [kind, size] : {std::pair{"soup", 120},
+                                   {"rooms", 1},
+                                   {"lattice", 3},
+                                   {"menger_sponge_merged", 1},
+                                   {"terrain", 100},
+                                   {"crossing", 8}}) {
     const Ordered given(generate::make(kind, static_cast<std::size_t>(size), 3));
     const auto box = given.scene.box();
     const Exact_point eye{box[1][0] + ratio(1, 3), box[0][1] - ratio(1, 7), box[1][2] + ratio(5, 9)};
@@ -139,9 +156,12 @@ TEST(Eye_order, of_faces_of_many_corners_is_accepted_from_both_sides) {
   for (long trial = 0; trial < 3; ++trial) {
     std::vector<Points> faces;
     for (long f = 0; f < 4; ++f) {
-      const long tilt_x = (trial * 3 + f * 5) % 7 - 3, tilt_y = (trial + f * 2) % 5 - 2, shift = (trial * f * 11) % 40 - 20;
+      const long tilt_x = (trial * 3 + f * 5) % 7 - 3, tilt_y = (trial + f * 2) % 5 - 2,
+                 shift = (trial * f * 11) % 40 - 20;
       Points corners;
-      for (long k = -100; k <= 100; ++k) corners.push_back(at(k + shift, ratio(k * k, 50) - 100, f * 300 + ratio((k + shift) * tilt_x, 9) + ratio(k * k * tilt_y, 450)));
+      for (long k = -100; k <= 100; ++k)
+        corners.push_back(at(k + shift, ratio(k * k, 50) - 100,
+                             f * 300 + ratio((k + shift) * tilt_x, 9) + ratio(k * k * tilt_y, 450)));
       faces.push_back(f % 2 ? reversed(corners) : corners);
     }
     const Ordered given(soup_of(faces));
@@ -157,11 +177,14 @@ TEST(Eye_order, of_faces_of_many_corners_is_accepted_from_both_sides) {
 Exact_point random_eye(const Scene& scene, Random& random, std::uint64_t k) {
   const auto box = scene.box();
   const Piece& piece = scene.pieces()[random.below(scene.pieces().size())];
-  const Exact_point a = scene.position(scene.corners(piece)[0].point), b = scene.position(scene.corners(piece)[1].point);
+  const Exact_point a = scene.position(scene.corners(piece)[0].point),
+                    b = scene.position(scene.corners(piece)[1].point);
   if (k % 5 == 1) return along(a, 2, minus(b, a));
   if (k % 5 == 2) return a;
   Exact_point eye;
-  for (std::size_t axis = 0; axis < 3; ++axis) eye[axis] = box[0][axis] + (box[1][axis] - box[0][axis]) * ratio(static_cast<long>(random.between(-1000, 3000)), 2003);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    eye[axis] =
+        box[0][axis] + (box[1][axis] - box[0][axis]) * ratio(static_cast<long>(random.between(-1000, 3000)), 2003);
   return eye;
 }
 
@@ -172,7 +195,8 @@ std::size_t accepted_from_random_eyes(const Ordered& given, std::uint64_t count,
   std::size_t accepted = 0;
   for (std::uint64_t k = 0; k < count; ++k) {
     const Exact_point eye = random_eye(given.scene, random, k);
-    const Verdict verdict = verify_order(given.soup, certificate_of(given.scene, given.traits, eye, back_to_front(given.traits, tree, eye), true));
+    const Verdict verdict = verify_order(
+        given.soup, certificate_of(given.scene, given.traits, eye, back_to_front(given.traits, tree, eye), true));
     EXPECT_TRUE(verdict.accepted) << "eye " << k << ": " << verdict.why;
     accepted += verdict.accepted;
   }
@@ -180,27 +204,40 @@ std::size_t accepted_from_random_eyes(const Ordered& given, std::uint64_t count,
 }
 
 TEST(Eye_order, from_a_hundred_random_eyes_is_accepted) {
-  for (const auto& [kind, size] : {std::pair{"city", 20}, {"city_rotated", 20}, {"soup", 60}, {"lattice", 3}, {"menger_sponge_merged", 1}, {"terrain", 72}, {"crossing", 8}, {"bars", 7}, {"convex_sphere", 60}, {"stacked", 20}}) {
+  for (const auto& [kind, size] : {std::pair{"city", 20},
+                                   {"city_rotated", 20},
+                                   {"soup", 60},
+                                   {"lattice", 3},
+                                   {"menger_sponge_merged", 1},
+                                   {"terrain", 72},
+                                   {"crossing", 8},
+                                   {"bars", 7},
+                                   {"convex_sphere", 60},
+                                   {"stacked", 20}}) {
     SCOPED_TRACE(kind);
-    EXPECT_EQ(accepted_from_random_eyes(Ordered(generate::make(kind, static_cast<std::size_t>(size), 3)), 100, 1), 100u);
+    EXPECT_EQ(accepted_from_random_eyes(Ordered(generate::make(kind, static_cast<std::size_t>(size), 3)), 100, 1),
+              100u);
   }
 }
 
 TEST(Eye_order, of_real_scenes_is_accepted_and_cutting_for_all_eyes_makes_fewer_parts_than_a_bsp_tree) {
   const std::filesystem::path folder = SIGHTLINE_SCENES_DIR;
   if (folder.empty()) GTEST_SKIP() << "the collection of real scenes is not here";
-  for (const char* file : {"a_interior/cornell_box.obj", "a_interior/lq_start.world.qoff", "b_classic/cg_joint.off", "c_convex/cg_P.off"}) {
+  for (const char* file : {"a_interior/cornell_box.obj", "a_interior/lq_start.world.qoff", "b_classic/cg_joint.off",
+                           "c_convex/cg_P.off"}) {
     SCOPED_TRACE(file);
     const Ordered given(read_scene(folder / file));
     EXPECT_EQ(accepted_from_random_eyes(given, 10, 7), 10u);
-    EXPECT_LE(build_priority_tree(given.traits, {false, true, {}}).counters.polygons, build_bsp(given.traits).counters.fragments);
+    EXPECT_LE(build_priority_tree(given.traits, {false, true, {}}).counters.polygons,
+              build_bsp(given.traits).counters.fragments);
   }
 }
 
 TEST(Eye_order, of_every_real_scene_from_a_hundred_random_eyes_is_accepted) {
   const std::filesystem::path folder = SIGHTLINE_SCENES_DIR;
   if (folder.empty()) GTEST_SKIP() << "the collection of real scenes is not here";
-  if (std::getenv("SIGHTLINE_LONG") == nullptr) GTEST_SKIP() << "takes most of an hour: set SIGHTLINE_LONG to a part of a file's name, or to nothing for all";
+  if (std::getenv("SIGHTLINE_LONG") == nullptr)
+    GTEST_SKIP() << "takes most of an hour: set SIGHTLINE_LONG to a part of a file's name, or to nothing for all";
   std::size_t scenes = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string file = entry.path().string();

@@ -13,10 +13,13 @@ using Implicit = Implicit_priority_graph<Relation>;
 
 static_assert(Priority_graph<Explicit_priority_graph> && Priority_graph<Implicit>);
 
-/// Whether the trees prove that each component is strongly connected: from its root every member over arcs of one tree, and back over arcs of the other.
-testing::AssertionResult prove(const Component_trees& trees, const Priority_components& components, const Matrix& arcs) {
+/// Whether the trees prove that each component is strongly connected: from its root every member over arcs of one tree,
+/// and back over arcs of the other.
+testing::AssertionResult prove(const Component_trees& trees, const Priority_components& components,
+                               const Matrix& arcs) {
   const std::size_t n = arcs.size();
-  if (trees.from.size() != n || trees.to.size() != n) return testing::AssertionFailure() << trees.from.size() << " and " << trees.to.size() << " arcs";
+  if (trees.from.size() != n || trees.to.size() != n)
+    return testing::AssertionFailure() << trees.from.size() << " and " << trees.to.size() << " arcs";
   std::vector<std::uint32_t> root(components.size(), static_cast<std::uint32_t>(n));
   for (std::uint32_t face = 0; face < n; ++face)
     for (const bool is_from : {true, false}) {
@@ -25,29 +28,39 @@ testing::AssertionResult prove(const Component_trees& trees, const Priority_comp
       for (std::size_t steps = 0; tree[at_face] != at_face; ++steps) {
         const std::uint32_t next = tree[at_face];
         if (steps == n) return testing::AssertionFailure() << "a cycle above face " << face;
-        if (next >= n || components.h(next) != components.h(face)) return testing::AssertionFailure() << "face " << at_face << " hangs on " << next << " of another component";
-        if (!(is_from ? arcs[next][at_face] : arcs[at_face][next])) return testing::AssertionFailure() << "no such arc: " << (is_from ? next : at_face) << " < " << (is_from ? at_face : next);
+        if (next >= n || components.h(next) != components.h(face))
+          return testing::AssertionFailure() << "face " << at_face << " hangs on " << next << " of another component";
+        if (!(is_from ? arcs[next][at_face] : arcs[at_face][next]))
+          return testing::AssertionFailure()
+                 << "no such arc: " << (is_from ? next : at_face) << " < " << (is_from ? at_face : next);
         at_face = next;
       }
       std::uint32_t& known = root[components.h(face)];
       if (known == n) known = at_face;
-      if (known != at_face) return testing::AssertionFailure() << "two roots of component " << components.h(face) << ": " << known << " and " << at_face;
+      if (known != at_face)
+        return testing::AssertionFailure()
+               << "two roots of component " << components.h(face) << ": " << known << " and " << at_face;
     }
   return testing::AssertionSuccess();
 }
 
-/// Whether the condensation is the graph of arcs between components, each once, each to a higher number (so it has no cycle).
-testing::AssertionResult right_condensation(const Arc_graph& condensed, const Priority_components& components, const Matrix& arcs) {
+/// Whether the condensation is the graph of arcs between components, each once, each to a higher number (so it has no
+/// cycle).
+testing::AssertionResult right_condensation(const Arc_graph& condensed, const Priority_components& components,
+                                            const Matrix& arcs) {
   std::set<std::pair<std::size_t, std::size_t>> expected, found;
   for (std::uint32_t i = 0; i < arcs.size(); ++i)
     for (std::uint32_t j = 0; j < arcs.size(); ++j)
       if (arcs[i][j] && components.h(i) != components.h(j)) expected.emplace(components.h(i), components.h(j));
   for (const auto& arc : boost::make_iterator_range(boost::edges(condensed))) {
-    if (boost::source(arc, condensed) >= boost::target(arc, condensed)) return testing::AssertionFailure() << "an arc to " << boost::target(arc, condensed);
+    if (boost::source(arc, condensed) >= boost::target(arc, condensed))
+      return testing::AssertionFailure() << "an arc to " << boost::target(arc, condensed);
     found.emplace(boost::source(arc, condensed), boost::target(arc, condensed));
   }
-  if (boost::num_vertices(condensed) != components.size()) return testing::AssertionFailure() << boost::num_vertices(condensed) << " vertices";
-  if (found != expected || boost::num_edges(condensed) != expected.size()) return testing::AssertionFailure() << boost::num_edges(condensed) << " arcs, not " << expected.size();
+  if (boost::num_vertices(condensed) != components.size())
+    return testing::AssertionFailure() << boost::num_vertices(condensed) << " vertices";
+  if (found != expected || boost::num_edges(condensed) != expected.size())
+    return testing::AssertionFailure() << boost::num_edges(condensed) << " arcs, not " << expected.size();
   return testing::AssertionSuccess();
 }
 
@@ -104,7 +117,9 @@ TEST(Graph, of_one_face_has_one_component_and_no_arc) {
 TEST(Graph, of_stacked_squares_has_one_enumeration_from_the_top_down) {
   for (const std::size_t n : {2u, 3u, 17u, 64u}) {
     std::vector<Points> squares;
-    for (std::size_t k = 0; k < n; ++k) squares.push_back(rectangle(0, 1, 0, 1, static_cast<long>(k * 7 % n)));  // heights in another order; 7 divides no n
+    for (std::size_t k = 0; k < n; ++k)
+      squares.push_back(
+          rectangle(0, 1, 0, 1, static_cast<long>(k * 7 % n)));  // heights in another order; 7 divides no n
     const Related scene(soup_of(squares));
     const Explicit_priority_graph written(scene.relation);
     Implicit searched(scene.relation);
@@ -139,7 +154,9 @@ TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_where_a_doz
     Polygon_soup all;
     for (int part = 0; part < 12; ++part) {  // side by side, or so far apart that an index can tell them
       const long step = k % 2 == 0 ? 3 : 30;
-      const Polygon_soup some = generate::translated(touching_soup(random), at(step * random.between(-3, 3), step * random.between(-3, 3), k % 3 == 0 ? 0 : step * random.between(-3, 3)));
+      const Polygon_soup some =
+          generate::translated(touching_soup(random), at(step * random.between(-3, 3), step * random.between(-3, 3),
+                                                         k % 3 == 0 ? 0 : step * random.between(-3, 3)));
       for (Face_id f = 0; f < some.face_count(); ++f) {
         Points loop;
         for (const Point_id p : some.loop(f)) loop.push_back(some.point(p));
@@ -158,9 +175,13 @@ TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_where_a_doz
 }
 
 TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_on_generated_scenes) {
-  const std::vector<std::pair<std::string_view, std::size_t>> sizes{{"bars", 40},        {"city", 40},     {"city_rotated", 15}, {"convex_sphere", 200}, {"crossing", 25},
-                                                                    {"grid", 2},         {"lattice", 4},   {"menger_sponge_merged", 1}, {"soup", 150},
-                                                                    {"soup_constant_density", 150}, {"stacked", 60}, {"terrain", 150}};
+  const std::vector<std::pair<std::string_view, std::size_t>> sizes{
+      {"bars", 40},         {"city", 40},
+      {"city_rotated", 15}, {"convex_sphere", 200},
+      {"crossing", 25},     {"grid", 2},
+      {"lattice", 4},       {"menger_sponge_merged", 1},
+      {"soup", 150},        {"soup_constant_density", 150},
+      {"stacked", 60},      {"terrain", 150}};
   std::size_t largest = 0;
   for (const auto& [kind, size] : sizes) {
     SCOPED_TRACE(kind);

@@ -1,4 +1,5 @@
-// Sets of faces at pixels against rays in plain rationals, their statistics recounted, and priorities from an eye against distances.
+// Sets of faces at pixels against rays in plain rationals, their statistics recounted, and priorities from an eye
+// against distances.
 
 #include "support.h"
 
@@ -59,12 +60,15 @@ Pixels brute_sets(const Flats& flats, const Pixel_view& view, Met& met) {
 }
 
 testing::AssertionResult same_sets(const Pixel_sets& found, const Pixels& expected) {
-  if (found.size() != expected.size()) return testing::AssertionFailure() << found.size() << " pixels, not " << expected.size();
+  if (found.size() != expected.size())
+    return testing::AssertionFailure() << found.size() << " pixels, not " << expected.size();
   for (std::size_t p = 0; p < expected.size(); ++p)
     if (!std::equal(found[p].begin(), found[p].end(), expected[p].begin(), expected[p].end()))
-      return testing::AssertionFailure() << "pixel " << p << ": found " << testing::PrintToString(std::vector(found[p].begin(), found[p].end())) << ", expected "
-                                         << testing::PrintToString(expected[p]);
-  if (found.rays < found.members.size()) return testing::AssertionFailure() << found.rays << " rays for " << found.members.size() << " members";
+      return testing::AssertionFailure() << "pixel " << p << ": found "
+                                         << testing::PrintToString(std::vector(found[p].begin(), found[p].end()))
+                                         << ", expected " << testing::PrintToString(expected[p]);
+  if (found.rays < found.members.size())
+    return testing::AssertionFailure() << found.rays << " rays for " << found.members.size() << " members";
   return testing::AssertionSuccess();
 }
 
@@ -76,7 +80,8 @@ Pixels listed(const Pixel_sets& sets) {
 
 Triple nearest(const Exact_point& d) { return {nearest_double(d[0]), nearest_double(d[1]), nearest_double(d[2])}; }
 
-/// Views of each kind: along an axis through lattice points, at corners and middles of edges, oblique and out of square, wide, flat, from within faces' planes.
+/// Views of each kind: along an axis through lattice points, at corners and middles of edges, oblique and out of
+/// square, wide, flat, from within faces' planes.
 Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
   const auto face = [&]() -> const Points& { return flats[random.below(flats.size())].corners; };
   const auto corner = [&] {
@@ -93,28 +98,38 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
   const Exact_point size = minus(first[1], first[0]);
   Pixel_view view{along(along(corner(), times(12), minus(corner(), corner())), times(12), size), {}, {}, {}, 12, 9};
   switch (kind % 8) {
-    case 0: case 1: {  // dyadic fractions across the axes: rays through lattice points
+    case 0:
+    case 1: {  // dyadic fractions across the axes: rays through lattice points
       const std::size_t axis = random.below(3);
       const double side = random.chance(1, 2) ? 1 : -1;
       view.eye = corner();
-      view.eye[axis] -= static_cast<long>(side) * static_cast<long>(random.between(1, 4)) * (kind % 2 == 0 ? Rational(1) : Rational(abs(size[0]) + abs(size[1]) + abs(size[2])));
-      view.look[axis] = side, view.right[(axis + 1) % 3] = random.chance(1, 2) ? 4 : -2, view.up[(axis + 2) % 3] = random.chance(1, 2) ? 2 : -8;
+      view.eye[axis] -= static_cast<long>(side) * static_cast<long>(random.between(1, 4)) *
+                        (kind % 2 == 0 ? Rational(1) : Rational(abs(size[0]) + abs(size[1]) + abs(size[2])));
+      view.look[axis] = side, view.right[(axis + 1) % 3] = random.chance(1, 2) ? 4 : -2,
+      view.up[(axis + 2) % 3] = random.chance(1, 2) ? 2 : -8;
       view.width = 8, view.height = random.chance(1, 2) ? 8 : 16;
       break;
     }
-    case 2: case 3: {  // the middle pixel looks at a corner or the middle of an edge, the middle row or column along an edge
+    case 2:
+    case 3: {  // the middle pixel looks at a corner or the middle of an edge, the middle row or column along an edge
       const Points& c = face();
       const std::size_t k = random.below(c.size());
-      const Exact_point normal = Flat(c).normal, to = random.chance(1, 2) ? c[k] : centroid({c[k], c[(k + 1) % c.size()]});
-      if (random.chance(2, 3)) view.eye = along(along(to, ratio(random.between(1, 8), 4), normal), random.between(-2, 2), minus(c[0], c[1]));
-      view.look = nearest(minus(to, view.eye)), view.right = nearest(minus(c[(k + 1) % c.size()], c[k])), view.up = lattice(3);
+      const Exact_point normal = Flat(c).normal,
+                        to = random.chance(1, 2) ? c[k] : centroid({c[k], c[(k + 1) % c.size()]});
+      if (random.chance(2, 3))
+        view.eye = along(along(to, ratio(random.between(1, 8), 4), normal), random.between(-2, 2), minus(c[0], c[1]));
+      view.look = nearest(minus(to, view.eye)), view.right = nearest(minus(c[(k + 1) % c.size()], c[k])),
+      view.up = lattice(3);
       if (random.chance(1, 3)) std::swap(view.right, view.up);
       view.width = 11;
       break;
     }
-    case 4: view.look = lattice(2), view.right = lattice(20), view.up = lattice(1); break;  // at times zero, or without a right or an up
-    case 5:                                                                                 // in a face's plane, or at a corner; wide
-      view.eye = random.chance(1, 2) ? corner() : along(along(first[0], times(8), size), times(8), minus(first[2], first[0]));
+    case 4:
+      view.look = lattice(2), view.right = lattice(20), view.up = lattice(1);
+      break;  // at times zero, or without a right or an up
+    case 5:   // in a face's plane, or at a corner; wide
+      view.eye =
+          random.chance(1, 2) ? corner() : along(along(first[0], times(8), size), times(8), minus(first[2], first[0]));
       view.look = lattice(1), view.right = lattice(50), view.up = lattice(50);
       break;
     default: {  // at a face from its front, out of square
@@ -123,7 +138,8 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
       view.eye = along(along(to, ratio(random.between(1, 16), 8), Flat(c).normal), times(8), size);
       view.look = nearest(minus(to, view.eye));
       const Triple a = nearest(minus(c[1], c[0])), b = nearest(minus(c[2], c[1]));
-      for (std::size_t k = 0; k < 3; ++k) view.right[k] = 1.75 * a[k] + 0.3 * b[k], view.up[k] = 0.7 * b[k] + 0.1 * view.look[k];
+      for (std::size_t k = 0; k < 3; ++k)
+        view.right[k] = 1.75 * a[k] + 0.3 * b[k], view.up[k] = 0.7 * b[k] + 0.1 * view.look[k];
     }
   }
   return view;
@@ -131,9 +147,12 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
 
 /// The same with axes at right angles, but for rounding: the middle ray stays.
 Pixel_view squared(Pixel_view view) {
-  const auto across = [](const Triple& a, const Triple& b) { return Triple{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; };
+  const auto across = [](const Triple& a, const Triple& b) {
+    return Triple{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
   const auto scaled_like = [](Triple a, const Triple& b) {
-    const double scale = (std::fabs(b[0]) + std::fabs(b[1]) + std::fabs(b[2])) / (std::fabs(a[0]) + std::fabs(a[1]) + std::fabs(a[2]));
+    const double scale =
+        (std::fabs(b[0]) + std::fabs(b[1]) + std::fabs(b[2])) / (std::fabs(a[0]) + std::fabs(a[1]) + std::fabs(a[2]));
     for (double& x : a) x *= scale;
     return std::isfinite(scale) ? a : Triple{};
   };
@@ -161,8 +180,9 @@ void check_sets(bool square, Met& met, std::uint64_t& exact) {
       const Pixel_view any = random_view(scene.flats, 4 * (k % 2) + v, random), view = square ? squared(any) : any;
       const Pixel_sets found = pixel_sets(scene.relation, view);
       const Pixels expected = brute_sets(scene.flats, view, met);
-      ASSERT_TRUE(same_sets(found, expected)) << "scene " << k << ", view " << v << ": look " << testing::PrintToString(view.look) << ", right "
-                                              << testing::PrintToString(view.right) << ", up " << testing::PrintToString(view.up);
+      ASSERT_TRUE(same_sets(found, expected))
+          << "scene " << k << ", view " << v << ": look " << testing::PrintToString(view.look) << ", right "
+          << testing::PrintToString(view.right) << ", up " << testing::PrintToString(view.up);
       exact += found.exact, rays += found.rays;
       for (const auto& set : expected) several += set.size() > 1;
     }
@@ -204,7 +224,8 @@ TEST(Pixel_sets, do_not_depend_on_the_length_of_the_axes) {
     Met met;
     const Pixel_view view = squared(random_view(scene.flats, k, random));
     const Pixels expected = brute_sets(scene.flats, view, met);
-    for (const int power : {-940, -600, -538, -534, -500, -60, 1, 60, 500, 900}) {  // powers of two: the same rays, longer or shorter
+    for (const int power :
+         {-940, -600, -538, -534, -500, -60, 1, 60, 500, 900}) {  // powers of two: the same rays, longer or shorter
       Pixel_view scaled = view;
       for (Triple* d : {&scaled.look, &scaled.right, &scaled.up})
         for (double& x : *d) x = std::ldexp(x, power);
@@ -227,7 +248,8 @@ TEST(Pixel_sets, of_a_square_are_the_pixels_strictly_inside_it) {
   };
   const Rational half = ratio(1, 2);
   EXPECT_EQ(pixels(rectangle(-1, 1, 0, 1, 0)), (std::set<std::size_t>{27, 28}));
-  EXPECT_EQ(pixels(rectangle(-3 * half, 3 * half, half, 5 * half, 0)), (std::set<std::size_t>{19, 20})) << "its sides go through middles";
+  EXPECT_EQ(pixels(rectangle(-3 * half, 3 * half, half, 5 * half, 0)), (std::set<std::size_t>{19, 20}))
+      << "its sides go through middles";
   EXPECT_EQ(pixels(reversed(rectangle(-3, 3, -3, 3, 0))), (std::set<std::size_t>{})) << "from behind";
   EXPECT_EQ(pixels(rectangle(-100, 100, -100, 100, 5)), (std::set<std::size_t>{})) << "above the eye";
   EXPECT_EQ(pixels(rectangle(-100, 100, -100, 100, -1000)).size(), 0u) << "a thousand below, 100 is half a pixel away";
@@ -286,14 +308,17 @@ TEST(Pixel_statistics, are_what_counting_each_pixel_gives) {
     std::vector<std::uint32_t> image;
     for (const auto& set : pixels) {
       std::size_t best = 0;
-      for (const std::uint32_t i : set) best += std::all_of(set.begin(), set.end(), [&](std::uint32_t j) { return priority[i] <= priority[j]; });
+      for (const std::uint32_t i : set)
+        best += std::all_of(set.begin(), set.end(), [&](std::uint32_t j) { return priority[i] <= priority[j]; });
       covered += !set.empty(), several += set.size() > 1, single += best == 1, all += set.size(), left += best;
       image.push_back(static_cast<std::uint32_t>(best));
       ++by_size[{set.size(), best}];
-      some_left_out += best < set.size(), ties += best > 1;
+      some_left_out += best<set.size(), ties += best> 1;
     }
     const Pixel_statistics found = pixel_statistics(sets, priority);
-    ASSERT_EQ((std::vector{found.covered, found.several, found.single, found.faces, found.left}), (std::vector{covered, several, single, all, left})) << "case " << k;
+    ASSERT_EQ((std::vector{found.covered, found.several, found.single, found.faces, found.left}),
+              (std::vector{covered, several, single, all, left}))
+        << "case " << k;
     ASSERT_EQ(found.image, image) << "case " << k;
     for (std::size_t s = 0; s < found.by_size.size(); ++s)
       for (std::size_t l = 0; l < found.by_size[s].size(); ++l) {
@@ -315,7 +340,8 @@ std::vector<std::int64_t> cycles_of(const Tree_of_faces& tree) {
     if (slot >= 0) cycle.at(static_cast<std::size_t>(slot)) = -1;
   for (std::size_t n = 0; n < tree.nodes.size(); ++n)
     if (tree.nodes[n].kind == Tree_of_faces::Kind::cycle)
-      for (const auto slot : tree.slots_of(tree.nodes[n])) cycle.at(static_cast<std::size_t>(slot)) = static_cast<std::int64_t>(n);
+      for (const auto slot : tree.slots_of(tree.nodes[n]))
+        cycle.at(static_cast<std::size_t>(slot)) = static_cast<std::int64_t>(n);
   return cycle;
 }
 
@@ -323,8 +349,10 @@ struct Ranked {
   std::size_t ahead = 0, in_cycles = 0, from_planes = 0;
 };
 
-/// Along each ray a nearer polygon has a lower number, the same only in one cycle; and the sets are those of exact rays, for parts of faces too.
-void check_priorities(const Related& scene, const Priority_tree_options& options, const Pixel_view& view, Ranked& ranked) {
+/// Along each ray a nearer polygon has a lower number, the same only in one cycle; and the sets are those of exact
+/// rays, for parts of faces too.
+void check_priorities(const Related& scene, const Priority_tree_options& options, const Pixel_view& view,
+                      Ranked& ranked) {
   const Tree_of_faces tree = build_priority_tree(scene.traits, options);
   const std::vector<std::uint32_t> all_numbers = priorities(scene.traits, tree, view.eye);
   const std::vector<std::int64_t> all_cycles = cycles_of(tree);
@@ -339,20 +367,23 @@ void check_priorities(const Related& scene, const Priority_tree_options& options
     flats.emplace_back(priority_detail::positions(scene.traits, tree.polygons[i]));
   }
   for (std::size_t i = 0; i < number.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) ASSERT_EQ(number[i] == number[j], cycle[i] >= 0 && cycle[i] == cycle[j]) << i << ", " << j;
+    for (std::size_t j = 0; j < i; ++j)
+      ASSERT_EQ(number[i] == number[j], cycle[i] >= 0 && cycle[i] == cycle[j]) << i << ", " << j;
   Met met;
   const Pixel_sets sets = pixel_sets(Priority_relation<Exact_traits>(scene.traits, polygons), view);
   ASSERT_TRUE(same_sets(sets, brute_sets(flats, view, met)));
   ranked.from_planes += tree.counters.planes;
   for (std::size_t p = 0; p < sets.size(); ++p) {
-    const Exact_point d = exact_vector(view.ray(static_cast<std::uint32_t>(p % view.width), static_cast<std::uint32_t>(p / view.width)));
+    const Exact_point d =
+        exact_vector(view.ray(static_cast<std::uint32_t>(p % view.width), static_cast<std::uint32_t>(p / view.width)));
     std::vector<std::pair<Rational, std::uint32_t>> hits;
     for (const std::uint32_t i : sets[p]) hits.emplace_back(*goes_through(flats[i], view.eye, d, met), i);
     for (const auto& near : hits)
       for (const auto& far : hits) {
         if (far.first <= near.first) continue;
         const bool one_cycle = cycle[near.second] >= 0 && cycle[near.second] == cycle[far.second];
-        ASSERT_TRUE(one_cycle || number[near.second] < number[far.second]) << "pixel " << p << ": " << near.second << " before " << far.second;
+        ASSERT_TRUE(one_cycle || number[near.second] < number[far.second])
+            << "pixel " << p << ": " << near.second << " before " << far.second;
         ++(one_cycle ? ranked.in_cycles : ranked.ahead);
       }
   }
@@ -383,7 +414,8 @@ TEST(Priorities, ascend_strictly_in_bodies_that_have_no_cycle) {
     const Exact_point middle = along(centroid({box[0], box[1]}), ratio(1, 1009), at(1, 2, 3));
     for (const Triple& look : {Triple{1, 0.25, -0.5}, Triple{-0.5, 1, -1}, Triple{0.125, 0.25, -1}}) {
       const Rational away = abs(box[1][0] - box[0][0]) + abs(box[1][1] - box[0][1]) + abs(box[1][2] - box[0][2]);
-      const Pixel_view view = squared({along(middle, -away, exact_vector(look)), look, {-0.3, 0.2, 0.05}, {0.1, 0.05, 0.4}, 16, 12});
+      const Pixel_view view =
+          squared({along(middle, -away, exact_vector(look)), look, {-0.3, 0.2, 0.05}, {0.1, 0.05, 0.4}, 16, 12});
       ASSERT_NO_FATAL_FAILURE(check_priorities(scene, {}, view, ranked)) << kind;
     }
   }

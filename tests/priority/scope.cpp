@@ -24,16 +24,18 @@ testing::AssertionResult consistent(const Relation& relation) {
   for (std::uint32_t i = 0; i < relation.size(); ++i)
     for (std::uint32_t j = 0; j < relation.size(); ++j) {
       const Arcs both = relation.arcs(i, j, counters);
-      if (both.forth != relation.may_obscure(i, j, counters) || both.back != relation.may_obscure(j, i, counters)) return testing::AssertionFailure() << "arcs(" << i << ", " << j << ")";
+      if (both.forth != relation.may_obscure(i, j, counters) || both.back != relation.may_obscure(j, i, counters))
+        return testing::AssertionFailure() << "arcs(" << i << ", " << j << ")";
     }
   return testing::AssertionSuccess();
 }
 
-// ---- An oracle: no plane separates ----------------------------------------------------------------------------------------------
-// Let A be the part of a in front of b's plane, B the part of b behind a's. The eyes that may see a before b are A + t (A - B), t > 0: the inside of
-// Q = conv A + cone {a - b}. A convex region R has none of them iff some plane separates R from Q: iff some n != 0 has n . (a - p) >= 0 for all corners a of A
-// and points p of R, and n . (a - b) >= 0 for all corners a and b. Such an n is looked for by brute force: if there is one, there is one orthogonal to two of
-// the vectors (or to all).
+// ---- An oracle: no plane separates
+// ---------------------------------------------------------------------------------------------- Let A be the part of a
+// in front of b's plane, B the part of b behind a's. The eyes that may see a before b are A + t (A - B), t > 0: the
+// inside of Q = conv A + cone {a - b}. A convex region R has none of them iff some plane separates R from Q: iff some n
+// != 0 has n . (a - p) >= 0 for all corners a of A and points p of R, and n . (a - b) >= 0 for all corners a and b.
+// Such an n is looked for by brute force: if there is one, there is one orthogonal to two of the vectors (or to all).
 
 /// The closed part of a convex polygon in front of a plane.
 Points part_in_front(const Points& polygon, const Flat& plane, int side) {
@@ -49,7 +51,8 @@ Points part_in_front(const Points& polygon, const Flat& plane, int side) {
 
 using Direction_vector = std::array<Integer, 3>;
 
-/// Whether some n != 0 has n . v >= 0 for all vectors. Pre: not all vectors are parallel, and Number holds 12 times the cube of a coordinate.
+/// Whether some n != 0 has n . v >= 0 for all vectors. Pre: not all vectors are parallel, and Number holds 12 times the
+/// cube of a coordinate.
 template <class Number>
 bool in_a_closed_half_space(const std::vector<std::array<Number, 3>>& vectors) {
   for (std::size_t i = 0; i < vectors.size(); ++i)
@@ -69,7 +72,8 @@ bool in_a_closed_half_space(const std::vector<std::array<Number, 3>>& vectors) {
 bool in_a_closed_half_space(const std::set<Direction_vector>& vectors) {
   std::vector<std::array<__int128, 3>> small;
   for (const Direction_vector& v : vectors) {
-    if (bit_length(v[0]) > 40 || bit_length(v[1]) > 40 || bit_length(v[2]) > 40) return in_a_closed_half_space(std::vector<Direction_vector>(vectors.begin(), vectors.end()));
+    if (bit_length(v[0]) > 40 || bit_length(v[1]) > 40 || bit_length(v[2]) > 40)
+      return in_a_closed_half_space(std::vector<Direction_vector>(vectors.begin(), vectors.end()));
     small.push_back({v[0].get_si(), v[1].get_si(), v[2].get_si()});
   }
   return in_a_closed_half_space(small);
@@ -109,8 +113,8 @@ std::optional<Rational> meets_front(const Flat& face, const Exact_point& eye, co
   return t;
 }
 
-/// A region near a scene where degeneracy is likely: a point, a segment, a triangle, a box, a box without width, or a polyhedron, with corners on the lattice, on
-/// faces and in their planes, or where two planes of faces cross.
+/// A region near a scene where degeneracy is likely: a point, a segment, a triangle, a box, a box without width, or a
+/// polyhedron, with corners on the lattice, on faces and in their planes, or where two planes of faces cross.
 View_region random_region(const Related& scene, Random& random) {
   const auto corner = [&]() -> Exact_point {
     const Flat& face = scene.flats[random.below(scene.flats.size())];
@@ -121,7 +125,8 @@ View_region random_region(const Related& scene, Random& random) {
       case 2: return along(face.corners[0], random.between(-3, 3), minus(face.corners[1], face.corners[0]));
       case 3: return along(point_of(face.corners, random), random.between(0, 3), face.normal);
       default: {  // where a line between corners of two faces goes on: the boundary of what looks through them
-        const Exact_point &p = face.corners[random.below(face.corners.size())], &q = other.corners[random.below(other.corners.size())];
+        const Exact_point &p = face.corners[random.below(face.corners.size())],
+                          &q = other.corners[random.below(other.corners.size())];
         return along(p, random.between(0, 2), minus(p, q));
       }
     }
@@ -160,12 +165,14 @@ TEST(Scope, of_a_region_has_the_arcs_whose_eyes_no_plane_separates_from_it) {
       const View_region region = random_region(scene, random);
       const Region relation(scene.relation, region);
       const Matrix found = asked(relation);
-      ASSERT_TRUE(same_arcs(found, arcs_from(scene.flats, region.points))) << "scene " << k << ", region " << repeat << " of " << region.points.size() << " points";
+      ASSERT_TRUE(same_arcs(found, arcs_from(scene.flats, region.points)))
+          << "scene " << k << ", region " << repeat << " of " << region.points.size() << " points";
       if (repeat == 0) {
         ASSERT_TRUE(consistent(relation)) << "scene " << k;
       }
       for (std::uint32_t i = 0; i < found.size(); ++i) {
-        const bool seen = std::any_of(region.points.begin(), region.points.end(), [&](const Exact_point& p) { return scene.flats[i].height(p) > 0; });
+        const bool seen = std::any_of(region.points.begin(), region.points.end(),
+                                      [&](const Exact_point& p) { return scene.flats[i].height(p) > 0; });
         ASSERT_EQ(relation.on_view(i), seen) << "scene " << k << ", face " << i;
       }
       present += count_arcs(found), absent += whole - count_arcs(found);
@@ -186,9 +193,11 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
     Matrix met(found.size(), std::vector<char>(found.size(), 0));
     for (int sample = 0; sample < 200; ++sample) {
       const Exact_point eye = point_of(region.points, random);
-      const Exact_point target = inside_of(scene.flats[random.below(found.size())].corners, random), direction = minus(target, eye);
+      const Exact_point target = inside_of(scene.flats[random.below(found.size())].corners, random),
+                        direction = minus(target, eye);
       std::vector<std::optional<Rational>> at_parameter;
-      for (const Flat& face : scene.flats) at_parameter.push_back(direction == Exact_point{0, 0, 0} ? std::nullopt : meets_front(face, eye, direction));
+      for (const Flat& face : scene.flats)
+        at_parameter.push_back(direction == Exact_point{0, 0, 0} ? std::nullopt : meets_front(face, eye, direction));
       for (std::size_t i = 0; i < found.size(); ++i)
         for (std::size_t j = 0; j < found.size(); ++j)
           if (at_parameter[i] && at_parameter[j] && *at_parameter[i] < *at_parameter[j]) {
@@ -202,7 +211,8 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
   EXPECT_GT(2 * proven, arcs) << "most arcs are met";
 }
 
-// ---- Laws ----------------------------------------------------------------------------------------------------------------------------
+// ---- Laws
+// ----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Scope, smaller_regions_have_fewer_arcs_down_to_eyes_and_rays) {
   std::array<std::size_t, 5> arcs{};
@@ -214,7 +224,8 @@ TEST(Scope, smaller_regions_have_fewer_arcs_down_to_eyes_and_rays) {
     while (larger.points.size() < 3) larger = random_region(scene, random);
     for (int points = 0; points < 3; ++points) smaller.points.push_back(point_of(larger.points, random));
     const Exact_point eye = point_of(smaller.points, random);
-    const std::array<Matrix, 4> scopes{asked(scene.relation), from(scene, larger), from(scene, smaller), from(scene, View_region::eye(eye))};
+    const std::array<Matrix, 4> scopes{asked(scene.relation), from(scene, larger), from(scene, smaller),
+                                       from(scene, View_region::eye(eye))};
     for (std::size_t s = 0; s < 4; ++s) {
       arcs[s] += count_arcs(scopes[s]);
       if (s > 0) {
@@ -239,7 +250,8 @@ TEST(Scope, smaller_regions_have_fewer_arcs_down_to_eyes_and_rays) {
 }
 
 TEST(Scope, of_a_box_three_times_as_far_as_the_scene_is_the_whole_relation) {
-  // If a point p of one face may hide a point q of another, then it does from p + (p - q), which is at most three times as far from the centre.
+  // If a point p of one face may hide a point q of another, then it does from p + (p - q), which is at most three times
+  // as far from the centre.
   std::size_t arcs = 0;
   for (std::uint64_t k = 0; k < 150; ++k) {
     Random random(k + 7000);
@@ -249,7 +261,8 @@ TEST(Scope, of_a_box_three_times_as_far_as_the_scene_is_the_whole_relation) {
       for (const Exact_point& p : face.corners)
         for (const Rational& x : p) reach = std::max(reach, Rational(abs(x)));
     reach *= 3;
-    const Matrix whole = asked(scene.relation), box = from(scene, View_region::box(at(-reach, -reach, -reach), at(reach, reach, reach)));
+    const Matrix whole = asked(scene.relation),
+                 box = from(scene, View_region::box(at(-reach, -reach, -reach), at(reach, reach, reach)));
     ASSERT_TRUE(same_arcs(box, whole)) << "scene " << k;
     arcs += count_arcs(whole);
   }
@@ -304,7 +317,8 @@ TEST(Scope, graphs_of_regions_and_rays_have_the_components_of_the_closure) {
   EXPECT_GT(cyclic, 10u);
 }
 
-// ---- Rays -------------------------------------------------------------------------------------------------------------------------------
+// ---- Rays
+// -------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
   std::size_t pierced = 0, missed = 0, arcs = 0;
@@ -314,9 +328,11 @@ TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
     if (scene.flats.empty()) continue;
     for (int sample = 0; sample < 6; ++sample) {
       // From anywhere, a face's plane too, towards an inside, an edge or a corner of a face, or away from it.
-      const Points &here = scene.flats[random.below(scene.flats.size())].corners, &there = scene.flats[random.below(scene.flats.size())].corners;
+      const Points &here = scene.flats[random.below(scene.flats.size())].corners,
+                   &there = scene.flats[random.below(scene.flats.size())].corners;
       const Exact_point target = random.chance(1, 2) ? inside_of(there, random) : point_of(there, random);
-      const Exact_point eye = along(point_of(here, random), ratio(random.between(-1, 6), 2), minus(point_of(here, random), target));
+      const Exact_point eye =
+          along(point_of(here, random), ratio(random.between(-1, 6), 2), minus(point_of(here, random), target));
       Exact_point direction = minus(target, eye);
       if (direction == Exact_point{0, 0, 0}) continue;
       if (random.chance(1, 8)) direction = minus(eye, target);
@@ -356,12 +372,15 @@ TEST(Scope, of_a_ray_needs_a_direction) {
 TEST(Scope, of_a_ray_through_an_edge_along_a_face_or_from_behind_has_no_arc) {
   const Related scene(two_squares());
   const Rational half = ratio(1, 2);
-  const auto along_ray = [&](const Exact_point& eye, const Exact_point& direction) { return asked(Ray(scene.relation, eye, direction)); };
+  const auto along_ray = [&](const Exact_point& eye, const Exact_point& direction) {
+    return asked(Ray(scene.relation, eye, direction));
+  };
   EXPECT_EQ(along_ray(at(half, half, 3), at(0, 0, -1)), upper_first);
   EXPECT_EQ(along_ray(at(half, half, 3), at(0, 0, -1000)), upper_first);
   EXPECT_EQ(along_ray(at(0, half, 3), at(0, 0, -1)), no_arcs) << "through edges";
   EXPECT_EQ(along_ray(at(1, 1, 3), at(0, 0, -1)), no_arcs) << "through corners";
-  EXPECT_EQ(along_ray(at(0, half, 2), at(half, 0, -1)), no_arcs) << "through the middle of the upper one and an edge of the lower one";
+  EXPECT_EQ(along_ray(at(0, half, 2), at(half, 0, -1)), no_arcs)
+      << "through the middle of the upper one and an edge of the lower one";
   EXPECT_EQ(along_ray(at(0, half, 2), at(ratio(499, 1000), 0, -1)), upper_first);
   EXPECT_EQ(along_ray(at(half, half, 1), at(0, 0, -1)), no_arcs) << "from the plane of the upper one";
   EXPECT_EQ(along_ray(at(half, half, ratio(1, 2)), at(0, 0, -1)), no_arcs) << "from between them";
@@ -371,13 +390,17 @@ TEST(Scope, of_a_ray_through_an_edge_along_a_face_or_from_behind_has_no_arc) {
   EXPECT_EQ(along_ray(at(-1, half, 1), at(1, 0, 0)), no_arcs) << "in a face";
 }
 
-// ---- Regions by hand ----------------------------------------------------------------------------------------------------------------------
-// The eyes that may see the upper square before the lower one: at height 1 + t, t > 0, those with -t < x < 1 + t and -t < y < 1 + t.
+// ---- Regions by hand
+// ----------------------------------------------------------------------------------------------------------------------
+// The eyes that may see the upper square before the lower one: at height 1 + t, t > 0, those with -t < x < 1 + t and -t
+// < y < 1 + t.
 
 TEST(Scope, of_one_viewpoint_has_the_arc_inside_the_set_of_eyes_and_not_on_its_boundary) {
   const Related scene(two_squares());
   const Rational half = ratio(1, 2), hair = exact(0x1p-60), million = 1000000;
-  const auto eye = [&](const Rational& x, const Rational& y, const Rational& z) { return from(scene, View_region::eye(at(x, y, z))); };
+  const auto eye = [&](const Rational& x, const Rational& y, const Rational& z) {
+    return from(scene, View_region::eye(at(x, y, z)));
+  };
   EXPECT_EQ(eye(half, half, 2), upper_first);
   EXPECT_EQ(eye(2, half, 2), no_arcs) << "on its boundary";
   EXPECT_EQ(eye(2 - hair, half, 2), upper_first);
@@ -397,7 +420,8 @@ TEST(Scope, of_one_viewpoint_has_the_arc_inside_the_set_of_eyes_and_not_on_its_b
 }
 
 TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corner_of_each) {
-  // From the origin both cones are almost half-spaces, one below and one above: often no plane through an edge of either keeps them apart, but one through a corner of each does.
+  // From the origin both cones are almost half-spaces, one below and one above: often no plane through an edge of
+  // either keeps them apart, but one through a corner of each does.
   Random random(11);
   std::size_t arcs = 0, whole = 0;
   for (int trial = 0; trial < 3000; ++trial) {
@@ -425,7 +449,9 @@ TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corne
 TEST(Scope, of_a_region_that_touches_the_set_of_eyes_only_in_its_boundary_has_no_arc) {
   const Related scene(two_squares());
   const Rational half = ratio(1, 2), hair = exact(0x1p-60);
-  const auto box = [&](const Exact_point& low, const Exact_point& high) { return from(scene, View_region::box(low, high)); };
+  const auto box = [&](const Exact_point& low, const Exact_point& high) {
+    return from(scene, View_region::box(low, high));
+  };
   const auto hull = [&](const Points& points) { return from(scene, View_region{points}); };
   // Boxes.
   EXPECT_EQ(box(at(-9, -9, -9), at(9, 9, 1)), no_arcs) << "its top in the upper one's plane";
@@ -438,7 +464,8 @@ TEST(Scope, of_a_region_that_touches_the_set_of_eyes_only_in_its_boundary_has_no
   // A rectangle within a facet of the boundary, where x = z, and one that is turned through it.
   EXPECT_EQ(hull({at(1, 0, 1), at(3, 0, 3), at(3, 1, 3), at(1, 1, 1)}), no_arcs);
   EXPECT_EQ(hull({at(1 - hair, 0, 1), at(3 - hair, 0, 3), at(3 - hair, 1, 3), at(1 - hair, 1, 1)}), upper_first);
-  EXPECT_EQ(hull({at(1, 0, 1), at(3, 0, 3), at(3 - hair, 1, 3), at(1, 1, 1)}), upper_first) << "one of its corners inside";
+  EXPECT_EQ(hull({at(1, 0, 1), at(3, 0, 3), at(3 - hair, 1, 3), at(1, 1, 1)}), upper_first)
+      << "one of its corners inside";
   // Segments: along a facet, through the set with both ends outside, and past it.
   EXPECT_EQ(hull({at(2, -5, 2), at(2, 5, 2)}), no_arcs);
   EXPECT_EQ(hull({at(2 - hair, -5, 2), at(2 - hair, 5, 2)}), upper_first);
@@ -448,7 +475,8 @@ TEST(Scope, of_a_region_that_touches_the_set_of_eyes_only_in_its_boundary_has_no
   EXPECT_EQ(hull({at(3, half, 1), at(3, half, 3 + hair)}), upper_first);
   // A tetrahedron around a part of the set that holds none of its corners.
   EXPECT_EQ(hull({at(-50, -50, 2), at(50, -50, 2), at(0, 90, 2), at(0, 0, 3)}), upper_first);
-  EXPECT_EQ(hull({at(-50, -50, -2), at(50, -50, -2), at(0, 90, -2), at(0, 0, 1)}), no_arcs) << "its top at a corner of the upper one";
+  EXPECT_EQ(hull({at(-50, -50, -2), at(50, -50, -2), at(0, 90, -2), at(0, 0, 1)}), no_arcs)
+      << "its top at a corner of the upper one";
 }
 
 TEST(Scope, of_a_degenerate_box_is_that_of_a_rectangle_a_segment_a_point_or_nothing) {
@@ -496,8 +524,10 @@ TEST(Scope, of_a_viewpoint_before_crossing_faces_has_both_arcs) {
   EXPECT_EQ(eye(0, 1), no_arcs) << "in the wall's plane";
   EXPECT_EQ(eye(0, 0), no_arcs) << "where they cross";
   EXPECT_EQ(from(scene, View_region::box(at(-5, -5, -5), at(0, 5, 5))), no_arcs) << "touches the quadrant";
-  EXPECT_EQ(from(scene, View_region{{at(-1, 0, 5), at(5, 0, -1)}}), both) << "both ends see one face only, the middle sees both";
-  EXPECT_EQ(from(scene, View_region{{at(-1, 0, 1), at(1, 0, -1)}}), no_arcs) << "passes through the corner of the quadrant";
+  EXPECT_EQ(from(scene, View_region{{at(-1, 0, 5), at(5, 0, -1)}}), both)
+      << "both ends see one face only, the middle sees both";
+  EXPECT_EQ(from(scene, View_region{{at(-1, 0, 1), at(1, 0, -1)}}), no_arcs)
+      << "passes through the corner of the quadrant";
   // A wall that stands on the floor is before the floor's left half, and never behind it.
   const Related standing(soup_of({rectangle(-1, 1, -1, 1, 0), {at(0, -1, 0), at(0, 1, 0), at(0, 1, 1), at(0, -1, 1)}}));
   const Matrix wall_first{{0, 0}, {1, 0}};
@@ -514,7 +544,8 @@ TEST(Scope, of_a_region_in_front_of_one_face_of_three_has_its_arcs_only) {
   EXPECT_EQ(from(scene, View_region::box(at(0, 0, 1), at(1, 1, 2))), (Matrix{{0, 0, 0}, {0, 0, 1}, {0, 0, 0}}));
   EXPECT_EQ(from(scene, View_region::box(at(0, 0, 0), at(1, 1, 1))), (Matrix{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}));
   EXPECT_EQ(from(scene, View_region::box(at(0, 0, 1), at(1, 1, 3))), (Matrix{{0, 1, 1}, {0, 0, 1}, {0, 0, 0}}));
-  // At height 3 the eye must be within -1 < x < 2 to see the first before the second, and within -1/2 < x < 3/2 before the third.
+  // At height 3 the eye must be within -1 < x < 2 to see the first before the second, and within -1/2 < x < 3/2 before
+  // the third.
   EXPECT_EQ(from(scene, View_region::eye(at(ratio(7, 4), ratio(1, 2), 3))), (Matrix{{0, 1, 0}, {0, 0, 1}, {0, 0, 0}}));
 }
 

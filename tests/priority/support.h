@@ -1,5 +1,6 @@
 #pragma once
-// Priority relations by brute force: the Lemma in plain rational arithmetic, closures by Floyd and Warshall, and scenes where everything touches.
+// Priority relations by brute force: the Lemma in plain rational arithmetic, closures by Floyd and Warshall, and scenes
+// where everything touches.
 
 #include "../bsp/support.h"
 
@@ -10,7 +11,8 @@ namespace priority_test {
 
 using namespace bsp_test;
 
-// ---- The Lemma -----------------------------------------------------------------------------------------------------------------
+// ---- The Lemma
+// -----------------------------------------------------------------------------------------------------------------
 
 /// A convex polygon by its corners only. `height` is positive in front.
 struct Flat {
@@ -18,7 +20,8 @@ struct Flat {
   Exact_point normal{0, 0, 0};  ///< twice the area vector (Newell)
 
   explicit Flat(Points points) : corners(std::move(points)) {
-    for (std::size_t k = 0; k < corners.size(); ++k) normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
   }
   Rational height(const Exact_point& p) const { return dot(normal, minus(p, corners[0])); }
 
@@ -28,7 +31,8 @@ struct Flat {
     if (from == to) return std::nullopt;
     return Rational(from / (from - to));
   }
-  /// Whether a point of the plane is in the polygon: strictly inside (1), on its boundary (0), outside (-1). Projects along the longest axis of the normal.
+  /// Whether a point of the plane is in the polygon: strictly inside (1), on its boundary (0), outside (-1). Projects
+  /// along the longest axis of the normal.
   int holds(const Exact_point& p) const {
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
@@ -54,17 +58,21 @@ inline Sides sides_of(const Flats& flats) {
   for (std::size_t j = 0; j < flats.size(); ++j) {
     const Rational offset = dot(flats[j].normal, flats[j].corners[0]);
     for (std::size_t i = 0; i < flats.size(); ++i)
-      for (const Exact_point& p : flats[i].corners) sides[i][j].push_back(sgn(Rational(dot(flats[j].normal, p) - offset)));
+      for (const Exact_point& p : flats[i].corners)
+        sides[i][j].push_back(sgn(Rational(dot(flats[j].normal, p) - offset)));
   }
   return sides;
 }
 
 using Matrix = std::vector<std::vector<char>>;
 
-/// The Lemma, word for word: a < b where a meets the open half-space in front of b's plane, and b the one behind a's. Corners decide.
+/// The Lemma, word for word: a < b where a meets the open half-space in front of b's plane, and b the one behind a's.
+/// Corners decide.
 inline Matrix arcs_of(const Sides& sides) {
   const std::size_t n = sides.size();
-  const auto has = [&](std::size_t i, std::size_t j, int side) { return std::count(sides[i][j].begin(), sides[i][j].end(), side) > 0; };
+  const auto has = [&](std::size_t i, std::size_t j, int side) {
+    return std::count(sides[i][j].begin(), sides[i][j].end(), side) > 0;
+  };
   Matrix arcs(n, std::vector<char>(n, 0));
   for (std::size_t a = 0; a < n; ++a)
     for (std::size_t b = 0; b < n; ++b) arcs[a][b] = has(a, b, 1) && has(b, a, -1);
@@ -89,10 +97,12 @@ inline std::size_t count_arcs(const Matrix& arcs) {
 }
 
 inline testing::AssertionResult same_arcs(const Matrix& found, const Matrix& expected) {
-  if (found.size() != expected.size()) return testing::AssertionFailure() << found.size() << " faces, not " << expected.size();
+  if (found.size() != expected.size())
+    return testing::AssertionFailure() << found.size() << " faces, not " << expected.size();
   for (std::size_t i = 0; i < found.size(); ++i)
     for (std::size_t j = 0; j < found.size(); ++j)
-      if (found[i][j] != expected[i][j]) return testing::AssertionFailure() << (expected[i][j] ? "missing arc " : "extra arc ") << i << " < " << j;
+      if (found[i][j] != expected[i][j])
+        return testing::AssertionFailure() << (expected[i][j] ? "missing arc " : "extra arc ") << i << " < " << j;
   return testing::AssertionSuccess();
 }
 
@@ -103,7 +113,8 @@ inline testing::AssertionResult part_of(const Matrix& fewer, const Matrix& more)
   return testing::AssertionSuccess();
 }
 
-// ---- Components ----------------------------------------------------------------------------------------------------------------
+// ---- Components
+// ----------------------------------------------------------------------------------------------------------------
 
 /// Reachability over one or more arcs (Floyd, Warshall).
 inline Matrix closure(Matrix arcs) {
@@ -128,7 +139,8 @@ inline Sets components_by_closure(const Matrix& arcs) {
   return sets;
 }
 
-/// Whether components are those of the arcs, members ascend, h names each member's component, and each arc goes to an equal or a higher number.
+/// Whether components are those of the arcs, members ascend, h names each member's component, and each arc goes to an
+/// equal or a higher number.
 template <class Components>
 testing::AssertionResult right_components(const Components& found, const Matrix& arcs) {
   Sets sets;
@@ -136,22 +148,28 @@ testing::AssertionResult right_components(const Components& found, const Matrix&
   if (found.faces() != arcs.size()) return testing::AssertionFailure() << found.faces() << " faces";
   for (std::size_t c = 0; c < found.size(); ++c) {
     const std::vector<std::uint32_t> set(found[c].begin(), found[c].end());
-    if (set.empty() || !std::is_sorted(set.begin(), set.end())) return testing::AssertionFailure() << "component " << c << " is empty or not ascending";
+    if (set.empty() || !std::is_sorted(set.begin(), set.end()))
+      return testing::AssertionFailure() << "component " << c << " is empty or not ascending";
     for (const std::uint32_t face : set)
-      if (found.h(face) != c) return testing::AssertionFailure() << "h(" << face << ") = " << found.h(face) << " in component " << c;
+      if (found.h(face) != c)
+        return testing::AssertionFailure() << "h(" << face << ") = " << found.h(face) << " in component " << c;
     members += set.size(), largest = std::max(largest, set.size()), cyclic += set.size() > 1;
     sets.insert(set);
   }
   if (members != arcs.size()) return testing::AssertionFailure() << members << " members";
-  if (sets != components_by_closure(arcs)) return testing::AssertionFailure() << "other components than the closure has";
-  if (found.largest() != largest || found.cyclic() != cyclic) return testing::AssertionFailure() << "largest " << found.largest() << ", cyclic " << found.cyclic();
+  if (sets != components_by_closure(arcs))
+    return testing::AssertionFailure() << "other components than the closure has";
+  if (found.largest() != largest || found.cyclic() != cyclic)
+    return testing::AssertionFailure() << "largest " << found.largest() << ", cyclic " << found.cyclic();
   for (std::uint32_t i = 0; i < arcs.size(); ++i)
     for (std::uint32_t j = 0; j < arcs.size(); ++j)
-      if (arcs[i][j] && found.h(i) > found.h(j)) return testing::AssertionFailure() << i << " < " << j << " goes from " << found.h(i) << " to " << found.h(j);
+      if (arcs[i][j] && found.h(i) > found.h(j))
+        return testing::AssertionFailure() << i << " < " << j << " goes from " << found.h(i) << " to " << found.h(j);
   return testing::AssertionSuccess();
 }
 
-// ---- A scene and its relation ------------------------------------------------------------------------------------------------------
+// ---- A scene and its relation
+// ------------------------------------------------------------------------------------------------------
 
 struct Related {
   Polygon_soup soup;
@@ -170,7 +188,8 @@ struct Related {
   Related(const Related&) = delete;
 };
 
-// ---- Random scenes -------------------------------------------------------------------------------------------------------------------
+// ---- Random scenes
+// -------------------------------------------------------------------------------------------------------------------
 
 /// generate::touching_faces as a soup.
 inline Polygon_soup touching_soup(Random& random) { return soup_of(generate::touching_faces(random)); }
@@ -183,16 +202,21 @@ inline Polygon_soup moved(const Polygon_soup& soup, Move move, std::uint64_t see
     case Move::none: return soup;
     case Move::far: return generate::translated(soup, at(100000000, -100000000, 100000000));
     case Move::tiny: return generate::scaled(soup, exact_decimal(1, -50));
-    case Move::one_ulp: return generate::one_ulp_perturbed(generate::translated(soup, at(ratio(1, 3), ratio(1, 7), ratio(-2, 3))), seed);
-    case Move::turned: return generate::rotated(soup, generate::rotation(1 + static_cast<long>(seed % 4), 1, -2, static_cast<long>(seed % 3)));
+    case Move::one_ulp:
+      return generate::one_ulp_perturbed(generate::translated(soup, at(ratio(1, 3), ratio(1, 7), ratio(-2, 3))), seed);
+    case Move::turned:
+      return generate::rotated(soup,
+                               generate::rotation(1 + static_cast<long>(seed % 4), 1, -2, static_cast<long>(seed % 3)));
   }
   return soup;
 }
 
-/// Scene number k of the degenerate ones: three in four of touching faces, the others with concave and non-planar faces too; half of them moved.
+/// Scene number k of the degenerate ones: three in four of touching faces, the others with concave and non-planar faces
+/// too; half of them moved.
 inline Polygon_soup degenerate_soup(std::uint64_t k) {
   Random random(k);
-  static constexpr std::array moves{Move::none, Move::far, Move::none, Move::tiny, Move::none, Move::one_ulp, Move::none, Move::turned};
+  static constexpr std::array moves{Move::none, Move::far,     Move::none, Move::tiny,
+                                    Move::none, Move::one_ulp, Move::none, Move::turned};
   const Polygon_soup soup = k % 4 == 3 ? random_soup(random, 8) : touching_soup(random);
   return moved(soup, moves[k / 4 % moves.size()], k);
 }

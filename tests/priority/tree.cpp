@@ -1,4 +1,5 @@
-// Priority trees and separating planes against the Lemma and plain rationals: what every tree must be, whatever it was made of.
+// Priority trees and separating planes against the Lemma and plain rationals: what every tree must be, whatever it was
+// made of.
 
 #include "support.h"
 
@@ -27,7 +28,8 @@ struct Equation {
 };
 template <class Traits>
 Equation equation_of(const Related& scene, const Traits& traits, const Separating_plane& plane) {
-  if (plane.is_free()) return {at(exact(plane.free[0]), exact(plane.free[1]), exact(plane.free[2])), exact(plane.free[3])};
+  if (plane.is_free())
+    return {at(exact(plane.free[0]), exact(plane.free[1]), exact(plane.free[2])), exact(plane.free[3])};
   for (std::uint32_t i = 0; i < scene.flats.size(); ++i)
     if (const Plane support = traits.supporting_plane(i); support.id() == plane.face.id()) {
       const Flat& flat = scene.flats[i];
@@ -36,7 +38,8 @@ Equation equation_of(const Related& scene, const Traits& traits, const Separatin
     }
   throw std::logic_error("a plane of no face");
 }
-/// Which sides of it corners are on: bit 1 behind, bit 2 in front, 0 all on it, as in Position; and whether any is on it.
+/// Which sides of it corners are on: bit 1 behind, bit 2 in front, 0 all on it, as in Position; and whether any is on
+/// it.
 struct Lies {
   int sides = 0;
   bool touches = false;
@@ -64,13 +67,16 @@ Matrix all_arcs(const Flats& flats) {
     for (const Exact_point& p : flat.corners) all.back().corners.push_back(rounded(p));
   }
   const std::size_t n = flats.size();
-  Matrix sides(n, std::vector<char>(n)), arcs(n, std::vector<char>(n));  // sides of i to j: bit 1 behind, bit 2 in front
+  Matrix sides(n, std::vector<char>(n)),
+      arcs(n, std::vector<char>(n));  // sides of i to j: bit 1 behind, bit 2 in front
   for (std::size_t j = 0; j < n; ++j)
     for (std::size_t i = 0; i < n; ++i)
       for (std::size_t k = 0; k < flats[i].corners.size(); ++k) {
         double value = -all[j].offset, size = std::abs(value);
-        for (std::size_t a = 0; a < 3; ++a) value += all[j].normal[a] * all[i].corners[k][a], size += std::abs(all[j].normal[a] * all[i].corners[k][a]);
-        const int side = std::abs(value) > 1e-12 * size ? (value > 0) - (value < 0) : sgn(flats[j].height(flats[i].corners[k]));
+        for (std::size_t a = 0; a < 3; ++a)
+          value += all[j].normal[a] * all[i].corners[k][a], size += std::abs(all[j].normal[a] * all[i].corners[k][a]);
+        const int side =
+            std::abs(value) > 1e-12 * size ? (value > 0) - (value < 0) : sgn(flats[j].height(flats[i].corners[k]));
         sides[i][j] = static_cast<char>(sides[i][j] | (side < 0 ? 1 : side > 0 ? 2 : 0));
       }
   for (std::size_t i = 0; i < n; ++i)
@@ -83,7 +89,9 @@ bool apart(const Flat& a, const Flat& b) {
   const auto by_edge_of = [](const Flat& f, const Flat& other) {
     for (std::size_t k = 0; k < f.corners.size(); ++k) {
       const Exact_point inward = cross(f.normal, minus(f.corners[(k + 1) % f.corners.size()], f.corners[k]));
-      if (std::all_of(other.corners.begin(), other.corners.end(), [&](const Exact_point& p) { return dot(inward, minus(p, f.corners[k])) <= 0; })) return true;
+      if (std::all_of(other.corners.begin(), other.corners.end(),
+                      [&](const Exact_point& p) { return dot(inward, minus(p, f.corners[k])) <= 0; }))
+        return true;
     }
     return false;
   };
@@ -98,11 +106,13 @@ class Laws {
   Priority_tree_counters sum;
   std::size_t empty_sides = 0, nested = 0, cut_pieces = 0, touching = 0;
 
-  ::testing::AssertionResult hold(const Related& scene, const Traits& traits, const Priority_tree_options& options, const Tree& tree) {
+  ::testing::AssertionResult hold(const Related& scene, const Traits& traits, const Priority_tree_options& options,
+                                  const Tree& tree) {
     flats_.clear();
     for (const auto& polygon : tree.polygons) flats_.emplace_back(corners_of(traits, polygon));
     arcs_ = all_arcs(flats_);
-    for (Result law : {nodes(scene, traits, tree), polygons(scene, traits, options, tree), counters(scene, options, tree)})
+    for (Result law :
+         {nodes(scene, traits, tree), polygons(scene, traits, options, tree), counters(scene, options, tree)})
       if (!law) return law << (options.two_sided ? ", both sides" : "") << (options.split ? ", cut" : "");
     return testing::AssertionSuccess();
   }
@@ -117,14 +127,19 @@ class Laws {
   Result counters(const Related& scene, const Priority_tree_options& options, const Tree& tree) {
     const Priority_tree_counters& c = tree.counters;
     if (c.pieces != scene.flats.size() * (options.two_sided ? 2 : 1)) return fails() << c.pieces << " pieces";
-    if (c.polygons != members_.size() || c.polygons != c.pieces + c.splits) return fails() << c.polygons << " polygons, " << c.splits << " splits";
+    if (c.polygons != members_.size() || c.polygons != c.pieces + c.splits)
+      return fails() << c.polygons << " polygons, " << c.splits << " splits";
     if (c.by_number + c.by_plane + c.left != c.polygons) return fails() << "the ways do not add up";
-    if (c.by_plane != on_planes_ || c.left != in_cycles_) return fails() << c.by_plane << " by plane, not " << on_planes_ << "; " << c.left << " left, not " << in_cycles_;
+    if (c.by_plane != on_planes_ || c.left != in_cycles_)
+      return fails() << c.by_plane << " by plane, not " << on_planes_ << "; " << c.left << " left, not " << in_cycles_;
     if (!options.split && (c.splits != 0 || c.cutting_planes != 0)) return fails() << "cuts";
     if (options.split && (c.left != 0 || c.cycles != 0)) return fails() << c.left << " left";
-    if (c.splits > 0 && c.cutting_planes == 0) return fails() << c.cutting_planes << " cutting planes, " << c.splits << " splits";
-    if (c.sequences != kinds_[0] || c.planes != kinds_[1] || c.cycles != kinds_[2] || c.free_planes != free_) return fails() << "nodes by kind";
-    sum.by_number += c.by_number, sum.by_plane += c.by_plane, sum.left += c.left, sum.splits += c.splits, sum.cutting_planes += c.cutting_planes;
+    if (c.splits > 0 && c.cutting_planes == 0)
+      return fails() << c.cutting_planes << " cutting planes, " << c.splits << " splits";
+    if (c.sequences != kinds_[0] || c.planes != kinds_[1] || c.cycles != kinds_[2] || c.free_planes != free_)
+      return fails() << "nodes by kind";
+    sum.by_number += c.by_number, sum.by_plane += c.by_plane, sum.left += c.left, sum.splits += c.splits,
+        sum.cutting_planes += c.cutting_planes;
     sum.sequences += c.sequences, sum.planes += c.planes, sum.cycles += c.cycles, sum.free_planes += c.free_planes;
     return testing::AssertionSuccess();
   }
@@ -134,7 +149,8 @@ class Laws {
     if (tree.turned.size() != tree.polygons.size() || tree.two_sided != options.two_sided) return fails() << "turned";
     std::map<std::pair<std::uint32_t, bool>, std::vector<std::uint32_t>> parts;
     for (const std::uint32_t p : members_) parts[{tree.polygons[p].piece, tree.turned[p] != 0}].push_back(p);
-    if (parts.size() != scene.flats.size() * (options.two_sided ? 2 : 1)) return fails() << parts.size() << " sides of pieces";
+    if (parts.size() != scene.flats.size() * (options.two_sided ? 2 : 1))
+      return fails() << parts.size() << " sides of pieces";
     for (const auto& side : parts) {
       const Flat& piece = scene.flats.at(side.first.first);
       const bool turned = side.first.second;
@@ -145,16 +161,21 @@ class Laws {
         const Flat& part = flats_[p];
         area = along(area, turned ? -1 : 1, part.normal);
         if (tree.polygons[p].support != (turned ? support.opposite() : support)) return fails() << "support of " << p;
-        if ((dot(part.normal, piece.normal) < 0) != turned || dot(part.normal, part.normal) == 0) return fails() << "the side of " << p;
+        if ((dot(part.normal, piece.normal) < 0) != turned || dot(part.normal, part.normal) == 0)
+          return fails() << "the side of " << p;
         for (const Exact_point& q : part.corners)
-          if (piece.height(q) != 0 || piece.holds(q) < 0) return fails() << "polygon " << p << " is no part of its piece";
+          if (piece.height(q) != 0 || piece.holds(q) < 0)
+            return fails() << "polygon " << p << " is no part of its piece";
         for (const Exact_point& q : part.corners)
           if (part.holds(q) != 0) return fails() << "polygon " << p << " is not convex";
         for (const std::uint32_t other : side.second)
-          if (other < p && !apart(part, flats_[other])) return fails() << "polygons " << p << " and " << other << " overlap";
+          if (other < p && !apart(part, flats_[other]))
+            return fails() << "polygons " << p << " and " << other << " overlap";
       }
       if (area != piece.normal) return fails() << "parts do not fill piece " << side.first.first;
-      if (side.second.size() == 1 && !std::is_permutation(piece.corners.begin(), piece.corners.end(), flats_[side.second[0]].corners.begin(), flats_[side.second[0]].corners.end()))
+      if (side.second.size() == 1 &&
+          !std::is_permutation(piece.corners.begin(), piece.corners.end(), flats_[side.second[0]].corners.begin(),
+                               flats_[side.second[0]].corners.end()))
         return fails() << "piece " << side.first.first << " has other corners";
       cut_pieces += side.second.size() > 1;
     }
@@ -169,9 +190,12 @@ class Laws {
     Result result = below(tree.slots.at(0), members_, 0);
     if (!result) return result;
     // Every polygon once, but those that were cut, which stay in the list.
-    if (std::any_of(seen_.begin(), seen_.end(), [](int times) { return times > 1; })) return fails() << "a polygon twice";
-    if (members_.size() + tree.counters.splits != tree.polygons.size()) return fails() << members_.size() << " polygons in the tree, of " << tree.polygons.size();
-    if (std::count(reached_.begin(), reached_.end(), 1) != static_cast<std::ptrdiff_t>(reached_.size())) return fails() << "not each node once";
+    if (std::any_of(seen_.begin(), seen_.end(), [](int times) { return times > 1; }))
+      return fails() << "a polygon twice";
+    if (members_.size() + tree.counters.splits != tree.polygons.size())
+      return fails() << members_.size() << " polygons in the tree, of " << tree.polygons.size();
+    if (std::count(reached_.begin(), reached_.end(), 1) != static_cast<std::ptrdiff_t>(reached_.size()))
+      return fails() << "not each node once";
     return result;
   }
 
@@ -193,7 +217,9 @@ class Laws {
       if (Result result = below(child, children.back(), depth + 1); !result) return result;
       members.insert(members.end(), children.back().begin(), children.back().end());
     }
-    return node.kind == Tree::Kind::sequence ? sequence(children) : node.kind == Tree::Kind::plane ? plane(node, children) : cycle(node, children);
+    return node.kind == Tree::Kind::sequence ? sequence(children)
+           : node.kind == Tree::Kind::plane  ? plane(node, children)
+                                             : cycle(node, children);
   }
   Result sequence(const std::vector<Members>& children) const {
     if (children.size() < 2) return fails() << "a sequence of " << children.size();
@@ -215,15 +241,18 @@ class Laws {
       on_planes_ += k > 1;
       for (const std::uint32_t p : children[k]) {
         const Lies lies = where(flats_[p].corners, h);
-        if (lies.sides != expected) return fails() << "polygon " << p << ", sides " << lies.sides << " of a plane, not " << expected;
+        if (lies.sides != expected)
+          return fails() << "polygon " << p << ", sides " << lies.sides << " of a plane, not " << expected;
         if (node.plane.is_free() && lies.touches) return fails() << "polygon " << p << " touches a free plane";
         touching += k < 2 && lies.touches;
       }
     }
     Predicate_counts counts;  // the side of eyes: corners, and one in the plane
-    const Exact_point corner = flats_[0].corners[0], foot = along(corner, -h.at_point(corner) / dot(h.normal, h.normal), h.normal);
+    const Exact_point corner = flats_[0].corners[0],
+                      foot = along(corner, -h.at_point(corner) / dot(h.normal, h.normal), h.normal);
     for (const Exact_point& eye : {corner, foot, along(foot, 1, h.normal), along(foot, -1, h.normal)})
-      if (side_of(*traits_, node.plane, eye, traits_->eye(eye), counts) != sgn(h.at_point(eye))) return fails() << "the side of an eye";
+      if (side_of(*traits_, node.plane, eye, traits_->eye(eye), counts) != sgn(h.at_point(eye)))
+        return fails() << "the side of an eye";
     return testing::AssertionSuccess();
   }
   Result cycle(const Node& node, const std::vector<Members>& children) {
@@ -231,9 +260,11 @@ class Laws {
     in_cycles_ += children.size();
     for (std::size_t i = 0; i < children.size(); ++i) {
       if (children[i].size() != 1 || tree_->slots_of(node)[i] < 0) return fails() << "no polygon in a cycle";
-      for (std::size_t j = 0; j < children.size(); ++j) among[i][j] = arcs_[children[i][0]][tree_->slots_of(node)[j] < 0 ? 0 : children[j].at(0)];
+      for (std::size_t j = 0; j < children.size(); ++j)
+        among[i][j] = arcs_[children[i][0]][tree_->slots_of(node)[j] < 0 ? 0 : children[j].at(0)];
     }
-    if (children.size() < 2 || components_by_closure(among).size() != 1) return fails() << "a cycle node that is no component";
+    if (children.size() < 2 || components_by_closure(among).size() != 1)
+      return fails() << "a cycle node that is no component";
     return testing::AssertionSuccess();
   }
 
@@ -251,18 +282,22 @@ class Laws {
 using Exact_laws = Laws<Exact_traits>;
 using Grown = Priority_tree<Exact_traits>;
 
-const std::array<Priority_tree_options, 4> all_options{{{false, false, {}}, {true, false, {}}, {false, true, {}}, {true, true, {}}}};
+const std::array<Priority_tree_options, 4> all_options{
+    {{false, false, {}}, {true, false, {}}, {false, true, {}}, {true, true, {}}}};
 
 /// All of a tree in words, but for memory.
 template <class Traits>
 std::string in_words(const Traits& traits, const Priority_tree<Traits>& tree) {
   std::string words;
   const auto say = [&](const auto& x) { words += testing::PrintToString(x) + ' '; };
-  for (const auto& node : tree.nodes) say(static_cast<int>(node.kind)), say(node.plane.free), say(node.plane.face.id()), say(node.plane.face.flipped()), say(node.first), say(node.count);
+  for (const auto& node : tree.nodes)
+    say(static_cast<int>(node.kind)), say(node.plane.free), say(node.plane.face.id()), say(node.plane.face.flipped()),
+        say(node.first), say(node.count);
   say(tree.slots), say(tree.turned);
   for (const auto& polygon : tree.polygons) {
     say(polygon.piece);
-    for (const Exact_point& p : corners_of(traits, polygon)) words += to_string(p[0]) + ' ' + to_string(p[1]) + ' ' + to_string(p[2]) + ';';
+    for (const Exact_point& p : corners_of(traits, polygon))
+      words += to_string(p[0]) + ' ' + to_string(p[1]) + ' ' + to_string(p[2]) + ';';
   }
   return words;
 }
@@ -272,7 +307,9 @@ TEST(Priority_tree, keeps_all_laws_on_1200_degenerate_scenes_with_one_or_both_si
   for (std::uint64_t k = 0; k < 1200; ++k) {
     const Related scene(degenerate_soup(k));
     for (const std::size_t kind : {k / 32 % 2, 3 - k / 32 % 2})  // two of the four
-      ASSERT_TRUE(laws.hold(scene, scene.traits, all_options[kind], build_priority_tree(scene.traits, all_options[kind]))) << "scene " << k;
+      ASSERT_TRUE(
+          laws.hold(scene, scene.traits, all_options[kind], build_priority_tree(scene.traits, all_options[kind])))
+          << "scene " << k;
   }
   EXPECT_GT(laws.sum.sequences, 1000u);
   EXPECT_GT(laws.sum.planes, 1000u);
@@ -287,8 +324,9 @@ TEST(Priority_tree, keeps_all_laws_on_1200_degenerate_scenes_with_one_or_both_si
 }
 
 TEST(Priority_tree, keeps_all_laws_on_scenes_of_each_kind_and_cities_are_settled_without_a_cut) {
-  const std::vector<std::pair<const char*, std::size_t>> scenes{{"city", 40}, {"city_rotated", 40}, {"rooms", 1}, {"bars", 5}, {"crossing", 6}, {"lattice", 3},
-                                                               {"soup", 80}, {"terrain", 100}, {"convex_sphere", 200}, {"menger_sponge", 1}};
+  const std::vector<std::pair<const char*, std::size_t>> scenes{
+      {"city", 40}, {"city_rotated", 40}, {"rooms", 1},           {"bars", 5},         {"crossing", 6}, {"lattice", 3},
+      {"soup", 80}, {"terrain", 100},     {"convex_sphere", 200}, {"menger_sponge", 1}};
   for (const auto& kind : scenes) {
     const Related scene(generate::make(kind.first, kind.second, 1));
     Exact_laws laws;
@@ -320,7 +358,10 @@ TEST(Priority_tree, is_the_same_every_time_and_of_its_own_polygons) {
         polygons.push_back(store.piece(scene.traits, i)), turned.push_back(0);
         if (options.two_sided) polygons.push_back(turned_round(polygons.back(), store)), turned.push_back(1);
       }
-      ASSERT_EQ(words, in_words(scene.traits, build_priority_tree(scene.traits, std::span<const Convex_polygon<Exact_traits>>(polygons), turned, options))) << "scene " << k;
+      ASSERT_EQ(words, in_words(scene.traits, build_priority_tree(
+                                                  scene.traits, std::span<const Convex_polygon<Exact_traits>>(polygons),
+                                                  turned, options)))
+          << "scene " << k;
     }
   }
   EXPECT_GT(long_words, 200u);
@@ -347,7 +388,8 @@ TEST(Priority_tree, keeps_all_laws_under_other_exact_kernels) {
   }
 }
 
-// ---- By hand -----------------------------------------------------------------------------------------------------------------------------
+// ---- By hand
+// -----------------------------------------------------------------------------------------------------------------------------
 
 std::array<Grown, 4> trees_of(const Related& scene, Exact_laws& laws) {
   std::array<Grown, 4> trees;
@@ -371,21 +413,25 @@ TEST(Priority_tree, of_three_bars_over_each_other_is_one_cycle_and_cut_has_four_
 
 TEST(Priority_tree, of_a_body_with_three_blades_leaves_its_long_sides_as_no_plane_parts_them) {
   // That of graph.svg. Each of the three long sides, 0, 3 and 6, runs into the hull of the other two.
-  const std::vector<std::array<long, 2>> outline{{1, 0}, {8, 0}, {8, 1}, {3, 1}, {-4, 8}, {-4, 7}, {0, 3}, {0, -8}, {1, -8}};
+  const std::vector<std::array<long, 2>> outline{{1, 0},  {8, 0}, {8, 1},  {3, 1}, {-4, 8},
+                                                 {-4, 7}, {0, 3}, {0, -8}, {1, -8}};
   std::vector<Points> walls;
-  for (std::size_t k = 0; k < 9; ++k) walls.push_back(wall(outline[k][0], outline[k][1], outline[(k + 1) % 9][0], outline[(k + 1) % 9][1]));
+  for (std::size_t k = 0; k < 9; ++k)
+    walls.push_back(wall(outline[k][0], outline[k][1], outline[(k + 1) % 9][0], outline[(k + 1) % 9][1]));
   const Related scene(soup_of(walls));
   Exact_laws laws;
   const auto trees = trees_of(scene, laws);
   std::vector<std::vector<Grown::Slot>> cycles;
   for (const auto& node : trees[0].nodes)
-    if (node.kind == Grown::Kind::cycle) cycles.emplace_back(trees[0].slots_of(node).begin(), trees[0].slots_of(node).end());
+    if (node.kind == Grown::Kind::cycle)
+      cycles.emplace_back(trees[0].slots_of(node).begin(), trees[0].slots_of(node).end());
   EXPECT_EQ(cycles, (std::vector<std::vector<Grown::Slot>>{{0, 3, 6}}));
   EXPECT_EQ(trees[0].counters.by_number + trees[0].counters.by_plane, 6u);
 }
 
 TEST(Priority_tree, of_a_ring_of_four_blades_needs_no_cut_though_its_graph_is_one_cycle) {
-  const Related scene(soup_of({wall(4, 2, 9, 2), wall(5, 3, 5, 8), wall(3, 4, -2, 4), wall(2, 3, 2, -2)}));  // two are right of x = 3 1/2, two left of it
+  const Related scene(soup_of({wall(4, 2, 9, 2), wall(5, 3, 5, 8), wall(3, 4, -2, 4),
+                               wall(2, 3, 2, -2)}));  // two are right of x = 3 1/2, two left of it
   ASSERT_EQ(components_by_closure(arcs_of(scene.flats)).size(), 1u);
   Exact_laws laws;
   for (const Grown& tree : trees_of(scene, laws)) {
@@ -419,24 +465,29 @@ TEST(Priority_tree, of_no_face_or_one_has_no_node) {
   }
 }
 
-// ---- Separating planes ----------------------------------------------------------------------------------------------------------------------
+// ---- Separating planes
+// ----------------------------------------------------------------------------------------------------------------------
 
-/// Triangles of lattice points on one side of a plane through the origin, at least `gap` away by the values of the normal.
-void add_group(std::vector<Points>& faces, const Exact_point& normal, long gap, std::size_t count, int side, Random& random) {
+/// Triangles of lattice points on one side of a plane through the origin, at least `gap` away by the values of the
+/// normal.
+void add_group(std::vector<Points>& faces, const Exact_point& normal, long gap, std::size_t count, int side,
+               Random& random) {
   for (std::size_t made = 0; made < count;) {
     Points face;
     while (face.size() < 3) {
       const Exact_point p = lattice_point(random, 6);
       if (Rational(side * dot(normal, p)) >= gap) face.push_back(p);
     }
-    const int off = sgn(dot(normal, face[0])) * side + sgn(dot(normal, face[1])) * side + sgn(dot(normal, face[2])) * side;
+    const int off =
+        sgn(dot(normal, face[0])) * side + sgn(dot(normal, face[1])) * side + sgn(dot(normal, face[2])) * side;
     const Exact_point n = Flat(face).normal;
     if (off > 0 && dot(n, n) != 0) faces.push_back(face), ++made;
   }
 }
 
 /// What find returns must be true. Returns the size of the larger side, or 0.
-std::size_t check_find(const Related& scene, const std::vector<std::uint32_t>& members, std::size_t least, std::size_t directions, Separation_finder<Exact_traits>& finder) {
+std::size_t check_find(const Related& scene, const std::vector<std::uint32_t>& members, std::size_t least,
+                       std::size_t directions, Separation_finder<Exact_traits>& finder) {
   Predicate_counts counts;
   const std::optional<Separation> found = finder.find(members, least, directions, counts);
   if (!found) return 0;
@@ -465,7 +516,8 @@ TEST(Separation_finder, finds_planes_that_are_there_and_none_that_cut) {
     if (across_axis || dot(normal, normal) == 0) normal = at(0, 0, 0), normal[axis] = random.chance(1, 2) ? 1 : -3;
     std::vector<Points> faces;
     const std::size_t front = 1 + random.below(6), behind = 1 + random.below(6);
-    add_group(faces, normal, with_face ? 0 : 1, front, 1, random), add_group(faces, normal, with_face ? 0 : 1, behind, -1, random);
+    add_group(faces, normal, with_face ? 0 : 1, front, 1, random),
+        add_group(faces, normal, with_face ? 0 : 1, behind, -1, random);
     if (with_face) {
       const Exact_point u = normal[0] == 0 && normal[1] == 0 ? at(1, 0, 0) : at(-normal[1], normal[0], 0);
       faces.push_back({at(0, 0, 0), u, cross(normal, u)});

@@ -10,7 +10,10 @@ class Bad_input : public Program {
  protected:
   /// info, bsp and order refuse a scene in one line, which says where.
   void expect_refused(const std::string& scene, const std::string& where, Limits limits = {10, 1024}) {
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"info", scene}, {"bsp", scene}, {"order", scene, "--eye", "3,4,5"}, {"info", scene, "--json", "-"}}) {
+    for (const std::vector<std::string>& words : {std::vector<std::string>{"info", scene},
+                                                  {"bsp", scene},
+                                                  {"order", scene, "--eye", "3,4,5"},
+                                                  {"info", scene, "--json", "-"}}) {
       std::vector<std::string> arguments = words;
       arguments.insert(arguments.end(), {"--threads", "1"});
       const Outcome r = run(arguments, limits);
@@ -24,7 +27,9 @@ class Bad_input : public Program {
   Json expect_taken(const std::string& scene, Limits limits = {60, 2048}) {
     const Outcome b = run({"bsp", scene, "--threads", "1"}, limits);
     EXPECT_EQ(b.code, done) << b;
-    const Outcome o = run({"order", scene, "--eye", "30,41,52", "--threads", "1", "--certificate", path("certificate.json").string()}, limits);
+    const Outcome o =
+        run({"order", scene, "--eye", "30,41,52", "--threads", "1", "--certificate", path("certificate.json").string()},
+            limits);
     EXPECT_EQ(o.code, done) << o;
     const Outcome v = run({"verify", scene, path("certificate.json").string()}, limits);
     EXPECT_EQ(v.code, done) << v;
@@ -77,7 +82,8 @@ TEST_F(Bad_input, a_cube_cut_off_anywhere_is_refused_or_read_never_a_crash) {
 }
 
 TEST_F(Bad_input, announced_multitudes_take_no_memory) {
-  for (const char* name : {"billion_faces.off", "billion_points.off", "billion_corners.off", "billion_faces.ply", "billion_facets.stl"}) {
+  for (const char* name :
+       {"billion_faces.off", "billion_points.off", "billion_corners.off", "billion_faces.ply", "billion_facets.stl"}) {
     const Outcome r = run({"info", (corpus / "failure" / name).string(), "--threads", "1"}, {5, 128});
     EXPECT_EQ(r.code, bad_input) << r;
   }
@@ -85,15 +91,20 @@ TEST_F(Bad_input, announced_multitudes_take_no_memory) {
 
 TEST_F(Bad_input, a_query_of_another_scene_or_of_a_million_brackets_is_refused) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']'), begin = R"({"format": "sightline query 1", "eye": )", eye = R"(["0", "0", "9"], )";
-  const std::vector<std::pair<std::string, std::string>> queries{{(corpus / "queries" / "face_out_of_range.json").string(), "\"visible\" names a face that is not one of the scene's 6"},
-                                                                 {file("eye.json", begin + deep + '}'), "eye is no point"},
-                                                                 {file("eyes.json", begin + "[0, 0, " + deep + "]}"), "eye is no number"},
-                                                                 {file("source.json", begin + eye + "\"source\": " + deep + '}'), "source[0] is no point"},
-                                                                 {file("hidden.json", begin + eye + "\"hidden\": " + deep + '}'), "\"hidden\" names a face that is not one"},
-                                                                 {file("bytes.json", begin + "\x7f\n\xff"), "parse error"}};
+  const std::string deep = std::string(1'000'000, '[') + std::string(1'000'000, ']'),
+                    begin = R"({"format": "sightline query 1", "eye": )", eye = R"(["0", "0", "9"], )";
+  const std::vector<std::pair<std::string, std::string>> queries{
+      {(corpus / "queries" / "face_out_of_range.json").string(),
+       "\"visible\" names a face that is not one of the scene's 6"},
+      {file("eye.json", begin + deep + '}'), "eye is no point"},
+      {file("eyes.json", begin + "[0, 0, " + deep + "]}"), "eye is no number"},
+      {file("source.json", begin + eye + "\"source\": " + deep + '}'), "source[0] is no point"},
+      {file("hidden.json", begin + eye + "\"hidden\": " + deep + '}'), "\"hidden\" names a face that is not one"},
+      {file("bytes.json", begin + "\x7f\n\xff"), "parse error"}};
   for (const auto& [query, why] : queries)
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"fuzz", "see", "--scene", cube, "--query", query}, {"reduce", cube, "--out", path("small.off").string(), "--query", query, "--", "false", "{}"}}) {
+    for (const std::vector<std::string>& words :
+         {std::vector<std::string>{"fuzz", "see", "--scene", cube, "--query", query},
+          {"reduce", cube, "--out", path("small.off").string(), "--query", query, "--", "false", "{}"}}) {
       const Outcome r = run(words, {20, 1024});
       EXPECT_EQ(r.code, bad_input) << r;
       EXPECT_TRUE(r.one_line_of_error()) << r;
@@ -103,7 +114,8 @@ TEST_F(Bad_input, a_query_of_another_scene_or_of_a_million_brackets_is_refused) 
 }
 
 TEST_F(Bad_input, a_common_denominator_that_explodes_is_refused) {
-  // Each point has another denominator of 61 bits with few common factors: those of 143 points have a multiple of 8192 bits.
+  // Each point has another denominator of 61 bits with few common factors: those of 143 points have a multiple of 8192
+  // bits.
   std::string text = "OFF\n600 1 0\n";
   unsigned long long n = (1ull << 61) - 1;
   for (int i = 0; i < 600; ++i, n -= 2) text += "1/" + std::to_string(n) + " " + std::to_string(i) + " 0\n";
@@ -116,15 +128,18 @@ TEST_F(Bad_input, a_common_denominator_that_explodes_is_refused) {
 
 TEST_F(Bad_input, decimals_of_all_exponents_are_not_a_bomb) {
   std::string text = "OFF\n400 398 0\n";
-  for (int i = 0; i < 400; ++i) text += "1e" + std::to_string(5 * i - 1000) + " " + std::to_string(i) + " " + std::to_string(i * i) + "\n";
-  for (int i = 0; i < 398; ++i) text += "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
+  for (int i = 0; i < 400; ++i)
+    text += "1e" + std::to_string(5 * i - 1000) + " " + std::to_string(i) + " " + std::to_string(i * i) + "\n";
+  for (int i = 0; i < 398; ++i)
+    text += "3 " + std::to_string(i) + " " + std::to_string(i + 1) + " " + std::to_string(i + 2) + "\n";
   const std::string scene = file("exponents.off", text);
   const Outcome r = run({"info", scene, "--threads", "1"}, {20, 1024});
   EXPECT_EQ(r.code, done) << r;
 }
 
 TEST_F(Bad_input, a_number_of_a_million_digits_is_a_number) {
-  const std::string scene = file("long.off", "OFF\n3 1 0\n0." + std::string(1'000'000, '3') + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const std::string scene =
+      file("long.off", "OFF\n3 1 0\n0." + std::string(1'000'000, '3') + " 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
   const Outcome r = run({"info", scene, "--threads", "1"}, {20, 1024});
   EXPECT_TRUE(r.code == done || (r.code == bad_input && r.one_line_of_error())) << r;
 }
@@ -134,7 +149,9 @@ TEST_F(Bad_input, faces_of_fewer_than_three_corners_are_set_aside) {
   const Json info = expect_taken(scene);
   EXPECT_EQ(info["scene"]["faces_read"], 4);
   EXPECT_EQ(info["scene"]["faces"], 1);
-  EXPECT_EQ(info["scene"]["set_aside"], Json::parse(R"([{"face":0,"why":"zero area"},{"face":1,"why":"zero area"},{"face":2,"why":"zero area"}])")) << info["scene"];
+  EXPECT_EQ(info["scene"]["set_aside"],
+            Json::parse(R"([{"face":0,"why":"zero area"},{"face":1,"why":"zero area"},{"face":2,"why":"zero area"}])"))
+      << info["scene"];
 }
 
 TEST_F(Bad_input, a_scene_without_faces_or_points_is_an_empty_scene) {
@@ -156,7 +173,9 @@ TEST_F(Bad_input, polygons_of_ten_thousand_corners_are_cut_and_ordered) {
   for (long i = 0; i < n; ++i) {
     const long x = i - n / 2;
     convex += std::to_string(x) + " " + std::to_string(x * x) + " 7\n";
-    comb += i == 0 ? "-1 -5 7\n" : i == 1 ? std::to_string(n) + " -5 7\n" : std::to_string(n - i) + (i % 2 == 0 ? " 0 7\n" : " 100 7\n");
+    comb += i == 0   ? "-1 -5 7\n"
+            : i == 1 ? std::to_string(n) + " -5 7\n"
+                     : std::to_string(n - i) + (i % 2 == 0 ? " 0 7\n" : " 100 7\n");
     face += " " + std::to_string(i);
   }
   const Json one = expect_taken(file("convex.off", convex + face + "\n"), {30, 1024});
@@ -180,7 +199,8 @@ TEST_F(Bad_input, ends_of_lines_and_comments_change_nothing) {
     EXPECT_EQ(r.code, done) << r;
     return r.json()["result"];
   };
-  const Json plain = fragments(file("plain.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nv 0 0 1\nv 1 0 1\nv 1 1 1\nf -3 -2 -1\n"));
+  const Json plain = fragments(
+      file("plain.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nv 0 0 1\nv 1 0 1\nv 1 1 1\nf -3 -2 -1\n"));
   EXPECT_EQ(fragments((corpus / "robust" / "mixed_line_ends.obj").string()), plain);
 }
 
@@ -206,7 +226,10 @@ TEST_F(Bad_input, targets_that_cannot_be_written_are_told_and_exit_3) {
 
 TEST_F(Bad_input, a_full_standard_output_is_no_success) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"info", cube}, {"info", cube, "--json", "-"}, {"order", cube, "--eye", "3,4,5", "--json", "-"}, {"bsp", cube}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"info", cube},
+                                                {"info", cube, "--json", "-"},
+                                                {"order", cube, "--eye", "3,4,5", "--json", "-"},
+                                                {"bsp", cube}}) {
     const Outcome r = run_to("/dev/full", words);
     EXPECT_EQ(r.code, bad_input) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;
@@ -215,12 +238,17 @@ TEST_F(Bad_input, a_full_standard_output_is_no_success) {
 
 TEST_F(Bad_input, certificates_that_are_none_are_refused) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  for (const std::string& certificate :
-       {path("none.json").string(), path("").string(), file("empty.json", ""), file("garbage.json", std::string("\0\1\2{\xff", 5)), file("other.json", "{\"format\": \"sightline see 1\"}"),
-        file("list.json", "[]"), file("half.json", "{\"format\": \"sightline order 1\", \"eye\": [\"1\", \"2\""), file("deep.json", std::string(1'000'000, '[')),
-        file("numbers.json", R"({"format": "sightline order 1", "eye": [1, 2, 3], "fragments": []})"),
-        file("face.json", R"({"format": "sightline order 1", "eye": ["1", "2", "3"], "fragments": [{"face": -1, "piece": 0, "vertices": []}]})"),
-        file("zero.json", R"({"format": "sightline order 1", "eye": ["1/0", "2", "3"], "fragments": []})")}) {
+  for (
+      const std::string& certificate :
+      {path("none.json").string(), path("").string(), file("empty.json", ""),
+       file("garbage.json", std::string("\0\1\2{\xff", 5)), file("other.json", "{\"format\": \"sightline see 1\"}"),
+       file("list.json", "[]"), file("half.json", "{\"format\": \"sightline order 1\", \"eye\": [\"1\", \"2\""),
+       file("deep.json", std::string(1'000'000, '[')),
+       file("numbers.json", R"({"format": "sightline order 1", "eye": [1, 2, 3], "fragments": []})"),
+       file(
+           "face.json",
+           R"({"format": "sightline order 1", "eye": ["1", "2", "3"], "fragments": [{"face": -1, "piece": 0, "vertices": []}]})"),
+       file("zero.json", R"({"format": "sightline order 1", "eye": ["1/0", "2", "3"], "fragments": []})")}) {
     const Outcome r = run({"verify", cube, certificate}, {20, 1024});
     EXPECT_EQ(r.code, bad_input) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;

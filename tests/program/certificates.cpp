@@ -11,7 +11,8 @@ namespace program {
 
 class Certificates : public Program {
  protected:
-  const std::string cornell = (corpus / "general" / "cornell.obj").string(), duplicates = (corpus / "robust" / "duplicates.off").string();
+  const std::string cornell = (corpus / "general" / "cornell.obj").string(),
+                    duplicates = (corpus / "robust" / "duplicates.off").string();
 
   Json certificate(const std::string& scene, const std::string& eye) {
     const std::string to = path("made.json").string();
@@ -21,7 +22,9 @@ class Certificates : public Program {
     expect_accepted(scene, made);
     return made;
   }
-  Outcome verify(const std::string& scene, const Json& certificate) { return run({"verify", scene, file("changed.json", certificate.dump()), "--json", "-"}); }
+  Outcome verify(const std::string& scene, const Json& certificate) {
+    return run({"verify", scene, file("changed.json", certificate.dump()), "--json", "-"});
+  }
   void expect_accepted(const std::string& scene, const Json& certificate) {
     const Outcome r = verify(scene, certificate);
     EXPECT_EQ(r.code, done) << r;
@@ -38,7 +41,8 @@ class Certificates : public Program {
     EXPECT_FALSE(why.empty() || why.find('\n') != std::string::npos) << why;
     return why;
   }
-  std::string expect_rejected_after(const std::string& scene, Json certificate, const std::function<void(Json&)>& change) {
+  std::string expect_rejected_after(const std::string& scene, Json certificate,
+                                    const std::function<void(Json&)>& change) {
     change(certificate);
     return expect_rejected(scene, certificate);
   }
@@ -53,7 +57,8 @@ TEST_F(Certificates, a_vertex_moved_by_two_to_the_minus_sixty_is_rejected) {
       for (const bool up : {false, true})
         expect_rejected_after(cornell, made, [&](Json& c) {
           Json& x = c["fragments"][f]["vertices"][f % 3][k];
-          x = sightline::to_string(sightline::rational_from_string(x.get<std::string>()) + (up ? tiny : sightline::Rational(-tiny)));
+          x = sightline::to_string(sightline::rational_from_string(x.get<std::string>()) +
+                                   (up ? tiny : sightline::Rational(-tiny)));
         });
 }
 
@@ -63,11 +68,13 @@ TEST_F(Certificates, two_fragments_that_overlap_and_change_places_are_rejected) 
   const Json made = certificate(stacked, "0.5,0.25,100");
   ASSERT_EQ(made["fragments"].size(), 6u);
   for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = i + 1; j < 6; ++j) expect_rejected_after(stacked, made, [&](Json& c) { std::swap(c["fragments"][i], c["fragments"][j]); });
+    for (std::size_t j = i + 1; j < 6; ++j)
+      expect_rejected_after(stacked, made, [&](Json& c) { std::swap(c["fragments"][i], c["fragments"][j]); });
 }
 
 TEST_F(Certificates, fragments_that_do_not_overlap_may_change_places) {
-  const std::string scene = file("beside.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 5 1\n6 5 1\n5 6 1\n3 0 1 2\n3 3 4 5\n");
+  const std::string scene =
+      file("beside.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n5 5 1\n6 5 1\n5 6 1\n3 0 1 2\n3 3 4 5\n");
   Json made = certificate(scene, "0,0,10");
   std::swap(made["fragments"][0], made["fragments"][1]);
   expect_accepted(scene, made);
@@ -78,20 +85,24 @@ TEST_F(Certificates, a_fragment_dropped_or_doubled_or_turned_is_rejected) {
   const std::size_t n = made["fragments"].size();
   for (std::size_t f = 0; f < n; ++f) expect_rejected_after(cornell, made, [&](Json& c) { c["fragments"].erase(f); });
   expect_rejected_after(cornell, made, [&](Json& c) { c["fragments"].push_back(c["fragments"][n - 1]); });
-  expect_rejected_after(cornell, made, [&](Json& c) { std::reverse(c["fragments"][3]["vertices"].begin(), c["fragments"][3]["vertices"].end()); });
+  expect_rejected_after(cornell, made, [&](Json& c) {
+    std::reverse(c["fragments"][3]["vertices"].begin(), c["fragments"][3]["vertices"].end());
+  });
   expect_rejected_after(cornell, made, [](Json& c) { c["fragments"].clear(); });
 }
 
 TEST_F(Certificates, a_fragment_said_to_be_of_another_face_is_rejected) {
   const Json made = certificate(cornell, "5,-20,5");
-  expect_rejected_after(cornell, made, [](Json& c) { c["fragments"][0]["face"] = (c["fragments"][0]["face"].get<int>() + 1) % 16; });
+  expect_rejected_after(cornell, made,
+                        [](Json& c) { c["fragments"][0]["face"] = (c["fragments"][0]["face"].get<int>() + 1) % 16; });
   expect_rejected_after(cornell, made, [](Json& c) { c["fragments"][0]["face"] = 16; });
   expect_rejected_after(cornell, made, [](Json& c) { c["fragments"][0]["face"] = 4294967295; });
 }
 
 TEST_F(Certificates, lies_about_what_is_set_aside_are_rejected) {
   const Json made = certificate(cornell, "5,-20,5");
-  for (const char* why : {"zero area", "duplicate of 1", "duplicate of 0", "duplicate of 4294967295", "duplicate of", "self-intersecting", "not needed", ""}) {
+  for (const char* why : {"zero area", "duplicate of 1", "duplicate of 0", "duplicate of 4294967295", "duplicate of",
+                          "self-intersecting", "not needed", ""}) {
     std::set<std::string> reasons;
     const std::string reason = expect_rejected_after(cornell, made, [&](Json& c) {
       Json kept = Json::array();
@@ -141,19 +152,25 @@ TEST_F(Certificates, pieces_of_a_cut_face_that_are_changed_are_rejected) {
   expect_rejected_after(scene, made, [](Json& c) { c["pieces"].erase(0); });
   expect_rejected_after(scene, made, [](Json& c) { c["pieces"].clear(); });
   expect_rejected_after(scene, made, [](Json& c) { c["pieces"][0]["vertices"][0][2] = "7"; });
-  expect_rejected_after(scene, made, [](Json& c) { std::swap(c["pieces"][0]["vertices"], c["pieces"][1]["vertices"]); });
+  expect_rejected_after(scene, made,
+                        [](Json& c) { std::swap(c["pieces"][0]["vertices"], c["pieces"][1]["vertices"]); });
 }
 
 TEST_F(Certificates, of_what_polygons_can_see_are_verified) {
   // A square that looks down on the source, and a roof between the two.
-  const std::string scene = file("roof.off", "OFF\n8 2 0\n0 1 3\n1 1 3\n1 0 3\n0 0 3\n-5 -5 1\n6 -5 1\n6 6 1\n-5 6 1\n4 0 1 2 3\n4 4 5 6 7\n");
+  const std::string scene = file(
+      "roof.off", "OFF\n8 2 0\n0 1 3\n1 1 3\n1 0 3\n0 0 3\n-5 -5 1\n6 -5 1\n6 6 1\n-5 6 1\n4 0 1 2 3\n4 4 5 6 7\n");
   const Json made = Json::parse(R"({"format": "sightline weak 1",
     "fragments": [{"face": 0, "piece": 0, "vertices": [["0","1","3"],["1","1","3"],["1","0","3"],["0","0","3"]]}, {"face": 1, "piece": 0, "vertices": [["-5","-5","1"],["6","-5","1"],["6","6","1"],["-5","6","1"]]}],
     "sources": [[["0","0","0"],["1","0","0"],["1","1","0"],["0","1","0"]]], "visible": [], "lines": [],
     "hidden": [{"fragment": 0, "source": 0, "proof": [["blocked", 1]]}, {"fragment": 1, "source": 0, "proof": [["away"]]}]})");
   expect_accepted(scene, made);
-  EXPECT_NE(expect_rejected_after(scene, made, [](Json& c) { c["two_sided"] = true; }).find("hidden 1 (face 1), node 0 is not away"), std::string::npos);
-  EXPECT_NE(expect_rejected_after(scene, made, [](Json& c) { c["hidden"][0]["proof"][0][1] = 0; }).find("hidden 0 (face 0), node 0 is not blocked by fragment 0"), std::string::npos);
+  EXPECT_NE(expect_rejected_after(scene, made, [](Json& c) { c["two_sided"] = true; })
+                .find("hidden 1 (face 1), node 0 is not away"),
+            std::string::npos);
+  EXPECT_NE(expect_rejected_after(scene, made, [](Json& c) { c["hidden"][0]["proof"][0][1] = 0; })
+                .find("hidden 0 (face 0), node 0 is not blocked by fragment 0"),
+            std::string::npos);
   Json unread = made;
   unread["hidden"][0]["proof"][0][1] = 2;
   const Outcome r = verify(scene, unread);

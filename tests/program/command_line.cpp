@@ -36,7 +36,9 @@ static const std::map<std::string, std::vector<std::string>> commands{
     {"verify", {"SCENE", "CERTIFICATE"}},
     {"compare", {"SCENE", "--eye", "--kernels", "--max-fragments"}},
     {"generate", {"FAMILY", "--size", "--seed", "--ulps", "--offset", "--scale", "--out", "--query"}},
-    {"fuzz", {"COMMAND", "--seconds", "--scenes", "--seed", "--family", "--max-faces", "--case", "--scene", "--query", "--check", "--out", "--json"}},
+    {"fuzz",
+     {"COMMAND", "--seconds", "--scenes", "--seed", "--family", "--max-faces", "--case", "--scene", "--query",
+      "--check", "--out", "--json"}},
     {"reduce", {"SCENE", "PROGRAM", "--out", "--query", "--code", "--limit", "--seconds"}},
 };
 
@@ -45,7 +47,8 @@ TEST_F(Command_line, help_names_every_command) {
     const Outcome r = run({option});
     EXPECT_EQ(r.code, done) << r;
     EXPECT_EQ(r.err, "") << r;
-    for (const auto& [command, options] : commands) EXPECT_NE(r.out.find("  " + command + " "), std::string::npos) << command << r;
+    for (const auto& [command, options] : commands)
+      EXPECT_NE(r.out.find("  " + command + " "), std::string::npos) << command << r;
   }
 }
 
@@ -55,8 +58,10 @@ TEST_F(Command_line, help_of_each_command_names_each_of_its_options) {
     EXPECT_EQ(r.code, done) << r;
     EXPECT_EQ(r.err, "") << r;
     std::vector<std::string> all = options;
-    if (command != "generate" && command != "fuzz" && command != "reduce") all.insert(all.end(), {"--json", "--coordinates", "--threads", "--seed", "--budget"});
-    for (const std::string& option : all) EXPECT_NE(r.out.find(option), std::string::npos) << option << " is not in " << r;
+    if (command != "generate" && command != "fuzz" && command != "reduce")
+      all.insert(all.end(), {"--json", "--coordinates", "--threads", "--seed", "--budget"});
+    for (const std::string& option : all)
+      EXPECT_NE(r.out.find(option), std::string::npos) << option << " is not in " << r;
   }
 }
 
@@ -92,11 +97,15 @@ TEST_F(Command_line, missing_and_surplus_arguments_are_usage_errors) {
 }
 
 TEST_F(Command_line, values_out_of_range_are_usage_errors) {
-  for (const char* threads : {"-1", "1025", "two", "1.5", ""}) expect_usage_error({"info", cube, "--threads", threads}, "--threads");
-  for (const char* seed : {"-1", "x", "18446744073709551616", "1e3"}) expect_usage_error({"bsp", cube, "--seed", seed}, "--seed");
+  for (const char* threads : {"-1", "1025", "two", "1.5", ""})
+    expect_usage_error({"info", cube, "--threads", threads}, "--threads");
+  for (const char* seed : {"-1", "x", "18446744073709551616", "1e3"})
+    expect_usage_error({"bsp", cube, "--seed", seed}, "--seed");
   for (const char* budget : {"-1", "soon"}) expect_usage_error({"bsp", cube, "--budget", budget}, "--budget");
-  for (const char* field : {"0", "180", "wide", "nan"}) expect_usage_error({"order", cube, "--eye", "3,4,5", "--field", field}, "--field");
-  for (const char* candidates : {"0", "1001", "-1"}) expect_usage_error({"bsp", cube, "--candidates", candidates}, "--candidates");
+  for (const char* field : {"0", "180", "wide", "nan"})
+    expect_usage_error({"order", cube, "--eye", "3,4,5", "--field", field}, "--field");
+  for (const char* candidates : {"0", "1001", "-1"})
+    expect_usage_error({"bsp", cube, "--candidates", candidates}, "--candidates");
   expect_usage_error({"bsp", cube, "--kernel", "exakt"}, "exakt");
   expect_usage_error({"info", cube, "--coordinates", "float"}, "float");
   expect_usage_error({"compare", cube, "bsp", "--kernels", "exact,magic"}, "magic");
@@ -108,14 +117,20 @@ TEST_F(Command_line, a_budget_that_is_no_number_is_a_usage_error) {
 }
 
 TEST_F(Command_line, order_wants_an_eye_of_three_exact_numbers) {
-  for (const char* eye : {"", "1,2", "1,2,3,4", "1,2,", ",1,2", ",,", "a,b,c", "1;2;3", "1 2 3", "1, 2, 3", "nan,0,0", "inf,0,0", "0,-inf,0", "1/0,0,0", "1/,0,0", "/2,0,0",
-                          "1/2/3,0,0", "0x10,0,0", "1e999999999,0,0", "1e,0,0", "--1,0,0", "1.2.3,0,0", "1.5/2,0,0", "1#,0,0", "1,2,3\n"})
+  for (const char* eye :
+       {"",          "1,2",      "1,2,3,4",         "1,2,",    ",1,2",     ",,",        "a,b,c",     "1;2;3",
+        "1 2 3",     "1, 2, 3",  "nan,0,0",         "inf,0,0", "0,-inf,0", "1/0,0,0",   "1/,0,0",    "/2,0,0",
+        "1/2/3,0,0", "0x10,0,0", "1e999999999,0,0", "1e,0,0",  "--1,0,0",  "1.2.3,0,0", "1.5/2,0,0", "1#,0,0",
+        "1,2,3\n"})
     expect_bad_eye(eye);
 }
 
 TEST_F(Command_line, order_takes_decimals_fractions_signs_and_exponents_as_eye) {
   for (const auto& [eye, read] : std::map<std::string, std::vector<std::string>>{
-           {"-1,-2,-3", {"-1", "-2", "-3"}}, {"1/3,-2/4,+5", {"1/3", "-1/2", "5"}}, {"0.1,1e2,-.5", {"1/10", "100", "-1/2"}}, {"1e-30,0,1.", {"1/1000000000000000000000000000000", "0", "1"}}}) {
+           {"-1,-2,-3", {"-1", "-2", "-3"}},
+           {"1/3,-2/4,+5", {"1/3", "-1/2", "5"}},
+           {"0.1,1e2,-.5", {"1/10", "100", "-1/2"}},
+           {"1e-30,0,1.", {"1/1000000000000000000000000000000", "0", "1"}}}) {
     for (const std::vector<std::string>& spelling : {std::vector<std::string>{"--eye", eye}, {"--eye=" + eye}}) {
       std::vector<std::string> words{"order", cube, "--json", "-"};
       words.insert(words.end(), spelling.begin(), spelling.end());

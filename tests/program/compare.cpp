@@ -1,4 +1,5 @@
-// compare: exact kernels make no errors, and inexact ones do on the scenes that were made for it; pixels make fewer the smaller they are, rays the more they are. And budgets.
+// compare: exact kernels make no errors, and inexact ones do on the scenes that were made for it; pixels make fewer the
+// smaller they are, rays the more they are. And budgets.
 
 #include "program.h"
 
@@ -8,7 +9,8 @@ namespace program {
 
 class Compare : public Program {
  protected:
-  std::map<std::string, Json> rows(const std::string& scene, const std::string& eye, const std::vector<std::string>& more = {}) {
+  std::map<std::string, Json> rows(const std::string& scene, const std::string& eye,
+                                   const std::vector<std::string>& more = {}) {
     std::vector<std::string> words{"compare", scene, "order", "--eye", eye, "--json", "-"};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome r = run(words);
@@ -25,14 +27,17 @@ class Compare : public Program {
     EXPECT_EQ(errors["pairs_wrong"], 0) << errors;
     EXPECT_EQ(errors["pairs_wrong_beyond_rounding"], 0) << errors;
     EXPECT_EQ(errors["tiles_exactly"], true) << errors;
-    for (const char* key : {"area_lost", "area_overlapping", "area_outside", "fragments_degenerate", "fragments_not_finite"}) EXPECT_EQ(errors[key], 0) << key << errors;
+    for (const char* key :
+         {"area_lost", "area_overlapping", "area_outside", "fragments_degenerate", "fragments_not_finite"})
+      EXPECT_EQ(errors[key], 0) << key << errors;
     EXPECT_EQ(errors.value("sides_wrong", 0), 0) << errors;
   }
 };
 
 TEST_F(Compare, doubles_and_epick_order_far_leaves_wrongly_and_exact_kernels_do_not) {
   for (const char* seed : {"1", "2", "3"}) {
-    const auto errors = rows((corpus / "robust" / "far_leaves.off").string(), "8000000000000058,5714285714285786,5333333333333380", {"--seed", seed});
+    const auto errors = rows((corpus / "robust" / "far_leaves.off").string(),
+                             "8000000000000058,5714285714285786,5333333333333380", {"--seed", seed});
     for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
     for (const char* kernel : {"epick", "double"}) {
       EXPECT_GE(errors.at(kernel)["pairs_wrong_beyond_rounding"], 1) << kernel << errors.at(kernel);
@@ -56,7 +61,8 @@ TEST_F(Compare, exact_kernels_are_right_where_coordinates_leave_the_range_of_dou
 }
 
 TEST_F(Compare, whatever_becomes_of_an_inexact_kernel_is_its_status_and_no_disagreement) {
-  const Outcome r = run({"compare", (corpus / "robust" / "huge.off").string(), "order", "--eye", "7/3,1,2", "--json", "-"});
+  const Outcome r =
+      run({"compare", (corpus / "robust" / "huge.off").string(), "order", "--eye", "7/3,1,2", "--json", "-"});
   EXPECT_EQ(r.code, done) << r;
   const Json d = r.json();
   EXPECT_EQ(d["result"]["rows"].size(), 6u);
@@ -70,7 +76,8 @@ TEST_F(Compare, only_the_kernels_asked_for_are_compared) {
 }
 
 TEST_F(Compare, too_many_fragments_leave_the_pairs_open) {
-  const auto errors = rows((corpus / "general" / "cornell.obj").string(), "5,-20,5", {"--kernels", "exact", "--max-fragments", "3"});
+  const auto errors =
+      rows((corpus / "general" / "cornell.obj").string(), "5,-20,5", {"--kernels", "exact", "--max-fragments", "3"});
   EXPECT_TRUE(errors.at("exact")["pairs_wrong"].is_null()) << errors.at("exact");
 }
 
@@ -89,13 +96,16 @@ class Compare_visible : public Program {
     for (const Json& row : d["result"]["rows"]) {
       EXPECT_EQ(row["status"], "done") << row;
       EXPECT_TRUE(row["seconds"].is_number() && row["peak_bytes"].is_number()) << row;
-      found[row["method"] == "depth buffer" ? row["size"].dump() + "x" + row["bits"].dump() : row["kernel"].get<std::string>()] = row["errors"];
+      found[row["method"] == "depth buffer" ? row["size"].dump() + "x" + row["bits"].dump()
+                                            : row["kernel"].get<std::string>()] = row["errors"];
     }
     return found;
   }
   static void expect_no_error(const Json& errors) {
-    for (const char* key : {"wrongly_visible", "wrongly_hidden", "missing", "not_finite"}) EXPECT_EQ(errors[key], 0) << key << errors;
-    for (const char* key : {"wrong_area", "largest_missing", "gaps", "overlaps"}) EXPECT_LT(errors[key], 1e-15) << key << errors;
+    for (const char* key : {"wrongly_visible", "wrongly_hidden", "missing", "not_finite"})
+      EXPECT_EQ(errors[key], 0) << key << errors;
+    for (const char* key : {"wrong_area", "largest_missing", "gaps", "overlaps"})
+      EXPECT_LT(errors[key], 1e-15) << key << errors;
   }
 };
 
@@ -107,21 +117,24 @@ TEST_F(Compare_visible, exact_kernels_see_the_same_and_more_pixels_are_less_wron
   for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
   for (const char* bits : {"x16", "x32"}) {
     EXPECT_GT(errors.at(std::string("256") + bits)["wrong_area"], 1e-5) << errors.at(std::string("256") + bits);
-    EXPECT_GT(errors.at(std::string("32") + bits)["wrong_area"], 2 * errors.at(std::string("256") + bits)["wrong_area"].get<double>());
+    EXPECT_GT(errors.at(std::string("32") + bits)["wrong_area"],
+              2 * errors.at(std::string("256") + bits)["wrong_area"].get<double>());
   }
   EXPECT_LT(errors.at("double")["wrong_area"], 1e-2);
 }
 
 TEST_F(Compare_visible, exact_kernels_are_right_where_coordinates_leave_the_range_of_doubles) {
   for (const char* name : {"huge.off", "subnormal.off", "thirds.qoff", "non_planar.off"}) {
-    const auto errors = rows({(corpus / "robust" / name).string(), "see", "--eye", "7/3,1,2", "--kernels", "exact,epeck,gmpq", "--sizes", "8", "--bits", "24"});
+    const auto errors = rows({(corpus / "robust" / name).string(), "see", "--eye", "7/3,1,2", "--kernels",
+                              "exact,epeck,gmpq", "--sizes", "8", "--bits", "24"});
     for (const char* kernel : {"exact", "epeck", "gmpq"}) expect_no_error(errors.at(kernel));
   }
 }
 
 TEST_F(Compare_visible, near_and_far_planes_are_those_given) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  const Outcome r = run({"compare", cube, "see", "--kernels", "exact", "--sizes", "8", "--bits", "24", "--near", "0.5", "--far", "1000", "--json", "-"});
+  const Outcome r = run({"compare", cube, "see", "--kernels", "exact", "--sizes", "8", "--bits", "24", "--near", "0.5",
+                         "--far", "1000", "--json", "-"});
   ASSERT_EQ(r.code, done) << r;
   const Json row = r.json()["result"]["rows"][1];
   EXPECT_EQ(row["near"], 0.5);
@@ -130,7 +143,11 @@ TEST_F(Compare_visible, near_and_far_planes_are_those_given) {
 
 TEST_F(Compare_visible, what_no_method_can_do_is_a_usage_error) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  for (const std::vector<std::string>& more : {std::vector<std::string>{"--kernels", "epick"}, {"--sizes", "0"}, {"--sizes", "100000"}, {"--bits", "33"}, {"--near", "-1"}}) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--kernels", "epick"},
+                                               {"--sizes", "0"},
+                                               {"--sizes", "100000"},
+                                               {"--bits", "33"},
+                                               {"--near", "-1"}}) {
     std::vector<std::string> words{"compare", cube, "see"};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome r = run(words);
@@ -140,12 +157,14 @@ TEST_F(Compare_visible, what_no_method_can_do_is_a_usage_error) {
 
 class Compare_weak : public Program {
  protected:
-  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10";
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(),
+                    lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10";
 };
 
 TEST_F(Compare_weak, lines_make_no_error_and_rays_miss_fewer_faces_the_more_they_are) {
   const std::string svg = path("weak.svg").string();
-  const Outcome r = run({"compare", rooms, "weak", "--from", lamp, "--rays", "100,10000", "--event-edges", "20", "--svg", svg, "--json", "-"});
+  const Outcome r = run({"compare", rooms, "weak", "--from", lamp, "--rays", "100,10000", "--event-edges", "20",
+                         "--svg", svg, "--json", "-"});
   ASSERT_EQ(r.code, done) << r;
   const Json result = r.json()["result"];
   EXPECT_EQ(result["question"], "weak");
@@ -164,7 +183,8 @@ TEST_F(Compare_weak, lines_make_no_error_and_rays_miss_fewer_faces_the_more_they
     rows[name] = row["errors"];
   }
   ASSERT_EQ(rows.size(), 5u);
-  for (const char* key : {"wrongly_visible", "wrongly_hidden", "undecided", "unjudged"}) EXPECT_EQ(rows.at("lines")[key], 0) << key;
+  for (const char* key : {"wrongly_visible", "wrongly_hidden", "undecided", "unjudged"})
+    EXPECT_EQ(rows.at("lines")[key], 0) << key;
   EXPECT_EQ(rows.at("conservative")["wrongly_hidden"], 0);
   EXPECT_GT(rows.at("conservative")["wrongly_visible"], 0);
   EXPECT_GT(rows.at("100")["wrongly_hidden"], rows.at("10000")["wrongly_hidden"]);
@@ -176,7 +196,8 @@ TEST_F(Compare_weak, lines_make_no_error_and_rays_miss_fewer_faces_the_more_they
 
 TEST_F(Compare_weak, asks_events_of_small_scenes_and_only_the_kernels_given) {
   const std::string cube = (corpus / "general" / "cube.off").string();
-  const Outcome r = run({"compare", cube, "weak", "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "--kernels", "exact", "--json", "-"});
+  const Outcome r =
+      run({"compare", cube, "weak", "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "--kernels", "exact", "--json", "-"});
   ASSERT_EQ(r.code, done) << r;
   const Json rows = r.json()["result"]["rows"];
   ASSERT_EQ(rows.size(), 3u);
@@ -195,8 +216,11 @@ class Budget : public Program {};
 TEST_F(Budget, that_runs_out_is_exit_4_and_one_line) {
   const std::string soup = path("soup.off").string();
   ASSERT_EQ(run({"generate", "soup_constant_density", "--size", "20000", "--out", soup}).code, done);
-  for (const std::vector<std::string>& words :
-       {std::vector<std::string>{"bsp", soup}, {"order", soup, "--eye", "0.3,-2,0.1"}, {"bsp", soup, "--json", "-"}, {"bsp", soup, "--threads", "2"}, {"bsp", soup, "--kernel", "double"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"bsp", soup},
+                                                {"order", soup, "--eye", "0.3,-2,0.1"},
+                                                {"bsp", soup, "--json", "-"},
+                                                {"bsp", soup, "--threads", "2"},
+                                                {"bsp", soup, "--kernel", "double"}}) {
     std::vector<std::string> with_budget = words;
     with_budget.insert(with_budget.end(), {"--budget", "0.001"});
     const Outcome r = run(with_budget);

@@ -25,7 +25,8 @@ class Cutset : public Program {
 };
 
 TEST_F(Cutset, lists_the_on_view_faces_of_each_viewpoint_of_a_path) {
-  const std::string eyes = file("eyes.csv", "x,y,z\n5,1/2,1/2\n-5, 0.5, 0.5   # the other side\r\n0.5,0.5,0.5\n1,0,0,0\n");
+  const std::string eyes =
+      file("eyes.csv", "x,y,z\n5,1/2,1/2\n-5, 0.5, 0.5   # the other side\r\n0.5,0.5,0.5\n1,0,0,0\n");
   const Json d = cutset({cube, "--path", eyes, "--faces", "--check"});
   const Json& frames = d["result"]["frames"];
   ASSERT_EQ(frames.size(), 4u) << d;
@@ -48,26 +49,31 @@ TEST_F(Cutset, the_published_update_loses_the_far_side_of_a_cube_and_the_check_s
   const Json d = cutset({cube, "--path", eyes, "--method", "1977", "--check"}, disagreement);
   EXPECT_EQ(d["result"]["wrong_frames"], 1);
   EXPECT_EQ(d["result"]["frames"][1]["cut_edges"], 0);
-  const Json literal = cutset({cube, "--path", file("step.csv", "5,0.5,0.5\n5,2,0.5\n"), "--method", "1977-literal", "--check"}, disagreement);
+  const Json literal = cutset(
+      {cube, "--path", file("step.csv", "5,0.5,0.5\n5,2,0.5\n"), "--method", "1977-literal", "--check"}, disagreement);
   EXPECT_EQ(literal["result"]["frames"][1]["cut_edges"], 4);
 }
 
 TEST_F(Cutset, goes_round_a_scene_and_holds_every_frame_to_brute_force) {
-  for (const char* scene : {"general/cornell.obj", "general/u_and_quad.off", "robust/non_planar.off", "robust/huge.off", "robust/subnormal.off", "robust/far_leaves.off"}) {
+  for (const char* scene : {"general/cornell.obj", "general/u_and_quad.off", "robust/non_planar.off", "robust/huge.off",
+                            "robust/subnormal.off", "robust/far_leaves.off"}) {
     const Json d = cutset({(corpus / scene).string(), "--orbit", "60", "--check"});
     EXPECT_EQ(d["result"]["frames"].size(), 60u) << scene;
     EXPECT_EQ(d["result"]["wrong_frames"], 0) << scene;
   }
   EXPECT_EQ(cutset({cube, "--orbit", "1"})["result"]["frames"].size(), 1u);
-  EXPECT_EQ(cutset({cube, "--orbit", "30", "--radius", "0", "--height", "0", "--check"})["counters"]["births"], 0) << "inside";
+  EXPECT_EQ(cutset({cube, "--orbit", "30", "--radius", "0", "--height", "0", "--check"})["counters"]["births"], 0)
+      << "inside";
 }
 
 TEST_F(Cutset, moves_the_object_instead_of_the_eye) {
   // Half a turn about z through the origin takes the cube to [-1, 0] x [-1, 0] x [0, 1].
-  const std::string motions = file("motions.csv", "# w,x,y,z and a translation\n1,0,0,0,0,0,0\n0,0,0,2,0,0,0\n0,0,0,2,1,1,0\n");
+  const std::string motions =
+      file("motions.csv", "# w,x,y,z and a translation\n1,0,0,0,0,0,0\n0,0,0,2,0,0,0\n0,0,0,2,1,1,0\n");
   const Json d = cutset({cube, "--motion", motions, "--eye", "5,0.5,0.5", "--faces", "--check"});
   const Json still = cutset({cube, "--path", file("eyes.csv", "5,0.5,0.5\n-5,-0.5,0.5\n-4,0.5,0.5\n"), "--faces"});
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(d["result"]["frames"][k]["on_view"], still["result"]["frames"][k]["on_view"]) << k;
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_EQ(d["result"]["frames"][k]["on_view"], still["result"]["frames"][k]["on_view"]) << k;
   EXPECT_EQ(d["result"]["frames"][1]["eye"], Json({"-5", "-1/2", "1/2"}));
 }
 
@@ -92,9 +98,11 @@ TEST_F(Cutset, finds_the_order_of_tests_with_the_fewest_expected) {
   EXPECT_EQ(tree["views"].size(), 26u);
   EXPECT_EQ(tree["steps"].size(), 25u);
   EXPECT_EQ(cutset({cube, "--decision-tree", "--inside"})["result"]["decision_tree"]["views"].size(), 27u);
-  const Json likely = cutset({cube, "--decision-tree", "--likelihood", file("likely.csv", "weight,faces\n97,1,2\n1,1\n1/2,2,5\n")});
+  const Json likely =
+      cutset({cube, "--decision-tree", "--likelihood", file("likely.csv", "weight,faces\n97,1,2\n1,1\n1/2,2,5\n")});
   EXPECT_EQ(likely["result"]["decision_tree"]["views"].size(), 3u);
-  EXPECT_EQ(likely["result"]["decision_tree"]["expected"], "392/197");  // face 2 first: one test for {1}, two for the others
+  EXPECT_EQ(likely["result"]["decision_tree"]["expected"],
+            "392/197");  // face 2 first: one test for {1}, two for the others
 }
 
 TEST_F(Cutset, wrong_arguments_are_usage_errors) {
@@ -117,7 +125,8 @@ TEST_F(Cutset, bad_files_name_line_and_column) {
   refused({"cutset", cube, "--path", file("w.csv", "0,0,1,2\n")}, bad_input, "w.csv:1:1");
   refused({"cutset", cube, "--motion", file("q.csv", "0,0,0,0,1,1,1\n")}, bad_input, "quaternion");
   refused({"cutset", cube, "--decision-tree", "--likelihood", file("l.csv", "1,9\n")}, bad_input, "l.csv:1:1");
-  refused({"cutset", cube, "--decision-tree", "--likelihood", file("m.csv", "1,2\n1,0,1\n")}, bad_input, "m.csv:2:1");  // opposite faces
+  refused({"cutset", cube, "--decision-tree", "--likelihood", file("m.csv", "1,2\n1,0,1\n")}, bad_input,
+          "m.csv:2:1");  // opposite faces
 }
 
 TEST_F(Cutset, a_long_orbit_takes_no_memory_for_its_frames) {

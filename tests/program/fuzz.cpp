@@ -8,7 +8,8 @@ class Fuzz : public Program {};
 
 TEST_F(Fuzz, each_command_runs_scenes_and_counts_cases) {
   for (const char* command : {"order", "graph", "cutset", "see", "weak", "io"}) {
-    const Outcome r = run({"fuzz", command, "--scenes", "5", "--seed", "3", "--json", "-", "--out", path("found").string()});
+    const Outcome r =
+        run({"fuzz", command, "--scenes", "5", "--seed", "3", "--json", "-", "--out", path("found").string()});
     ASSERT_EQ(r.code, done) << r;
     const Json d = r.json();
     EXPECT_EQ(d["command"], "fuzz");
@@ -20,12 +21,15 @@ TEST_F(Fuzz, each_command_runs_scenes_and_counts_cases) {
 }
 
 TEST_F(Fuzz, one_seed_is_one_sequence_and_seconds_end_it) {
-  const auto counters = [&](const char* seed) { return run({"fuzz", "io", "--scenes", "40", "--seed", seed, "--json", "-"}).json()["counters"].dump(); };
+  const auto counters = [&](const char* seed) {
+    return run({"fuzz", "io", "--scenes", "40", "--seed", seed, "--json", "-"}).json()["counters"].dump();
+  };
   EXPECT_EQ(counters("1"), counters("1"));
   EXPECT_NE(counters("1"), counters("2"));
   const Outcome r = run({"fuzz", "io", "--seconds", "1"});
   EXPECT_EQ(r.code, done) << r;
-  for (const char* word : {"qoff", "regulus", "cases", "a second"}) EXPECT_NE(r.out.find(word), std::string::npos) << word << r;
+  for (const char* word : {"qoff", "regulus", "cases", "a second"})
+    EXPECT_NE(r.out.find(word), std::string::npos) << word << r;
 }
 
 TEST_F(Fuzz, a_case_and_a_scene_with_its_query_run_alone) {
@@ -33,7 +37,10 @@ TEST_F(Fuzz, a_case_and_a_scene_with_its_query_run_alone) {
   EXPECT_EQ(r.code, done) << r;
   EXPECT_NE(r.out.find("construction"), std::string::npos) << r;
   const std::string scene = path("a.qoff").string(), query = path("a.json").string();
-  ASSERT_EQ(run({"generate", "hinged", "--seed", "7", "--ulps", "1", "--scale", "2^-30", "--offset", "1/3,0,1e6", "--out", scene, "--query", query}).code, done);
+  ASSERT_EQ(run({"generate", "hinged", "--seed", "7", "--ulps", "1", "--scale", "2^-30", "--offset", "1/3,0,1e6",
+                 "--out", scene, "--query", query})
+                .code,
+            done);
   const Outcome again = run({"fuzz", "weak", "--scene", scene, "--query", query, "--check", "events"});
   EXPECT_EQ(again.code, done) << again;
   EXPECT_NE(again.out.find("events"), std::string::npos) << again;
@@ -51,8 +58,11 @@ TEST_F(Fuzz, a_case_and_a_scene_with_its_query_run_alone) {
 }
 
 TEST_F(Fuzz, a_case_that_does_not_end_in_time_ends_the_run_and_is_named) {
-  // The system looks at its processor timers a few hundred times a second: a case that is to be ended surely needs far more than that, one of a run that is to end somewhere does not.
-  const std::string before = "sightline fuzz: no end within ", after = " s of processor time in the case that this replays: sightline fuzz ", name = "triangles:7:100:0:0,0,0:0";
+  // The system looks at its processor timers a few hundred times a second: a case that is to be ended surely needs far
+  // more than that, one of a run that is to end somewhere does not.
+  const std::string before = "sightline fuzz: no end within ",
+                    after = " s of processor time in the case that this replays: sightline fuzz ",
+                    name = "triangles:7:100:0:0,0,0:0";
   const Outcome alone = run({"fuzz", "see", "--case", name, "--case-seconds", "0.05"});
   EXPECT_EQ(alone.code, disagreement) << alone;
   EXPECT_EQ(alone.err, before + "0.05" + after + "see --case " + name + "\n");
@@ -63,14 +73,18 @@ TEST_F(Fuzz, a_case_that_does_not_end_in_time_ends_the_run_and_is_named) {
   EXPECT_TRUE(r.one_line_of_error()) << r;
   const std::string replay = before + "0.001" + after + "weak --case ";
   ASSERT_TRUE(r.err.starts_with(replay)) << r;
-  EXPECT_EQ(run({"fuzz", "weak", "--case", r.err.substr(replay.size(), r.err.size() - replay.size() - 1)}).code, done) << r;
+  EXPECT_EQ(run({"fuzz", "weak", "--case", r.err.substr(replay.size(), r.err.size() - replay.size() - 1)}).code, done)
+      << r;
   // Each case has its own time.
   EXPECT_EQ(run({"fuzz", "io", "--seconds", "1", "--case-seconds", "0.5"}).code, done);
 }
 
 TEST_F(Fuzz, what_it_found_is_mended) {
-  const std::string query = file("query.json", R"({"format": "sightline query 1", "eye": ["0", "0", "0"], "source": [["0", "0", "-2"], ["0", "0", "0"], ["1", "0", "0"]]})");
-  const Outcome r = run({"fuzz", "weak", "--scene", (corpus / "robust" / "far_corner.qoff").string(), "--query", query});
+  const std::string query = file(
+      "query.json",
+      R"({"format": "sightline query 1", "eye": ["0", "0", "0"], "source": [["0", "0", "-2"], ["0", "0", "0"], ["1", "0", "0"]]})");
+  const Outcome r =
+      run({"fuzz", "weak", "--scene", (corpus / "robust" / "far_corner.qoff").string(), "--query", query});
   EXPECT_EQ(r.code, done) << r;
   // A family that claimed to see past an overlap, however wide.
   const Outcome wide = run({"fuzz", "weak", "--case", "tangent:684701:0:-17592186044416", "--check", "construction"});
@@ -80,21 +94,35 @@ TEST_F(Fuzz, what_it_found_is_mended) {
 TEST_F(Fuzz, what_makes_no_sense_is_told) {
   const std::string scene = path("a.off").string();
   ASSERT_EQ(run({"generate", "bars", "--size", "3", "--out", scene}).code, done);
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"fuzz", "everything"}, {"fuzz", "see", "--case", "castle:1"}, {"fuzz", "see", "--case", "bars:1:0:x"}, {"fuzz", "weak", "--case", "bars:1"},
-                                                                                       {"fuzz", "see", "--family", "castle"}, {"fuzz", "weak", "--family", "bars"}, {"fuzz", "see", "--scenes", "1", "--check", "nothing"},
-                                                                                       {"fuzz", "weak", "--scene", scene}, {"fuzz", "see", "--seconds", "0"}, {"fuzz", "see", "--case-seconds", "0"}, {"generate", "regulus", "--ulps", "some", "--out", scene},
-                                                                                       {"generate", "regulus", "--scale", "0", "--out", scene}, {"generate", "regulus", "--scale", "2^2000", "--out", scene}, {"generate", "regulus", "--offset", "1,2", "--out", scene}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"fuzz", "everything"},
+                                             {"fuzz", "see", "--case", "castle:1"},
+                                             {"fuzz", "see", "--case", "bars:1:0:x"},
+                                             {"fuzz", "weak", "--case", "bars:1"},
+                                             {"fuzz", "see", "--family", "castle"},
+                                             {"fuzz", "weak", "--family", "bars"},
+                                             {"fuzz", "see", "--scenes", "1", "--check", "nothing"},
+                                             {"fuzz", "weak", "--scene", scene},
+                                             {"fuzz", "see", "--seconds", "0"},
+                                             {"fuzz", "see", "--case-seconds", "0"},
+                                             {"generate", "regulus", "--ulps", "some", "--out", scene},
+                                             {"generate", "regulus", "--scale", "0", "--out", scene},
+                                             {"generate", "regulus", "--scale", "2^2000", "--out", scene},
+                                             {"generate", "regulus", "--offset", "1,2", "--out", scene}}) {
     const Outcome r = run(words);
     EXPECT_EQ(r.code, usage) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;
   }
   const std::string query = path("q.json").string();
-  std::ofstream(query) << R"({"format": "sightline query 1", "eye": [1, 2, 3], "source": [[0, 0, 9], [1, 0, 9], ["1/3", 0, 9]]})";
+  std::ofstream(query)
+      << R"({"format": "sightline query 1", "eye": [1, 2, 3], "source": [[0, 0, 9], [1, 0, 9], ["1/3", 0, 9]]})";
   const Outcome flat = run({"fuzz", "weak", "--scene", scene, "--query", query});
   EXPECT_EQ(flat.code, usage) << flat;
   EXPECT_NE(flat.err.find("a source has no area"), std::string::npos) << flat;
   EXPECT_EQ(run({"fuzz", "see", "--scene", scene, "--query", query}).code, done) << "a source is not asked about";
-  for (const char* text : {"", "{}", "[1]", "{\"format\": \"sightline query 1\"}", "{\"format\": \"sightline query 1\", \"eye\": [1, 2]}", "{\"format\": \"sightline query 1\", \"eye\": [\"1\", \"2\", \"3/0\"]}"}) {
+  for (const char* text :
+       {"", "{}", "[1]", "{\"format\": \"sightline query 1\"}", "{\"format\": \"sightline query 1\", \"eye\": [1, 2]}",
+        "{\"format\": \"sightline query 1\", \"eye\": [\"1\", \"2\", \"3/0\"]}"}) {
     std::ofstream(query) << text;
     const Outcome r = run({"fuzz", "see", "--scene", scene, "--query", query});
     EXPECT_EQ(r.code, bad_input) << text << r;
@@ -107,7 +135,8 @@ TEST_F(Fuzz, reduce_makes_a_scene_small_for_any_program) {
   const std::string scene = path("a.off").string(), small = path("small.off").string();
   ASSERT_EQ(run({"generate", "stacked", "--size", "9", "--out", scene}).code, done);
   // Fails with exit code 7 while there are three faces or more.
-  const Outcome r = run({"reduce", scene, "--out", small, "--code", "7", "--", "sh", "-c", "test $(grep -c '^[34] [0-9]* [0-9]* [0-9]*' {}) -lt 3 || exit 7"});
+  const Outcome r = run({"reduce", scene, "--out", small, "--code", "7", "--", "sh", "-c",
+                         "test $(grep -c '^[34] [0-9]* [0-9]* [0-9]*' {}) -lt 3 || exit 7"});
   ASSERT_EQ(r.code, done) << r;
   std::istringstream words(read_file(small));
   std::string header;
@@ -120,15 +149,20 @@ TEST_F(Fuzz, reduce_makes_a_scene_small_for_any_program) {
   EXPECT_NE(other.err.find("exit code is 7"), std::string::npos) << other;
   // A crash counts, and its signal is its code.
   EXPECT_EQ(run({"reduce", scene, "--out", small, "--", "sh", "-c", "test -s {} && kill -ABRT $$"}).code, done);
-  EXPECT_EQ(run({"reduce", scene, "--out", small, "--code", "134", "--", "sh", "-c", "test -s {} && kill -ABRT $$"}).code, done);
+  EXPECT_EQ(
+      run({"reduce", scene, "--out", small, "--code", "134", "--", "sh", "-c", "test -s {} && kill -ABRT $$"}).code,
+      done);
   // No end in time does not, unless it is asked for.
-  EXPECT_EQ(run({"reduce", scene, "--out", small, "--limit", "0.1", "--", "sh", "-c", "test -s {} && sleep 5"}).code, disagreement);
+  EXPECT_EQ(run({"reduce", scene, "--out", small, "--limit", "0.1", "--", "sh", "-c", "test -s {} && sleep 5"}).code,
+            disagreement);
 }
 
 TEST_F(Fuzz, reduce_keeps_the_query_with_the_scene) {
-  const std::string scene = path("a.qoff").string(), query = path("a.json").string(), small = path("small.qoff").string();
+  const std::string scene = path("a.qoff").string(), query = path("a.json").string(),
+                    small = path("small.qoff").string();
   ASSERT_EQ(run({"generate", "slats", "--seed", "4", "--out", scene, "--query", query}).code, done);
-  const Outcome r = run({"reduce", scene, "--query", query, "--out", small, "--", "sh", "-c", "test -s {} && test -s {query} && exit 1"});
+  const Outcome r = run(
+      {"reduce", scene, "--query", query, "--out", small, "--", "sh", "-c", "test -s {} && test -s {query} && exit 1"});
   ASSERT_EQ(r.code, done) << r;
   const Json left = Json::parse(read_file(path("small.json")));
   EXPECT_EQ(left["source"].size(), 3u) << left;
@@ -138,8 +172,11 @@ TEST_F(Fuzz, reduce_keeps_the_query_with_the_scene) {
 TEST_F(Fuzz, reduce_says_what_is_missing) {
   const std::string scene = path("a.off").string();
   ASSERT_EQ(run({"generate", "bars", "--size", "3", "--out", scene}).code, done);
-  for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"reduce", scene, "--out", "b.off", "--", "false"}, {"reduce", scene, "--out", "b.xyz", "--", "false", "{}"},
-                                                                                       {"reduce", scene, "--out", "b.off", "--", "false", "{}", "{query}"}, {"reduce", scene, "--", "false", "{}"}}) {
+  for (const std::vector<std::string>& words :
+       std::vector<std::vector<std::string>>{{"reduce", scene, "--out", "b.off", "--", "false"},
+                                             {"reduce", scene, "--out", "b.xyz", "--", "false", "{}"},
+                                             {"reduce", scene, "--out", "b.off", "--", "false", "{}", "{query}"},
+                                             {"reduce", scene, "--", "false", "{}"}}) {
     const Outcome r = run(words);
     EXPECT_EQ(r.code, usage) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;

@@ -10,7 +10,9 @@ namespace program {
 
 class Graph : public Program {
  protected:
-  const std::string bars = (corpus / "general" / "three_bars.off").string(), cube = (corpus / "general" / "cube.off").string(), cornell = (corpus / "general" / "cornell.obj").string();
+  const std::string bars = (corpus / "general" / "three_bars.off").string(),
+                    cube = (corpus / "general" / "cube.off").string(),
+                    cornell = (corpus / "general" / "cornell.obj").string();
 
   Json graph(std::vector<std::string> arguments) {
     arguments.insert(arguments.begin(), "graph");
@@ -55,7 +57,8 @@ TEST_F(Graph, of_a_cube_has_no_arc) {
 }
 
 TEST_F(Graph, has_the_same_components_both_ways_and_arcs_never_go_back) {
-  for (const std::string& scene : {bars, cornell, made("city", "12"), made("soup", "60"), made("menger_sponge_merged", "1")}) {
+  for (const std::string& scene :
+       {bars, cornell, made("city", "12"), made("soup", "60"), made("menger_sponge_merged", "1")}) {
     const Json implicit = graph({scene, "--arcs"}), with_arcs = graph({scene, "--method", "explicit", "--arcs"});
     EXPECT_EQ(partition(implicit), partition(with_arcs)) << scene;
     for (const Json& d : {implicit, with_arcs}) {
@@ -63,7 +66,8 @@ TEST_F(Graph, has_the_same_components_both_ways_and_arcs_never_go_back) {
       for (std::size_t c = 0; c < d["result"]["components"].size(); ++c)
         for (const Json& face : d["result"]["components"][c]) h[face.dump()] = c;
       EXPECT_GT(d["result"]["arc_list"].size(), 0u);
-      for (const Json& arc : d["result"]["arc_list"]) EXPECT_LE(h.at(arc[0].dump()), h.at(arc[1].dump())) << scene << ' ' << arc;
+      for (const Json& arc : d["result"]["arc_list"])
+        EXPECT_LE(h.at(arc[0].dump()), h.at(arc[1].dump())) << scene << ' ' << arc;
     }
   }
 }
@@ -78,8 +82,11 @@ TEST_F(Graph, within_a_scope_has_fewer_arcs_and_an_eye_of_disjoint_faces_no_cycl
     for (const Json& arc : d["result"]["arc_list"]) all.insert(arc.dump());
     return all;
   };
-  const auto part_of = [](const std::set<std::string>& a, const std::set<std::string>& b) { return std::includes(b.begin(), b.end(), a.begin(), a.end()); };
-  const auto whole = arcs({}), box = arcs({"--box", "-3,-3,2", "-2,-2,3"}), eye = arcs({"--eye", "-2.5,-2.5,2.5"}), ray = arcs({"--eye", "-2.5,-2.5,2.5", "--ray", "4.1,4.2,-2.3"});
+  const auto part_of = [](const std::set<std::string>& a, const std::set<std::string>& b) {
+    return std::includes(b.begin(), b.end(), a.begin(), a.end());
+  };
+  const auto whole = arcs({}), box = arcs({"--box", "-3,-3,2", "-2,-2,3"}), eye = arcs({"--eye", "-2.5,-2.5,2.5"}),
+             ray = arcs({"--eye", "-2.5,-2.5,2.5", "--ray", "4.1,4.2,-2.3"});
   EXPECT_TRUE(part_of(box, whole) && part_of(eye, box) && part_of(ray, eye));
   EXPECT_LT(box.size(), whole.size());
   EXPECT_GT(eye.size(), 0u);
@@ -90,7 +97,8 @@ TEST_F(Graph, within_a_scope_has_fewer_arcs_and_an_eye_of_disjoint_faces_no_cycl
 }
 
 TEST_F(Graph, certificates_are_accepted_and_changed_ones_are_not) {
-  for (const std::string& scene : {bars, cornell, made("city", "12"), (corpus / "robust" / "duplicates.off").string(), (corpus / "robust" / "non_planar.off").string()}) {
+  for (const std::string& scene : {bars, cornell, made("city", "12"), (corpus / "robust" / "duplicates.off").string(),
+                                   (corpus / "robust" / "non_planar.off").string()}) {
     const std::string to = path("graph.json").string();
     const Outcome r = run({"graph", scene, "--certificate", to});
     ASSERT_EQ(r.code, done) << r;
@@ -125,9 +133,15 @@ TEST_F(Graph, draws_itself_for_graphviz) {
 }
 
 TEST_F(Graph, wrong_arguments_are_usage_errors) {
-  for (const std::vector<std::string>& wrong :
-       {std::vector<std::string>{"--box", "0,0,0"}, {"--box", "0,0,0", "1,1"}, {"--ray", "1,0,0"}, {"--eye", "0,0,9", "--ray", "0,0,0"}, {"--eye", "0,0,9", "--box", "0,0,0", "1,1,1"},
-        {"--method", "guess"}, {"--eye", "0,0,9", "--certificate", "x.json"}, {"--method", "explicit", "--certificate", "x.json"}, {"--region", ""}}) {
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--box", "0,0,0"},
+                                                {"--box", "0,0,0", "1,1"},
+                                                {"--ray", "1,0,0"},
+                                                {"--eye", "0,0,9", "--ray", "0,0,0"},
+                                                {"--eye", "0,0,9", "--box", "0,0,0", "1,1,1"},
+                                                {"--method", "guess"},
+                                                {"--eye", "0,0,9", "--certificate", "x.json"},
+                                                {"--method", "explicit", "--certificate", "x.json"},
+                                                {"--region", ""}}) {
     std::vector<std::string> arguments{"graph", cube};
     arguments.insert(arguments.end(), wrong.begin(), wrong.end());
     const Outcome r = run(arguments);
@@ -143,7 +157,8 @@ TEST_F(Graph, of_nothing_is_nothing) {
 
 TEST_F(Graph, orders_whole_faces_that_verify_accepts) {
   const std::string scene = made("city", "40"), to = path("order.json").string(), svg = path("order.svg").string();
-  const std::vector<std::string> order{"order", scene, "--method", "graph", "--eye", "20.3,-7.1,4", "--certificate", to, "--svg", svg, "--json", "-"};
+  const std::vector<std::string> order{"order",         scene, "--method", "graph", "--eye",  "20.3,-7.1,4",
+                                       "--certificate", to,    "--svg",    svg,     "--json", "-"};
   std::vector<std::string> both = order;
   both.push_back("--two-sided");
   const Outcome r = run(both);
@@ -165,7 +180,8 @@ TEST_F(Graph, orders_whole_faces_that_verify_accepts) {
   EXPECT_EQ(run({"order", scene, "--two-sided"}).code, usage);
   EXPECT_NE(read_file(svg).find("<polygon"), std::string::npos);
   // From inside the town the picture is of what is in front of the near plane only.
-  const Outcome inside = run({"order", scene, "--method", "graph", "--eye", "3.3,3.1,1/3", "--certificate", to, "--svg", svg});
+  const Outcome inside =
+      run({"order", scene, "--method", "graph", "--eye", "3.3,3.1,1/3", "--certificate", to, "--svg", svg});
   ASSERT_EQ(inside.code, done) << inside;
   EXPECT_EQ(run({"verify", scene, to}).code, done);
   EXPECT_EQ(run({"order", scene, "--method", "graph", "--kernel", "double"}).code, usage);
@@ -190,7 +206,8 @@ TEST_F(Graph, codes_of_three_bars_decide_each_pair_and_splitting_cuts_them) {
   const Json d = graph({bars, "--codes"});
   EXPECT_EQ(d["result"]["tree"]["left"], 3);
   ASSERT_EQ(d["result"]["codes"].size(), 3u) << d["result"];
-  for (const Json& code : d["result"]["codes"]) EXPECT_TRUE(code[2] == "plane" ? code.size() == 4 : code[2] == "first" || code[2] == "second") << code;
+  for (const Json& code : d["result"]["codes"])
+    EXPECT_TRUE(code[2] == "plane" ? code.size() == 4 : code[2] == "first" || code[2] == "second") << code;
   const Json split = graph({bars, "--split"});
   EXPECT_EQ(split["result"]["tree"]["left"], 0);
   EXPECT_GT(split["result"]["splits"].get<int>(), 0);
@@ -199,8 +216,10 @@ TEST_F(Graph, codes_of_three_bars_decide_each_pair_and_splitting_cuts_them) {
 
 TEST_F(Graph, pixels_count_the_faces_left_to_choose_from) {
   // Two squares that face up, one above a half of the other, seen from above.
-  const std::string scene = file("two.off", "OFF\n8 2 0\n-4 -4 0\n4 -4 0\n4 4 0\n-4 4 0\n-4 -4 1\n0 -4 1\n0 4 1\n-4 4 1\n4 0 1 2 3\n4 4 5 6 7\n");
-  const std::string eyes = file("eyes.txt", "# two eyes\n0.01,0,5,0,0,-1\n\n0,0,-5, 0,0,1  # below: nothing is on-view\n");
+  const std::string scene = file(
+      "two.off", "OFF\n8 2 0\n-4 -4 0\n4 -4 0\n4 4 0\n-4 4 0\n-4 -4 1\n0 -4 1\n0 4 1\n-4 4 1\n4 0 1 2 3\n4 4 5 6 7\n");
+  const std::string eyes =
+      file("eyes.txt", "# two eyes\n0.01,0,5,0,0,-1\n\n0,0,-5, 0,0,1  # below: nothing is on-view\n");
   const std::string folder = path("").string();
   const Json d = graph({scene, "--pixels", "16x12", "--eyes", eyes, "--pictures", folder});
   const Json& images = d["result"]["images"];
@@ -226,7 +245,8 @@ TEST_F(Graph, pixels_count_the_faces_left_to_choose_from) {
 TEST_F(Graph, images_take_no_more_memory_the_more_they_are) {
   std::string eyes;
   for (int k = 0; k < 40; ++k) eyes += "0,0,50,0,0,1\n";  // all look away: nothing is drawn
-  const Outcome r = run({"graph", bars, "--pixels", "1500x1500", "--eyes", file("away.txt", eyes), "--json", "-"}, {60, 300});
+  const Outcome r =
+      run({"graph", bars, "--pixels", "1500x1500", "--eyes", file("away.txt", eyes), "--json", "-"}, {60, 300});
   ASSERT_EQ(r.code, done) << r;
   const Json d = r.json();
   ASSERT_EQ(d["result"]["images"].size(), 40u);
@@ -241,13 +261,15 @@ TEST_F(Graph, wrong_eyes_and_sizes_are_named_with_their_place) {
     EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r;
   };
   const std::string good = file("good.txt", "0,0,9\n");
-  for (const char* size : {"0x4", "4", "x", "4x", "4x-4", "5000x2", "4x4x4", "99999999999x2"}) fails(size, good, usage, "--pixels wants WIDTHxHEIGHT");
+  for (const char* size : {"0x4", "4", "x", "4x", "4x-4", "5000x2", "4x4x4", "99999999999x2"})
+    fails(size, good, usage, "--pixels wants WIDTHxHEIGHT");
   fails("4x4", path("none.txt").string(), bad_input, "cannot be opened");
   fails("4x4", file("empty.txt", "# nothing\n"), bad_input, "has no line; write an eye");
   fails("4x4", file("wrong.txt", "0,0,9\n0,0\n"), bad_input, "wrong.txt:2:1: ");
   fails("4x4", file("much.txt", "0,0,9,0,0,1,7\n"), bad_input, "much.txt:1:1: ");
   fails("4x4", file("apart.txt", "0,0,9 0,0,1\n"), bad_input, "apart.txt:1:7: ");
-  for (const char* look : {"0,0,0", "0,1e-400,0", "0,0,1e400"}) fails("4x4", file("zero.txt", std::string("0,0,9,") + look + "\n"), bad_input, "zero.txt:1:1: ");
+  for (const char* look : {"0,0,0", "0,1e-400,0", "0,0,1e400"})
+    fails("4x4", file("zero.txt", std::string("0,0,9,") + look + "\n"), bad_input, "zero.txt:1:1: ");
   EXPECT_EQ(run({"graph", bars, "--pixels", "4x4"}).code, usage);
   EXPECT_EQ(run({"graph", bars, "--tree", "--eye", "1,2,3"}).code, usage);
   EXPECT_EQ(run({"graph", bars, "--pixels", "4x4", "--eyes", good, "--box", "0,0,0", "1,1,1"}).code, usage);

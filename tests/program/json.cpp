@@ -29,13 +29,17 @@ class Json_output : public Program {
   }
   /// The keys of every command, and those of the scene.
   static void expect_frame(const Json& document, const std::string& command, const std::string& file) {
-    for (const char* key : {"command", "scene", "result", "counters", "seconds"}) ASSERT_TRUE(document.contains(key)) << key;
+    for (const char* key : {"command", "scene", "result", "counters", "seconds"})
+      ASSERT_TRUE(document.contains(key)) << key;
     EXPECT_EQ(document["command"], command);
     EXPECT_TRUE(document["result"].is_object() && document["counters"].is_object() && document["seconds"].is_object());
-    for (const auto& [what, seconds] : document["seconds"].items()) EXPECT_TRUE(seconds.is_number() && seconds >= 0) << what;
+    for (const auto& [what, seconds] : document["seconds"].items())
+      EXPECT_TRUE(seconds.is_number() && seconds >= 0) << what;
     const Json& scene = document["scene"];
     EXPECT_EQ(scene["file"], file);
-    EXPECT_TRUE(scene["faces_read"].is_number_unsigned() && scene["faces"].is_number_unsigned() && scene["bits"].is_number_unsigned()) << scene;
+    EXPECT_TRUE(scene["faces_read"].is_number_unsigned() && scene["faces"].is_number_unsigned() &&
+                scene["bits"].is_number_unsigned())
+        << scene;
     EXPECT_TRUE(scene["arithmetic"].is_string()) << scene;
     EXPECT_EQ(scene["faces"].get<std::size_t>() + scene["set_aside"].size(), scene["faces_read"].get<std::size_t>());
     for (const Json& entry : scene["set_aside"]) {
@@ -49,7 +53,8 @@ TEST_F(Json_output, info_has_the_frame_and_its_counts) {
   const Json d = json_of({"info", cornell});
   expect_frame(d, "info", cornell);
   EXPECT_EQ(d["scene"]["faces_read"], 16);
-  for (const char* key : {"points_read", "points", "pieces", "supporting_planes", "lines"}) EXPECT_TRUE(d["result"][key].is_number_unsigned()) << key;
+  for (const char* key : {"points_read", "points", "pieces", "supporting_planes", "lines"})
+    EXPECT_TRUE(d["result"][key].is_number_unsigned()) << key;
   EXPECT_EQ(d["result"]["points_read"], 28);
   EXPECT_EQ(d["result"]["closed"], false);
   ASSERT_EQ(d["result"]["box"].size(), 2u);
@@ -58,15 +63,21 @@ TEST_F(Json_output, info_has_the_frame_and_its_counts) {
 }
 
 TEST_F(Json_output, info_lists_non_planar_and_concave_faces_by_their_place_in_the_file) {
-  EXPECT_EQ(json_of({"info", (corpus / "robust" / "non_planar.off").string()})["result"]["non_planar"], Json({0, 1, 2}));
+  EXPECT_EQ(json_of({"info", (corpus / "robust" / "non_planar.off").string()})["result"]["non_planar"],
+            Json({0, 1, 2}));
   EXPECT_EQ(json_of({"info", (corpus / "general" / "l_room.off").string()})["result"]["concave"], Json({0, 1}));
   EXPECT_EQ(json_of({"info", (corpus / "general" / "l_room.off").string()})["result"]["closed"], true);
   EXPECT_EQ(json_of({"info", (corpus / "general" / "keyhole.off").string()})["result"]["concave"], Json::array({0}));
 }
 
 TEST_F(Json_output, set_aside_says_which_faces_and_why) {
-  const auto set_aside = [&](const char* name) { return json_of({"info", (corpus / "robust" / name).string()})["scene"]["set_aside"]; };
-  EXPECT_EQ(set_aside("duplicates.off"), Json::parse(R"([{"face":1,"why":"duplicate of 0"},{"face":2,"why":"duplicate of 0"},{"face":5,"why":"duplicate of 4"}])"));
+  const auto set_aside = [&](const char* name) {
+    return json_of({"info", (corpus / "robust" / name).string()})["scene"]["set_aside"];
+  };
+  EXPECT_EQ(
+      set_aside("duplicates.off"),
+      Json::parse(
+          R"([{"face":1,"why":"duplicate of 0"},{"face":2,"why":"duplicate of 0"},{"face":5,"why":"duplicate of 4"}])"));
   Json zero = Json::array();
   for (const int face : {1, 2, 3, 4, 5, 6, 8}) zero.push_back({{"face", face}, {"why", "zero area"}});
   EXPECT_EQ(set_aside("zero_area.off"), zero);
@@ -78,20 +89,24 @@ TEST_F(Json_output, set_aside_says_which_faces_and_why) {
 
 TEST_F(Json_output, bits_are_those_of_the_largest_coordinate_at_the_least_scale) {
   EXPECT_EQ(json_of({"info", file("a.off", "OFF\n3 1 0\n0 0 0\n1000 0 0\n0 -1024 0\n3 0 1 2\n")})["scene"]["bits"], 11);
-  EXPECT_EQ(json_of({"info", file("b.off", "OFF\n3 1 0\n0 0 0\n0.5 0 0\n0 1 0\n3 0 1 2\n")})["scene"]["bits"], 2) << "halves: 1 is 2 of them";
-  EXPECT_EQ(json_of({"info", file("c.off", "OFF\n3 1 0\n0 0 0\n0.015625 0 0\n0 1 0\n3 0 1 2\n")})["scene"]["bits"], 7) << "64ths, not millionths: 1 is 64 of them";
+  EXPECT_EQ(json_of({"info", file("b.off", "OFF\n3 1 0\n0 0 0\n0.5 0 0\n0 1 0\n3 0 1 2\n")})["scene"]["bits"], 2)
+      << "halves: 1 is 2 of them";
+  EXPECT_EQ(json_of({"info", file("c.off", "OFF\n3 1 0\n0 0 0\n0.015625 0 0\n0 1 0\n3 0 1 2\n")})["scene"]["bits"], 7)
+      << "64ths, not millionths: 1 is 64 of them";
 }
 
 TEST_F(Json_output, bsp_has_nodes_depth_splits_and_fragments) {
   const Json d = json_of({"bsp", cornell});
   expect_frame(d, "bsp", cornell);
-  for (const char* key : {"nodes", "depth", "splits", "fragments"}) EXPECT_TRUE(d["result"][key].is_number_unsigned()) << key;
+  for (const char* key : {"nodes", "depth", "splits", "fragments"})
+    EXPECT_TRUE(d["result"][key].is_number_unsigned()) << key;
   EXPECT_EQ(d["result"]["fragments"].get<int>(), d["scene"]["pieces"].get<int>() + d["result"]["splits"].get<int>());
   EXPECT_GE(d["result"]["nodes"].get<int>(), d["result"]["depth"].get<int>());
 }
 
 TEST_F(Json_output, order_lists_each_fragment_once_with_exact_vertices) {
-  for (const char* name : {"cornell.obj", "l_room.off", "three_bars.off", "keyhole.off", "concave_star.off", "u_and_quad.off"}) {
+  for (const char* name :
+       {"cornell.obj", "l_room.off", "three_bars.off", "keyhole.off", "concave_star.off", "u_and_quad.off"}) {
     const std::string scene = (corpus / "general" / name).string();
     const Json d = json_of({"order", scene, "--eye", "1/3,-20.5,7e-1"});
     expect_frame(d, "order", scene);
@@ -101,7 +116,8 @@ TEST_F(Json_output, order_lists_each_fragment_once_with_exact_vertices) {
     std::set<int> faces;
     for (const Json& fragment : d["result"]["fragments"]) {
       EXPECT_TRUE(fragment["face"].is_number_unsigned() && fragment["piece"].is_number_unsigned());
-      EXPECT_TRUE(seen.emplace(fragment["face"].get<int>(), fragment["piece"].get<int>()).second) << "[face, piece] twice: " << fragment;
+      EXPECT_TRUE(seen.emplace(fragment["face"].get<int>(), fragment["piece"].get<int>()).second)
+          << "[face, piece] twice: " << fragment;
       EXPECT_LT(fragment["face"], d["scene"]["faces_read"]);
       faces.insert(fragment["face"].get<int>());
       EXPECT_GE(fragment["vertices"].size(), 3u);
@@ -112,7 +128,9 @@ TEST_F(Json_output, order_lists_each_fragment_once_with_exact_vertices) {
 }
 
 TEST_F(Json_output, order_is_farthest_first) {
-  const std::string scene = file("three.off", "OFF\n9 3 0\n0 0 5\n9 0 5\n0 9 5\n0 0 1\n9 0 1\n0 9 1\n0 0 3\n9 0 3\n0 9 3\n3 0 1 2\n3 3 4 5\n3 6 7 8\n");
+  const std::string scene =
+      file("three.off",
+           "OFF\n9 3 0\n0 0 5\n9 0 5\n0 9 5\n0 0 1\n9 0 1\n0 9 1\n0 0 3\n9 0 3\n0 9 3\n3 0 1 2\n3 3 4 5\n3 6 7 8\n");
   const auto faces = [&](const char* eye) {
     const Json d = json_of({"order", scene, "--eye", eye});
     Json list = Json::array();
@@ -128,7 +146,8 @@ TEST_F(Json_output, pieces_of_cyclic_overlaps_are_numbered_within_their_face) {
   const Json d = json_of({"order", (corpus / "general" / "three_bars.off").string(), "--eye", "4,3,100"});
   EXPECT_GE(d["counters"]["splits"], 1) << "a cycle takes a cut";
   std::map<int, std::set<int>> pieces;
-  for (const Json& fragment : d["result"]["fragments"]) pieces[fragment["face"].get<int>()].insert(fragment["piece"].get<int>());
+  for (const Json& fragment : d["result"]["fragments"])
+    pieces[fragment["face"].get<int>()].insert(fragment["piece"].get<int>());
   for (const auto& [face, numbers] : pieces) {
     EXPECT_EQ(*numbers.begin(), 0);
     EXPECT_EQ(*numbers.rbegin() + 1, static_cast<int>(numbers.size())) << "face " << face;
@@ -192,13 +211,16 @@ TEST_F(Json_output, coordinates_are_exact_decimals_or_the_nearest_doubles) {
   };
   EXPECT_EQ(vertices({}), (std::set<std::string>{"0", "1", "1/10", "3/10"}));
   EXPECT_EQ(vertices({"--coordinates", "exact"}), (std::set<std::string>{"0", "1", "1/10", "3/10"}));
-  EXPECT_EQ(vertices({"--coordinates", "double"}),
-            (std::set<std::string>{"0", "1", "3602879701896397/36028797018963968", "5404319552844595/18014398509481984"}));
+  EXPECT_EQ(
+      vertices({"--coordinates", "double"}),
+      (std::set<std::string>{"0", "1", "3602879701896397/36028797018963968", "5404319552844595/18014398509481984"}));
 }
 
 TEST_F(Json_output, verify_reads_the_scene_with_the_coordinates_it_is_told) {
-  const std::string scene = file("tenth.off", "OFF\n3 1 0\n0.1 0 0\n1 0 0\n0 0.3 0\n3 0 1 2\n"), certificate = path("c.json").string();
-  ASSERT_EQ(run({"order", scene, "--eye", "1,2,3", "--coordinates", "double", "--certificate", certificate}).code, done);
+  const std::string scene = file("tenth.off", "OFF\n3 1 0\n0.1 0 0\n1 0 0\n0 0.3 0\n3 0 1 2\n"),
+                    certificate = path("c.json").string();
+  ASSERT_EQ(run({"order", scene, "--eye", "1,2,3", "--coordinates", "double", "--certificate", certificate}).code,
+            done);
   EXPECT_EQ(run({"verify", scene, certificate, "--coordinates", "double"}).code, done);
   EXPECT_EQ(run({"verify", scene, certificate}).code, disagreement) << "0.1 is not the double nearest to it";
 }
@@ -207,7 +229,8 @@ TEST_F(Json_output, threads_change_nothing_but_seconds) {
   const std::string soup = path("soup.off").string();
   ASSERT_EQ(run({"generate", "soup", "--size", "1500", "--out", soup}).code, done);
   for (const std::string& scene : {soup, cornell})
-    for (const std::vector<std::string>& command : {std::vector<std::string>{"info", scene}, {"bsp", scene}, {"order", scene, "--eye", "1.5,-2,0.25"}}) {
+    for (const std::vector<std::string>& command :
+         {std::vector<std::string>{"info", scene}, {"bsp", scene}, {"order", scene, "--eye", "1.5,-2,0.25"}}) {
       std::string first;
       for (const char* threads : {"1", "2", "2", "3", "8", "0"}) {
         std::vector<std::string> words = command;

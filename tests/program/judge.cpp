@@ -7,7 +7,10 @@ namespace program {
 class Judge : public Program {
  protected:
   /// Two squares of a tower seen from above: the upper one is visible.
-  std::string tower() const { return file("tower.off", "OFF\n8 2 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n4 0 1 2 3\n4 4 5 6 7\n"); }
+  std::string tower() const {
+    return file("tower.off",
+                "OFF\n8 2 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n4 0 1 2 3\n4 4 5 6 7\n");
+  }
 
   /// A shell program: $1 is the scene, $2 the query, $3 the answer.
   static std::string shell(const std::string& script) { return "sh -c '" + script + "' sh {scene} {query} {answer}"; }
@@ -20,8 +23,10 @@ class Judge : public Program {
     return r.json();
   }
   /// The one mark of a program that is asked one case.
-  std::string mark(const std::string& script, const std::string& contract, int code, std::vector<std::string> options = {}) {
-    options.insert(options.end(), {"--query", "order", "--contract", contract, "--families", "stacked", "--ulps", "0", "--cases", "1", "--two-sided"});
+  std::string mark(const std::string& script, const std::string& contract, int code,
+                   std::vector<std::string> options = {}) {
+    options.insert(options.end(), {"--query", "order", "--contract", contract, "--families", "stacked", "--ulps", "0",
+                                   "--cases", "1", "--two-sided"});
     const Json j = judge(shell(script), options, code);
     std::string found;
     for (const auto& [name, count] : j["result"]["total"]["cases"].items())
@@ -39,13 +44,14 @@ TEST_F(Judge, marks_what_became_of_a_program) {
   EXPECT_EQ(mark("mkdir $3; true", "exact", disagreement), "invalid");
   EXPECT_EQ(mark("echo 1000000 > $3", "conservative", disagreement), "invalid");
   EXPECT_EQ(mark("echo abstained all > $3", "exact", done), "abstained");
-  EXPECT_EQ(mark("echo 0 > $3", "exact", disagreement), "wrong");       // the others are missing
+  EXPECT_EQ(mark("echo 0 > $3", "exact", disagreement), "wrong");  // the others are missing
   EXPECT_EQ(mark("echo 0 > $3", "conservative", disagreement), "wrong");
   EXPECT_EQ(mark("echo 0 > $3", "aggressive", done), "wrong");
   EXPECT_EQ(mark("sleep 100", "exact", done, {"--time", "0.3"}), "timed out");
   EXPECT_EQ(mark("sleep 100 & wait", "exact", done, {"--time", "0.3"}), "timed out");
   if (!sanitized) {
-    EXPECT_EQ(mark("x=0123456789012345; while true; do x=$x$x; done", "exact", done, {"--memory", "40"}), "out of memory");
+    EXPECT_EQ(mark("x=0123456789012345; while true; do x=$x$x; done", "exact", done, {"--memory", "40"}),
+              "out of memory");
   }
 }
 
@@ -64,8 +70,11 @@ TEST_F(Judge, ends_what_a_program_leaves_running) {
 
 TEST_F(Judge, grades_orders_of_a_stack) {
   // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
-  const std::vector<std::string> options{"--query", "order", "--contract", "exact", "--families", "stacked", "--size", "5", "--ulps", "0", "--cases", "4", "--two-sided"};
-  const Json up = judge(shell("printf \"0\\n1\\n2\\n3\\n4\\n\" > $3"), options, disagreement), down = judge(shell("printf \"4\\n3\\n2\\n1\\n0\\n\" > $3"), options, disagreement);
+  const std::vector<std::string> options{"--query", "order",  "--contract", "exact",  "--families",
+                                         "stacked", "--size", "5",          "--ulps", "0",
+                                         "--cases", "4",      "--two-sided"};
+  const Json up = judge(shell("printf \"0\\n1\\n2\\n3\\n4\\n\" > $3"), options, disagreement),
+             down = judge(shell("printf \"4\\n3\\n2\\n1\\n0\\n\" > $3"), options, disagreement);
   std::size_t right = 0;
   for (const Json* j : {&up, &down}) right += (*j)["result"]["total"]["cases"]["right"].get<std::size_t>();
   EXPECT_EQ(up["result"]["total"]["asked"], 4);
@@ -75,10 +84,24 @@ TEST_F(Judge, grades_orders_of_a_stack) {
 }
 
 TEST_F(Judge, asks_about_scenes_and_keeps_what_went_wrong) {
-  const std::vector<std::string> options{"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "6", "--two-sided", "--keep", path("kept").string(), "--html", path("page.html").string()};
+  const std::vector<std::string> options{"--query",
+                                         "see",
+                                         "--contract",
+                                         "exact",
+                                         "--scenes",
+                                         tower(),
+                                         "--cases",
+                                         "6",
+                                         "--two-sided",
+                                         "--keep",
+                                         path("kept").string(),
+                                         "--html",
+                                         path("page.html").string()};
   const Json j = judge(shell("echo 0 > $3"), options, disagreement);
   EXPECT_EQ(j["result"]["total"]["asked"], 6);
-  EXPECT_GT(j["result"]["total"]["faces"]["wrong_visible"].get<int>() + j["result"]["total"]["faces"]["wrong_hidden"].get<int>(), 0);
+  EXPECT_GT(j["result"]["total"]["faces"]["wrong_visible"].get<int>() +
+                j["result"]["total"]["faces"]["wrong_hidden"].get<int>(),
+            0);
   // What is kept is what was asked: the scene as it was, a query, the answer.
   EXPECT_EQ(read_file(path("kept") / "smallest.answer"), "0\n");
   EXPECT_EQ(Json::parse(read_file(path("kept") / "smallest.json"))["query"], "see");
@@ -88,15 +111,23 @@ TEST_F(Judge, asks_about_scenes_and_keeps_what_went_wrong) {
   EXPECT_NE(page.find("tower.off"), std::string::npos);
   EXPECT_EQ(page.find("http"), std::string::npos);
   // The command that is printed asks that case again: one case, which fails in the same way.
-  const Json &s = j["result"]["smallest"], again = judge(shell("echo 0 > $3"), {"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--two-sided", "--seed", s["seed"].dump()}, disagreement);
+  const Json &s = j["result"]["smallest"], again = judge(shell("echo 0 > $3"),
+                                                         {"--query", "see", "--contract", "exact", "--scenes", tower(),
+                                                          "--cases", "1", "--two-sided", "--seed", s["seed"].dump()},
+                                                         disagreement);
   EXPECT_EQ(again["result"]["smallest"]["why"], s["why"]);
-  EXPECT_NE(s["again"].get<std::string>().find("--cases 1 --seed " + s["seed"].dump() + " --two-sided"), std::string::npos) << s;
+  EXPECT_NE(s["again"].get<std::string>().find("--cases 1 --seed " + s["seed"].dump() + " --two-sided"),
+            std::string::npos)
+      << s;
 }
 
 TEST_F(Judge, makes_the_smallest_smaller_and_asks_it_again) {
   // Face 0 is shown always: what is left is one triangle that looks away.
   const std::string program = shell("echo 0 > $3");
-  const Json j = judge(program, {"--query", "see", "--contract", "aggressive", "--families", "stacked", "--size", "6", "--ulps", "0", "--cases", "4", "--keep", path("kept").string(), "--reduce", "60"}, disagreement);
+  const Json j = judge(program,
+                       {"--query", "see", "--contract", "aggressive", "--families", "stacked", "--size", "6", "--ulps",
+                        "0", "--cases", "4", "--keep", path("kept").string(), "--reduce", "60"},
+                       disagreement);
   const Json& r = j["result"]["smallest"]["reduced"];
   EXPECT_EQ(r["faces"], 1) << r;
   EXPECT_EQ(r["finished"], true) << r;
@@ -107,9 +138,13 @@ TEST_F(Judge, makes_the_smallest_smaller_and_asks_it_again) {
   off >> header >> points >> faces;
   EXPECT_EQ(points, 3u);
   EXPECT_EQ(faces, 1u);
-  const std::string with = " --scenes " + path("kept/reduced.off").string() + " --ask " + path("kept/reduced.json").string();
+  const std::string with =
+      " --scenes " + path("kept/reduced.off").string() + " --ask " + path("kept/reduced.json").string();
   EXPECT_NE(r["again"].get<std::string>().find(with), std::string::npos) << r;
-  const std::vector<std::string> options{"--query", "see", "--contract", "aggressive", "--scenes", path("kept/reduced.off").string(), "--ask", path("kept/reduced.json").string()};
+  const std::vector<std::string> options{"--query",    "see",
+                                         "--contract", "aggressive",
+                                         "--scenes",   path("kept/reduced.off").string(),
+                                         "--ask",      path("kept/reduced.json").string()};
   const Json again = judge(program, options, disagreement);
   EXPECT_EQ(again["result"]["total"]["asked"], 1);
   EXPECT_EQ(again["result"]["smallest"]["why"], r["why"]);
@@ -119,7 +154,9 @@ TEST_F(Judge, makes_the_smallest_smaller_and_asks_it_again) {
 
 TEST_F(Judge, makes_scenes_smaller_that_break_the_contract_in_the_same_way) {
   // It crashes where there is a quad, and is wrong of triangles too: what is left is a quad, its corners apart.
-  const Json j = judge(shell("grep -q \"^4 \" $1 && exit 3; echo 0 > $3"), {"--query", "weak", "--contract", "exact", "--families", "stacked", "--size", "3", "--ulps", "0", "--cases", "1", "--keep", path("kept").string(), "--reduce", "60"},
+  const Json j = judge(shell("grep -q \"^4 \" $1 && exit 3; echo 0 > $3"),
+                       {"--query", "weak", "--contract", "exact", "--families", "stacked", "--size", "3", "--ulps", "0",
+                        "--cases", "1", "--keep", path("kept").string(), "--reduce", "60"},
                        disagreement);
   const Json& r = j["result"]["smallest"]["reduced"];
   EXPECT_EQ(r["mark"], "crashed") << r;
@@ -129,11 +166,17 @@ TEST_F(Judge, makes_scenes_smaller_that_break_the_contract_in_the_same_way) {
 }
 
 TEST_F(Judge, makes_scenes_smaller_that_have_the_same_kind_of_wrong_face) {
-  // Face 1, which is hidden, is shown as long as there are three faces; nothing is shown of fewer, where the first is missing then.
-  const std::string three = "OFF\n12 3 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 8 9 10 11\n4 4 5 6 7\n4 0 1 2 3\n";
+  // Face 1, which is hidden, is shown as long as there are three faces; nothing is shown of fewer, where the first is
+  // missing then.
+  const std::string three =
+      "OFF\n12 3 0\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n-1 -1 2\n1 -1 2\n1 1 2\n-1 1 2\n4 "
+      "8 9 10 11\n4 4 5 6 7\n4 0 1 2 3\n";
   const std::string query = file("query.json", R"({"query": "see", "eye": [0, 0, 9], "two_sided": false})");
-  const Json j = judge(shell("test $(grep -c \"^[34] [0-9]* [0-9]* [0-9]*\" $1) -lt 3 || printf \"0\\n1\\n\" > $3; touch $3"),
-                       {"--query", "see", "--contract", "exact", "--scenes", file("three.off", three), "--ask", query, "--keep", path("kept").string(), "--reduce", "60"}, disagreement);
+  const Json j =
+      judge(shell("test $(grep -c \"^[34] [0-9]* [0-9]* [0-9]*\" $1) -lt 3 || printf \"0\\n1\\n\" > $3; touch $3"),
+            {"--query", "see", "--contract", "exact", "--scenes", file("three.off", three), "--ask", query, "--keep",
+             path("kept").string(), "--reduce", "60"},
+            disagreement);
   EXPECT_EQ(j["result"]["smallest"]["why"], "face 1 is shown but hidden");
   const Json& r = j["result"]["smallest"]["reduced"];
   EXPECT_EQ(r["faces"], 3) << r;
@@ -142,18 +185,24 @@ TEST_F(Judge, makes_scenes_smaller_that_have_the_same_kind_of_wrong_face) {
 
 TEST_F(Judge, gives_the_scene_in_the_format_that_is_asked_for) {
   for (const std::string format : {"off", "obj", "ply", "qoff"}) {
-    const Json j = judge(shell("test -s $1 && case $1 in *." + format + ") echo abstained all > $3;; esac"), {"--query", "weak", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--format", format}, done);
+    const Json j = judge(
+        shell("test -s $1 && case $1 in *." + format + ") echo abstained all > $3;; esac"),
+        {"--query", "weak", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--format", format}, done);
     EXPECT_EQ(j["result"]["total"]["cases"]["abstained"], 1) << format;
   }
-  const Json j = judge(shell("true"), {"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--format", "stl"}, done);
+  const Json j =
+      judge(shell("true"),
+            {"--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "1", "--format", "stl"}, done);
   EXPECT_EQ(j["result"]["total"]["not_asked"], 1);
 }
 
 TEST_F(Judge, prints_a_table_and_a_verdict) {
-  const Outcome holds = run({"judge", "--program", shell("echo abstained all > $3"), "--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "2"});
+  const Outcome holds = run({"judge", "--program", shell("echo abstained all > $3"), "--query", "see", "--contract",
+                             "exact", "--scenes", tower(), "--cases", "2"});
   EXPECT_EQ(holds.code, done) << holds;
   EXPECT_NE(holds.out.find("the contract `exact` holds in all 2 cases"), std::string::npos) << holds;
-  const Outcome broken = run({"judge", "--program", shell("exit 1"), "--query", "see", "--contract", "exact", "--scenes", tower(), "--cases", "2"});
+  const Outcome broken = run({"judge", "--program", shell("exit 1"), "--query", "see", "--contract", "exact",
+                              "--scenes", tower(), "--cases", "2"});
   EXPECT_EQ(broken.code, disagreement) << broken;
   EXPECT_NE(broken.out.find("the contract `exact` is BROKEN in 2 of 2 cases"), std::string::npos) << broken;
   EXPECT_NE(broken.out.find("  again: sightline judge --program "), std::string::npos) << broken;
@@ -173,16 +222,24 @@ TEST_F(Judge, says_what_is_wrong_with_a_command_line) {
   complains({"--program", good, "--query", "see", "--contract", "kind"}, "--contract");
   complains({"--program", "mine {scene} {answer}", "--query", "see", "--contract", "exact"}, "{query}");
   complains({"--program", "mine '{scene} {query} {answer}", "--query", "see", "--contract", "exact"}, "quote");
-  complains({"--program", "/nowhere/mine {scene} {query} {answer}", "--query", "see", "--contract", "exact", "--scenes", tower()}, "cannot be started");
+  complains({"--program", "/nowhere/mine {scene} {query} {answer}", "--query", "see", "--contract", "exact", "--scenes",
+             tower()},
+            "cannot be started");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "none_such"}, "--families");
   complains({"--program", good, "--query", "see", "--contract", "exact", "--ulps", "1.5"}, "--ulps");
-  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", path("nowhere").string()}, "--scenes");
-  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--families", "stacked"}, "exclude each other");
-  complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--reduce", "5"}, "--keep");
-  complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--ask", tower()}, "--scenes");
-  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", tower()}, "--ask");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", path("nowhere").string()},
+            "--scenes");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--families", "stacked"},
+            "exclude each other");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--reduce", "5"},
+            "--keep");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--families", "stacked", "--ask", tower()},
+            "--scenes");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", tower()},
+            "--ask");
   const std::string other = file("query.json", R"({"query": "order", "eye": [0, 0, 1], "two_sided": false})");
-  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", other}, "another question");
+  complains({"--program", good, "--query", "see", "--contract", "exact", "--scenes", tower(), "--ask", other},
+            "another question");
 }
 
 }  // namespace program

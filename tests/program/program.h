@@ -1,13 +1,17 @@
 #pragma once
-// The program as a user meets it: a command line, files in a folder of its own, what it prints, its exit code. Limits on time and memory.
+// The program as a user meets it: a command line, files in a folder of its own, what it prints, its exit code. Limits
+// on time and memory.
 
 #include <stdexcept>
 #include <string>
 
 namespace program {
-[[noreturn]] inline void json_lacks(const char* condition) { throw std::logic_error(std::string("JSON is not as expected: ") + condition); }
+[[noreturn]] inline void json_lacks(const char* condition) {
+  throw std::logic_error(std::string("JSON is not as expected: ") + condition);
+}
 }  // namespace program
-#define JSON_ASSERT(condition) ((condition) ? static_cast<void>(0) : program::json_lacks(#condition))  // a failed test, not an abort
+#define JSON_ASSERT(condition) \
+  ((condition) ? static_cast<void>(0) : program::json_lacks(#condition))  // a failed test, not an abort
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -53,10 +57,10 @@ struct Limits {
 
 /// What became of a run of the program.
 struct Outcome {
-  int code = -1;          ///< of exit; -1 where a signal ended it, or the time ran out
+  int code = -1;  ///< of exit; -1 where a signal ended it, or the time ran out
   std::string out, err;
-  std::string ended;      ///< "exit 3", "signal 11", "no end within 60 s"
-  std::string command;    ///< for messages
+  std::string ended;    ///< "exit 3", "signal 11", "no end within 60 s"
+  std::string command;  ///< for messages
 
   /// Whether stderr is exactly one line.
   bool one_line_of_error() const { return !err.empty() && err.find('\n') == err.size() - 1; }
@@ -64,7 +68,8 @@ struct Outcome {
 };
 
 inline std::ostream& operator<<(std::ostream& to, const Outcome& run) {
-  return to << run.command << "\n  -> " << run.ended << "\n  stdout: " << run.out.substr(0, 1000) << "\n  stderr: " << run.err.substr(0, 1000);
+  return to << run.command << "\n  -> " << run.ended << "\n  stdout: " << run.out.substr(0, 1000)
+            << "\n  stderr: " << run.err.substr(0, 1000);
 }
 
 inline std::string read_file(const fs::path& path) {
@@ -100,13 +105,18 @@ class Program : public testing::Test {
     return path(name).string();
   }
 
-  Outcome run(const std::vector<std::string>& arguments, Limits limits = {}) const { return run_to(path("stdout").string(), arguments, limits); }
+  Outcome run(const std::vector<std::string>& arguments, Limits limits = {}) const {
+    return run_to(path("stdout").string(), arguments, limits);
+  }
 
   /// A run whose standard output goes to a file of its own choice.
   Outcome run_to(const std::string& out, const std::vector<std::string>& arguments, Limits limits = {}) const {
     const std::string err = path("stderr").string();
-    std::vector<std::string> words{"/bin/sh", "-c", sanitized ? "exec \"$@\"" : "ulimit -v " + std::to_string(limits.mebibytes * 1024) + " && ulimit -c 0 && exec \"$@\"", "sh",
-                                   SIGHTLINE_PROGRAM};
+    std::vector<std::string> words{
+        "/bin/sh", "-c",
+        sanitized ? "exec \"$@\""
+                  : "ulimit -v " + std::to_string(limits.mebibytes * 1024) + " && ulimit -c 0 && exec \"$@\"",
+        "sh", SIGHTLINE_PROGRAM};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -119,7 +129,8 @@ class Program : public testing::Test {
     posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     Outcome result;
     result.command = "sightline";
-    for (const std::string& argument : arguments) result.command += " " + (argument.size() > 200 ? argument.substr(0, 200) + "..." : argument);
+    for (const std::string& argument : arguments)
+      result.command += " " + (argument.size() > 200 ? argument.substr(0, 200) + "..." : argument);
     pid_t child = 0;
     const int failed = posix_spawn(&child, words[0].c_str(), &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
@@ -144,7 +155,8 @@ class Program : public testing::Test {
     }
     if (result.ended.empty()) {
       if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
-      result.ended = WIFEXITED(status) ? "exit " + std::to_string(result.code) : "signal " + std::to_string(WTERMSIG(status));
+      result.ended =
+          WIFEXITED(status) ? "exit " + std::to_string(result.code) : "signal " + std::to_string(WTERMSIG(status));
     }
     if (fs::is_regular_file(out)) result.out = read_file(out);
     result.err = read_file(err);

@@ -1,5 +1,6 @@
-// From the file to a verified order: every scene of the corpus, and every one of the collection under SIGHTLINE_SCENES_DIR in a format that we
-// read. By default orders of up to 2000 fragments are verified, with SIGHTLINE_ALL_SCENES=1 those of up to 6000 (half an hour).
+// From the file to a verified order: every scene of the corpus, and every one of the collection under
+// SIGHTLINE_SCENES_DIR in a format that we read. By default orders of up to 2000 fragments are verified, with
+// SIGHTLINE_ALL_SCENES=1 those of up to 6000 (half an hour).
 
 #include "program.h"
 
@@ -20,7 +21,9 @@ static Point point_of(const Json& p) {
   for (std::size_t k = 0; k < 3; ++k) q[k] = sightline::rational_from_string(p[k].get<std::string>());
   return q;
 }
-static std::string text_of(const Point& p) { return sightline::to_string(p[0]) + "," + sightline::to_string(p[1]) + "," + sightline::to_string(p[2]); }
+static std::string text_of(const Point& p) {
+  return sightline::to_string(p[0]) + "," + sightline::to_string(p[1]) + "," + sightline::to_string(p[2]);
+}
 static bool all_scenes() {
   const char* value = std::getenv("SIGHTLINE_ALL_SCENES");
   return value != nullptr && std::string_view(value) == "1";
@@ -29,7 +32,9 @@ static bool all_scenes() {
 struct Scene_file {
   fs::path file, under;  // a file, and the folder that its name is told from
 };
-static void PrintTo(const Scene_file& scene, std::ostream* to) { *to << fs::relative(scene.file, scene.under).string(); }
+static void PrintTo(const Scene_file& scene, std::ostream* to) {
+  *to << fs::relative(scene.file, scene.under).string();
+}
 static std::string name_of(const testing::TestParamInfo<Scene_file>& info) {
   std::string name = fs::relative(info.param.file, info.param.under).string();
   for (char& c : name)
@@ -59,7 +64,8 @@ class Scenes : public Program, public testing::WithParamInterface<Scene_file> {
 
   /// Orders the scene from an eye and returns the fragments; nothing where it failed.
   std::optional<Json> order(const std::string& eye) {
-    const Outcome r = run({"order", scene, "--eye", eye, "--json", "-", "--certificate", certificate(), "--threads", "2"}, limits);
+    const Outcome r =
+        run({"order", scene, "--eye", eye, "--json", "-", "--certificate", certificate(), "--threads", "2"}, limits);
     EXPECT_EQ(r.code, done) << r;
     if (r.code != done) return std::nullopt;
     const Json d = r.json();
@@ -68,8 +74,8 @@ class Scenes : public Program, public testing::WithParamInterface<Scene_file> {
     return d["result"]["fragments"];
   }
 
-  /// Orders from three eyes: one in general position, one in a face's plane but outside the face, one at a vertex. Verifies orders of up to
-  /// `verified` fragments, and says of others that they were not.
+  /// Orders from three eyes: one in general position, one in a face's plane but outside the face, one at a vertex.
+  /// Verifies orders of up to `verified` fragments, and says of others that they were not.
   void order_from_three_eyes_and_verify(std::size_t verified) {
     const Outcome i = run({"info", scene, "--json", "-"}, limits);
     ASSERT_EQ(i.code, done) << i;
@@ -87,7 +93,8 @@ class Scenes : public Program, public testing::WithParamInterface<Scene_file> {
     const Point a = point_of(face[0]), b = point_of(face[1]), c = point_of(face[2]);
     for (std::size_t k = 0; k < 3; ++k) eye[k] = a[k] + Rational(5, 2) * (b[k] - a[k]) - Rational(3, 2) * (c[k] - a[k]);
     const std::string in_plane = text_of(eye), at_vertex = text_of(a);
-    for (const auto& [what, where] : {std::pair{"an eye in a face's plane", in_plane}, {"an eye at a vertex", at_vertex}}) {
+    for (const auto& [what, where] :
+         {std::pair{"an eye in a face's plane", in_plane}, {"an eye at a vertex", at_vertex}}) {
       fragments = order(where);
       ASSERT_TRUE(fragments) << what;
       verify(what, fragments->size(), verified);
@@ -97,7 +104,8 @@ class Scenes : public Program, public testing::WithParamInterface<Scene_file> {
  private:
   void verify(const char* what, std::size_t fragments, std::size_t most) {
     if (fragments > most) {
-      std::cout << "left out: verify of " << fragments << " fragments from " << what << " (up to " << most << " are verified)\n";
+      std::cout << "left out: verify of " << fragments << " fragments from " << what << " (up to " << most
+                << " are verified)\n";
       return;
     }
     const Outcome r = run({"verify", scene, certificate()}, limits);
@@ -130,9 +138,11 @@ TEST_P(Corpus, is_painted) {
 
 TEST_P(Corpus, is_ordered_by_every_kernel_without_a_crash) {
   for (const char* kernel : {"epeck", "gmpq", "epick", "double", "float"}) {
-    const Outcome r = run({"order", scene, "--eye", "0.7,-3.1,2", "--kernel", kernel, "--json", "-", "--certificate", certificate()});
+    const Outcome r =
+        run({"order", scene, "--eye", "0.7,-3.1,2", "--kernel", kernel, "--json", "-", "--certificate", certificate()});
     if (std::string_view(kernel) != "epeck" && std::string_view(kernel) != "gmpq") {
-      EXPECT_TRUE(r.code == done || (r.code == bad_input && r.one_line_of_error())) << "an inexact kernel may refuse what is beyond its numbers: " << r;
+      EXPECT_TRUE(r.code == done || (r.code == bad_input && r.one_line_of_error()))
+          << "an inexact kernel may refuse what is beyond its numbers: " << r;
     } else {
       EXPECT_EQ(r.code, done) << r;
       const Outcome v = run({"verify", scene, certificate()});
@@ -147,7 +157,8 @@ class Collected : public Scenes {};
 TEST_P(Collected, is_ordered_from_three_eyes_and_verified) {
   constexpr std::uintmax_t most_bytes = sanitized ? 20'000 : 400'000;
   if (!all_scenes() && fs::file_size(scene) > most_bytes)
-    GTEST_SKIP() << "left out: " << fs::file_size(scene) << " bytes are more than " << most_bytes << "; SIGHTLINE_ALL_SCENES=1 leaves no scene out";
+    GTEST_SKIP() << "left out: " << fs::file_size(scene) << " bytes are more than " << most_bytes
+                 << "; SIGHTLINE_ALL_SCENES=1 leaves no scene out";
   order_from_three_eyes_and_verify(all_scenes() ? 6000 : sanitized ? 300 : 2000);
 }
 

@@ -69,7 +69,8 @@ TEST_F(See, gives_certificates_that_are_accepted_for_every_scene_and_rejected_on
       changed["parts"].erase(changed["parts"].size() / 2);
       expect(disagreement, scene.string(), changed);
     }
-  expect(done, crossing, certificate(crossing, {"--frustum", "--look", "1,2,-1", "--field", "100", "--eye", "-3,-4,3"}));
+  expect(done, crossing,
+         certificate(crossing, {"--frustum", "--look", "1,2,-1", "--field", "100", "--eye", "-3,-4,3"}));
   expect(done, cube, certificate(cube, {"--eye", "1/3,1/3,1/3"}));
   expect(done, cube, certificate(cube, {"--eye", "0,0,1/2"}));
 }
@@ -84,7 +85,8 @@ TEST_F(See, cuts_edges_into_visible_and_hidden_parts) {
     EXPECT_EQ(line["parts"].front()["vertices"][0], line["vertices"][0]);
     EXPECT_EQ(line["parts"].back()["vertices"][1], line["vertices"][1]);
     for (const Json& part : line["parts"]) EXPECT_EQ(part.contains("hidden_by"), part["visible"] == false);
-    ++(line["parts"][0]["visible"] == true ? visible : hidden);  // the three at the far corner, each behind one face or two
+    ++(line["parts"][0]["visible"] == true ? visible
+                                           : hidden);  // the three at the far corner, each behind one face or two
   }
   EXPECT_EQ(visible, 9u);
   EXPECT_EQ(hidden, 3u);
@@ -107,11 +109,15 @@ TEST_F(See, draws_what_it_sees) {
 TEST_F(See, is_the_same_with_any_number_of_threads_and_in_every_exact_kernel) {
   const std::string city = path("city.qoff").string();
   ASSERT_EQ(run({"generate", "city_rotated", "--size", "40", "--seed", "3", "--out", city}).code, done);
-  const Json one = see({city, "--eye", "0,0,1", "--threads", "1", "--lines"}), many = see({city, "--eye", "0,0,1", "--threads", "5", "--lines"});
+  const Json one = see({city, "--eye", "0,0,1", "--threads", "1", "--lines"}),
+             many = see({city, "--eye", "0,0,1", "--threads", "5", "--lines"});
   EXPECT_EQ(one["result"], many["result"]);
   EXPECT_EQ(one["counters"], many["counters"]);
-  for (const char* kernel : {"epeck", "gmpq"}) EXPECT_EQ(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"], one["result"]["visible"]) << kernel;
-  for (const char* kernel : {"double", "float"}) EXPECT_GT(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"].size(), 0u) << kernel;
+  for (const char* kernel : {"epeck", "gmpq"})
+    EXPECT_EQ(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"], one["result"]["visible"])
+        << kernel;
+  for (const char* kernel : {"double", "float"})
+    EXPECT_GT(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"].size(), 0u) << kernel;
 }
 
 TEST_F(See, refuses_what_is_no_eye_and_what_is_not_exact) {
@@ -120,7 +126,8 @@ TEST_F(See, refuses_what_is_no_eye_and_what_is_not_exact) {
     EXPECT_EQ(r.code, usage) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;
   }
-  for (const char* option : {"--lines", "--frustum"}) EXPECT_EQ(run({"see", cube, "--kernel", "double", option}).code, usage) << option;
+  for (const char* option : {"--lines", "--frustum"})
+    EXPECT_EQ(run({"see", cube, "--kernel", "double", option}).code, usage) << option;
   EXPECT_EQ(run({"see", cube, "--kernel", "epick"}).code, usage);
   EXPECT_EQ(run({"see", path("none.off").string()}).code, bad_input);
   EXPECT_EQ(run({"see", cube, "--budget", "1e-9"}).code, undecided);
@@ -131,10 +138,12 @@ TEST_F(See, refuses_what_is_no_eye_and_what_is_not_exact) {
 TEST_F(See, sees_real_scenes_as_verify_accepts_them) {
   if (std::string_view(SIGHTLINE_SCENES_DIR).empty()) GTEST_SKIP() << "no folder of real scenes";
   const fs::path scenes = SIGHTLINE_SCENES_DIR;
-  for (const char* name : {"a_interior/cornell_box.obj", "c_convex/cg_geosphere.off", "d_hard/cg_cross.off", "d_hard/gc_three_cubes.stl", "d_hard/mf_Havocglass8_left.obj"}) {
+  for (const char* name : {"a_interior/cornell_box.obj", "c_convex/cg_geosphere.off", "d_hard/cg_cross.off",
+                           "d_hard/gc_three_cubes.stl", "d_hard/mf_Havocglass8_left.obj"}) {
     if (!fs::exists(scenes / name)) continue;
     for (const char* eye : {"", "0,0,0", "1/7,1/9,1/11"}) {
-      const Json made = certificate((scenes / name).string(), *eye == 0 ? std::vector<std::string>{} : std::vector<std::string>{"--eye", eye});
+      const Json made = certificate((scenes / name).string(),
+                                    *eye == 0 ? std::vector<std::string>{} : std::vector<std::string>{"--eye", eye});
       expect(done, (scenes / name).string(), made);
     }
   }

@@ -34,7 +34,10 @@ TEST_F(Weak, sees_the_sides_of_a_cube_that_face_the_source_and_proves_the_others
   EXPECT_EQ(weak({cube, "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3"})["result"]["visible"].size(), 5u);
   EXPECT_EQ(weak({cube, "--from", "0,0,3 1,0,3 1,1,3 0,1,3"})["result"]["visible"].size(), 0u);
   // Two polygons see what either sees.
-  EXPECT_EQ(weak({cube, "--from", "0,0,3 0,1,3 1,1,3 1,0,3", "--from", "0,0,-3 1,0,-3 1,1,-3 0,1,-3"})["result"]["visible"].size(), 2u);
+  EXPECT_EQ(
+      weak({cube, "--from", "0,0,3 0,1,3 1,1,3 1,0,3", "--from", "0,0,-3 1,0,-3 1,1,-3 0,1,-3"})["result"]["visible"]
+          .size(),
+      2u);
   // From a face: none of a convex body's own faces is in front of it; inside, from behind, all others are.
   EXPECT_EQ(weak({cube, "--from-face", "0"})["result"]["visible"].size(), 0u);
 }
@@ -48,18 +51,22 @@ TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
 }
 
 TEST_F(Weak, by_rays_sees_no_more_than_there_is_and_proves_nothing) {
-  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10";
-  const Json all = weak({rooms, "--from", lamp})["result"]["visible"], few = weak({rooms, "--from", lamp, "--method", "sample", "--rays", "300"})["result"]["visible"];
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(),
+                    lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10";
+  const Json all = weak({rooms, "--from", lamp})["result"]["visible"],
+             few = weak({rooms, "--from", lamp, "--method", "sample", "--rays", "300"})["result"]["visible"];
   EXPECT_LT(few.size(), all.size());
   EXPECT_GT(few.size(), 20u);
   for (const Json& face : few) EXPECT_NE(std::find(all.begin(), all.end(), face), all.end()) << face;
-  const Outcome r = run({"weak", rooms, "--from", lamp, "--method", "sample", "--certificate", path("no.json").string()});
+  const Outcome r =
+      run({"weak", rooms, "--from", lamp, "--method", "sample", "--certificate", path("no.json").string()});
   EXPECT_EQ(r.code, usage) << r;
 }
 
 TEST_F(Weak, by_events_says_the_same) {
   for (const char* const from : {"0,0,3 0,1,3 1,1,3 1,0,3", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "0,0,3 1,0,3 1,1,3 0,1,3"}) {
-    const Json lines = weak({cube, "--from", from})["result"], events = weak({cube, "--from", from, "--method", "events"})["result"];
+    const Json lines = weak({cube, "--from", from})["result"],
+               events = weak({cube, "--from", from, "--method", "events"})["result"];
     EXPECT_EQ(lines["visible"], events["visible"]) << from;
     EXPECT_EQ(lines["hidden"], events["hidden"]) << from;
   }
@@ -108,7 +115,9 @@ TEST_F(Weak, refuses_sources_that_are_none) {
 }
 
 TEST_F(Weak, ends_with_its_budget_also_by_methods_that_leave_nothing_undecided) {
-  const Outcome r = run({"weak", cube, "--from", "0,0,3 0,1,3 1,1,3 1,0,3", "--method", "sample", "--rays", "1000000000000", "--budget", "0.2"}, {20, 1024});
+  const Outcome r = run({"weak", cube, "--from", "0,0,3 0,1,3 1,1,3 1,0,3", "--method", "sample", "--rays",
+                         "1000000000000", "--budget", "0.2"},
+                        {20, 1024});
   EXPECT_EQ(r.code, undecided) << r;
   EXPECT_TRUE(r.one_line_of_error()) << r;
   EXPECT_NE(r.err.find("the budget of 0.2 s ran out"), std::string::npos) << r;
@@ -116,7 +125,9 @@ TEST_F(Weak, ends_with_its_budget_also_by_methods_that_leave_nothing_undecided) 
 }
 
 TEST_F(Weak, says_undecided_with_exit_code_4_where_it_may_not_search) {
-  const std::string scene = file("two.off", "OFF\n12 3 0\n-2 -2 4\n-2 2 4\n2 2 4\n2 -2 4\n-4 -2 2\n0 -2 2\n0 2 2\n-4 2 2\n0 -2 2\n4 -2 2\n4 2 2\n0 2 2\n4 0 1 2 3\n4 4 5 6 7\n4 8 9 10 11\n");
+  const std::string scene = file("two.off",
+                                 "OFF\n12 3 0\n-2 -2 4\n-2 2 4\n2 2 4\n2 -2 4\n-4 -2 2\n0 -2 2\n0 2 2\n-4 2 2\n0 -2 "
+                                 "2\n4 -2 2\n4 2 2\n0 2 2\n4 0 1 2 3\n4 4 5 6 7\n4 8 9 10 11\n");
   const std::vector<std::string> source{"--from", "-1,-1,0 1,-1,0 1,1,0 -1,1,0"};
   std::vector<std::string> arguments{scene};
   arguments.insert(arguments.end(), source.begin(), source.end());
@@ -130,14 +141,19 @@ TEST_F(Weak, says_undecided_with_exit_code_4_where_it_may_not_search) {
 TEST_F(Weak, from_a_volume_sees_all_around_and_what_reaches_into_it) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("volume.json").string();
   // A cube of 1 in the first room sees no less than each of its sides.
-  const std::string box = file("box.off", "OFF\n8 6 0\n1 1 1\n2 1 1\n2 2 1\n1 2 1\n1 1 2\n2 1 2\n2 2 2\n1 2 2\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  const std::string box = file("box.off",
+                               "OFF\n8 6 0\n1 1 1\n2 1 1\n2 2 1\n1 2 1\n1 1 2\n2 1 2\n2 2 2\n1 2 2\n4 3 2 1 0\n4 4 5 6 "
+                               "7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
   const Json seen = weak({rooms, "--from-volume", box, "--certificate", to})["result"];
   const Json top = weak({rooms, "--from", "1,1,2 2,1,2 2,2,2 1,2,2"})["result"];
-  for (const Json& face : top["visible"]) EXPECT_NE(std::find(seen["visible"].begin(), seen["visible"].end(), face), seen["visible"].end()) << face;
+  for (const Json& face : top["visible"])
+    EXPECT_NE(std::find(seen["visible"].begin(), seen["visible"].end(), face), seen["visible"].end()) << face;
   EXPECT_GT(seen["visible"].size(), top["visible"].size());
   EXPECT_EQ(run({"verify", rooms, to}).code, done);
   // A sheet through the cube, and one in it; from outside, in a corner that sees neither, nothing hides them.
-  const std::string sheets = file("sheets.off", "OFF\n8 2 0\n1.25 1.25 1.5\n1.75 1.25 1.5\n1.75 1.75 1.5\n1.25 1.75 1.5\n1.25 1.25 3\n1.75 1.25 3\n1.75 1.75 3\n1.25 1.75 3\n4 0 1 2 3\n4 4 5 6 7\n");
+  const std::string sheets = file("sheets.off",
+                                  "OFF\n8 2 0\n1.25 1.25 1.5\n1.75 1.25 1.5\n1.75 1.75 1.5\n1.25 1.75 1.5\n1.25 1.25 "
+                                  "3\n1.75 1.25 3\n1.75 1.75 3\n1.25 1.75 3\n4 0 1 2 3\n4 4 5 6 7\n");
   const Json within = weak({sheets, "--from-volume", box})["result"];
   EXPECT_EQ(within["within"], Json({0}));
   EXPECT_EQ(within["visible"], Json({0}));  // the other one looks up, away from it
@@ -147,15 +163,21 @@ TEST_F(Weak, from_a_volume_sees_all_around_and_what_reaches_into_it) {
 }
 
 TEST_F(Weak, conservatively_hides_only_what_lines_hide_and_proves_it) {
-  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", to = path("quick.json").string();
-  const Json lines = weak({rooms, "--from", lamp})["result"], quick = weak({rooms, "--from", lamp, "--conservative", "--certificate", to})["result"];
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(),
+                    lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", to = path("quick.json").string();
+  const Json lines = weak({rooms, "--from", lamp})["result"],
+             quick = weak({rooms, "--from", lamp, "--conservative", "--certificate", to})["result"];
   EXPECT_GT(quick["hidden"].size(), 0u);
-  for (const Json& face : quick["hidden"]) EXPECT_NE(std::find(lines["hidden"].begin(), lines["hidden"].end(), face), lines["hidden"].end()) << face;
+  for (const Json& face : quick["hidden"])
+    EXPECT_NE(std::find(lines["hidden"].begin(), lines["hidden"].end(), face), lines["hidden"].end()) << face;
   EXPECT_EQ(quick["unproved"], quick["visible"]);
   EXPECT_EQ(run({"verify", rooms, to}).code, done);
-  EXPECT_NE(run({"weak", rooms, "--from", lamp, "--conservative"}).out.find("compare SCENE weak"), std::string::npos);  // where to learn how many it has too many
+  EXPECT_NE(run({"weak", rooms, "--from", lamp, "--conservative"}).out.find("compare SCENE weak"),
+            std::string::npos);  // where to learn how many it has too many
   // It is said in one way, and not together with another answer.
-  for (const std::vector<std::string>& words : {std::vector<std::string>{"--method", "conservative"}, {"--conservative", "--method", "lines"}, {"--conservative=lines"}}) {
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--method", "conservative"},
+                                                {"--conservative", "--method", "lines"},
+                                                {"--conservative=lines"}}) {
     std::vector<std::string> arguments{"weak", rooms, "--from", lamp};
     arguments.insert(arguments.end(), words.begin(), words.end());
     EXPECT_EQ(run(arguments).code, usage) << words[0];
@@ -166,10 +188,13 @@ TEST_F(Weak, by_doubles_answers_without_proofs) {
   const Json doubles = weak({cube, "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "--method", "doubles"})["result"];
   EXPECT_EQ(doubles["visible"].size(), 5u);
   EXPECT_EQ(doubles["unproved"].size(), 6u);
-  EXPECT_EQ(run({"weak", cube, "--from-face", "0", "--method", "doubles", "--certificate", path("no.json").string()}).code, usage);
+  EXPECT_EQ(
+      run({"weak", cube, "--from-face", "0", "--method", "doubles", "--certificate", path("no.json").string()}).code,
+      usage);
 }
 
-/// Three plates whose edges meet one line, and a fourth that is tangent to what they leave: lines alone do not decide it.
+/// Three plates whose edges meet one line, and a fourth that is tangent to what they leave: lines alone do not decide
+/// it.
 static const char* const tangent =
     "OFF\n20 5 0\n-1 1 1\n1 1 1\n1 -1 1\n-1 -1 1\n"  // the target looks down
     "-2 -1/2 1/4\n2 1/2 1/4\n2 -11/2 1/4\n-2 -13/2 1/4\n"
@@ -219,7 +244,8 @@ TEST_F(Weak, hands_what_lines_leave_open_to_events_and_says_what_else_is_open) {
 
 TEST_F(Weak, writes_the_surfaces_of_events_exactly_or_as_strips) {
   const std::string json = path("surfaces.json").string(), obj = path("surfaces.obj").string();
-  const std::vector<std::string> words{"weak", cube, "--from", "-1,-1,3 -1,2,3 2,2,3 2,-1,3", "--method", "events", "--surfaces"};
+  const std::vector<std::string> words{"weak",     cube,     "--from",    "-1,-1,3 -1,2,3 2,2,3 2,-1,3",
+                                       "--method", "events", "--surfaces"};
   const auto with = [&](const std::string& to) {
     std::vector<std::string> all = words;
     all.push_back(to);
@@ -231,7 +257,8 @@ TEST_F(Weak, writes_the_surfaces_of_events_exactly_or_as_strips) {
   ASSERT_GT(d["surfaces"].size(), 0u);
   std::size_t rulings = 0;
   for (const Json& surface : d["surfaces"]) {
-    EXPECT_TRUE(surface["kind"] == "horizon" || surface["kind"] == "edge and vertex" || surface["kind"] == "triple") << surface;
+    EXPECT_TRUE(surface["kind"] == "horizon" || surface["kind"] == "edge and vertex" || surface["kind"] == "triple")
+        << surface;
     EXPECT_LT(surface["face"], 6);
     EXPECT_GE(surface["rulings"].size(), 2u);
     rulings += surface["rulings"].size();
@@ -241,7 +268,8 @@ TEST_F(Weak, writes_the_surfaces_of_events_exactly_or_as_strips) {
   const std::string strips = read_file(obj);
   const auto lines = [&](const std::string& begin) {
     std::size_t count = strips.starts_with(begin);
-    for (std::size_t at = strips.find("\n" + begin); at != std::string::npos; at = strips.find("\n" + begin, at + 1)) ++count;
+    for (std::size_t at = strips.find("\n" + begin); at != std::string::npos; at = strips.find("\n" + begin, at + 1))
+      ++count;
     return count;
   };
   EXPECT_EQ(lines("v "), 2 * rulings);

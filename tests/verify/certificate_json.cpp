@@ -12,11 +12,17 @@ using namespace verify_test;
 
 Scene example() {
   Scene scene;
-  const Points square = rectangle(0, ratio(1, 3), 0, 4, -1), skew = {at(0, 0, 0), at(4, 0, 1), at(4, 4, 0), at(0, 4, 1)};
+  const Points square = rectangle(0, ratio(1, 3), 0, 4, -1),
+               skew = {at(0, 0, 0), at(4, 0, 1), at(4, 4, 0), at(0, 4, 1)};
   scene.seen_from(at(ratio(-1, 7), 2, 1 / tiny(200))).face(square);
   scene.face(skew), scene.face({});
   const Points first = {skew[0], skew[1], skew[2]}, second = {skew[0], skew[2], skew[3]};
-  return scene.cut(1, 0, first).cut(1, 1, second).draw(0, square).draw(1, first, 0).draw(1, second, 1).leave_out(2, "zero area");
+  return scene.cut(1, 0, first)
+      .cut(1, 1, second)
+      .draw(0, square)
+      .draw(1, first, 0)
+      .draw(1, second, 1)
+      .leave_out(2, "zero area");
 }
 
 Order_certificate read(const std::string& text) {
@@ -97,10 +103,12 @@ TEST(Certificate_json, faults_are_named_with_their_place) {
       {head + R"("fragments":[{"face":0,"vertices":[]}]})", "fragments[0]: no \"piece\""},
       {head + R"("fragments":[{"face":0,"piece":0}]})", "fragments[0]: no \"vertices\""},
       {head + R"("fragments":[{"face":-1,"piece":0,"vertices":[]}]})", "fragments[0].face: expected an integer"},
-      {head + R"("fragments":[{"face":4294967296,"piece":0,"vertices":[]}]})", "fragments[0].face: expected an integer"},
+      {head + R"("fragments":[{"face":4294967296,"piece":0,"vertices":[]}]})",
+       "fragments[0].face: expected an integer"},
       {head + R"("fragments":[{"face":0,"piece":0.5,"vertices":[]}]})", "fragments[0].piece: expected an integer"},
       {head + R"("fragments":[{"face":0,"piece":"0","vertices":[]}]})", "fragments[0].piece: expected an integer"},
-      {head + R"("fragments":[{"face":0,"piece":0,"vertices":[["0","0","0"],["0","x","0"]]}]})", "fragments[0].vertices[1]: not a number"},
+      {head + R"("fragments":[{"face":0,"piece":0,"vertices":[["0","0","0"],["0","x","0"]]}]})",
+       "fragments[0].vertices[1]: not a number"},
       {head + R"("fragments":[],"pieces":[{"face":0}]})", "pieces[0]: no \"piece\""},
       {head + R"("fragments":[],"pieces":7})", "pieces: expected an array"},
       {head + R"("fragments":[],"set_aside":7})", "set_aside: expected an array"},
@@ -110,7 +118,8 @@ TEST(Certificate_json, faults_are_named_with_their_place) {
       {std::string(100000, '['), "parse error"},
       {"\"\xff\xfe\"", "parse error"},
   };
-  for (const auto& [text, words] : cases) EXPECT_NE(fault_of(text).find(words), std::string::npos) << text.substr(0, 200) << " -> " << fault_of(text);
+  for (const auto& [text, words] : cases)
+    EXPECT_NE(fault_of(text).find(words), std::string::npos) << text.substr(0, 200) << " -> " << fault_of(text);
 }
 
 TEST(Certificate_json, of_what_polygons_can_see_is_read_back_and_judged_the_same) {
@@ -136,16 +145,19 @@ TEST(Certificate_json, of_what_polygons_can_see_has_the_documented_keys) {
   EXPECT_EQ(json["lines"], nlohmann::json::parse("[[1, 2], [2, 0]]"));
   EXPECT_EQ(json["hidden"][0]["fragment"], 0);
   EXPECT_EQ(json["hidden"][0]["source"], 0);
-  const char* proof = R"([["line",0],["line",1],["empty",[[0,"5/81",{"target":["1","0","0","1"]}],[1,"1",{"source":["0","1/100","0","1"]}]]],["blocked",2],["blocked",1]])";
+  const char* proof =
+      R"([["line",0],["line",1],["empty",[[0,"5/81",{"target":["1","0","0","1"]}],[1,"1",{"source":["0","1/100","0","1"]}]]],["blocked",2],["blocked",1]])";
   EXPECT_EQ(json["hidden"][0]["proof"], nlohmann::json::parse(proof));
   EXPECT_EQ(json["hidden"][1]["proof"], nlohmann::json::parse(R"([["away"]])"));
   EXPECT_FALSE(json.contains("two_sided"));
   EXPECT_TRUE(to_json(weak_test::two_sided().certificate)["two_sided"]);
   const nlohmann::json cuts = to_json(weak_test::two_sources().certificate);
-  EXPECT_EQ(cuts["hidden"][4]["proof"], nlohmann::json::parse(R"([["cut source",["1","0","0","-2"]],["blocked",2],["empty",[]]])"));
+  EXPECT_EQ(cuts["hidden"][4]["proof"],
+            nlohmann::json::parse(R"([["cut source",["1","0","0","-2"]],["blocked",2],["empty",[]]])"));
   EXPECT_EQ(cuts["hidden"][7]["proof"][0], nlohmann::json::parse(R"(["cut target",["0","0","1","5"]])"));
   EXPECT_EQ(cuts["undecided"], nlohmann::json::parse("[3]"));
-  EXPECT_EQ(to_json(weak_test::open_slit().certificate)["visible"][0], nlohmann::json::parse(R"({"fragment":0,"source":0,"from":["3/5","1/2","0"],"to":["3/5","1/2","3"]})"));
+  EXPECT_EQ(to_json(weak_test::open_slit().certificate)["visible"][0],
+            nlohmann::json::parse(R"({"fragment":0,"source":0,"from":["3/5","1/2","0"],"to":["3/5","1/2","3"]})"));
 }
 
 TEST(Certificate_json, faults_in_what_polygons_can_see_are_named_with_their_place) {
@@ -211,16 +223,20 @@ TEST(Certificate_json, faults_in_what_polygons_can_see_are_named_with_their_plac
       {"/hidden/1/proof/0", R"(["cut target",["1","2","3","1/0"]])", "hidden[1].proof[0][1]: zero denominator"},
       {"/hidden/1/proof/0", R"(["empty",7])", "hidden[1].proof[0][1]: expected an array"},
       {"/hidden/1/proof/0", R"(["empty",[7]])", "hidden[1].proof[0][1][0]: expected an array"},
-      {"/hidden/1/proof/0", R"(["empty",[[0]]])", "hidden[1].proof[0][1][0]: expected [line, factor] or [line, factor, forms]"},
+      {"/hidden/1/proof/0", R"(["empty",[[0]]])",
+       "hidden[1].proof[0][1][0]: expected [line, factor] or [line, factor, forms]"},
       {"/hidden/1/proof/0", R"(["empty",[[0,"1"],[1,"1"]]])", "hidden[1].proof[0][1][1][0]: expected a number below 1"},
       {"/hidden/1/proof/0", R"(["empty",[[0,1]]])", "hidden[1].proof[0][1][0][1]: expected exact numbers as strings"},
       {"/hidden/1/proof/0", R"(["empty",[[0,"1",[]]]])", "hidden[1].proof[0][1][0][2]: expected an object"},
-      {"/hidden/1/proof/0", R"(["empty",[[0,"1",{"source":["1"]}]]])", "hidden[1].proof[0][1][0][2].source: expected four numbers"},
-      {"/hidden/1/proof/0", R"(["empty",[[0,"1",{"target":7}]]])", "hidden[1].proof[0][1][0][2].target: expected an array"},
+      {"/hidden/1/proof/0", R"(["empty",[[0,"1",{"source":["1"]}]]])",
+       "hidden[1].proof[0][1][0][2].source: expected four numbers"},
+      {"/hidden/1/proof/0", R"(["empty",[[0,"1",{"target":7}]]])",
+       "hidden[1].proof[0][1][0][2].target: expected an array"},
       {"/undecided", "7", "undecided: expected an array"},
       {"/undecided/0", "-7", "undecided[0]: expected an integer"},
   };
-  for (const auto& [path, text, words] : cases) EXPECT_NE(fault(path, text).find(words), std::string::npos) << path << ' ' << text << " -> " << fault(path, text);
+  for (const auto& [path, text, words] : cases)
+    EXPECT_NE(fault(path, text).find(words), std::string::npos) << path << ' ' << text << " -> " << fault(path, text);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ void expect_accepted(const Graph_scene& given, const std::string& words) {
   EXPECT_TRUE(verdict.accepted) << verdict.why;
   EXPECT_NE(verdict.why.find(words), std::string::npos) << verdict.why;
 }
-void expect_rejected(const Graph_scene& given, const std::string& words, const std::vector<std::size_t>& fragments = {}) {
+void expect_rejected(const Graph_scene& given, const std::string& words,
+                     const std::vector<std::size_t>& fragments = {}) {
   const Verdict verdict = given.verdict();
   EXPECT_FALSE(verdict.accepted) << verdict.why;
   EXPECT_NE(verdict.why.find(words), std::string::npos) << verdict.why;
@@ -40,7 +41,8 @@ Graph_scene stack(long n) {
   return given;
 }
 
-/// Three triangles around the z axis, fronts up, each with its first corner over the next one's plane and its third below the previous one's.
+/// Three triangles around the z axis, fronts up, each with its first corner over the next one's plane and its third
+/// below the previous one's.
 Graph_scene ring() {
   Graph_scene given;
   const Points corners{at(4, 0, 0), at(-2, 3, 0), at(-2, -3, 0)};
@@ -56,14 +58,16 @@ Graph_scene ring() {
     const Points& v = f[i].vertices;
     Exact_point n;
     const auto edge = [&](std::size_t a, std::size_t k) -> Rational { return v[a][k] - v[0][k]; };
-    for (std::size_t k = 0; k < 3; ++k) n[k] = edge(1, (k + 1) % 3) * edge(2, (k + 2) % 3) - edge(1, (k + 2) % 3) * edge(2, (k + 1) % 3);
+    for (std::size_t k = 0; k < 3; ++k)
+      n[k] = edge(1, (k + 1) % 3) * edge(2, (k + 2) % 3) - edge(1, (k + 2) % 3) * edge(2, (k + 1) % 3);
     return sgn(Rational(n[0] * (p[0] - v[0][0]) + n[1] * (p[1] - v[0][1]) + n[2] * (p[2] - v[0][2])));
   };
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t a = 0; a < 3; ++a)
         for (std::size_t b = 0; b < 3; ++b)
-          if (i != j && height(j, f[i].vertices[a]) > 0 && height(i, f[j].vertices[b]) < 0) given.certificate.arcs.push_back({i, j, a, b});
+          if (i != j && height(j, f[i].vertices[a]) > 0 && height(i, f[j].vertices[b]) < 0)
+            given.certificate.arcs.push_back({i, j, a, b});
   return given;
 }
 
@@ -79,13 +83,16 @@ TEST(Graph_certificate, of_a_stack_is_accepted_from_the_top_down_only) {
     }
 }
 
-TEST(Graph_certificate, of_an_empty_scene_is_accepted) { expect_accepted(Graph_scene(), "0 strongly connected components of 0 faces"); }
+TEST(Graph_certificate, of_an_empty_scene_is_accepted) {
+  expect_accepted(Graph_scene(), "0 strongly connected components of 0 faces");
+}
 
 TEST(Graph_certificate, takes_any_order_of_faces_without_arcs) {
   // A cube's faces look outwards: none may obscure another.
   Graph_scene given;
   const auto corner = [](unsigned k) { return at(k & 1, k >> 1 & 1, k >> 2 & 1); };
-  for (const std::array<unsigned, 4>& f : {std::array<unsigned, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
+  for (const std::array<unsigned, 4>& f :
+       {std::array<unsigned, 4>{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}})
     given.add({corner(f[0]), corner(f[1]), corner(f[2]), corner(f[3])}), given.certificate.sizes.push_back(1);
   std::mt19937 random(7);
   for (int trial = 0; trial < 20; ++trial) {
@@ -125,9 +132,10 @@ TEST(Graph_certificate, with_a_witness_that_is_none_is_rejected) {
         Graph_scene given = whole;
         auto& arc = given.certificate.arcs[k];
         arc.corner_from = a, arc.corner_to = b;
-        const bool is_arc = std::any_of(whole.certificate.arcs.begin(), whole.certificate.arcs.end(), [&](const auto& other) {
-          return other.from == arc.from && other.to == arc.to && other.corner_from == a && other.corner_to == b;
-        });
+        const bool is_arc =
+            std::any_of(whole.certificate.arcs.begin(), whole.certificate.arcs.end(), [&](const auto& other) {
+              return other.from == arc.from && other.to == arc.to && other.corner_from == a && other.corner_to == b;
+            });
         EXPECT_EQ(given.verdict().accepted, is_arc) << given.verdict().why;
         wrong += !is_arc;
       }
@@ -139,7 +147,8 @@ TEST(Graph_certificate, with_a_witness_that_is_none_is_rejected) {
 }
 
 TEST(Graph_certificate, with_sizes_or_names_that_do_not_fit_is_rejected) {
-  for (const std::vector<std::size_t>& sizes : {std::vector<std::size_t>{1, 1}, {1, 1, 2}, {4}, {1, 1, 1, 1}, {}, {~std::size_t{0}, 1}}) {
+  for (const std::vector<std::size_t>& sizes :
+       {std::vector<std::size_t>{1, 1}, {1, 1, 2}, {4}, {1, 1, 1, 1}, {}, {~std::size_t{0}, 1}}) {
     Graph_scene given = stack(3);
     given.certificate.sizes = sizes;
     EXPECT_FALSE(given.verdict().accepted);
@@ -150,7 +159,8 @@ TEST(Graph_certificate, with_sizes_or_names_that_do_not_fit_is_rejected) {
   Graph_scene leaves = stack(3);
   leaves.certificate.arcs = {{0, 1, 0, 0}};
   expect_rejected(leaves, "arc 0 leaves its component", {0, 1});
-  for (const Graph_certificate::Arc& arc : {Graph_certificate::Arc{3, 0, 0, 0}, {0, 3, 0, 0}, {0, 0, 4, 0}, {0, 0, 0, 4}}) {
+  for (const Graph_certificate::Arc& arc :
+       {Graph_certificate::Arc{3, 0, 0, 0}, {0, 3, 0, 0}, {0, 0, 4, 0}, {0, 0, 0, 4}}) {
     Graph_scene given = stack(3);
     given.certificate.arcs = {arc};
     expect_rejected(given, "names something that is not there");
@@ -170,7 +180,8 @@ TEST(Graph_certificate, that_is_not_the_scene_is_rejected) {
 }
 
 TEST(Graph_certificate, of_faces_that_touch_in_a_plane_has_no_arc_from_a_corner_on_it) {
-  // The second face stands on the first one: it has corners in front of the first one's plane, but none of the first's is behind it.
+  // The second face stands on the first one: it has corners in front of the first one's plane, but none of the first's
+  // is behind it.
   Graph_scene given;
   given.add(rectangle(0, 1, 0, 1, 0));
   given.add({at(0, 0, 0), at(1, 0, 0), at(1, 0, 1), at(0, 0, 1)});

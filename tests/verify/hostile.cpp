@@ -113,9 +113,11 @@ TEST(Hostile, random_damage_is_survived_and_hardly_ever_right) {
       const std::size_t kind = below(9);
       harmless = harmless && kind == 0;
       if (kind == 0) std::swap(c.fragments[below(c.fragments.size())], c.fragments[below(c.fragments.size())]);
-      if (kind == 1 && !vertices.empty()) vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(below(vertices.size())));
+      if (kind == 1 && !vertices.empty())
+        vertices.erase(vertices.begin() + static_cast<std::ptrdiff_t>(below(vertices.size())));
       if (kind == 2 && !vertices.empty()) vertices.push_back(vertices[below(vertices.size())]);
-      if (kind == 3 && !vertices.empty()) vertices[below(vertices.size())][below(3)] += ratio(static_cast<long>(below(5)) - 2, 2);
+      if (kind == 3 && !vertices.empty())
+        vertices[below(vertices.size())][below(3)] += ratio(static_cast<long>(below(5)) - 2, 2);
       if (kind == 4) fragment.face = static_cast<Face_id>(below(6));
       if (kind == 5) fragment.piece = static_cast<std::uint32_t>(below(3));
       if (kind == 6) c.fragments.push_back(fragment);

@@ -16,8 +16,10 @@ TEST(Pair_order, of_parallel_quads_is_by_distance) {
     right.seen_from(eye);
     const Face_id l = right.face(low_quad), h = right.face(high_quad);
     Scene wrong = right;
-    right.draw(from_above ? l : h, from_above ? low_quad : high_quad).draw(from_above ? h : l, from_above ? high_quad : low_quad);
-    wrong.draw(from_above ? h : l, from_above ? high_quad : low_quad).draw(from_above ? l : h, from_above ? low_quad : high_quad);
+    right.draw(from_above ? l : h, from_above ? low_quad : high_quad)
+        .draw(from_above ? h : l, from_above ? high_quad : low_quad);
+    wrong.draw(from_above ? h : l, from_above ? high_quad : low_quad)
+        .draw(from_above ? l : h, from_above ? low_quad : high_quad);
     expect_accepted(right);
     expect_rejected(wrong, "is nearer", {0, 1});
   }
@@ -57,7 +59,8 @@ TEST(Pair_order, of_coplanar_overlapping_faces_is_free) {
 }
 
 TEST(Pair_order, of_faces_that_only_touch_in_the_view_is_free) {
-  const Points beside = rectangle(1, 2, 0, 1, 0), over = rectangle(0, 1, 0, 1, 1);  // seen from (1, 0, 10) they share a line
+  const Points beside = rectangle(1, 2, 0, 1, 0),
+               over = rectangle(0, 1, 0, 1, 1);  // seen from (1, 0, 10) they share a line
   for (const bool first_first : {false, true}) {
     Scene scene;
     scene.seen_from(at(1, 0, 10)), scene.face(beside), scene.face(over);
@@ -98,7 +101,8 @@ TEST(Pair_order, of_crossing_quads_needs_a_split) {
     expect_rejected(unsplit, "is nearer", {0, 1});
   }
   Scene split = empty;
-  expect_accepted(split.draw(0, slab(-1, 0, 1)).draw(1, slab(0, 1, -1)).draw(1, slab(-1, 0, -1)).draw(0, slab(0, 1, 1)));
+  expect_accepted(
+      split.draw(0, slab(-1, 0, 1)).draw(1, slab(0, 1, -1)).draw(1, slab(-1, 0, -1)).draw(0, slab(0, 1, 1)));
   Scene half = empty;  // it is enough to split one
   expect_accepted(half.draw(0, slab(-1, 0, 1)).draw(1, down).draw(0, slab(0, 1, 1)));
   Scene swapped = empty;
@@ -108,10 +112,12 @@ TEST(Pair_order, of_crossing_quads_needs_a_split) {
 TEST(Pair_order, of_three_bars_in_a_cycle_needs_a_split) {
   const Rational w = ratio(1, 4);
   const auto a_part = [&](int x0, int x1) -> Points {
-    return {at(x0, -w, 1 - ratio(x0, 2)), at(x1, -w, 1 - ratio(x1, 2)), at(x1, w, 1 - ratio(x1, 2)), at(x0, w, 1 - ratio(x0, 2))};
+    return {at(x0, -w, 1 - ratio(x0, 2)), at(x1, -w, 1 - ratio(x1, 2)), at(x1, w, 1 - ratio(x1, 2)),
+            at(x0, w, 1 - ratio(x0, 2))};
   };
   const Points a = a_part(-1, 5);
-  const Points b = {at(5 - w, -1 - w, ratio(3, 2)), at(5 + w, -1 + w, ratio(3, 2)), at(-1 + w, 5 + w, ratio(-3, 2)), at(-1 - w, 5 - w, ratio(-3, 2))};
+  const Points b = {at(5 - w, -1 - w, ratio(3, 2)), at(5 + w, -1 + w, ratio(3, 2)), at(-1 + w, 5 + w, ratio(-3, 2)),
+                    at(-1 - w, 5 - w, ratio(-3, 2))};
   const Points c = {at(-w, -1, ratio(-3, 2)), at(w, -1, ratio(-3, 2)), at(w, 5, ratio(3, 2)), at(-w, 5, ratio(3, 2))};
   const std::vector<Points> bars = {a, b, c};
   Scene empty;

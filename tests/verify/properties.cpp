@@ -8,14 +8,14 @@ namespace {
 
 using namespace verify_test;
 
-
 /// An affine map of space with small integers. Post: invertible; sometimes mirrored.
 struct Affine {
   std::array<std::array<long, 3>, 3> rows{};
   explicit Affine(Dice& dice) {
     const auto determinant = [&] {
       const auto& m = rows;
-      return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+      return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
     };
     do
       for (auto& row : rows)
@@ -24,7 +24,8 @@ struct Affine {
   }
   Exact_point operator()(const Exact_point& p) const {
     Exact_point q;
-    for (std::size_t r = 0; r < 3; ++r) q[r] = Rational(rows[r][0] * p[0] + rows[r][1] * p[1] + rows[r][2] * p[2] + static_cast<long>(r));
+    for (std::size_t r = 0; r < 3; ++r)
+      q[r] = Rational(rows[r][0] * p[0] + rows[r][1] * p[1] + rows[r][2] * p[2] + static_cast<long>(r));
     return q;
   }
   Points operator()(Points points) const {
@@ -46,7 +47,8 @@ TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged)
     for (long k = 0; k < count; ++k) {
       const bool axis = k < 2 || roll(dice, 0, 2) > 0;
       const long x0 = roll(dice, -6, -1), y0 = roll(dice, -6, -1), shift = axis ? 0 : roll(dice, 2, 9);
-      const Rational a = tilted ? ratio(roll(dice, -5, 5), 200) : Rational(0), b = tilted ? ratio(roll(dice, -5, 5), 200) : Rational(0);
+      const Rational a = tilted ? ratio(roll(dice, -5, 5), 200) : Rational(0),
+                     b = tilted ? ratio(roll(dice, -5, 5), 200) : Rational(0);
       Points quad = rectangle(x0 + shift, roll(dice, 1, 3) + shift, y0, roll(dice, 1, 6), 0);
       for (Exact_point& p : quad) p[2] = k + ratio(1, 2) + a * (p[0] - shift) + b * p[1];
       if (roll(dice, 0, 1)) quad = reversed(quad);
@@ -58,7 +60,8 @@ TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged)
     empty.seen_from(map(at(0, 0, from_above ? count + roll(dice, 0, 50) : -roll(dice, 0, 50))));
     for (const Points& quad : stack) empty.face(quad);
     std::vector<Face_id> order;
-    for (Face_id f = 0; f < stack.size(); ++f) order.push_back(from_above ? f : static_cast<Face_id>(stack.size() - 1 - f));
+    for (Face_id f = 0; f < stack.size(); ++f)
+      order.push_back(from_above ? f : static_cast<Face_id>(stack.size() - 1 - f));
     const auto drawn = [&] {
       Scene scene = empty;
       for (const Face_id f : order) scene.draw(f, stack[f]);
@@ -66,7 +69,8 @@ TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged)
     };
     expect_accepted(drawn());
     const std::size_t k = dice() % (on_axis.size() - 1);
-    std::swap(*std::find(order.begin(), order.end(), on_axis[k]), *std::find(order.begin(), order.end(), on_axis[k + 1]));
+    std::swap(*std::find(order.begin(), order.end(), on_axis[k]),
+              *std::find(order.begin(), order.end(), on_axis[k + 1]));
     const Verdict verdict = drawn().verdict();
     EXPECT_FALSE(verdict.accepted);
     EXPECT_NE(verdict.why.find("is nearer"), std::string::npos) << verdict.why;
@@ -74,7 +78,8 @@ TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged)
   }
 }
 
-// ---- The oracle: clip polygon a in space by the planes through the eye (the origin) and b's edges ------------------------------
+// ---- The oracle: clip polygon a in space by the planes through the eye (the origin) and b's edges
+// ------------------------------
 
 Rational determinant(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
   const Exact_point n = order_check::cross(a, b);
@@ -96,7 +101,8 @@ Points clipped(Points a, const Points& b) {
       if (sgn(u) >= 0) kept.push_back(from);
       if (sgn(u) * sgn(v) < 0) {
         const Rational t = u / (u - v);
-        kept.push_back({Rational(from[0] + t * (to[0] - from[0])), Rational(from[1] + t * (to[1] - from[1])), Rational(from[2] + t * (to[2] - from[2]))});
+        kept.push_back({Rational(from[0] + t * (to[0] - from[0])), Rational(from[1] + t * (to[1] - from[1])),
+                        Rational(from[2] + t * (to[2] - from[2]))});
       }
     }
     a = kept;
@@ -112,27 +118,34 @@ bool has_area(const Points& p) {
 bool nearer_by_clipping(const Points& a, const Points& b) {
   const Points common = clipped(a, b);
   if (!has_area(common)) return false;
-  const Exact_point u = order_check::minus(b[b.size() / 2], b[0]), v = order_check::minus(b.back(), b[0]);  // never collinear here
+  const Exact_point u = order_check::minus(b[b.size() / 2], b[0]),
+                    v = order_check::minus(b.back(), b[0]);  // never collinear here
   const int eye_side = -sgn(determinant(u, v, b[0]));
   for (const Exact_point& p : common)
     if (sgn(determinant(u, v, order_check::minus(p, b[0]))) * eye_side > 0) return true;
   return false;
 }
 
-/// A triangle, parallelogram, or parallelogram without a corner, with small coordinates. Post: the origin is not in its plane.
+/// A triangle, parallelogram, or parallelogram without a corner, with small coordinates. Post: the origin is not in its
+/// plane.
 Points random_polygon(Dice& dice, long size, bool flat) {
   while (true) {
-    const auto vector = [&] { return at(2 * roll(dice, -size, size), 2 * roll(dice, -size, size), flat ? 0 : 2 * roll(dice, -size, size)); };
+    const auto vector = [&] {
+      return at(2 * roll(dice, -size, size), 2 * roll(dice, -size, size), flat ? 0 : 2 * roll(dice, -size, size));
+    };
     Exact_point o = vector();
     const Exact_point u = vector(), v = vector();
     if (flat) o[2] = 2;
     if (sgn(determinant(o, u, v)) == 0) continue;
-    const auto corner = [&](const Rational& s, const Rational& t) { return at(o[0] + s * u[0] + t * v[0], o[1] + s * u[1] + t * v[1], o[2] + s * u[2] + t * v[2]); };
+    const auto corner = [&](const Rational& s, const Rational& t) {
+      return at(o[0] + s * u[0] + t * v[0], o[1] + s * u[1] + t * v[1], o[2] + s * u[2] + t * v[2]);
+    };
     const long kind = roll(dice, 0, 3);
     if (kind == 0) return {corner(0, 0), corner(1, 0), corner(0, 1)};
     if (kind == 1) return {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
     if (kind == 2) return {corner(0, 0), corner(1, 0), corner(1, ratio(1, 2)), corner(ratio(1, 2), 1), corner(0, 1)};
-    return {corner(0, 0), corner(ratio(1, 3), 0), corner(1, 0), corner(0, 1), corner(0, ratio(1, 2))};  // with straight corners
+    return {corner(0, 0), corner(ratio(1, 3), 0), corner(1, 0), corner(0, 1),
+            corner(0, ratio(1, 2))};  // with straight corners
   }
 }
 
@@ -193,7 +206,9 @@ TEST(Pairs, hand_on_all_that_overlap_and_few_others) {
     if (i % 4 != 0) some.push_back(i);
   }
   double last = 0;
-  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) { taken.insert({i, j}); }).each(all, some, [&](double share) {
+  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) {
+    taken.insert({i, j});
+  }).each(all, some, [&](double share) {
     EXPECT_GE(share, last);
     last = share;
   });
@@ -215,7 +230,8 @@ TEST(Pairs, of_squares_side_by_side_are_few) {
   // 30 x 30 of them before the eye, and one cone around all.
   std::vector<order_check::Cone> cones;
   for (int x = -15; x < 15; ++x)
-    for (int y = -15; y < 15; ++y) cones.emplace_back(Points{at(x, y, 10), at(x + 1, y, 10), at(x + 1, y + 1, 10), at(x, y + 1, 10)}, at(0, 0, 0));
+    for (int y = -15; y < 15; ++y)
+      cones.emplace_back(Points{at(x, y, 10), at(x + 1, y, 10), at(x + 1, y + 1, 10), at(x, y + 1, 10)}, at(0, 0, 0));
   cones.emplace_back(Points{at(-15, -15, 20), at(15, -15, 20), at(15, 15, 20), at(-15, 15, 20)}, at(0, 0, 0));
   std::vector<std::size_t> all(cones.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;

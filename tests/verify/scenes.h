@@ -29,9 +29,12 @@ inline Points reversed(Points points) {
   return points;
 }
 using Dice = std::mt19937;
-inline long roll(Dice& dice, long least, long most) { return least + static_cast<long>(dice() % static_cast<unsigned long>(most - least + 1)); }
+inline long roll(Dice& dice, long least, long most) {
+  return least + static_cast<long>(dice() % static_cast<unsigned long>(most - least + 1));
+}
 /// The rectangle [x0, x1] x [y0, y1] at height z, front up.
-inline Points rectangle(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) {
+inline Points rectangle(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1,
+                        const Rational& z) {
   return {at(x0, y0, z), at(x1, y0, z), at(x1, y1, z), at(x0, y1, z)};
 }
 
@@ -74,7 +77,8 @@ inline void expect_accepted(const Scene& scene) {
   EXPECT_TRUE(verdict.accepted) << verdict.why;
   EXPECT_TRUE(verdict.fragments.empty());
 }
-inline void expect_rejected(const Scene& scene, const std::string& words, const std::vector<std::size_t>& fragments = {}) {
+inline void expect_rejected(const Scene& scene, const std::string& words,
+                            const std::vector<std::size_t>& fragments = {}) {
   const Verdict verdict = scene.verdict();
   EXPECT_FALSE(verdict.accepted) << verdict.why;
   EXPECT_NE(verdict.why.find(words), std::string::npos) << verdict.why;

@@ -45,7 +45,8 @@ TEST(Tiling, missing_doubled_and_foreign_fragments_are_found) {
 }
 
 TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in_front_of) {
-  const auto seen = [](const Points& face, const Exact_point& eye, const std::vector<Points>& parts, bool on_view = true) {
+  const auto seen = [](const Points& face, const Exact_point& eye, const std::vector<Points>& parts,
+                       bool on_view = true) {
     Scene scene;
     scene.seen_from(eye).face(face);
     for (const Points& part : parts) scene.draw(0, part);
@@ -55,7 +56,8 @@ TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in
   const Exact_point below = at(1, 2, -10), in_plane = at(9, 9, 0);
   for (const Exact_point& eye : {below, in_plane}) {
     expect_accepted(seen(ground, eye, {}));
-    EXPECT_EQ(seen(ground, eye, {}).verdict().why, "0 fragments in back-to-front order, every on-view face drawn once or set aside for a true reason");
+    EXPECT_EQ(seen(ground, eye, {}).verdict().why,
+              "0 fragments in back-to-front order, every on-view face drawn once or set aside for a true reason");
     expect_accepted(seen(ground, eye, {ground}));
     expect_rejected(seen(ground, eye, {}, false), "face 0 has no fragment");
     expect_rejected(seen(ground, eye, {rectangle(0, 1, 0, 4, 0)}), "face 0 is not tiled");
@@ -64,7 +66,8 @@ TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in
   expect_rejected(seen(ground, at(9, 9, tiny(500)), {}), "face 0 has no fragment");
   expect_accepted(seen(reversed(ground), eye_above, {}));
   // A bent face: one of its pieces is on-view, the other is not.
-  const Points bent = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)}, low = {at(0, 0, 0), at(4, 0, 0), at(0, 4, 0)}, high = {at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)};
+  const Points bent = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)},
+               low = {at(0, 0, 0), at(4, 0, 0), at(0, 4, 0)}, high = {at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)};
   const auto pieces = [&](const Exact_point& eye, bool draw_low, bool draw_high) {
     Scene scene = seen(bent, eye, {});
     scene.cut(0, 0, low).cut(0, 1, high);
@@ -104,8 +107,10 @@ TEST(Tiling, fragments_are_convex_counterclockwise_polygons) {
   expect_rejected(one_face_drawn(ground, {{}}), "fewer than three", {0});
   expect_rejected(one_face_drawn(ground, {{ground[0]}}), "fewer than three", {0});
   expect_rejected(one_face_drawn(ground, {{ground[0], ground[1]}}), "fewer than three", {0});
-  expect_rejected(one_face_drawn(ground, {{ground[0], ground[0], ground[1], ground[2], ground[3]}}), "repeated vertex", {0});
-  expect_rejected(one_face_drawn(ground, {{ground[0], ground[1], ground[2], ground[3], ground[0]}}), "repeated vertex", {0});
+  expect_rejected(one_face_drawn(ground, {{ground[0], ground[0], ground[1], ground[2], ground[3]}}), "repeated vertex",
+                  {0});
+  expect_rejected(one_face_drawn(ground, {{ground[0], ground[1], ground[2], ground[3], ground[0]}}), "repeated vertex",
+                  {0});
   expect_rejected(one_face_drawn(ground, {ground, {ground[0], ground[1], at(2, 0, 0)}}), "zero area", {1});
   expect_rejected(one_face_drawn(ground, {ground, {ground[0], ground[1], ground[0], ground[1]}}), "zero area", {1});
   // A spike on a straight edge, out and back.
@@ -137,7 +142,8 @@ TEST(Tiling, straight_corners_and_t_junctions_are_welcome) {
   expect_accepted(one_face_drawn(ground, {with_middle}));
   expect_accepted(one_face_drawn(with_middle, {ground}));
   // One side of the cut x = 2 in one part, the other in three, none of which lists the other's corners.
-  const std::vector<Points> parts = {rectangle(0, 2, 0, 4, 0), rectangle(2, 4, 0, 1, 0), rectangle(2, 4, 1, 3, 0), rectangle(2, 4, 3, 4, 0)};
+  const std::vector<Points> parts = {rectangle(0, 2, 0, 4, 0), rectangle(2, 4, 0, 1, 0), rectangle(2, 4, 1, 3, 0),
+                                     rectangle(2, 4, 3, 4, 0)};
   expect_accepted(one_face_drawn(ground, parts));
   std::vector<Points> swapped = parts;
   std::swap(swapped[0], swapped[3]);
@@ -173,7 +179,8 @@ TEST(Tiling, of_a_concave_face) {
 
 TEST(Tiling, of_a_face_with_holes_of_either_sense) {
   const Points hole = rectangle(1, 2, 1, 2, 0), other = rectangle(3, ratio(7, 2), 1, 2, 0);
-  const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0), rectangle(2, 4, 1, 2, 0)};
+  const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0),
+                                    rectangle(2, 4, 1, 2, 0)};
   std::vector<Points> two = ring;
   two.back() = rectangle(2, 3, 1, 2, 0), two.push_back(rectangle(ratio(7, 2), 4, 1, 2, 0));
   for (const Points& h : {hole, reversed(hole)}) {
@@ -191,8 +198,10 @@ TEST(Tiling, of_a_face_with_holes_of_either_sense) {
 }
 
 TEST(Tiling, of_keyhole_faces_repeated_points_and_spikes) {
-  const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0), rectangle(2, 4, 1, 2, 0)};
-  const Points keyhole = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 0, 0), at(1, 1, 0), at(1, 2, 0), at(2, 2, 0), at(2, 1, 0), at(1, 1, 0)};
+  const std::vector<Points> ring = {rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 2, 4, 0), rectangle(1, 4, 0, 1, 0),
+                                    rectangle(2, 4, 1, 2, 0)};
+  const Points keyhole = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 0, 0),
+                          at(1, 1, 0), at(1, 2, 0), at(2, 2, 0), at(2, 1, 0), at(1, 1, 0)};
   expect_accepted(one_face_drawn(keyhole, ring));
   expect_rejected(one_face_drawn(keyhole, {ground}), "is not tiled");
   const Points stutter = {ground[0], ground[0], ground[0], ground[1], ground[2], ground[2], ground[3], ground[0]};
@@ -205,20 +214,27 @@ TEST(Tiling, of_a_face_that_winds_twice_is_an_overlap) {
   Points twice = ground;
   twice.insert(twice.end(), ground.begin(), ground.end());
   expect_rejected(one_face_drawn(twice, {ground, ground}), "overlap", {0, 1});
-  expect_rejected(one_face_drawn(twice, {ground, rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 0, 4, 0)}), "overlap", {0, 1});
+  expect_rejected(one_face_drawn(twice, {ground, rectangle(0, 1, 0, 4, 0), rectangle(1, 4, 0, 4, 0)}), "overlap",
+                  {0, 1});
   // Two squares in one contour, overlapping in [3, 4] x [1, 3], joined at (3, 1).
-  const Points both = {at(3, 1, 0), at(0, 1, 0), at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(0, 1, 0), at(3, 1, 0), at(6, 1, 0), at(6, 3, 0), at(3, 3, 0)};
+  const Points both = {at(3, 1, 0), at(0, 1, 0), at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0),
+                       at(0, 1, 0), at(3, 1, 0), at(6, 1, 0), at(6, 3, 0), at(3, 3, 0)};
   expect_rejected(one_face_drawn(both, {ground, rectangle(3, 6, 1, 3, 0)}), "overlap", {0, 1});
   // A convex contour whose hole is a bow-tie: one lobe is cut out, the other is covered twice.
   const Points bow_tie = {at(1, 1, 0), at(3, 3, 0), at(3, 1, 0), at(1, 3, 0)};
-  const std::vector<Points> once_and_twice = {rectangle(0, 2, 0, 4, 0), rectangle(3, 4, 0, 4, 0), {at(2, 0, 0), at(3, 0, 0), at(3, 1, 0), at(2, 2, 0)},
-                                              {at(2, 2, 0), at(3, 3, 0), at(3, 4, 0), at(2, 4, 0)}, {at(2, 2, 0), at(1, 3, 0), at(1, 1, 0)}};
+  const std::vector<Points> once_and_twice = {rectangle(0, 2, 0, 4, 0),
+                                              rectangle(3, 4, 0, 4, 0),
+                                              {at(2, 0, 0), at(3, 0, 0), at(3, 1, 0), at(2, 2, 0)},
+                                              {at(2, 2, 0), at(3, 3, 0), at(3, 4, 0), at(2, 4, 0)},
+                                              {at(2, 2, 0), at(1, 3, 0), at(1, 1, 0)}};
   expect_rejected(one_face_drawn(ground, once_and_twice, {bow_tie}), "overlap", {0, 4});
   // Nothing overlaps where parts only touch, in a contour that is not convex.
-  const Points pinched = {at(0, 0, 0), at(2, 0, 0), at(2, 2, 0), at(4, 2, 0), at(4, 4, 0), at(2, 4, 0), at(2, 2, 0), at(0, 2, 0)};
+  const Points pinched = {at(0, 0, 0), at(2, 0, 0), at(2, 2, 0), at(4, 2, 0),
+                          at(4, 4, 0), at(2, 4, 0), at(2, 2, 0), at(0, 2, 0)};
   expect_accepted(one_face_drawn(pinched, {rectangle(0, 2, 0, 2, 0), rectangle(2, 4, 2, 4, 0)}));
   // An edge of one part only separates the two: the triangle points at the ground.
-  const Points arrow = {at(0, -1, 0), at(2, -1, 0), at(2, 0, 0), at(4, -1, 0), at(4, 1, 0), at(2, 0, 0), at(2, 1, 0), at(0, 1, 0)};
+  const Points arrow = {at(0, -1, 0), at(2, -1, 0), at(2, 0, 0), at(4, -1, 0),
+                        at(4, 1, 0),  at(2, 0, 0),  at(2, 1, 0), at(0, 1, 0)};
   const Points block = rectangle(0, 2, -1, 1, 0), head = {arrow[2], arrow[3], arrow[4]};
   expect_accepted(one_face_drawn(arrow, {block, head}));
   expect_accepted(one_face_drawn(arrow, {head, block}));
@@ -235,18 +251,27 @@ TEST(Tiling, a_planar_face_may_have_pieces) {
   expect_rejected(unknown.draw(0, first, 7).draw(0, second, 8), "a piece that its face does not have", {1});
   expect_rejected(half.draw(0, first, 7), "face 0, piece 9 has no fragment");
   Scene foreign = one_face(ell);
-  expect_rejected(foreign.cut(0, 0, rectangle(0, 4, 0, 2, 0)).cut(0, 1, rectangle(0, 2, 2, 4, 0)).draw(0, first, 0).draw(0, second, 1), "not one of the face's");
+  expect_rejected(foreign.cut(0, 0, rectangle(0, 4, 0, 2, 0))
+                      .cut(0, 1, rectangle(0, 2, 2, 4, 0))
+                      .draw(0, first, 0)
+                      .draw(0, second, 1),
+                  "not one of the face's");
   Scene one_only = one_face(ell);
   expect_rejected(one_only.cut(0, 0, first).draw(0, first, 0), "is not tiled");
   Scene turned = one_face(ell);
-  expect_rejected(turned.cut(0, 0, reversed(first)).cut(0, 1, reversed(second)).draw(0, reversed(first), 0).draw(0, reversed(second), 1), "is clockwise");
+  expect_rejected(turned.cut(0, 0, reversed(first))
+                      .cut(0, 1, reversed(second))
+                      .draw(0, reversed(first), 0)
+                      .draw(0, reversed(second), 1),
+                  "is clockwise");
   Points twice = ground;
   twice.insert(twice.end(), ground.begin(), ground.end());
   Scene doubled = one_face(twice);
   expect_rejected(doubled.cut(0, 0, ground).cut(0, 1, ground).draw(0, ground, 0).draw(0, ground, 1), "overlap");
 }
 
-// ---- Non-planar faces -------------------------------------------------------------------------------------------------------
+// ---- Non-planar faces
+// -------------------------------------------------------------------------------------------------------
 
 const Points skew = {at(0, 0, 0), at(4, 0, 1), at(4, 4, 0), at(0, 4, 1)};
 
@@ -257,12 +282,14 @@ Points corners(const Points& all, std::initializer_list<std::size_t> which) {
 }
 Scene skew_face(const std::vector<Points>& pieces) {
   Scene scene = one_face(skew);
-  for (std::size_t k = 0; k < pieces.size(); ++k) scene.cut(0, static_cast<std::uint32_t>(k), pieces[k]).draw(0, pieces[k], static_cast<std::uint32_t>(k));
+  for (std::size_t k = 0; k < pieces.size(); ++k)
+    scene.cut(0, static_cast<std::uint32_t>(k), pieces[k]).draw(0, pieces[k], static_cast<std::uint32_t>(k));
   return scene;
 }
 
 TEST(Non_planar, a_skew_quad_may_be_cut_along_either_diagonal) {
-  const Points s012 = corners(skew, {0, 1, 2}), s023 = corners(skew, {0, 2, 3}), s013 = corners(skew, {0, 1, 3}), s123 = corners(skew, {1, 2, 3});
+  const Points s012 = corners(skew, {0, 1, 2}), s023 = corners(skew, {0, 2, 3}), s013 = corners(skew, {0, 1, 3}),
+               s123 = corners(skew, {1, 2, 3});
   expect_accepted(skew_face({s012, s023}));
   expect_accepted(skew_face({s013, s123}));
   expect_rejected(skew_face({s012, s123}), "is not bounded as its pieces are");
@@ -284,7 +311,9 @@ TEST(Non_planar, a_skew_quad_may_be_cut_along_either_diagonal) {
   expect_rejected(twice.cut(0, 0, s012).cut(0, 0, s023).draw(0, s012, 0), "has piece 0 twice");
   // On points of its own: the same boundary, but not the face's corners.
   const Exact_point m = at(2, 2, 2);
-  expect_rejected(skew_face({{skew[0], skew[1], m}, {skew[1], skew[2], m}, {skew[2], skew[3], m}, {skew[3], skew[0], m}}), "not one of the face's");
+  expect_rejected(
+      skew_face({{skew[0], skew[1], m}, {skew[1], skew[2], m}, {skew[2], skew[3], m}, {skew[3], skew[0], m}}),
+      "not one of the face's");
 }
 
 TEST(Non_planar, one_corner_off_the_plane_is_enough) {
@@ -305,7 +334,8 @@ TEST(Non_planar, pieces_are_tiled_by_fragments) {
   scene.cut(0, 0, s012).cut(0, 1, s023);
   Scene good = scene, wrong = scene;
   expect_accepted(good.draw(0, {skew[0], skew[1], middle}, 0).draw(0, s023, 1).draw(0, {skew[1], skew[2], middle}, 0));
-  expect_rejected(wrong.draw(0, {skew[0], skew[1], middle}, 0).draw(0, s023, 1).draw(0, {skew[1], skew[2], middle}, 1), "face 0, piece 0 is not tiled");
+  expect_rejected(wrong.draw(0, {skew[0], skew[1], middle}, 0).draw(0, s023, 1).draw(0, {skew[1], skew[2], middle}, 1),
+                  "face 0, piece 0 is not tiled");
 }
 
 TEST(Non_planar, the_pieces_are_in_the_order_too) {
@@ -334,14 +364,16 @@ TEST(Non_planar, larger_pieces_and_holes_are_counted) {
   expect_accepted(fewer.cut(0, 0, first).cut(0, 1, second).draw(0, first, 0).draw(0, second, 1));
   // A triangle with a triangular hole, lifted at one corner: six triangles, and not the outer one minus the inner one.
   const Points outer = {at(0, 0, 0), at(12, 0, 0), at(0, 12, 3)}, inner = {at(2, 2, 1), at(4, 2, 0), at(2, 4, 0)};
-  const std::vector<Points> ring = {{outer[0], outer[1], inner[1]}, {outer[0], inner[1], inner[0]}, {outer[1], outer[2], inner[2]},
-                                    {outer[1], inner[2], inner[1]}, {outer[2], outer[0], inner[0]}, {outer[2], inner[0], inner[2]}};
+  const std::vector<Points> ring = {{outer[0], outer[1], inner[1]}, {outer[0], inner[1], inner[0]},
+                                    {outer[1], outer[2], inner[2]}, {outer[1], inner[2], inner[1]},
+                                    {outer[2], outer[0], inner[0]}, {outer[2], inner[0], inner[2]}};
   for (const Points& hole : {inner, reversed(inner)}) {
     Scene whole = one_face(outer, {hole}), capped = one_face(outer, {hole});
     for (std::uint32_t k = 0; k < 6; ++k) whole.cut(0, k, ring[k]).draw(0, ring[k], k);
     whole.seen_from(at(1, 2, 100));
     expect_accepted(whole);
-    expect_rejected(capped.cut(0, 0, outer).cut(0, 1, reversed(inner)).draw(0, outer, 0).draw(0, reversed(inner), 1), "wrong number of pieces");
+    expect_rejected(capped.cut(0, 0, outer).cut(0, 1, reversed(inner)).draw(0, outer, 0).draw(0, reversed(inner), 1),
+                    "wrong number of pieces");
   }
 }
 

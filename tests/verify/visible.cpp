@@ -1,4 +1,5 @@
-// What the eye sees (P-63): right certificates accepted, and each clause broken alone rejected for its reason. Certificates are made here by cutting cones, piece by piece.
+// What the eye sees (P-63): right certificates accepted, and each clause broken alone rejected for its reason.
+// Certificates are made here by cutting cones, piece by piece.
 
 #include "scenes.h"
 
@@ -12,9 +13,13 @@ namespace {
 using namespace verify_test;
 using Directions = Visible_certificate::Directions;
 
-Exact_point plus(const Exact_point& a, const Rational& s, const Exact_point& b) { return at(a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]); }
+Exact_point plus(const Exact_point& a, const Rational& s, const Exact_point& b) {
+  return at(a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]);
+}
 Rational dot(const Exact_point& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
-Exact_point cross(const Exact_point& a, const Exact_point& b) { return at(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]); }
+Exact_point cross(const Exact_point& a, const Exact_point& b) {
+  return at(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
 Exact_point sum(const Points& points) {
   Exact_point total = at(0, 0, 0);
   for (const Exact_point& p : points) total = plus(total, 1, p);
@@ -75,9 +80,12 @@ Points scaled(Points points, const Rational& factor) {
   return points;
 }
 /// At height 1, where the eye in the origin sees plane geometry.
-Points tile(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1) { return rectangle(x0, x1, y0, y1, 1); }
+Points tile(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1) {
+  return rectangle(x0, x1, y0, y1, 1);
+}
 
-// ---- By hand ----------------------------------------------------------------------------------------------------------------
+// ---- By hand
+// ----------------------------------------------------------------------------------------------------------------
 
 /// A triangle that fills the first octant, and nothing else.
 Sight one_triangle() {
@@ -142,13 +150,15 @@ TEST(Visible, a_triangle_hides_one_behind_it) {
   expect_accepted(sight);
   Sight wrong = sight;
   wrong.certificate.parts.clear();
-  expect_rejected(wrong.part(1, scaled(octant(0), 2)), "part 0 (face 1) is not what its ray meets first: face 0 is nearer", {1, 0});
+  expect_rejected(wrong.part(1, scaled(octant(0), 2)),
+                  "part 0 (face 1) is not what its ray meets first: face 0 is nearer", {1, 0});
   wrong = sight;  // beside the front one, behind its plane
   wrong.certificate.parts[0].fragment = 1;
   expect_rejected(wrong, "part 0 (face 1) has a vertex off the plane of its face", {1});
 }
 
-/// A small square before a wall, in a frustum; the wall's part has two corners where the square's corners are, and T-junctions.
+/// A small square before a wall, in a frustum; the wall's part has two corners where the square's corners are, and
+/// T-junctions.
 const Points wall = scaled(tile(0, 3, 0, 3), 2), small = tile(1, 2, 1, 2);
 Sight wall_and_square() {
   Sight sight;
@@ -210,7 +220,12 @@ TEST(Visible, coplanar_overlap_has_one_winner) {
     const auto of_a = [&](const Points& p) { return turned & 1 ? reversed(p) : p; };
     const auto of_b = [&](const Points& p) { return turned & 2 ? reversed(p) : p; };
     Sight scene;
-    scene.from(at(0, 0, 0)).within(tile(0, 3, 0, 3)).face(of_a(a)).face(of_b(b)).empty(tile(2, 3, 0, 1)).empty(tile(0, 1, 2, 3));
+    scene.from(at(0, 0, 0))
+        .within(tile(0, 3, 0, 3))
+        .face(of_a(a))
+        .face(of_b(b))
+        .empty(tile(2, 3, 0, 1))
+        .empty(tile(0, 1, 2, 3));
     Sight first = scene, second = scene;
     first.part(0, of_a(a)).part(1, of_b(tile(2, 3, 1, 3))).part(1, of_b(tile(1, 2, 2, 3)));
     second.part(1, of_b(b)).part(0, of_a(tile(0, 1, 0, 2))).part(0, of_a(tile(1, 2, 0, 1)));
@@ -226,8 +241,12 @@ TEST(Visible, coplanar_overlap_has_one_winner) {
   const Points triangle = {at(0, 0, 1), at(2, 2, 1), at(0, 4, 1)}, rectangle = tile(2, 4, 0, 4);
   for (const bool rectangle_first : {false, true}) {
     Sight beside;
-    beside.from(at(0, 0, 0)).within(tile(0, 4, 0, 4)).empty({at(0, 0, 1), at(2, 0, 1), at(2, 2, 1)}).empty({at(0, 4, 1), at(2, 2, 1), at(2, 4, 1)});
-    for (const Points& face : {rectangle_first ? rectangle : triangle, rectangle_first ? triangle : rectangle}) beside.face(face).part(beside.soup.face_count() - 1, face);
+    beside.from(at(0, 0, 0))
+        .within(tile(0, 4, 0, 4))
+        .empty({at(0, 0, 1), at(2, 0, 1), at(2, 2, 1)})
+        .empty({at(0, 4, 1), at(2, 2, 1), at(2, 4, 1)});
+    for (const Points& face : {rectangle_first ? rectangle : triangle, rectangle_first ? triangle : rectangle})
+      beside.face(face).part(beside.soup.face_count() - 1, face);
     expect_accepted(beside);
   }
 }
@@ -240,7 +259,8 @@ TEST(Visible, crossing_quads_are_cut_where_they_cross) {
   const auto sight_cut_at = [](const Rational& x) {
     Sight sight;
     sight.from(at(0, 0, 0)).within(tile(-2, 2, -2, 2)).face(up).face(down);
-    sight.part(0, {up[0], at(x, -1, 1 + x / 2), at(x, 1, 1 + x / 2), up[3]}).part(1, {at(x, -1, 1 - x / 2), down[1], down[2], at(x, 1, 1 - x / 2)});
+    sight.part(0, {up[0], at(x, -1, 1 + x / 2), at(x, 1, 1 + x / 2), up[3]})
+        .part(1, {at(x, -1, 1 - x / 2), down[1], down[2], at(x, 1, 1 - x / 2)});
     return sight.empty({at(-2, 2, 1), at(0, 1, 1), at(2, 2, 1)}).empty({at(-2, -2, 1), at(0, -1, 1), at(2, -2, 1)});
   };
   expect_accepted(sight_cut_at(0));
@@ -343,15 +363,22 @@ TEST(Visible, rays_that_are_not_inside) {
   };
   expect_accepted(with(at(1, 2, tiny(200))));
   expect_accepted(with(at(ratio(1, 7), 100, 3)));
-  for (const Exact_point& wrong : {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(-1, -1, -1), at(1, 1, -tiny(60)), at(-2, 1, 1)})
+  for (const Exact_point& wrong :
+       {at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(-1, -1, -1), at(1, 1, -tiny(60)), at(-2, 1, 1)})
     expect_rejected(with(wrong), "part 0 (face 0) does not have its ray strictly inside its cone", {0});
 }
 
 TEST(Visible, a_ray_may_graze_what_is_not_nearer_inside) {
-  // The wall's ray through the edge that a step in front of it has in common with it; and one that meets a nearer corner.
+  // The wall's ray through the edge that a step in front of it has in common with it; and one that meets a nearer
+  // corner.
   Sight sight;
   const Points step = {at(2, 0, 2), at(3, 0, ratio(3, 2)), at(3, 3, ratio(3, 2)), at(2, 3, 2)};
-  sight.from(at(0, 0, 0)).within(tile(0, 2, 0, 1)).face(scaled(tile(0, 2, 0, 1), 2)).face(step).part(0, scaled(tile(0, 1, 0, 1), 2)).part(1, {step[0], at(3, 0, ratio(3, 2)), at(3, ratio(3, 2), ratio(3, 2)), at(2, 2, 2)});
+  sight.from(at(0, 0, 0))
+      .within(tile(0, 2, 0, 1))
+      .face(scaled(tile(0, 2, 0, 1), 2))
+      .face(step)
+      .part(0, scaled(tile(0, 1, 0, 1), 2))
+      .part(1, {step[0], at(3, 0, ratio(3, 2)), at(3, ratio(3, 2), ratio(3, 2)), at(2, 2, 2)});
   expect_accepted(sight);
   sight.certificate.parts[0] = {0, scaled(tile(0, 2, 0, 1), 2), at(1, ratio(1, 2), 1)};
   expect_rejected(sight, "part 0 (face 0) is behind face 1 somewhere", {0, 1});  // its ray meets both, equally far
@@ -362,12 +389,15 @@ TEST(Visible, cones_that_are_none) {
       {{at(1, 0, 0), at(0, 1, 0)}, "has fewer than three directions"},
       {{at(1, 0, 0)}, "has fewer than three directions"},
       {{at(1, 0, 0), at(0, 0, 0), at(0, 1, 0), at(0, 0, 1)}, "has a direction that is zero"},
-      {{at(1, 0, 0), at(0, 1, 0), at(-1, 0, 0)}, "is not a convex cone, or not a pointed one"},          // half a plane
-      {{at(1, 0, 0), at(0, 1, 1), at(-1, 0, 0)}, "is not a convex cone, or not a pointed one"},          // an arc of half a circle
-      {{at(1, 0, 0), at(0, 1, 0), at(-1, 0, 0), at(0, -1, 0)}, "is not a convex cone, or not a pointed one"},  // a whole one
-      {{at(1, 0, 0), at(0, 1, 0), at(1, 1, 0)}, "is not a convex cone, or not a pointed one"},           // flat
+      {{at(1, 0, 0), at(0, 1, 0), at(-1, 0, 0)}, "is not a convex cone, or not a pointed one"},  // half a plane
+      {{at(1, 0, 0), at(0, 1, 1), at(-1, 0, 0)},
+       "is not a convex cone, or not a pointed one"},  // an arc of half a circle
+      {{at(1, 0, 0), at(0, 1, 0), at(-1, 0, 0), at(0, -1, 0)},
+       "is not a convex cone, or not a pointed one"},                                           // a whole one
+      {{at(1, 0, 0), at(0, 1, 0), at(1, 1, 0)}, "is not a convex cone, or not a pointed one"},  // flat
       {{at(1, 0, 0), at(1, 0, 0), at(1, 0, 0)}, "is not a convex cone, or not a pointed one"},
-      {{at(6, 10, 12), at(-10, 6, 11), at(-11, -4, 11), at(3, 12, -9), at(-12, 1, -7)}, "is not a convex cone, or not a pointed one"},  // convex, but for two that are mirrored in the eye
+      {{at(6, 10, 12), at(-10, 6, 11), at(-11, -4, 11), at(3, 12, -9), at(-12, 1, -7)},
+       "is not a convex cone, or not a pointed one"},  // convex, but for two that are mirrored in the eye
       {{at(1, 0, 0), at(0, 1, 0), at(0, 1, 0), at(0, 0, 1)}, "has a repeated vertex"},
       {{at(1, 0, 0), at(0, 1, 0), at(0, 2, 0), at(0, 0, 1)}, "has a repeated vertex"},
       {{at(0, 0, 1), at(4, 0, 1), at(1, 1, 1), at(0, 4, 1)}, "is not convex"},
@@ -402,7 +432,13 @@ TEST(Visible, a_field_is_filled_and_nothing_else) {
   Sight half;  // the inside of part 0 is on a side of another cone of the pair that lies over it
   half.from(at(0, 0, 0)).within(tile(-1, 1, -1, 1)).empty(tile(-1, 1, -1, 1));
   expect_accepted(half);
-  half.empty(octant(1, 1, 1)).empty(octant(1, 1, -1)).empty(octant(1, -1, 1)).empty(octant(1, -1, -1)).empty(octant(-1, 1, 1)).empty(octant(-1, 1, -1)).empty(octant(-1, -1, 1));
+  half.empty(octant(1, 1, 1))
+      .empty(octant(1, 1, -1))
+      .empty(octant(1, -1, 1))
+      .empty(octant(1, -1, -1))
+      .empty(octant(-1, 1, 1))
+      .empty(octant(-1, 1, -1))
+      .empty(octant(-1, -1, 1));
   expect_rejected(half.empty(octant(-1, -1, -1)), "empty cone 0 and empty cone 1 overlap");
 }
 
@@ -441,7 +477,8 @@ TEST(Visible, reports_progress_up_to_the_end) {
   EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
 }
 
-// ---- Made by cutting cones --------------------------------------------------------------------------------------------------
+// ---- Made by cutting cones
+// --------------------------------------------------------------------------------------------------
 
 /// The two sides of a strictly convex cone; a side without an inside is empty.
 std::array<Directions, 2> halves(const Directions& cone, const Exact_point& plane) {
@@ -468,7 +505,8 @@ struct Seen {
   Seen(const Order_fragment& fragment, const Exact_point& eye) {
     for (const Exact_point& p : fragment.vertices) corners.push_back(plus(p, -1, eye));
     Exact_point normal = at(0, 0, 0);
-    for (std::size_t i = 0; i < corners.size(); ++i) normal = plus(normal, 1, cross(corners[i], corners[(i + 1) % corners.size()]));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      normal = plus(normal, 1, cross(corners[i], corners[(i + 1) % corners.size()]));
     const Rational height = dot(normal, corners[0]);
     edge_on = sgn(height) == 0, front = sgn(height) < 0;
     if (!edge_on) nearness = plus(nearness, 1 / height, normal);
@@ -479,7 +517,8 @@ struct Seen {
   }
 };
 
-/// What is seen: all directions, or the field, cut by each fragment's edge planes and where it crosses what is nearest so far.
+/// What is seen: all directions, or the field, cut by each fragment's edge planes and where it crosses what is nearest
+/// so far.
 void fill(Sight& sight) {
   struct Cell {
     Directions cone;
@@ -527,7 +566,8 @@ void fill(Sight& sight) {
     const Seen& piece = seen[cell.nearest];
     Points vertices;
     for (const Exact_point& d : cell.cone) vertices.push_back(plus(c.eye, 1 / dot(piece.nearness, d), d));
-    const bool left = sgn(dot(cross(cell.cone[0], cell.cone[1]), cell.cone[2])) > 0;  // seen counterclockwise from outside
+    const bool left =
+        sgn(dot(cross(cell.cone[0], cell.cone[1]), cell.cone[2])) > 0;  // seen counterclockwise from outside
     c.parts.push_back({cell.nearest, left != piece.front ? vertices : reversed(vertices), sum(cell.cone)});
   }
 }
@@ -542,7 +582,8 @@ Points random_polygon(Dice& dice, long size) {
     if (kind == 0) return {corner(0, 0), corner(1, 0), corner(0, 1)};
     if (kind == 1) return {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
     if (kind == 2) return {corner(0, 0), corner(1, 0), corner(1, ratio(1, 2)), corner(ratio(1, 2), 1), corner(0, 1)};
-    return {corner(0, 0), corner(ratio(1, 3), 0), corner(1, 0), corner(0, 1), corner(0, ratio(1, 2))};  // with straight corners
+    return {corner(0, 0), corner(ratio(1, 3), 0), corner(1, 0), corner(0, 1),
+            corner(0, ratio(1, 2))};  // with straight corners
   }
 }
 
@@ -550,7 +591,8 @@ Points random_polygon(Dice& dice, long size) {
 Sight random_sight(Dice& dice) {
   Sight sight;
   const long size = roll(dice, 1, 4);
-  sight.from(at(ratio(roll(dice, -2, 2), roll(dice, 1, 3)), ratio(roll(dice, -2, 2), roll(dice, 1, 3)), ratio(roll(dice, -2, 2), 3)));
+  sight.from(at(ratio(roll(dice, -2, 2), roll(dice, 1, 3)), ratio(roll(dice, -2, 2), roll(dice, 1, 3)),
+                ratio(roll(dice, -2, 2), 3)));
   for (long count = roll(dice, 0, 3); count > 0; --count) {
     const Points polygon = random_polygon(dice, size);
     sight.face(polygon);
@@ -576,7 +618,9 @@ Sight random_sight(Dice& dice) {
 
 /// Pre: no straight corners.
 bool strictly_inside(const Directions& cone, const Exact_point& d) {
-  const auto side = [&](std::size_t i, const Exact_point& p) { return sgn(dot(cross(cone[i], cone[(i + 1) % cone.size()]), p)); };
+  const auto side = [&](std::size_t i, const Exact_point& p) {
+    return sgn(dot(cross(cone[i], cone[(i + 1) % cone.size()]), p));
+  };
   for (std::size_t i = 0; i < cone.size(); ++i)
     if (side(i, d) != side(0, cone[2])) return false;
   return true;
@@ -601,7 +645,8 @@ bool right_in(const Sight& sight, const Exact_point& d) {
     bool inside = true;
     for (std::size_t i = 0; i < piece.corners.size(); ++i) inside = inside && sgn(dot(piece.edge_plane(i), d)) > 0;
     const Rational nearness = dot(piece.nearness, d);
-    if (inside && (nearness > nearest || (nearness == nearest && piece.front && !front))) first = f, nearest = nearness, front = piece.front;
+    if (inside && (nearness > nearest || (nearness == nearest && piece.front && !front)))
+      first = f, nearest = nearness, front = piece.front;
   }
   std::size_t tiles = 0;
   for (const auto& part : c.parts)
@@ -616,7 +661,9 @@ bool right_in(const Sight& sight, const Exact_point& d) {
     }
   return tiles == 1;
 }
-Exact_point random_direction(Dice& dice) { return at(roll(dice, -999999937, 999999937), roll(dice, -999999937, 999999937), roll(dice, -999999937, 999999937)); }
+Exact_point random_direction(Dice& dice) {
+  return at(roll(dice, -999999937, 999999937), roll(dice, -999999937, 999999937), roll(dice, -999999937, 999999937));
+}
 
 constexpr unsigned sight_count = 100;
 const Sight& sight_of(unsigned seed) {
@@ -639,14 +686,16 @@ TEST(Visible_by_cutting, is_accepted_and_right_in_directions_at_random) {
     const Sight& sight = sight_of(seed);
     expect_accepted(sight);
     for (int k = 0; k < 10; ++k) EXPECT_TRUE(right_in(sight, random_direction(dice)));
-    parts += sight.certificate.parts.size(), empty += sight.certificate.empty.size(), fields += !sight.certificate.field.empty();
+    parts += sight.certificate.parts.size(), empty += sight.certificate.empty.size(),
+        fields += !sight.certificate.field.empty();
   }
   EXPECT_GT(parts, 500u);
   EXPECT_GT(empty, 500u);
   EXPECT_GT(fields, 20u);
 }
 
-// ---- Damage -----------------------------------------------------------------------------------------------------------------
+// ---- Damage
+// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Visible_by_cutting, other_ways_to_say_the_same_are_accepted) {
   for (unsigned seed = 0; seed < sight_count; ++seed) {
@@ -660,13 +709,16 @@ TEST(Visible_by_cutting, other_ways_to_say_the_same_are_accepted) {
       if (roll(dice, 0, 1)) cone = reversed(cone);
       std::rotate(cone.begin(), cone.begin() + 1, cone.end());
       for (Exact_point& d : cone) d = plus(at(0, 0, 0), ratio(roll(dice, 1, 9), roll(dice, 1, 9)), d);
-      if (roll(dice, 0, 1)) cone.push_back(plus(cone.back(), ratio(roll(dice, 1, 9), 4), cone.front()));  // a straight corner
+      if (roll(dice, 0, 1))
+        cone.push_back(plus(cone.back(), ratio(roll(dice, 1, 9), 4), cone.front()));  // a straight corner
     }
     for (auto& part : c.parts) {
       part.ray = at(0, 0, 0);
       for (const Exact_point& d : cone_of(part, c.eye)) part.ray = plus(part.ray, ratio(roll(dice, 1, 100), 7), d);
       std::rotate(part.vertices.begin(), part.vertices.begin() + 1, part.vertices.end());
-      if (roll(dice, 0, 1)) part.vertices.push_back(plus(part.vertices.back(), ratio(roll(dice, 1, 8), 9), plus(part.vertices.front(), -1, part.vertices.back())));
+      if (roll(dice, 0, 1))
+        part.vertices.push_back(plus(part.vertices.back(), ratio(roll(dice, 1, 8), 9),
+                                     plus(part.vertices.front(), -1, part.vertices.back())));
     }
     if (!c.parts.empty()) {  // a part in two, by a plane through a direction inside it
       const auto part = c.parts.back();
@@ -685,8 +737,20 @@ TEST(Visible_by_cutting, other_ways_to_say_the_same_are_accepted) {
 
 TEST(Visible_by_cutting, damage_is_rejected) {
   std::array<std::size_t, 14> done{};
-  const std::array<std::string, 14> reasons = {"do not cancel", "do not cancel", "do not cancel", "do not cancel", "", "in it", "ray strictly inside",
-                                               "ray strictly inside", "", "off the plane", "do not cancel", "do not cancel", "", "clockwise"};
+  const std::array<std::string, 14> reasons = {"do not cancel",
+                                               "do not cancel",
+                                               "do not cancel",
+                                               "do not cancel",
+                                               "",
+                                               "in it",
+                                               "ray strictly inside",
+                                               "ray strictly inside",
+                                               "",
+                                               "off the plane",
+                                               "do not cancel",
+                                               "do not cancel",
+                                               "",
+                                               "clockwise"};
 #if defined(__SANITIZE_ADDRESS__)
   constexpr unsigned rounds = 300;
 #else
@@ -708,7 +772,8 @@ TEST(Visible_by_cutting, damage_is_rejected) {
     if (kind == 1) c.empty.erase(at_place(c.empty, place));
     if (kind == 2) c.parts.push_back(c.parts[place]);
     if (kind == 3) c.empty.push_back(c.empty[place]);
-    if (kind == 4) {  // a corner moves outwards, inside the plane: out of its piece, behind another, or over another part
+    if (kind ==
+        4) {  // a corner moves outwards, inside the plane: out of its piece, behind another, or over another part
       auto& vertices = c.parts[place].vertices;
       const Exact_point middle = plus(at(0, 0, 0), ratio(1, static_cast<long>(vertices.size())), sum(vertices));
       Exact_point& corner = vertices[below(vertices.size())];
@@ -721,7 +786,8 @@ TEST(Visible_by_cutting, damage_is_rejected) {
     if (kind == 6) {  // onto the boundary, or out of it by a hair
       const Directions cone = cone_of(c.parts[place], c.eye);
       const std::size_t k = below(cone.size());
-      c.parts[place].ray = plus(plus(cone[k], ratio(roll(dice, 0, 9), 3), cone[(k + 1) % cone.size()]), roll(dice, 0, 1) ? Rational(0) : Rational(-hair), sum(cone));
+      c.parts[place].ray = plus(plus(cone[k], ratio(roll(dice, 0, 9), 3), cone[(k + 1) % cone.size()]),
+                                roll(dice, 0, 1) ? Rational(0) : Rational(-hair), sum(cone));
     }
     if (kind == 7) {
       const std::size_t other = below(c.parts.size());
@@ -733,7 +799,8 @@ TEST(Visible_by_cutting, damage_is_rejected) {
       std::size_t& own = c.parts[place].fragment;
       own = (own + 1 + below(c.fragments.size() - 1)) % c.fragments.size();
     }
-    if (kind == 9) c.parts[place].vertices[0] = plus(c.parts[place].vertices[0], hair, plus(c.eye, -1, c.parts[place].vertices[0]));
+    if (kind == 9)
+      c.parts[place].vertices[0] = plus(c.parts[place].vertices[0], hair, plus(c.eye, -1, c.parts[place].vertices[0]));
     if (kind == 10) {
       Directions& cone = c.empty[place];
       cone[0] = plus(cone[0], hair, cone[1]);
@@ -771,13 +838,18 @@ TEST(Visible_by_cutting, pieces_of_one_face_in_one_plane_go_by_their_number) {
     }
     fill(sight);
     if (swapped)
-      for (auto* list : {&sight.certificate.fragments[0].piece, &sight.certificate.fragments[4].piece, &sight.certificate.pieces[0].piece, &sight.certificate.pieces[4].piece}) *list = 4 - *list;
+      for (auto* list : {&sight.certificate.fragments[0].piece, &sight.certificate.fragments[4].piece,
+                         &sight.certificate.pieces[0].piece, &sight.certificate.pieces[4].piece})
+        *list = 4 - *list;
     if (!swapped) expect_accepted(sight);
-    else EXPECT_NE(sight.verdict().why.find("is as far as face 0 somewhere, which is preferred"), std::string::npos) << sight.verdict().why;
+    else
+      EXPECT_NE(sight.verdict().why.find("is as far as face 0 somewhere, which is preferred"), std::string::npos)
+          << sight.verdict().why;
   }
 }
 
-// ---- JSON -------------------------------------------------------------------------------------------------------------------
+// ---- JSON
+// -------------------------------------------------------------------------------------------------------------------
 
 Visible_certificate read_visible(const std::string& text) {
   std::istringstream in(text);
@@ -834,7 +906,8 @@ TEST(Visible_json, has_the_documented_keys) {
 }
 
 TEST(Visible_json, faults_are_named_with_their_place) {
-  const std::string head = R"({"format":"sightline see 1","eye":["0","0","0"],"fragments":[{"face":0,"piece":0,"vertices":[]}],)";
+  const std::string head =
+      R"({"format":"sightline see 1","eye":["0","0","0"],"fragments":[{"face":0,"piece":0,"vertices":[]}],)";
   EXPECT_EQ(fault_of_visible(head + R"("parts":[],"empty":[]})"), "nothing");
   EXPECT_EQ(fault_of_visible(head + R"("field":[],"parts":[],"empty":[[]],"more":1})"), "nothing");
   const std::vector<std::pair<std::string, std::string>> cases = {
@@ -846,20 +919,26 @@ TEST(Visible_json, faults_are_named_with_their_place) {
       {head + R"("parts":{},"empty":[]})", "parts: expected an array"},
       {head + R"("parts":[1],"empty":[]})", "parts[0]: expected an object"},
       {head + R"("parts":[{"vertices":[],"ray":["0","0","1"]}],"empty":[]})", "parts[0]: no \"fragment\""},
-      {head + R"("parts":[{"fragment":1,"vertices":[],"ray":["0","0","1"]}],"empty":[]})", "parts[0].fragment: expected a number below 1"},
-      {head + R"("parts":[{"fragment":-1,"vertices":[],"ray":["0","0","1"]}],"empty":[]})", "parts[0].fragment: expected an integer"},
+      {head + R"("parts":[{"fragment":1,"vertices":[],"ray":["0","0","1"]}],"empty":[]})",
+       "parts[0].fragment: expected a number below 1"},
+      {head + R"("parts":[{"fragment":-1,"vertices":[],"ray":["0","0","1"]}],"empty":[]})",
+       "parts[0].fragment: expected an integer"},
       {head + R"("parts":[{"fragment":0,"ray":["0","0","1"]}],"empty":[]})", "parts[0]: no \"vertices\""},
       {head + R"("parts":[{"fragment":0,"vertices":[]}],"empty":[]})", "parts[0]: no \"ray\""},
-      {head + R"("parts":[{"fragment":0,"vertices":[["0"]],"ray":["0","0","1"]}],"empty":[]})", "parts[0].vertices[0]: expected three numbers"},
-      {head + R"("parts":[{"fragment":0,"vertices":[],"ray":["0","0",1]}],"empty":[]})", "parts[0].ray: expected exact numbers as strings"},
-      {head + R"("parts":[{"fragment":0,"vertices":[],"ray":["0","0","1/0"]}],"empty":[]})", "parts[0].ray: zero denominator"},
+      {head + R"("parts":[{"fragment":0,"vertices":[["0"]],"ray":["0","0","1"]}],"empty":[]})",
+       "parts[0].vertices[0]: expected three numbers"},
+      {head + R"("parts":[{"fragment":0,"vertices":[],"ray":["0","0",1]}],"empty":[]})",
+       "parts[0].ray: expected exact numbers as strings"},
+      {head + R"("parts":[{"fragment":0,"vertices":[],"ray":["0","0","1/0"]}],"empty":[]})",
+       "parts[0].ray: zero denominator"},
       {head + R"("parts":[],"empty":7})", "empty: expected an array"},
       {head + R"("parts":[],"empty":[7]})", "empty[0]: expected an array"},
       {head + R"("parts":[],"empty":[[["0","0","1"],["0","0"]]]})", "empty[0][1]: expected three numbers"},
       {head + R"("field":7,"parts":[],"empty":[]})", "field: expected an array"},
       {head + R"("field":[["1","0","x"]],"parts":[],"empty":[]})", "field[0]: not a number"},
   };
-  for (const auto& [text, words] : cases) EXPECT_NE(fault_of_visible(text).find(words), std::string::npos) << text << " -> " << fault_of_visible(text);
+  for (const auto& [text, words] : cases)
+    EXPECT_NE(fault_of_visible(text).find(words), std::string::npos) << text << " -> " << fault_of_visible(text);
   EXPECT_THROW(visible_certificate_from_json(nlohmann::json{{"format", "sightline order 1"}}), std::invalid_argument);
 }
 

@@ -1,4 +1,5 @@
-// What polygons can see (P-72): right certificates accepted, and each rule of sightlines, sources and faces broken alone rejected for its reason. Trees: weak_trees.cpp.
+// What polygons can see (P-72): right certificates accepted, and each rule of sightlines, sources and faces broken
+// alone rejected for its reason. Trees: weak_trees.cpp.
 
 #include "weak_scenes.h"
 
@@ -21,7 +22,8 @@ TEST(Weak_certificate, says_how_many_faces_are_what) {
   expect_accepted(two_sources(), "0 faces visible, 3 hidden, 1 undecided from 2 source polygons; 13 leaves of proofs");
   expect_accepted(strip(64), "0 faces visible, 65 hidden, 0 undecided from 1 source polygons; 128 leaves of proofs");
   Weak_scene nothing;
-  expect_accepted(nothing.from(up(0, 1, 0, 1, 0)), "0 faces visible, 0 hidden, 0 undecided from 1 source polygons; 0 leaves of proofs");
+  expect_accepted(nothing.from(up(0, 1, 0, 1, 0)),
+                  "0 faces visible, 0 hidden, 0 undecided from 1 source polygons; 0 leaves of proofs");
 }
 
 TEST(Weak_certificate, that_is_not_the_scene_is_rejected) {
@@ -62,7 +64,8 @@ TEST(Weak_sources, may_have_straight_corners_and_so_may_fragments) {
   scene.certificate.lines[0] = {1, 3};  // the same line, by another stretch of it
   expect_accepted(scene);
   scene.certificate.lines[0] = {2, 3};  // by the other face, the other way round
-  expect_rejected(scene, "hidden 0 (face 0), node 2 is not blocked by fragment 3: lines may pass an edge of it outside");
+  expect_rejected(scene,
+                  "hidden 0 (face 0), node 2 is not blocked by fragment 3: lines may pass an edge of it outside");
   auto& proof = scene.certificate.hidden[0].proof;
   proof = {proof[0], proof[4], proof[1], proof[2], proof[3]};
   expect_accepted(scene);
@@ -78,15 +81,18 @@ TEST(Weak_sources, may_have_straight_corners_and_so_may_fragments) {
   scene = closed_slit();
   scene.certificate.sources[0] = many(scene.certificate.sources[0], 0);
   for (auto& fragment : scene.certificate.fragments) fragment.vertices = many(fragment.vertices, 1);
-  scene.certificate.lines[1].corner = static_cast<std::size_t>(count) + 2, scene.certificate.hidden[0].proof[2].terms[0].factor = 2 * count;
+  scene.certificate.lines[1].corner = static_cast<std::size_t>(count) + 2,
+  scene.certificate.hidden[0].proof[2].terms[0].factor = 2 * count;
   expect_accepted(scene);
 }
 
-// ---- Visible ----------------------------------------------------------------------------------------------------------------
+// ---- Visible
+// ----------------------------------------------------------------------------------------------------------------
 
 const Exact_point below_slit = at(ratio(3, 5), ratio(1, 2), 0), above_slit = at(ratio(3, 5), ratio(1, 2), 3);
 
-void expect_rejected_sightline(Weak_scene scene, const Exact_point& from, const Exact_point& to, const std::string& words) {
+void expect_rejected_sightline(Weak_scene scene, const Exact_point& from, const Exact_point& to,
+                               const std::string& words) {
   scene.certificate.visible[0].from = from, scene.certificate.visible[0].to = to;
   expect_rejected(scene, "visible 0 (face 0) " + words);
 }
@@ -98,13 +104,16 @@ TEST(Sightline, of_what_is_not_there_is_rejected) {
   scene = open_slit();
   scene.certificate.visible[0].source = 1;
   expect_rejected(scene, "visible 0 (face 0) names source 1, which there is not");
-  expect_rejected_sightline(open_slit(), at(doubled(), 0, 0), above_slit, "has an end point that is not in canonical numbers");
-  expect_rejected_sightline(open_slit(), below_slit, at(0, 0, infinite()), "has an end point that is not in canonical numbers");
+  expect_rejected_sightline(open_slit(), at(doubled(), 0, 0), above_slit,
+                            "has an end point that is not in canonical numbers");
+  expect_rejected_sightline(open_slit(), below_slit, at(0, 0, infinite()),
+                            "has an end point that is not in canonical numbers");
 }
 
 TEST(Sightline, begins_and_ends_strictly_inside) {
-  for (const Exact_point& p : {at(ratio(3, 5), 0, 0), at(ratio(3, 5), 1, 0), at(1, ratio(1, 2), 0), at(0, 0, 0), at(2, ratio(1, 2), 0),
-                               at(ratio(3, 5), ratio(1, 2), tiny(90)), at(ratio(3, 5), ratio(1, 2), -tiny(90))}) {
+  for (const Exact_point& p :
+       {at(ratio(3, 5), 0, 0), at(ratio(3, 5), 1, 0), at(1, ratio(1, 2), 0), at(0, 0, 0), at(2, ratio(1, 2), 0),
+        at(ratio(3, 5), ratio(1, 2), tiny(90)), at(ratio(3, 5), ratio(1, 2), -tiny(90))}) {
     expect_rejected_sightline(open_slit(), p, above_slit, "does not begin inside its source");
     expect_rejected_sightline(open_slit(), below_slit, along(p, 3, at(0, 0, 1)), "does not end inside its fragment");
   }
@@ -117,7 +126,8 @@ TEST(Sightline, goes_between_the_fronts) {
   expect_rejected(scene, "visible 0 (face 0) does not end in front of its source");
   Weak_scene flat;
   flat.from(up(0, 1, 0, 1, 0)).face(down(2, 3, 0, 1, 0));
-  expect_rejected(flat.see(0, at(ratio(1, 2), ratio(1, 2), 0), at(ratio(5, 2), ratio(1, 2), 0)), "does not end in front of its source");
+  expect_rejected(flat.see(0, at(ratio(1, 2), ratio(1, 2), 0), at(ratio(5, 2), ratio(1, 2), 0)),
+                  "does not end in front of its source");
   Weak_scene behind;
   behind.from(up(0, 1, 0, 1, 0)).face(up(0, 1, 0, 1, 1));
   behind.see(0, at(ratio(1, 2), ratio(1, 2), 0), at(ratio(1, 2), ratio(1, 2), 1));
@@ -126,7 +136,8 @@ TEST(Sightline, goes_between_the_fronts) {
   expect_accepted(behind, "1 faces visible");
   // A wall that stands on the source, seen from a point in its plane: from neither side, even if both count.
   Weak_scene board;
-  board.from(up(0, 1, 0, 1, 0)).face({at(ratio(1, 2), 0, 1), at(ratio(1, 2), 1, 1), at(ratio(1, 2), 1, 2), at(ratio(1, 2), 0, 2)});
+  board.from(up(0, 1, 0, 1, 0))
+      .face({at(ratio(1, 2), 0, 1), at(ratio(1, 2), 1, 1), at(ratio(1, 2), 1, 2), at(ratio(1, 2), 0, 2)});
   board.certificate.two_sided = true;
   board.see(0, at(ratio(1, 2), ratio(1, 2), 0), at(ratio(1, 2), ratio(1, 2), ratio(3, 2)));
   expect_rejected(board, "visible 0 (face 0) begins in the plane of its fragment");
@@ -138,7 +149,8 @@ TEST(Sightline, goes_between_the_fronts) {
 
 TEST(Sightline, that_meets_a_fragment_is_rejected_be_it_in_an_edge_or_a_corner) {
   for (const Rational& x : {ratio(1, 2), ratio(7, 10), ratio(1, 10), ratio(9, 10)})
-    expect_rejected_sightline(open_slit(), at(x, ratio(1, 2), 0), at(x, ratio(1, 2), 3), x < ratio(3, 5) ? "meets fragment 1 (face 1)" : "meets fragment 2 (face 2)");
+    expect_rejected_sightline(open_slit(), at(x, ratio(1, 2), 0), at(x, ratio(1, 2), 3),
+                              x < ratio(3, 5) ? "meets fragment 1 (face 1)" : "meets fragment 2 (face 2)");
   for (const Rational& x : {Rational(ratio(1, 2) + tiny(80)), Rational(ratio(7, 10) - tiny(80))}) {
     Weak_scene scene = open_slit();
     scene.certificate.visible[0].from[0] = x, scene.certificate.visible[0].to[0] = x;
@@ -155,7 +167,8 @@ TEST(Sightline, that_meets_a_fragment_is_rejected_be_it_in_an_edge_or_a_corner) 
 }
 
 TEST(Sightline, in_a_fragments_plane_is_rejected_only_where_they_meet) {
-  const auto fin = [](const Rational& y, const Rational& z0, const Rational& z1) {  // in the plane of the sightline, upright
+  const auto fin = [](const Rational& y, const Rational& z0,
+                      const Rational& z1) {  // in the plane of the sightline, upright
     Weak_scene scene = nothing_between();
     const Rational x = ratio(1, 2);
     scene.face({at(x, y, z0), at(x, 9, z0), at(x, 9, z1), at(x, y, z1)});
@@ -167,7 +180,8 @@ TEST(Sightline, in_a_fragments_plane_is_rejected_only_where_they_meet) {
   expect_accepted(fin(ratio(1, 3), -2, -1));
   expect_accepted(fin(ratio(1, 3), 4, 5));
   expect_accepted(fin(ratio(1, 2), 4, 5));
-  // Only edges of the fragment are between them: it is met beyond the end. Or only the sightline's own line: a thorn points at it.
+  // Only edges of the fragment are between them: it is met beyond the end. Or only the sightline's own line: a thorn
+  // points at it.
   const auto slanted = [](const std::vector<std::array<Rational, 2>>& fragment) {
     const auto in_plane = [](const Rational& y, const Rational& z) { return at(ratio(1, 2), y, z); };
     Weak_scene scene = nothing_between();
@@ -178,11 +192,13 @@ TEST(Sightline, in_a_fragments_plane_is_rejected_only_where_they_meet) {
     return scene.see(0, in_plane(ratio(1, 10), 0), in_plane(ratio(9, 10), 3));
   };
   expect_accepted(slanted({{ratio(1, 10), ratio(29, 10)}, {1, ratio(31, 10)}, {ratio(1, 10), 9}}));
-  expect_rejected(slanted({{ratio(1, 10), ratio(28, 10)}, {1, 3}, {ratio(1, 10), 9}}), "visible 0 (face 0) meets fragment 1 (face 1)");
+  expect_rejected(slanted({{ratio(1, 10), ratio(28, 10)}, {1, 3}, {ratio(1, 10), 9}}),
+                  "visible 0 (face 0) meets fragment 1 (face 1)");
   expect_accepted(slanted({{ratio(1, 2) + tiny(70), ratio(3, 2)}, {9, -50}, {9, 20}}));
   for (const Rational& y : {ratio(1, 2), Rational(ratio(1, 2) - tiny(70))})
     expect_rejected(slanted({{y, ratio(3, 2)}, {9, -50}, {9, 20}}), "visible 0 (face 0) meets fragment 1 (face 1)");
-  for (const Weak_scene& scene : {fin(ratio(1, 3), 1, 2), fin(ratio(1, 2), 1, 2), fin(ratio(1, 3), -1, 9), fin(ratio(1, 3), 3, 4), fin(ratio(1, 3), -1, 0), fin(ratio(1, 2), 3, 4)})
+  for (const Weak_scene& scene : {fin(ratio(1, 3), 1, 2), fin(ratio(1, 2), 1, 2), fin(ratio(1, 3), -1, 9),
+                                  fin(ratio(1, 3), 3, 4), fin(ratio(1, 3), -1, 0), fin(ratio(1, 2), 3, 4)})
     expect_rejected(scene, "visible 0 (face 0) meets fragment 1 (face 1)");
 }
 
@@ -193,7 +209,8 @@ TEST(Sightline, has_nothing_at_its_ends_but_what_is_in_their_planes) {
   expect_rejected(scene, "visible 0 (face 0) meets fragment");
   Weak_scene roof;
   roof.from(up(-1, 1, -1, 1, 0)).face(down(-1, 1, -1, 1, 3));
-  roof.face({at(0, -9, 3), at(0, 9, 3), at(8, 9, -5), at(8, -9, -5)}), roof.face({at(0, -9, 3), at(-8, -9, -5), at(-8, 9, -5), at(0, 9, 3)});
+  roof.face({at(0, -9, 3), at(0, 9, 3), at(8, 9, -5), at(8, -9, -5)}),
+      roof.face({at(0, -9, 3), at(-8, -9, -5), at(-8, 9, -5), at(0, 9, 3)});
   roof.certificate.undecided = {1, 2};
   expect_rejected(roof.see(0, at(0, 0, 0), at(0, 0, 3)), "visible 0 (face 0) meets fragment");
   Weak_scene from_behind;
@@ -202,10 +219,14 @@ TEST(Sightline, has_nothing_at_its_ends_but_what_is_in_their_planes) {
   for (const std::size_t f : {1u, 2u}) from_behind.face(roof.certificate.fragments[f].vertices);
   from_behind.certificate.undecided = {1, 2};
   expect_rejected(from_behind.see(0, at(0, 0, 0), at(0, 0, 3)), "visible 0 (face 0) meets fragment");
-  // A fragment in the plane of the source that holds its point, and one in the target's: they are met by no segment beside it either.
+  // A fragment in the plane of the source that holds its point, and one in the target's: they are met by no segment
+  // beside it either.
   Weak_scene flat = nothing_between();
   flat.face(up(0, 1, 0, 1, 0)), flat.face(down(-4, 4, -4, 4, 0)), flat.face(up(-4, 4, -4, 4, 3));
-  flat.hide(1, {away()}).hide(2, {away()}).hide(3, {away()}).see(0, at(ratio(1, 2), ratio(1, 2), 0), at(ratio(1, 3), ratio(1, 2), 3));
+  flat.hide(1, {away()})
+      .hide(2, {away()})
+      .hide(3, {away()})
+      .see(0, at(ratio(1, 2), ratio(1, 2), 0), at(ratio(1, 3), ratio(1, 2), 3));
   expect_accepted(flat, "1 faces visible, 3 hidden");
   // A foot of a wall is met, one beside the sightline is not.
   for (const bool met : {false, true}) {
@@ -250,9 +271,13 @@ TEST(Sightline, is_judged_as_by_clipping_on_a_small_grid) {
     const Judge judge(scene.certificate);
     bool right = judge.look_at_each_other(0, 0, p, q);
     for (const Judged& f : judge.fragments) {
-      const auto flat = [&](const Points& polygon) { return std::all_of(f.corners.begin(), f.corners.end(), [&](const Exact_point& v) { return Judged(polygon).above(v) == 0; }); };
+      const auto flat = [&](const Points& polygon) {
+        return std::all_of(f.corners.begin(), f.corners.end(),
+                           [&](const Exact_point& v) { return Judged(polygon).above(v) == 0; });
+      };
       const std::vector<Rational> places = f.meetings(p, q);
-      right = right && (places.empty() || (places == std::vector<Rational>{0} && flat(source)) || (places == std::vector<Rational>{1} && flat(target)));
+      right = right && (places.empty() || (places == std::vector<Rational>{0} && flat(source)) ||
+                        (places == std::vector<Rational>{1} && flat(target)));
     }
     EXPECT_EQ(scene.verdict().accepted, right) << scene.verdict().why;
     ++(right ? accepted : rejected);
@@ -261,12 +286,14 @@ TEST(Sightline, is_judged_as_by_clipping_on_a_small_grid) {
   EXPECT_GT(rejected, 300 / share);
 }
 
-// ---- Faces ------------------------------------------------------------------------------------------------------------------
+// ---- Faces
+// ------------------------------------------------------------------------------------------------------------------
 
 TEST(Weak_faces, are_each_accounted_for_once) {
   Weak_scene scene = open_slit();
   scene.certificate.visible.clear();
-  expect_rejected(scene, "face 0 is neither visible nor undecided, and fragment 0 of it is not shown to be hidden from source 0");
+  expect_rejected(
+      scene, "face 0 is neither visible nor undecided, and fragment 0 of it is not shown to be hidden from source 0");
   scene.certificate.undecided = {0};
   expect_accepted(scene, "0 faces visible, 2 hidden, 1 undecided");
   scene.certificate.undecided = {0, 0};
@@ -292,7 +319,8 @@ TEST(Weak_faces, are_hidden_with_all_fragments_from_all_sources) {
     Weak_scene scene = whole;
     scene.certificate.hidden.erase(scene.certificate.hidden.begin() + static_cast<std::ptrdiff_t>(k));
     const auto& [fragment, source, proof] = whole.certificate.hidden[k];
-    expect_rejected(scene, "is neither visible nor undecided, and fragment " + std::to_string(fragment) + " of it is not shown to be hidden from source " + std::to_string(source));
+    expect_rejected(scene, "is neither visible nor undecided, and fragment " + std::to_string(fragment) +
+                               " of it is not shown to be hidden from source " + std::to_string(source));
     scene.certificate.undecided.push_back(whole.certificate.fragments[fragment].face);
     expect_accepted(scene, "0 faces visible, 2 hidden, 2 undecided from 2");  // part of a proof is welcome
   }
@@ -303,7 +331,8 @@ TEST(Weak_faces, are_hidden_with_all_fragments_from_all_sources) {
   expect_rejected(scene, "visible 0 (face 3) meets fragment 1");
   Weak_scene wide = open_slit();
   wide.certificate.fragments[0].vertices = {at(0, 0, 3), at(0, 1, 3), at(ratio(1, 10), 1, 3), at(ratio(1, 10), 0, 3)};
-  wide.certificate.fragments.push_back({0, 0, {at(ratio(1, 10), 0, 3), at(ratio(1, 10), 1, 3), at(1, 1, 3), at(1, 0, 3)}});
+  wide.certificate.fragments.push_back(
+      {0, 0, {at(ratio(1, 10), 0, 3), at(ratio(1, 10), 1, 3), at(1, 1, 3), at(1, 0, 3)}});
   wide.certificate.visible[0].fragment = 3;
   expect_accepted(wide, "1 faces visible, 2 hidden");
   Weak_scene set_aside = one_blocker();

@@ -1,4 +1,5 @@
-// Certificates of weak visibility, damaged at random: rejected, or still true, which is shown by shooting (weak_scenes.h).
+// Certificates of weak visibility, damaged at random: rejected, or still true, which is shown by shooting
+// (weak_scenes.h).
 
 #include "weak_scenes.h"
 
@@ -14,11 +15,15 @@ class Damage {
 
   /// Does one thing to the certificate, and says which kind it was; empty if there was nothing to do it to.
   std::string once() {
-    static constexpr std::array kinds = {
-        &Damage::leafs_face, &Damage::multiplier, &Damage::order_of_children, &Damage::end_point, &Damage::plane,  // twice as often as the others
-        &Damage::leafs_face, &Damage::multiplier, &Damage::order_of_children, &Damage::end_point, &Damage::plane,
-        &Damage::node_lost, &Damage::node_doubled, &Damage::nodes_line, &Damage::line, &Damage::nodes_kind, &Damage::source_vertex, &Damage::source_turned,
-        &Damage::entrys_index, &Damage::entry_lost, &Damage::two_sided, &Damage::undecided, &Damage::fragment_vertex, &Damage::multipliers_form, &Damage::term_lost};
+    static constexpr std::array kinds = {&Damage::leafs_face,   &Damage::multiplier,      &Damage::order_of_children,
+                                         &Damage::end_point,    &Damage::plane,  // twice as often as the others
+                                         &Damage::leafs_face,   &Damage::multiplier,      &Damage::order_of_children,
+                                         &Damage::end_point,    &Damage::plane,           &Damage::node_lost,
+                                         &Damage::node_doubled, &Damage::nodes_line,      &Damage::line,
+                                         &Damage::nodes_kind,   &Damage::source_vertex,   &Damage::source_turned,
+                                         &Damage::entrys_index, &Damage::entry_lost,      &Damage::two_sided,
+                                         &Damage::undecided,    &Damage::fragment_vertex, &Damage::multipliers_form,
+                                         &Damage::term_lost};
     return (this->*kinds[below(kinds.size())])();
   }
 
@@ -79,7 +84,8 @@ class Damage {
   /// The end of the subtree that begins at i.
   static std::size_t end_of(const Proof& proof, std::size_t i) {
     for (std::size_t open = 1; open > 0 && i < proof.size(); ++i) {
-      const bool is_leaf = proof[i].kind == Kind::blocked || proof[i].kind == Kind::empty || proof[i].kind == Kind::away;
+      const bool is_leaf =
+          proof[i].kind == Kind::blocked || proof[i].kind == Kind::empty || proof[i].kind == Kind::away;
       open = is_leaf ? open - 1 : open + 1;
     }
     return i;
@@ -87,9 +93,12 @@ class Damage {
   std::string order_of_children() {
     Proof& proof = c.hidden[below(c.hidden.size())].proof;
     const std::size_t i = below(proof.size());
-    if (i >= proof.size() || proof[i].kind == Kind::blocked || proof[i].kind == Kind::empty || proof[i].kind == Kind::away) return "";
+    if (i >= proof.size() || proof[i].kind == Kind::blocked || proof[i].kind == Kind::empty ||
+        proof[i].kind == Kind::away)
+      return "";
     const std::size_t middle = end_of(proof, i + 1), end = end_of(proof, middle);
-    std::rotate(proof.begin() + static_cast<std::ptrdiff_t>(i + 1), proof.begin() + static_cast<std::ptrdiff_t>(middle), proof.begin() + static_cast<std::ptrdiff_t>(end));
+    std::rotate(proof.begin() + static_cast<std::ptrdiff_t>(i + 1), proof.begin() + static_cast<std::ptrdiff_t>(middle),
+                proof.begin() + static_cast<std::ptrdiff_t>(end));
     return "order of children";
   }
   std::string node_lost() {
@@ -131,7 +140,8 @@ class Damage {
   std::string nodes_kind() {
     Node* n = some_node([](const Node&) { return true; });
     if (n == nullptr) return "";
-    n->kind = std::array{Kind::line, Kind::cut_source, Kind::cut_target, Kind::blocked, Kind::empty, Kind::away}[below(6)];
+    n->kind =
+        std::array{Kind::line, Kind::cut_source, Kind::cut_target, Kind::blocked, Kind::empty, Kind::away}[below(6)];
     return "node's kind";
   }
   std::string end_point() {
@@ -206,27 +216,33 @@ TEST(Weak_mutations, are_rejected_or_true) {
     ++counts[kind][verdict.accepted ? 1 : 0];
     ++(verdict.accepted ? harmless : rejected);
     if (!verdict.accepted) continue;
-    EXPECT_EQ(Judge(scene.certificate).fault(dice, 40), "") << what << ", " << kind << ", seed " << seed << ": " << verdict.why;
+    EXPECT_EQ(Judge(scene.certificate).fault(dice, 40), "")
+        << what << ", " << kind << ", seed " << seed << ": " << verdict.why;
   }
   EXPECT_GT(rejected, 10000 / share);
   EXPECT_GT(harmless, 1000 / share);
-  for (const auto& [kind, of] : counts) std::cout << "    " << kind << ": " << of[0] << " rejected, " << of[1] << " harmless\n";
+  for (const auto& [kind, of] : counts)
+    std::cout << "    " << kind << ": " << of[0] << " rejected, " << of[1] << " harmless\n";
 }
 
-/// Random blockers between two triangles: a blocking leaf is right iff, for each two corners, the segment meets the blocker.
+/// Random blockers between two triangles: a blocking leaf is right iff, for each two corners, the segment meets the
+/// blocker.
 TEST(Weak_mutations, of_blockers_on_a_small_grid_are_judged_as_by_segments) {
   std::size_t accepted = 0, rejected = 0;
   for (unsigned seed = 0; seed < 4000 / share; ++seed) {
     SCOPED_TRACE(seed);
     Dice dice(seed);
-    const auto corner = [&](long reach, long low, long high) { return at(roll(dice, -reach, reach), roll(dice, -reach, reach), roll(dice, low, high)); };
+    const auto corner = [&](long reach, long low, long high) {
+      return at(roll(dice, -reach, reach), roll(dice, -reach, reach), roll(dice, low, high));
+    };
     const auto triangle = [&](long reach, long low, long high) {
       Points corners;
       do corners = {corner(reach, low, high), corner(reach, low, high), corner(reach, low, high)};
       while (Judged(corners).normal == at(0, 0, 0));
       return corners;
     };
-    const Points source = triangle(1, 0, 1), target = triangle(1, 4, 5), blocker = roll(dice, 0, 1) == 0 ? triangle(4, 1, 4) : triangle(9, 2, 3);
+    const Points source = triangle(1, 0, 1), target = triangle(1, 4, 5),
+                 blocker = roll(dice, 0, 1) == 0 ? triangle(4, 1, 4) : triangle(9, 2, 3);
     Weak_scene scene;
     scene.from(source).face(target), scene.face(blocker);
     scene.certificate.undecided = {1};
@@ -236,7 +252,8 @@ TEST(Weak_mutations, of_blockers_on_a_small_grid_are_judged_as_by_segments) {
     for (const Exact_point& p : source) front += judged.above(p), back += std::abs(judged.above(p));
     int front_of_target = 0, back_of_target = 0;
     for (const Exact_point& q : target) front_of_target += judged.above(q), back_of_target += std::abs(judged.above(q));
-    bool right = back > 0 && back_of_target > 0 && std::abs(front) == back && std::abs(front_of_target) == back_of_target && front * front_of_target < 0;
+    bool right = back > 0 && back_of_target > 0 && std::abs(front) == back &&
+                 std::abs(front_of_target) == back_of_target && front * front_of_target < 0;
     bool borderline = false;  // a segment in the blocker's plane
     for (const Exact_point& p : source)
       for (const Exact_point& q : target) {

@@ -1,5 +1,6 @@
 #pragma once
-// Hand-made scenes with hand-written certificates of weak visibility, and a judge of them that shares nothing with the checker: it shoots at pairs of points.
+// Hand-made scenes with hand-written certificates of weak visibility, and a judge of them that shares nothing with the
+// checker: it shoots at pairs of points.
 
 #include "scenes.h"
 
@@ -44,7 +45,10 @@ inline Node empty(const std::vector<Term>& terms = {}) {
   result.terms = terms;
   return result;
 }
-inline Term term(std::size_t line, const Rational& factor, const std::optional<Form>& source = {}, const std::optional<Form>& target = {}) { return {line, factor, source, target}; }
+inline Term term(std::size_t line, const Rational& factor, const std::optional<Form>& source = {},
+                 const std::optional<Form>& target = {}) {
+  return {line, factor, source, target};
+}
 
 struct Weak_scene {
   Polygon_soup soup;
@@ -103,12 +107,18 @@ inline Rational infinite() {
   return r;
 }
 
-// ---- Scenes. Sources look up from z = 0, targets look down from above; blockers look up, so that they are not seen themselves ----------------
+// ---- Scenes. Sources look up from z = 0, targets look down from above; blockers look up, so that they are not seen
+// themselves ----------------
 
-inline Points up(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) { return rectangle(x0, x1, y0, y1, z); }
-inline Points down(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) { return reversed(rectangle(x0, x1, y0, y1, z)); }
+inline Points up(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) {
+  return rectangle(x0, x1, y0, y1, z);
+}
+inline Points down(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z) {
+  return reversed(rectangle(x0, x1, y0, y1, z));
+}
 /// In the plane x = c, looking to -x.
-inline Points facing_back(const Rational& c, const Rational& y0, const Rational& y1, const Rational& z0, const Rational& z1) {
+inline Points facing_back(const Rational& c, const Rational& y0, const Rational& y1, const Rational& z0,
+                          const Rational& z1) {
   return {at(c, y0, z0), at(c, y0, z1), at(c, y1, z1), at(c, y1, z0)};
 }
 
@@ -136,12 +146,17 @@ inline Weak_scene two_abutting() {
 /// One on the left, two on the right.
 inline Weak_scene t_junction() {
   Weak_scene scene = nothing_between();
-  scene.face(up(-5, ratio(1, 2), -5, 6, 1)), scene.face(up(ratio(1, 2), 6, -5, ratio(1, 2), 1)), scene.face(up(ratio(1, 2), 6, ratio(1, 2), 6, 1));
+  scene.face(up(-5, ratio(1, 2), -5, 6, 1)), scene.face(up(ratio(1, 2), 6, -5, ratio(1, 2), 1)),
+      scene.face(up(ratio(1, 2), 6, ratio(1, 2), 6, 1));
   const std::size_t middle = scene.line(1, 1), right = scene.line(2, 2);
-  return scene.hide(0, {side_of(middle), side_of(right), blocked(3), blocked(2), blocked(1)}).hide(1, {away()}).hide(2, {away()}).hide(3, {away()});
+  return scene.hide(0, {side_of(middle), side_of(right), blocked(3), blocked(2), blocked(1)})
+      .hide(1, {away()})
+      .hide(2, {away()})
+      .hide(3, {away()});
 }
 
-/// A source that stands upright through a floor; the floor blocks what is below, a wall what is above. The floor is seen.
+/// A source that stands upright through a floor; the floor blocks what is below, a wall what is above. The floor is
+/// seen.
 inline Weak_scene source_through_floor() {
   Weak_scene scene;
   scene.from({at(0, 0, -1), at(0, 0, 1), at(1, 0, 1), at(1, 0, -1)});
@@ -172,7 +187,9 @@ inline Weak_scene all_away() {
 inline Weak_scene open_slit(const Rational& width = ratio(1, 5)) {
   Weak_scene scene = nothing_between();
   scene.face(up(-5, ratio(1, 2), -5, 6, 1)), scene.face(up(ratio(1, 2) + width, 6, -5, 6, 1));
-  return scene.hide(1, {away()}).hide(2, {away()}).see(0, at(ratio(1, 2) + width / 2, ratio(1, 2), 0), at(ratio(1, 2) + width / 2, ratio(1, 2), 3));
+  return scene.hide(1, {away()})
+      .hide(2, {away()})
+      .see(0, at(ratio(1, 2) + width / 2, ratio(1, 2), 0), at(ratio(1, 2) + width / 2, ratio(1, 2), 3));
 }
 
 /// Two blockers at different heights, whose edges a line can pass only if it touches both. `slack` makes them overlap.
@@ -181,11 +198,14 @@ inline Weak_scene closed_slit(const Rational& first = 2, const Rational& second 
   scene.from(up(0, 1, 0, 1, 0)).face(down(1, 2, 0, 1, 3));
   scene.face(up(-9, 1, -5, 6, 1)), scene.face(up(1 - slack, 9, -9, 13, 2));
   const std::size_t low = scene.line(1, 1), high = scene.line(2, 3);
-  return scene.hide(0, {side_of(low), side_of(high), empty({term(low, first), term(high, second)}), blocked(2), blocked(1)}).hide(1, {away()}).hide(2, {away()});
+  return scene
+      .hide(0, {side_of(low), side_of(high), empty({term(low, first), term(high, second)}), blocked(2), blocked(1)})
+      .hide(1, {away()})
+      .hide(2, {away()});
 }
 
-/// A skew edge and a level one, which no line can pass both; but the multipliers must grow along the source: (1 + x) (y - 11/20) + (1 + x) (1/2 - y) <= 0, and a little for the width.
-/// `mirrored`: source and target exchanged.
+/// A skew edge and a level one, which no line can pass both; but the multipliers must grow along the source: (1 + x) (y
+/// - 11/20) + (1 + x) (1/2 - y) <= 0, and a little for the width. `mirrored`: source and target exchanged.
 inline Weak_scene skew_slit(const std::vector<Term>& terms, bool mirrored = false) {
   const Rational thin = ratio(1, 100), end = ratio(99, 200);
   const auto place = [&](Points points) {
@@ -196,21 +216,31 @@ inline Weak_scene skew_slit(const std::vector<Term>& terms, bool mirrored = fals
   const Points along = up(0, 1, -thin, thin, 0), across = up(-2 * thin, -thin, 0, 1, 1);
   Weak_scene scene;
   scene.from(mirrored ? place(across) : along).face(reversed(mirrored ? place(along) : across));
-  scene.face(place(up(-9, 9, -9, end, ratio(9, 10)))), scene.face(place({at(-1, 0, 0), at(0, ratio(1, 2), 1), at(0, 9, 1), at(-1, 9, 0)}));
+  scene.face(place(up(-9, 9, -9, end, ratio(9, 10)))),
+      scene.face(place({at(-1, 0, 0), at(0, ratio(1, 2), 1), at(0, 9, 1), at(-1, 9, 0)}));
   const std::size_t level = scene.line(1, 2), skew = scene.line(2, 0);
-  return scene.hide(0, {side_of(level), side_of(skew), empty(terms), blocked(2), blocked(1)}).hide(1, {away()}).hide(2, {away()});
+  return scene.hide(0, {side_of(level), side_of(skew), empty(terms), blocked(2), blocked(1)})
+      .hide(1, {away()})
+      .hide(2, {away()});
 }
 inline Weak_scene skew_slit() { return skew_slit({term(0, ratio(5, 81), form(1, 0, 0, 1)), term(1, 1)}); }
-inline Weak_scene skew_slit_mirrored() { return skew_slit({term(0, ratio(5, 81), {}, form(1, 0, 0, 1)), term(1, 1)}, true); }
-inline Weak_scene skew_slit_both() { return skew_slit({term(0, ratio(5, 81), {}, form(1, 0, 0, 1)), term(1, 1, form(0, ratio(1, 100), 0, 1))}, true); }
+inline Weak_scene skew_slit_mirrored() {
+  return skew_slit({term(0, ratio(5, 81), {}, form(1, 0, 0, 1)), term(1, 1)}, true);
+}
+inline Weak_scene skew_slit_both() {
+  return skew_slit({term(0, ratio(5, 81), {}, form(1, 0, 0, 1)), term(1, 1, form(0, ratio(1, 100), 0, 1))}, true);
+}
 
 /// Two faces like a gutter, whose keel is on the source: only the keel, a set of measure zero, sees what is above.
 inline Weak_scene keel() {
   Weak_scene scene;
   scene.from(up(-1, 1, -1, 1, 0)).face(down(-1, 1, -1, 1, 3));
-  scene.face({at(0, -9, 0), at(8, -9, 8), at(8, 9, 8), at(0, 9, 0)}), scene.face({at(-8, -9, 8), at(0, -9, 0), at(0, 9, 0), at(-8, 9, 8)});
+  scene.face({at(0, -9, 0), at(8, -9, 8), at(8, 9, 8), at(0, 9, 0)}),
+      scene.face({at(-8, -9, 8), at(0, -9, 0), at(0, 9, 0), at(-8, 9, 8)});
   const Node halves = cut_source(form(1, 0, 0, 0));
-  return scene.hide(0, {halves, blocked(1), blocked(2)}).hide(1, {halves, away(), blocked(2)}).hide(2, {halves, blocked(1), away()});
+  return scene.hide(0, {halves, blocked(1), blocked(2)})
+      .hide(1, {halves, away(), blocked(2)})
+      .hide(2, {halves, blocked(1), away()});
 }
 
 /// Both sides count: a blocker is seen from behind, and hides a target that looks up.
@@ -219,17 +249,23 @@ inline Weak_scene two_sided() {
   scene.certificate.two_sided = true;
   scene.from(up(0, 1, 0, 1, 0)).face(up(0, 1, 0, 1, 3));
   scene.face(up(-5, 6, -5, 6, 1)), scene.face(down(0, 1, 0, 1, 0));
-  return scene.hide(0, {blocked(1)}).hide(2, {away()}).see(1, at(ratio(1, 3), ratio(1, 2), 0), at(ratio(1, 2), ratio(1, 2), 1));
+  return scene.hide(0, {blocked(1)})
+      .hide(2, {away()})
+      .see(1, at(ratio(1, 3), ratio(1, 2), 0), at(ratio(1, 2), ratio(1, 2), 1));
 }
 
-/// Two sources, two fragments of one face, a face of which nothing is said, a fragment with a straight corner, and a cell that is cut to nothing.
+/// Two sources, two fragments of one face, a face of which nothing is said, a fragment with a straight corner, and a
+/// cell that is cut to nothing.
 inline Weak_scene two_sources() {
   Weak_scene scene = two_abutting();
   auto& c = scene.certificate;
   scene.from(up(2, 3, 0, 1, -2));
   c.fragments[0].vertices = {at(0, 0, 3), at(0, 1, 3), at(ratio(1, 3), 1, 3), at(ratio(1, 3), 0, 3)};
-  c.fragments.push_back({0, 0, {at(1, 0, 3), at(ratio(1, 3), 0, 3), at(ratio(1, 3), 1, 3), at(ratio(2, 3), 1, 3), at(1, 1, 3)}});
-  scene.hide(3, {side_of(0), blocked(2), blocked(1)}).hide(3, {cut_source(form(1, 0, 0, -2)), blocked(2), empty()}, 1).hide(0, {side_of(0), blocked(2), blocked(1)}, 1);
+  c.fragments.push_back(
+      {0, 0, {at(1, 0, 3), at(ratio(1, 3), 0, 3), at(ratio(1, 3), 1, 3), at(ratio(2, 3), 1, 3), at(1, 1, 3)}});
+  scene.hide(3, {side_of(0), blocked(2), blocked(1)})
+      .hide(3, {cut_source(form(1, 0, 0, -2)), blocked(2), empty()}, 1)
+      .hide(0, {side_of(0), blocked(2), blocked(1)}, 1);
   scene.hide(1, {away()}, 1).hide(2, {cut_target(form(0, 0, 1, 5)), away(), empty()}, 1);
   scene.face(down(0, 1, 0, 1, 2));
   c.undecided = {3};
@@ -239,9 +275,12 @@ inline Weak_scene two_sources() {
 /// n blockers beside each other; the tree halves them.
 inline Weak_scene strip(std::size_t n) {
   Weak_scene scene;
-  const auto x = [&](std::size_t k) { return k == 0 ? Rational(-9) : k == n ? Rational(9) : ratio(static_cast<long>(k), static_cast<long>(n)); };
+  const auto x = [&](std::size_t k) {
+    return k == 0 ? Rational(-9) : k == n ? Rational(9) : ratio(static_cast<long>(k), static_cast<long>(n));
+  };
   scene.from(up(0, 1, 0, 1, 0)).face(down(0, 1, 0, 1, 2));
-  for (std::size_t k = 0; k < n; ++k) scene.face(up(x(k), x(k + 1), -9, 9, 1)), scene.line(k + 1, 1), scene.hide(k + 1, {away()});
+  for (std::size_t k = 0; k < n; ++k)
+    scene.face(up(x(k), x(k + 1), -9, 9, 1)), scene.line(k + 1, 1), scene.hide(k + 1, {away()});
   Proof proof;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, n}};
   while (!open.empty()) {
@@ -259,18 +298,36 @@ inline Weak_scene strip(std::size_t n) {
 }
 
 inline std::vector<std::pair<const char*, Weak_scene>> all_scenes() {
-  return {{"one blocker", one_blocker()}, {"two abutting", two_abutting()}, {"T-junction", t_junction()}, {"source through floor", source_through_floor()},
+  return {{"one blocker", one_blocker()},
+          {"two abutting", two_abutting()},
+          {"T-junction", t_junction()},
+          {"source through floor", source_through_floor()},
           {"target through ground", target_through_ground()},
-          {"all away", all_away()}, {"open slit", open_slit()}, {"closed slit", closed_slit()}, {"skew slit", skew_slit()}, {"skew slit, mirrored", skew_slit_mirrored()},
-          {"skew slit, both", skew_slit_both()}, {"keel", keel()}, {"two-sided", two_sided()}, {"two sources", two_sources()}, {"strip", strip(5)}};
+          {"all away", all_away()},
+          {"open slit", open_slit()},
+          {"closed slit", closed_slit()},
+          {"skew slit", skew_slit()},
+          {"skew slit, mirrored", skew_slit_mirrored()},
+          {"skew slit, both", skew_slit_both()},
+          {"keel", keel()},
+          {"two-sided", two_sided()},
+          {"two sources", two_sources()},
+          {"strip", strip(5)}};
 }
 
-// ---- The judge --------------------------------------------------------------------------------------------------------------
+// ---- The judge
+// --------------------------------------------------------------------------------------------------------------
 
-inline Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) { return at(p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]); }
+inline Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
+  return at(p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]);
+}
 inline Exact_point from_to(const Exact_point& a, const Exact_point& b) { return along(b, -1, a); }
-inline Rational inner(const Exact_point& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
-inline Exact_point outer(const Exact_point& a, const Exact_point& b) { return at(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]); }
+inline Rational inner(const Exact_point& a, const Exact_point& b) {
+  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+inline Exact_point outer(const Exact_point& a, const Exact_point& b) {
+  return at(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+}
 /// A convex polygon as half-spaces: its plane, and for each edge the direction inwards.
 struct Judged {
   Points corners;
@@ -279,17 +336,20 @@ struct Judged {
 
   explicit Judged(const Points& polygon) : corners(polygon) {
     const auto edge = [&](std::size_t i) { return from_to(corners[i], corners[(i + 1) % corners.size()]); };
-    for (std::size_t i = 0; i < corners.size(); ++i) normal = along(normal, 1, outer(from_to(corners[0], corners[i]), edge(i)));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      normal = along(normal, 1, outer(from_to(corners[0], corners[i]), edge(i)));
     for (std::size_t i = 0; i < corners.size(); ++i) inwards.push_back(outer(normal, edge(i)));
   }
   Rational height(const Exact_point& p) const { return inner(normal, from_to(corners[0], p)); }
   int above(const Exact_point& p) const { return sgn(height(p)); }
   int place(const Exact_point& p) const {  // 1 inside, 0 on the boundary, -1 outside; p in the plane
     int least = 1;
-    for (std::size_t i = 0; i < corners.size(); ++i) least = std::min(least, sgn(inner(inwards[i], from_to(corners[i], p))));
+    for (std::size_t i = 0; i < corners.size(); ++i)
+      least = std::min(least, sgn(inner(inwards[i], from_to(corners[i], p))));
     return least;
   }
-  /// The places t on the way from p to q, in [0, 1], where it meets the closed polygon: one, or, if it is in the plane, the ends of a stretch.
+  /// The places t on the way from p to q, in [0, 1], where it meets the closed polygon: one, or, if it is in the plane,
+  /// the ends of a stretch.
   std::vector<Rational> meetings(const Exact_point& p, const Exact_point& q) const {
     const Exact_point d = from_to(p, q);
     const Rational at_p = height(p), at_q = height(q);
@@ -350,13 +410,15 @@ struct Judge {
         if (!holds(v, k == 0 ? Rational(0) : tiny(200), dice)) return "not a sightline";
     for (const auto& entry : c.hidden)
       for (int k = 0; k < shots; ++k) {
-        const Exact_point p = random_inside(c.sources[entry.source], dice), q = random_inside(c.fragments[entry.fragment].vertices, dice);
+        const Exact_point p = random_inside(c.sources[entry.source], dice),
+                          q = random_inside(c.fragments[entry.fragment].vertices, dice);
         if (const std::string what = fault_at(entry, p, q); !what.empty()) return "a pair " + what;
         bool sees = true;  // and so do others close to it
         for (int n = 0; sees && n < 4; ++n) {
           const Rational step = n == 0 ? Rational(0) : tiny(200);
           const Exact_point near_p = along(p, step, from_to(p, random_inside(c.sources[entry.source], dice)));
-          const Exact_point near_q = along(q, step, from_to(q, random_inside(c.fragments[entry.fragment].vertices, dice)));
+          const Exact_point near_q =
+              along(q, step, from_to(q, random_inside(c.fragments[entry.fragment].vertices, dice)));
           sees = look_at_each_other(entry.source, entry.fragment, near_p, near_q) && is_free(near_p, near_q);
         }
         if (sees) return "a pair sees each other";
@@ -364,10 +426,13 @@ struct Judge {
     for (std::size_t i = 0; i < c.fragments.size(); ++i)
       for (std::size_t s = 0; s < c.sources.size(); ++s) {
         const Face_id f = c.fragments[i].face;
-        const bool visible = std::any_of(c.visible.begin(), c.visible.end(), [&](const auto& v) { return c.fragments[v.fragment].face == f; });
-        const bool hidden = std::any_of(c.hidden.begin(), c.hidden.end(), [&](const auto& h) { return h.fragment == i && h.source == s; });
+        const bool visible = std::any_of(c.visible.begin(), c.visible.end(),
+                                         [&](const auto& v) { return c.fragments[v.fragment].face == f; });
+        const bool hidden = std::any_of(c.hidden.begin(), c.hidden.end(),
+                                        [&](const auto& h) { return h.fragment == i && h.source == s; });
         const auto undecided = std::count(c.undecided.begin(), c.undecided.end(), f);
-        if (undecided > 1 || (undecided == 1 && visible) || (undecided == 0 && !visible && !hidden)) return "a face is not accounted for once";
+        if (undecided > 1 || (undecided == 1 && visible) || (undecided == 0 && !visible && !hidden))
+          return "a face is not accounted for once";
       }
     return "";
   }
@@ -375,10 +440,13 @@ struct Judge {
   /// Whether the sightline, its ends moved by `step` of the way to points inside, is one.
   bool holds(const Weak_certificate::Sightline& v, const Rational& step, Dice& dice) const {
     const Judged &source = sources[v.source], &target = fragments[v.fragment];
-    const Exact_point p = along(v.from, step, from_to(v.from, random_inside(source.corners, dice))), q = along(v.to, step, from_to(v.to, random_inside(target.corners, dice)));
-    return source.above(p) == 0 && source.place(p) > 0 && target.above(q) == 0 && target.place(q) > 0 && look_at_each_other(v.source, v.fragment, p, q) && is_free(p, q);
+    const Exact_point p = along(v.from, step, from_to(v.from, random_inside(source.corners, dice))),
+                      q = along(v.to, step, from_to(v.to, random_inside(target.corners, dice)));
+    return source.above(p) == 0 && source.place(p) > 0 && target.above(q) == 0 && target.place(q) > 0 &&
+           look_at_each_other(v.source, v.fragment, p, q) && is_free(p, q);
   }
-  /// Goes to the leaf where the tree sends a pair of points, and says what is wrong there. Empty: nothing, or the pair is on a border.
+  /// Goes to the leaf where the tree sends a pair of points, and says what is wrong there. Empty: nothing, or the pair
+  /// is on a border.
   std::string fault_at(const Weak_certificate::Hidden& entry, const Exact_point& p, const Exact_point& q) const {
     std::size_t skip = 0;  // subtrees that the pair is not in
     for (const Node& n : entry.proof) {
@@ -400,7 +468,8 @@ struct Judge {
         if (sgn(value) < 0) skip = 1;
         continue;
       }
-      if (n.kind == Kind::away) return look_at_each_other(entry.source, entry.fragment, p, q) ? "looks, in an away leaf" : "";
+      if (n.kind == Kind::away)
+        return look_at_each_other(entry.source, entry.fragment, p, q) ? "looks, in an away leaf" : "";
       if (n.kind == Kind::empty) return "is in an empty leaf";
       return fragments[n.index].blocks(p, q) ? "" : "is not blocked";
     }

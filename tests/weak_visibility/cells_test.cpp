@@ -22,22 +22,28 @@ std::array<Integer, 4> inner(const Near_polygon& polygon, Random& random) {
   Integer common = 1;
   for (const Near_point& p : polygon) common *= p.exact[3];
   for (const Near_point& p : polygon) {
-    const Integer weight = (Integer(static_cast<unsigned long>(1 + random.below(1000))) << random.below(unequal)) * (common / p.exact[3]);
+    const Integer weight =
+        (Integer(static_cast<unsigned long>(1 + random.below(1000))) << random.below(unequal)) * (common / p.exact[3]);
     for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * p.exact[k];
   }
   return sum;
 }
 
-/// A cell of the lines between a source and a target that pass the given lines as one of them does, and all ways to prove that there is none.
+/// A cell of the lines between a source and a target that pass the given lines as one of them does, and all ways to
+/// prove that there is none.
 class Cell_of_a_line {
  public:
   Cell_of_a_line(const Occluders& occluders, const Weak_source& source, std::uint32_t target)
-      : occluders_(&occluders), lines_(occluders), proofs_(occluders, lines_, source.plane, occluders.plane(target)),
-        domain_(std::make_shared<const Near_polygon>(source.polygon), std::make_shared<const Near_polygon>(occluders.polygon(target))) {
+      : occluders_(&occluders),
+        lines_(occluders),
+        proofs_(occluders, lines_, source.plane, occluders.plane(target)),
+        domain_(std::make_shared<const Near_polygon>(source.polygon),
+                std::make_shared<const Near_polygon>(occluders.polygon(target))) {
     for (std::uint32_t piece = 0; piece < occluders.scene().pieces().size(); ++piece) lines_.of(piece);
   }
 
-  /// How many of the ways say that there is no line on the sides that the line (p, q) is on, among some of the edges that it does not meet.
+  /// How many of the ways say that there is no line on the sides that the line (p, q) is on, among some of the edges
+  /// that it does not meet.
   std::size_t wrong_proofs(Random& random) {
     const Exact_six pair = exact_pair(inner(domain_.source, random), inner(domain_.target, random));
     cell_ = {&domain_, &lines_, &occluders_->frame(), {}};
@@ -82,7 +88,8 @@ TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
       Random random(seed);
       const Weak_source source = weak_source(occluders, scene.source);
       for (const Face_id face : scene.targets) {
-        const auto piece = std::find_if(read.pieces().begin(), read.pieces().end(), [&](const Piece& p) { return p.face == face; });
+        const auto piece =
+            std::find_if(read.pieces().begin(), read.pieces().end(), [&](const Piece& p) { return p.face == face; });
         Cell_of_a_line cell(occluders, source, static_cast<std::uint32_t>(piece - read.pieces().begin()));
         for (int k = 0; k < 12; ++k) EXPECT_EQ(cell.wrong_proofs(random), 0u) << scene.name << ", face " << face;
         asked += cell.asked, exact += cell.counters.exact_programs, forms += cell.counters.form_programs;
@@ -95,15 +102,18 @@ TEST(Cell_proofs_of_cells_with_a_line, do_not_exist) {
 
 TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_pairs_of_corners) {
   using weak_scenes::at;
-  // Lines from x = p >= 0 to x = q pass x = 0 at half the height where p + q > 0, and at a quarter where 3 p + q > 0: none passes the first one to the right and the second one to the left.
+  // Lines from x = p >= 0 to x = q pass x = 0 at half the height where p + q > 0, and at a quarter where 3 p + q > 0:
+  // none passes the first one to the right and the second one to the left.
   const auto plate = [](const Rational& z) { return weak_scenes::Points{at(0, -9, z), at(0, 9, z), at(9, 0, z)}; };
-  const Scene scene(weak_scenes::soup_of({weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 1)), plate(Rational(1, 2)), plate(Rational(1, 4))}));
+  const Scene scene(weak_scenes::soup_of(
+      {weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 1)), plate(Rational(1, 2)), plate(Rational(1, 4))}));
   const Occluders occluders(scene);
   const Weak_source source = weak_source(occluders, weak_scenes::rectangle(0, 1, -1, 1, 0));
   Edge_lines lines(occluders);
   Cell_proofs proofs(occluders, lines, source.plane, occluders.plane(0));
   const std::array<std::uint32_t, 2> edges{lines.of(1)[0].line, lines.of(2)[0].line};
-  Line_domain domain(std::make_shared<const Near_polygon>(source.polygon), std::make_shared<const Near_polygon>(occluders.polygon(0)));
+  Line_domain domain(std::make_shared<const Near_polygon>(source.polygon),
+                     std::make_shared<const Near_polygon>(occluders.polygon(0)));
   const auto located = [&](const Exact_point& p) {
     const Located_point grid = scene.locate(p);
     return std::array<Integer, 4>{grid.x, grid.y, grid.z, grid.w};
@@ -127,7 +137,8 @@ TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_
 TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane_it_is_in_beside_them) {
   using weak_scenes::at;
   // A triangle in the plane x = 0, where z <= y.
-  const Scene scene(weak_scenes::soup_of({weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 2)), {at(0, -5, -5), at(0, 5, -5), at(0, 5, 5)}}));
+  const Scene scene(weak_scenes::soup_of(
+      {weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 2)), {at(0, -5, -5), at(0, 5, -5), at(0, 5, 5)}}));
   const Occluders occluders(scene);
   const Weak_source source = weak_source(occluders, weak_scenes::rectangle(-1, 1, -1, 1, 0));
   const auto point = [&](const Rational& x, const Rational& y, const Rational& z) {
@@ -135,12 +146,14 @@ TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane
     return near_point(occluders.frame(), {p.x, p.y, p.z, p.w});
   };
   const Rational half(1, 2);
-  const auto blocker = [&](const Rational& y, const Rational& x) { return occluders.blocker(point(0, y, 0), point(x, y, 2), source.plane, occluders.plane(0)); };
+  const auto blocker = [&](const Rational& y, const Rational& x) {
+    return occluders.blocker(point(0, y, 0), point(x, y, 2), source.plane, occluders.plane(0));
+  };
   EXPECT_FALSE(blocker(-half, half));
   EXPECT_FALSE(blocker(-half, Rational(-half)));
   EXPECT_EQ(blocker(half, half), 1u);
   EXPECT_EQ(blocker(half, Rational(-half)), 1u);
-  EXPECT_EQ(blocker(0, half), 1u);  // on its edge
+  EXPECT_EQ(blocker(0, half), 1u);   // on its edge
   EXPECT_EQ(blocker(-half, 0), 1u);  // within its plane: not looked at further
 }
 

@@ -1,5 +1,5 @@
-// Plantinga's events against truths by construction, sightlines tested by brute force, the other engine, and hand-made places where edges meet.
-// SIGHTLINE_LONG: so many times the scenes, for a long run.
+// Plantinga's events against truths by construction, sightlines tested by brute force, the other engine, and hand-made
+// places where edges meet. SIGHTLINE_LONG: so many times the scenes, for a long run.
 
 #include "parallel_planes.h"
 
@@ -36,8 +36,11 @@ Weak_status by_events(const Weak_scene& scene, Face_id face, const Events_option
     if (answer.status == Weak_status::hidden) continue;
     status = answer.status;
     if (status == Weak_status::undecided) continue;
-    const weak_oracle::Sightline line{read.position(answer.sightline[0].exact), read.position(answer.sightline[1].exact)};
-    if (!options.two_sided) { EXPECT_TRUE(weak_oracle::proves_visible(flats, scene.source, face, line)) << scene.name << ", face " << face; }
+    const weak_oracle::Sightline line{read.position(answer.sightline[0].exact),
+                                      read.position(answer.sightline[1].exact)};
+    if (!options.two_sided) {
+      EXPECT_TRUE(weak_oracle::proves_visible(flats, scene.source, face, line)) << scene.name << ", face " << face;
+    }
     return status;
   }
   return status;
@@ -65,9 +68,11 @@ TEST_P(Event_families, are_all_decided_as_they_were_built) {
   EXPECT_GT(counters.targets, 0u);
   EXPECT_EQ(counters.refuted, 0u);  // a free cell has a sightline
 }
-INSTANTIATE_TEST_SUITE_P(All, Event_families, testing::Range(std::size_t{0}, event_families().size()), [](const auto& of) { return event_families()[of.param].name; });
+INSTANTIATE_TEST_SUITE_P(All, Event_families, testing::Range(std::size_t{0}, event_families().size()),
+                         [](const auto& of) { return event_families()[of.param].name; });
 
-/// All faces by both methods: the same wherever the search decides; its certificate is accepted, sightlines of events are tested by brute force.
+/// All faces by both methods: the same wherever the search decides; its certificate is accepted, sightlines of events
+/// are tested by brute force.
 TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
   const Family& family = event_families()[GetParam()];
   Event_counters counters;
@@ -84,7 +89,8 @@ TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
     lines.search.two_sided = events.two_sided = seed % 2 == 0;
     events.rays = 0, lines.search.cells = 2000;
     const Weakly_visible found = weakly_visible(occluders, {source}, lines);
-    const Verdict verdict = verify_weak(scene.soup, weak_certificate(read, {scene.source}, lines.search.two_sided, found));
+    const Verdict verdict =
+        verify_weak(scene.soup, weak_certificate(read, {scene.source}, lines.search.two_sided, found));
     EXPECT_TRUE(verdict.accepted) << scene.name << ": " << verdict.why;
     left += found.undecided.size(), visible += found.visible.size(), hidden += found.hidden.size();
     for (std::uint32_t piece = 0; piece < read.pieces().size(); ++piece) {
@@ -93,15 +99,21 @@ TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
       const Events_answer answer = weakly_visible_by_events(occluders, source, piece, events, counters);
       EXPECT_NE(answer.status, Weak_status::undecided) << scene.name << ", piece " << piece;
       const bool is_visible = std::binary_search(found.visible.begin(), found.visible.end(), face);
-      if (is_visible && first_pieces(read.pieces()).size() == read.pieces().size()) { EXPECT_EQ(answer.status, Weak_status::visible) << scene.name << ", piece " << piece; }
-      if (!is_visible) { EXPECT_EQ(answer.status, Weak_status::hidden) << scene.name << ", piece " << piece; }
+      if (is_visible && first_pieces(read.pieces()).size() == read.pieces().size()) {
+        EXPECT_EQ(answer.status, Weak_status::visible) << scene.name << ", piece " << piece;
+      }
+      if (!is_visible) {
+        EXPECT_EQ(answer.status, Weak_status::hidden) << scene.name << ", piece " << piece;
+      }
       if (answer.status != Weak_status::visible || events.two_sided) continue;
-      const weak_oracle::Sightline line{read.position(answer.sightline[0].exact), read.position(answer.sightline[1].exact)};
+      const weak_oracle::Sightline line{read.position(answer.sightline[0].exact),
+                                        read.position(answer.sightline[1].exact)};
       EXPECT_TRUE(weak_oracle::proves_visible(flats, scene.source, face, line)) << scene.name << ", face " << face;
     }
   }
   EXPECT_GT(visible + hidden, 0u);
-  RecordProperty("scenes", static_cast<int>(scenes)), RecordProperty("visible", static_cast<int>(visible)), RecordProperty("hidden", static_cast<int>(hidden)), RecordProperty("undecided_by_lines", static_cast<int>(left));
+  RecordProperty("scenes", static_cast<int>(scenes)), RecordProperty("visible", static_cast<int>(visible)),
+      RecordProperty("hidden", static_cast<int>(hidden)), RecordProperty("undecided_by_lines", static_cast<int>(left));
 }
 
 TEST(Events, see_the_same_from_source_to_target_as_back) {
@@ -138,8 +150,12 @@ TEST(Events, see_the_same_from_source_to_target_as_back) {
 
 TEST(Events, of_a_target_that_stands_on_the_source_show_it) {
   // All lines that touch the target's two free edges pass its apex; its third edge is in the source's plane.
-  const Weak_scene scene{"standing", weak_scenes::soup_of({{weak_scenes::at(-1, 2, 0), weak_scenes::at(1, 2, 0), weak_scenes::at(0, 2, 2)}}),
-                         {weak_scenes::at(-1, -1, 0), weak_scenes::at(1, -1, 0), weak_scenes::at(1, 1, 0), weak_scenes::at(-1, 1, 0)}, {0}, true};
+  const Weak_scene scene{
+      "standing",
+      weak_scenes::soup_of({{weak_scenes::at(-1, 2, 0), weak_scenes::at(1, 2, 0), weak_scenes::at(0, 2, 2)}}),
+      {weak_scenes::at(-1, -1, 0), weak_scenes::at(1, -1, 0), weak_scenes::at(1, 1, 0), weak_scenes::at(-1, 1, 0)},
+      {0},
+      true};
   Event_counters counters;
   Events_options options;
   options.rays = 0;
@@ -153,7 +169,8 @@ TEST(Events, keep_surfaces_from_source_to_target) {
   const Occluders occluders(read);
   Events_options options;
   options.rays = 0, options.surfaces = true;
-  const Weakly_visible_by_events found = weakly_visible_by_events(occluders, {weak_source(occluders, scene.source)}, options);
+  const Weakly_visible_by_events found =
+      weakly_visible_by_events(occluders, {weak_source(occluders, scene.source)}, options);
   EXPECT_EQ(found.visible.size() + found.hidden.size() + found.undecided.size(), read.counters().faces);
   EXPECT_EQ(found.sightlines.size(), found.visible.size());
   ASSERT_FALSE(found.surfaces.empty());
@@ -169,15 +186,18 @@ TEST(Events, keep_surfaces_from_source_to_target) {
 }
 
 TEST(Events, find_cells_that_are_ulps_wide) {
-  // Beside lines that nearly touch a regulus twice: planes of cells have thousands of bits there, and the first ways into them were longer than any step was short.
+  // Beside lines that nearly touch a regulus twice: planes of cells have thousands of bits there, and the first ways
+  // into them were longer than any step was short.
   constexpr std::size_t tangent = 8;
   for (const std::uint64_t seed : {22u, 35u, 38u}) {
     generate::Random random(64 * seed + tangent);
-    const weak_scenes::Draft draft = weak_scenes::drafters[tangent].draft(random, Rational(Integer(1), Integer(1) << 49));
+    const weak_scenes::Draft draft =
+        weak_scenes::drafters[tangent].draft(random, Rational(Integer(1), Integer(1) << 49));
     Weak_scene scene = weak_scenes::finished(draft, random);
     scene.name = "tangent " + std::to_string(seed);
     Event_counters counters;
-    for (Face_id face = 0; face < scene.soup.face_count(); ++face) EXPECT_NE(by_events(scene, face, {}, counters), Weak_status::undecided) << scene.name << ", face " << face;
+    for (Face_id face = 0; face < scene.soup.face_count(); ++face)
+      EXPECT_NE(by_events(scene, face, {}, counters), Weak_status::undecided) << scene.name << ", face " << face;
   }
 }
 
@@ -190,9 +210,11 @@ TEST(Events, beyond_the_budget_are_undecided) {
   EXPECT_LE(counters.horizon + counters.edge_vertex + counters.triple, 5u);
 }
 
-// ---- Cells beside events ------------------------------------------------------------------------------------------------------------------
+// ---- Cells beside events
+// ------------------------------------------------------------------------------------------------------------------
 
-/// The combinations of sides of touched lines that random lines near the event line have; and what the visit says they can have.
+/// The combinations of sides of touched lines that random lines near the event line have; and what the visit says they
+/// can have.
 template <class Visit_cells>
 void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_six*>& touched, Visit_cells visit_cells) {
   std::set<std::vector<int>> said, seen;
@@ -205,7 +227,8 @@ void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_si
   generate::Random random(1);
   for (int k = 0; k < 20000; ++k) {
     Event_move move;
-    for (Rational& x : move.first) x = Rational(static_cast<long>(random.between(-1000000, 1000000))) / (1ul << random.below(20));
+    for (Rational& x : move.first)
+      x = Rational(static_cast<long>(random.between(-1000000, 1000000))) / (1ul << random.below(20));
     const Exact_six line = moved(chart, move, Rational(1, 1ul << 40));
     std::vector<int> signs;
     for (const Exact_six* t : touched) signs.push_back(sgn(side(line, *t)));
@@ -218,13 +241,18 @@ void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_si
 TEST(Event_cells, around_three_skew_lines_are_all_eight) {
   const auto x = [](long a, long b, long c) { return Homogeneous{a, b, c, 1}; };
   // Lines x = k, z = k y of a hyperbolic paraboloid; the other ruling: y = c, z = c x. Event line y = 0.
-  const std::vector<Exact_six> lines{join(x(0, 0, 0), x(0, 1, 0)), join(x(1, 0, 0), x(1, 1, 1)), join(x(2, 0, 0), x(2, 1, 2)), join(x(3, 0, 0), x(3, 1, 3))};
+  const std::vector<Exact_six> lines{join(x(0, 0, 0), x(0, 1, 0)), join(x(1, 0, 0), x(1, 1, 1)),
+                                     join(x(2, 0, 0), x(2, 1, 2)), join(x(3, 0, 0), x(3, 1, 3))};
   const Event_chart chart{x(0, 0, 0), x(1, 0, 0), x(0, 1, 0), x(1, 1, 1)};
-  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) { return visit_cells_at_regulus(c, t, v); };
+  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) {
+    return visit_cells_at_regulus(c, t, v);
+  };
   std::size_t three = 0, four = 0;
   expect_all_cells(chart, {&lines[0], &lines[1], &lines[2]}, visit);
-  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2]}, [&](const auto&, const auto&) { return ++three, false; });
-  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2], &lines[3]}, [&](const auto&, const auto&) { return ++four, false; });
+  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2]},
+                         [&](const auto&, const auto&) { return ++three, false; });
+  visit_cells_at_regulus(chart, {&lines[0], &lines[1], &lines[2], &lines[3]},
+                         [&](const auto&, const auto&) { return ++four, false; });
   EXPECT_EQ(three, 8u);
   EXPECT_EQ(four, 14u);  // four planes through a point in general position
   expect_all_cells(chart, {&lines[0], &lines[1], &lines[2], &lines[3]}, visit);
@@ -243,22 +271,28 @@ TEST(Event_cells, around_three_skew_lines_are_all_eight) {
 
 TEST(Event_cells, around_a_pencil_reach_between_its_own_lines) {
   const auto x = [](long a, long b, long c) { return Homogeneous{a, b, c, 1}; };
-  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) { return visit_cells_at_pencil(c, t, v); };
+  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) {
+    return visit_cells_at_pencil(c, t, v);
+  };
   // Through the origin, in the plane y = 0; the event line is the z axis.
   const Event_chart chart{x(0, 0, 0), x(0, 0, 1), {1, 0, 0, 0}, {0, 1, 0, 0}};
-  const Exact_six star = join(x(0, 0, 0), x(1, 2, 3)), star_2 = join(x(0, 0, 0), x(2, -1, 1)), flat = join(x(0, 0, 3), x(1, 0, 5)), flat_2 = join(x(0, 0, -2), x(2, 0, -2)),
-                  own = join(x(0, 0, 0), x(1, 0, 1)), own_2 = join(x(0, 0, 0), x(1, 0, 2)), own_3 = join(x(0, 0, 0), x(-1, 0, 2));
+  const Exact_six star = join(x(0, 0, 0), x(1, 2, 3)), star_2 = join(x(0, 0, 0), x(2, -1, 1)),
+                  flat = join(x(0, 0, 3), x(1, 0, 5)), flat_2 = join(x(0, 0, -2), x(2, 0, -2)),
+                  own = join(x(0, 0, 0), x(1, 0, 1)), own_2 = join(x(0, 0, 0), x(1, 0, 2)),
+                  own_3 = join(x(0, 0, 0), x(-1, 0, 2));
   expect_all_cells(chart, {&star, &flat}, visit);
   expect_all_cells(chart, {&star, &star_2, &flat, &flat_2}, visit);
   expect_all_cells(chart, {&star, &flat, &own, &own_2}, visit);
   expect_all_cells(chart, {&star, &star_2, &flat, &flat_2, &own, &own_2, &own_3}, visit);
   // A line that pierces the plane between two lines of the pencil, near the event line: first order does not know it.
   std::set<std::vector<int>> cells;
-  visit_cells_at_pencil(chart, {&own, &own_2}, [&](const std::vector<int>& signs, const Event_move&) { return cells.insert(signs), false; });
+  visit_cells_at_pencil(chart, {&own, &own_2},
+                        [&](const std::vector<int>& signs, const Event_move&) { return cells.insert(signs), false; });
   EXPECT_EQ(cells.size(), 4u);
 }
 
-// ---- Roots -----------------------------------------------------------------------------------------------------------------------------------
+// ---- Roots
+// -----------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Quadratic_roots, compare_as_numbers_where_60_bits_do_not_tell) {
   // Roots 1/2 +- 2^-k sqrt(2), and neighbours: s^2 - s + 1/4 - 2^(1 - 2 k) = 0.

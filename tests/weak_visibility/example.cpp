@@ -22,11 +22,12 @@ TEST(Example, of_the_page_lights_a_floor_past_a_table) {
   sightline::Polygon_soup soup;
   const auto face = [&](double x0, double x1, double y0, double y1, double z) {  // looks up
     std::vector<sightline::Point_id> square;
-    for (const auto& [x, y] : {std::pair(x0, y0), std::pair(x1, y0), std::pair(x1, y1), std::pair(x0, y1)}) square.push_back(soup.add_point(x, y, z));
+    for (const auto& [x, y] : {std::pair(x0, y0), std::pair(x1, y0), std::pair(x1, y1), std::pair(x0, y1)})
+      square.push_back(soup.add_point(x, y, z));
     soup.add_face(square);
   };
-  face(-4, 4, -4, 4, 0);    // the floor
-  face(-1, 1, -1, 1, 2);    // a table
+  face(-4, 4, -4, 4, 0);              // the floor
+  face(-1, 1, -1, 1, 2);              // a table
   face(-0.25, 0.25, -0.25, 0.25, 1);  // a shelf below it, that the lamp does not reach
   std::ostringstream out;
   light(soup, {{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}}, out);  // looks down

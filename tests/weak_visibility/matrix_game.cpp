@@ -77,7 +77,8 @@ TEST(Basis, has_its_value_to_hundreds_of_bits_and_exactly_where_that_may_be_zero
   const auto solved_for = [](const Rational& e, std::vector<Rational>& weights) {
     const Rational a[2][2] = {{1, -1}, {-1, 1 + e}};
     Rational value;
-    EXPECT_TRUE(sightline::solve_basis({0, 1}, {0, 1}, [&](std::size_t row, std::size_t column) { return a[row][column]; }, weights, value));
+    EXPECT_TRUE(sightline::solve_basis(
+        {0, 1}, {0, 1}, [&](std::size_t row, std::size_t column) { return a[row][column]; }, weights, value));
     return value;
   };
   std::vector<Rational> weights;
@@ -97,9 +98,11 @@ TEST(Basis, has_its_value_to_hundreds_of_bits_and_exactly_where_that_may_be_zero
   // A weight that is zero stays so, where others are rounded.
   const Rational wide[2][2] = {{over(1, 3), over(1, 3)}, {1, 0}};
   Rational value;
-  ASSERT_TRUE(sightline::solve_basis({0, 1}, {0, 1}, [&](std::size_t row, std::size_t column) { return wide[row][column]; }, weights, value));
+  ASSERT_TRUE(sightline::solve_basis(
+      {0, 1}, {0, 1}, [&](std::size_t row, std::size_t column) { return wide[row][column]; }, weights, value));
   EXPECT_EQ(weights[1], 0);
-  EXPECT_FALSE(sightline::solve_basis({0, 1}, {0, 1}, [&](std::size_t, std::size_t) { return Rational(1); }, weights, value));
+  EXPECT_FALSE(sightline::solve_basis(
+      {0, 1}, {0, 1}, [&](std::size_t, std::size_t) { return Rational(1); }, weights, value));
 }
 
 }  // namespace

@@ -1,7 +1,9 @@
 #pragma once
-// Weak visibility with a known answer: source in z = 0, target in z = 1, convex occluders between in planes z = constant. A line is the pair (a, b) of its points at z = 0
-// and z = 1; at height z it is at (1 - z) a + z b. So the lines that an occluder blocks are a convex polytope in R^4, and the target is visible iff such polytopes do not
-// cover the polytope of all lines from source to target up to measure zero. `project` (scene.h) makes edges skew and planes cross, and keeps the truth.
+// Weak visibility with a known answer: source in z = 0, target in z = 1, convex occluders between in planes z =
+// constant. A line is the pair (a, b) of its points at z = 0 and z = 1; at height z it is at (1 - z) a + z b. So the
+// lines that an occluder blocks are a convex polytope in R^4, and the target is visible iff such polytopes do not cover
+// the polytope of all lines from source to target up to measure zero. `project` (scene.h) makes edges skew and planes
+// cross, and keeps the truth.
 
 #include "rays.h"
 
@@ -11,18 +13,21 @@ using weak_scenes::at;
 using weak_scenes::Faces;
 using weak_scenes::ratio;
 
-// ---- Linear programs -----------------------------------------------------------------------------------------------------------------------------
+// ---- Linear programs
+// -----------------------------------------------------------------------------------------------------------------------------
 
 struct Optimum {
   Rational value;
   std::vector<Rational> x;
 };
 
-/// The largest objective . x subject to rows x <= bounds and x >= 0, by the simplex method with Bland's rule, which ends. Pre: bounds >= 0; the optimum is finite,
-/// or std::domain_error. Exact: yes
-inline Optimum maximise(std::vector<std::vector<Rational>> rows, std::vector<Rational> bounds, std::vector<Rational> objective) {
+/// The largest objective . x subject to rows x <= bounds and x >= 0, by the simplex method with Bland's rule, which
+/// ends. Pre: bounds >= 0; the optimum is finite, or std::domain_error. Exact: yes
+inline Optimum maximise(std::vector<std::vector<Rational>> rows, std::vector<Rational> bounds,
+                        std::vector<Rational> objective) {
   const std::size_t m = rows.size(), n = objective.size();
-  // Variables 0 .. n - 1 are x, n .. n + m - 1 the slacks. The dictionary: basic[i] = bounds[i] - sum rows[i][j] free[j], value + sum objective[j] free[j].
+  // Variables 0 .. n - 1 are x, n .. n + m - 1 the slacks. The dictionary: basic[i] = bounds[i] - sum rows[i][j]
+  // free[j], value + sum objective[j] free[j].
   std::vector<std::size_t> basic(m), free(n);
   for (std::size_t i = 0; i < m; ++i) basic[i] = n + i;
   for (std::size_t j = 0; j < n; ++j) free[j] = j;
@@ -63,7 +68,8 @@ inline Optimum maximise(std::vector<std::vector<Rational>> rows, std::vector<Rat
   return optimum;
 }
 
-// ---- Lines as points of R^4 ------------------------------------------------------------------------------------------------------------------------
+// ---- Lines as points of R^4
+// ------------------------------------------------------------------------------------------------------------------------
 
 using Line_point = std::array<Rational, 4>;  ///< (a, b)
 
@@ -71,7 +77,9 @@ using Line_point = std::array<Rational, 4>;  ///< (a, b)
 struct Wall {
   Line_point normal;
   Rational offset;
-  Rational height(const Line_point& x) const { return Rational(normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] + normal[3] * x[3] - offset); }
+  Rational height(const Line_point& x) const {
+    return Rational(normal[0] * x[0] + normal[1] * x[1] + normal[2] * x[2] + normal[3] * x[3] - offset);
+  }
 };
 using Cell = std::vector<Wall>;
 inline Wall opposite(const Wall& wall) {
@@ -81,9 +89,12 @@ inline Wall opposite(const Wall& wall) {
 }
 
 /// direction . (the line's point at height z), as a form on lines.
-inline Line_point at_height(const Rational& z, const Rational& x, const Rational& y) { return {Rational((1 - z) * x), Rational((1 - z) * y), Rational(z * x), Rational(z * y)}; }
+inline Line_point at_height(const Rational& z, const Rational& x, const Rational& y) {
+  return {Rational((1 - z) * x), Rational((1 - z) * y), Rational(z * x), Rational(z * y)};
+}
 
-/// The lines that pass through the interior of a convex polygon in a plane z = constant. Pre: counterclockwise seen from above.
+/// The lines that pass through the interior of a convex polygon in a plane z = constant. Pre: counterclockwise seen
+/// from above.
 inline Cell lines_through(const Points& polygon) {
   Cell cell;
   for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -96,7 +107,8 @@ inline Cell lines_through(const Points& polygon) {
 
 /// A point strictly inside all walls, if there is one. Pre: the cell is bounded. Exact: yes
 inline std::optional<Line_point> inner_point(const Cell& cell) {
-  // x = x+ - x-, and a slack t - lift of all walls, as large as it can be up to 1; with lift, x = 0 and t = 0 satisfy all.
+  // x = x+ - x-, and a slack t - lift of all walls, as large as it can be up to 1; with lift, x = 0 and t = 0 satisfy
+  // all.
   Rational lift = 0;
   for (const Wall& wall : cell) lift = std::max(lift, wall.offset);
   std::vector<std::vector<Rational>> rows;
@@ -129,9 +141,11 @@ inline Rational supremum(const Cell& cell, const Line_point& inside, const Line_
   return Rational(maximise(rows, bounds, objective).value + Wall{form, 0}.height(inside));
 }
 
-// ---- Scenes -------------------------------------------------------------------------------------------------------------------------------------------
+// ---- Scenes
+// -------------------------------------------------------------------------------------------------------------------------------------------
 
-/// All polygons convex and counterclockwise seen from above: the source in z = 0, the target in z = 1, the occluders strictly between.
+/// All polygons convex and counterclockwise seen from above: the source in z = 0, the target in z = 1, the occluders
+/// strictly between.
 struct Parallel_scene {
   Points source, target;
   Faces occluders;
@@ -142,9 +156,10 @@ struct Free_cell {
   Line_point inside;
 };
 
-/// Appends cells with disjoint interiors, which together are the given one without the shadows from number `next` on, up to measure zero; stops at `most`.
-/// Cost: exponential in the shadows. Exact: yes
-inline void subtract(const std::vector<Cell>& shadows, std::size_t next, const Free_cell& from, std::size_t most, std::vector<Free_cell>& free) {
+/// Appends cells with disjoint interiors, which together are the given one without the shadows from number `next` on,
+/// up to measure zero; stops at `most`. Cost: exponential in the shadows. Exact: yes
+inline void subtract(const std::vector<Cell>& shadows, std::size_t next, const Free_cell& from, std::size_t most,
+                     std::vector<Free_cell>& free) {
   if (free.size() >= most) return;
   if (next == shadows.size()) {
     free.push_back(from);
@@ -157,9 +172,11 @@ inline void subtract(const std::vector<Cell>& shadows, std::size_t next, const F
   Cell cell = from.cell;
   for (const Wall& wall : shadows[next]) {
     cell.push_back(opposite(wall));
-    const std::optional<Line_point> inside = sgn(wall.height(from.inside)) < 0 && std::all_of(cell.begin(), cell.end(), [&](const Wall& w) { return sgn(w.height(from.inside)) > 0; })
-                                                 ? from.inside
-                                                 : inner_point(cell);
+    const std::optional<Line_point> inside =
+        sgn(wall.height(from.inside)) < 0 &&
+                std::all_of(cell.begin(), cell.end(), [&](const Wall& w) { return sgn(w.height(from.inside)) > 0; })
+            ? from.inside
+            : inner_point(cell);
     if (inside) subtract(shadows, next + 1, {cell, *inside}, most, free);
     cell.back() = wall;
   }
@@ -191,17 +208,22 @@ inline Weak_scene in_space(const Parallel_scene& scene, const std::string& name,
   return {name, weak_scenes::soup_of(faces), scene.source, {0}, truth};
 }
 
-// ---- From a seed -----------------------------------------------------------------------------------------------------------------------------------------
+// ---- From a seed
+// -----------------------------------------------------------------------------------------------------------------------------------------
 
 /// A triangle or parallelogram in the plane z, corners multiples of 1/2 about a centre in [-reach, reach]^2.
 inline Points random_convex(Random& random, const Rational& z, std::int64_t reach, std::int64_t size) {
   while (true) {
-    const Exact_point middle{ratio(random.between(-2 * reach, 2 * reach), 2), ratio(random.between(-2 * reach, 2 * reach), 2), z};
-    const auto vector = [&] { return Exact_point{ratio(random.between(-size, size), 2), ratio(random.between(-size, size), 2), 0}; };
+    const Exact_point middle{ratio(random.between(-2 * reach, 2 * reach), 2),
+                             ratio(random.between(-2 * reach, 2 * reach), 2), z};
+    const auto vector = [&] {
+      return Exact_point{ratio(random.between(-size, size), 2), ratio(random.between(-size, size), 2), 0};
+    };
     const Exact_point u = vector(), v = vector();
     const Rational area = cross(u, v)[2];
     if (sgn(area) == 0) continue;
-    Points points{along(along(middle, -1, u), -1, v), along(along(middle, 1, u), -1, v), along(along(middle, 1, u), 1, v), along(along(middle, -1, u), 1, v)};
+    Points points{along(along(middle, -1, u), -1, v), along(along(middle, 1, u), -1, v),
+                  along(along(middle, 1, u), 1, v), along(along(middle, -1, u), 1, v)};
     if (random.chance(1, 2)) points.erase(points.begin() + static_cast<std::ptrdiff_t>(random.below(4)));
     return sgn(area) > 0 ? points : weak_scenes::reversed(points);
   }
@@ -215,7 +237,8 @@ inline Parallel_scene random_parallel(Random& random, std::size_t occluders) {
   return scene;
 }
 
-/// The parallelogram in the plane z that just holds where all lines of the cells pass: between two lines along (x, y), and two across. `bounds` are those of
+/// The parallelogram in the plane z that just holds where all lines of the cells pass: between two lines along (x, y),
+/// and two across. `bounds` are those of
 /// +(-y, x), -(-y, x), +(x, y), -(x, y).
 struct Shutter {
   Rational z, x, y;
@@ -223,7 +246,9 @@ struct Shutter {
   Points polygon() const {
     // The point with n . p = s, m . p = t for n = (-y, x), m = (x, y).
     const Rational size = Rational(x * x + y * y);
-    const auto corner = [&](const Rational& s, const Rational& t) { return at(Rational((t * x - s * y) / size), Rational((s * x + t * y) / size), z); };
+    const auto corner = [&](const Rational& s, const Rational& t) {
+      return at(Rational((t * x - s * y) / size), Rational((s * x + t * y) / size), z);
+    };
     const Rational low_s = Rational(-bounds[1]), low_t = Rational(-bounds[3]);
     // n is m turned left: with m to the right, n points up.
     return {corner(low_s, low_t), corner(low_s, bounds[2]), corner(bounds[0], bounds[2]), corner(bounds[0], low_t)};
@@ -235,8 +260,9 @@ inline Shutter shutter(const std::vector<Free_cell>& free, Random& random) {
     result.x = static_cast<long>(random.between(-2, 2));
     result.y = static_cast<long>(random.between(-2, 2));
   }
-  const std::array<Line_point, 4> forms{at_height(result.z, Rational(-result.y), result.x), at_height(result.z, result.y, Rational(-result.x)),
-                                        at_height(result.z, result.x, result.y), at_height(result.z, Rational(-result.x), Rational(-result.y))};
+  const std::array<Line_point, 4> forms{
+      at_height(result.z, Rational(-result.y), result.x), at_height(result.z, result.y, Rational(-result.x)),
+      at_height(result.z, result.x, result.y), at_height(result.z, Rational(-result.x), Rational(-result.y))};
   for (std::size_t k = 0; k < 4; ++k)
     for (std::size_t i = 0; i < free.size(); ++i) {
       const Rational bound = supremum(free[i].cell, free[i].inside, forms[k]);
@@ -245,8 +271,9 @@ inline Shutter shutter(const std::vector<Free_cell>& free, Random& random) {
   return result;
 }
 
-/// One scene closed by a shutter that only just holds all lines that were free, in two parts that only touch, so hidden; and the same with a side of the shutter
-/// moved in by 2^-40, so visible: free lines come as near to that side as one likes. Those extreme lines touch other occluders, up to four edges in all.
+/// One scene closed by a shutter that only just holds all lines that were free, in two parts that only touch, so
+/// hidden; and the same with a side of the shutter moved in by 2^-40, so visible: free lines come as near to that side
+/// as one likes. Those extreme lines touch other occluders, up to four edges in all.
 struct Closed_and_reopened {
   Parallel_scene closed, reopened;
 };
@@ -282,7 +309,8 @@ inline Closed_and_reopened closed_and_reopened(std::uint64_t seed) {
   }
 }
 
-/// In space, half of them under a random projective map: seeds 3 k, 3 k + 1, 3 k + 2 are a closed scene, the same reopened, and one of random occluders.
+/// In space, half of them under a random projective map: seeds 3 k, 3 k + 1, 3 k + 2 are a closed scene, the same
+/// reopened, and one of random occluders.
 inline Weak_scene parallel_planes_scene(std::uint64_t seed) {
   const std::string name = "parallel_planes " + std::to_string(seed);
   Random random(seed / 3);

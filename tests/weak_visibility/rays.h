@@ -1,5 +1,6 @@
 #pragma once
-// Weak visibility by brute force: exact tests of random sightlines. One that passes is a proof; that none does says nothing.
+// Weak visibility by brute force: exact tests of random sightlines. One that passes is a proof; that none does says
+// nothing.
 
 #include "scenes.h"
 
@@ -33,19 +34,22 @@ struct Sightline {
   Exact_point p, q;
 };
 
-/// Whether a pair shows that a face is weakly visible, all pairs near it being sightlines too: p strictly in front of one of its pieces, q, strictly in front of the
-/// source, within that piece, no piece on the open segment, and through p or q no piece in a plane other than the source's or the target's.
-/// Degenerate: grazing is blocked. Exact: yes
+/// Whether a pair shows that a face is weakly visible, all pairs near it being sightlines too: p strictly in front of
+/// one of its pieces, q, strictly in front of the source, within that piece, no piece on the open segment, and through
+/// p or q no piece in a plane other than the source's or the target's. Degenerate: grazing is blocked. Exact: yes
 inline bool proves_visible(const Flats& flats, const Points& source, Face_id target, const Sightline& line) {
   const Half_space from = plane_of(source);
   const Exact_point &p = line.p, &q = line.q;
   if (sgn(from.height(p)) != 0 || oracle::holds(source, from.normal, p) <= 0 || sgn(from.height(q)) <= 0) return false;
-  const auto ends_on = [&](const Flat& piece) { return piece.face == target && sgn(piece.height(q)) == 0 && piece.holds(q) > 0 && sgn(piece.height(p)) > 0; };
+  const auto ends_on = [&](const Flat& piece) {
+    return piece.face == target && sgn(piece.height(q)) == 0 && piece.holds(q) > 0 && sgn(piece.height(p)) > 0;
+  };
   const auto end = std::find_if(flats.begin(), flats.end(), ends_on);
   if (end == flats.end()) return false;
   return std::none_of(flats.begin(), flats.end(), [&](const Flat& piece) {
     if (lies_in(piece.corners, from) || lies_in(piece.corners, end->plane)) return false;
-    const bool through_p = sgn(piece.height(p)) == 0 && piece.holds(p) >= 0, through_q = sgn(piece.height(q)) == 0 && piece.holds(q) >= 0;
+    const bool through_p = sgn(piece.height(p)) == 0 && piece.holds(p) >= 0,
+               through_q = sgn(piece.height(q)) == 0 && piece.holds(q) >= 0;
     return through_p || through_q || oracle::blocks(piece, p, q);
   });
 }
@@ -63,7 +67,8 @@ inline Exact_point random_inner_point(const Points& polygon, Random& random) {
 }
 
 /// A sightline that proves the target visible, if one of so many random pairs does. Cost: O(tries x pieces). Exact: yes
-inline std::optional<Sightline> find_sightline(const Flats& flats, const Points& source, Face_id target, std::size_t tries, Random& random) {
+inline std::optional<Sightline> find_sightline(const Flats& flats, const Points& source, Face_id target,
+                                               std::size_t tries, Random& random) {
   std::vector<const Flat*> pieces;
   for (const Flat& flat : flats)
     if (flat.face == target) pieces.push_back(&flat);
@@ -74,7 +79,8 @@ inline std::optional<Sightline> find_sightline(const Flats& flats, const Points&
   }
   return std::nullopt;
 }
-inline std::optional<Sightline> find_sightline(const Weak_scene& scene, Face_id target, std::size_t tries, std::uint64_t seed) {
+inline std::optional<Sightline> find_sightline(const Weak_scene& scene, Face_id target, std::size_t tries,
+                                               std::uint64_t seed) {
   Random random(seed);
   return find_sightline(oracle::flats_of(sightline::Scene(scene.soup)), scene.source, target, tries, random);
 }

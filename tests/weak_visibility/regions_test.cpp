@@ -1,5 +1,5 @@
-// Around the search: quick answers that leave out nothing, what it leaves open and events decide, surfaces of events, and solids that look.
-// SIGHTLINE_LONG: so many times the scenes, for a long run.
+// Around the search: quick answers that leave out nothing, what it leaves open and events decide, surfaces of events,
+// and solids that look. SIGHTLINE_LONG: so many times the scenes, for a long run.
 
 #include "rays.h"
 #include "scenes.h"
@@ -23,9 +23,12 @@ using weak_scenes::rectangle;
 using weak_scenes::reversed;
 using weak_scenes::Weak_scene;
 
-bool contains(const std::vector<Face_id>& faces, Face_id face) { return std::binary_search(faces.begin(), faces.end(), face); }
+bool contains(const std::vector<Face_id>& faces, Face_id face) {
+  return std::binary_search(faces.begin(), faces.end(), face);
+}
 
-// ---- Conservative ---------------------------------------------------------------------------------------------------------------------------
+// ---- Conservative
+// ---------------------------------------------------------------------------------------------------------------------------
 
 TEST(Conservative, leaves_out_nothing_that_is_visible_and_proves_what_it_hides) {
   std::size_t hidden = 0, too_many = 0;
@@ -39,11 +42,13 @@ TEST(Conservative, leaves_out_nothing_that_is_visible_and_proves_what_it_hides) 
       options.two_sided = seed % 2 == 1;
       const Weakly_visible quick = possibly_visible(occluders, sources, options);
       EXPECT_EQ(quick.visible.size() + quick.hidden.size(), read.counters().faces) << scene.name;
-      for (const Face_id target : scene.targets) EXPECT_TRUE(scene.truth != true || contains(quick.visible, target)) << scene.name;
+      for (const Face_id target : scene.targets)
+        EXPECT_TRUE(scene.truth != true || contains(quick.visible, target)) << scene.name;
       Weak_options lines;
       lines.search.two_sided = options.two_sided, lines.search.cells = 500;
       const Weakly_visible exact = weakly_visible(occluders, sources, lines);
-      for (const Face_id face : exact.visible) EXPECT_TRUE(contains(quick.visible, face)) << scene.name << ", face " << face;
+      for (const Face_id face : exact.visible)
+        EXPECT_TRUE(contains(quick.visible, face)) << scene.name << ", face " << face;
       const Verdict verdict = verify_weak(scene.soup, weak_certificate(read, {scene.source}, options.two_sided, quick));
       EXPECT_TRUE(verdict.accepted) << scene.name << ": " << verdict.why;
       hidden += quick.hidden.size();
@@ -72,8 +77,10 @@ TEST(Conservative, hides_what_one_piece_hides_and_not_what_two_do) {
 }
 
 TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_other) {
-  // The target stands upright through the source's plane: only its upper half counts, and that is behind a screen that the lower half would look past.
-  const Points source = rectangle(-1, 1, -1, 1, 0), target{at(3, -1, -9), at(3, -1, 1), at(3, 1, 1), at(3, 1, -9)}, screen{at(2, -3, 0), at(2, 3, 0), at(2, 3, 3), at(2, -3, 3)};
+  // The target stands upright through the source's plane: only its upper half counts, and that is behind a screen that
+  // the lower half would look past.
+  const Points source = rectangle(-1, 1, -1, 1, 0), target{at(3, -1, -9), at(3, -1, 1), at(3, 1, 1), at(3, 1, -9)},
+               screen{at(2, -3, 0), at(2, 3, 0), at(2, 3, 3), at(2, -3, 3)};
   for (const bool turned : {false, true}) {
     const Polygon_soup soup = generate::soup_of({turned ? reversed(target) : target, screen});
     const Scene scene(soup);
@@ -88,9 +95,13 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
   const Scene floor(generate::soup_of({rectangle(2, 3, -1, 1, 0)}));
   const Occluders in_plane(floor);
   EXPECT_TRUE(contains(possibly_visible(in_plane, {weak_source(in_plane, source)}).hidden, 0));
-  // The source crosses the target's plane: one of its parts looks at the back. The cover leaves room below the roof; the screen is in the way of both parts.
-  const Points across{at(0, 1, -1), at(0, 1, 5), at(0, -1, 5), at(0, -1, -1)}, roof = reversed(rectangle(1, 3, -1, 1, 4));
-  const Points cover = rectangle(Rational(1, 2), 4, -4, 4, 3), upright{at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 9), at(Rational(1, 2), 4, 9), at(Rational(1, 2), 4, -2)};
+  // The source crosses the target's plane: one of its parts looks at the back. The cover leaves room below the roof;
+  // the screen is in the way of both parts.
+  const Points across{at(0, 1, -1), at(0, 1, 5), at(0, -1, 5), at(0, -1, -1)},
+      roof = reversed(rectangle(1, 3, -1, 1, 4));
+  const Points cover = rectangle(Rational(1, 2), 4, -4, 4, 3),
+               upright{at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 9), at(Rational(1, 2), 4, 9),
+                       at(Rational(1, 2), 4, -2)};
   for (const bool two_sided : {false, true})
     for (const Points& before : {cover, upright}) {
       const Polygon_soup soup = generate::soup_of({roof, before});
@@ -103,7 +114,9 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
       EXPECT_TRUE(verify_weak(soup, weak_certificate(scene, {across}, two_sided, quick)).accepted);
     }
   // A screen up to the roof's plane is in the way of the part below it, not of the other one.
-  const Scene low(generate::soup_of({roof, {at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 4), at(Rational(1, 2), 4, 4), at(Rational(1, 2), 4, -2)}}));
+  const Scene low(generate::soup_of(
+      {roof,
+       {at(Rational(1, 2), -4, -2), at(Rational(1, 2), -4, 4), at(Rational(1, 2), 4, 4), at(Rational(1, 2), 4, -2)}}));
   const Occluders below(low);
   for (const bool two_sided : {false, true}) {
     Conservative_options options;
@@ -112,7 +125,8 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
   }
 }
 
-// ---- What the search leaves open --------------------------------------------------------------------------------------------------------------
+// ---- What the search leaves open
+// --------------------------------------------------------------------------------------------------------------
 
 const weak_scenes::Family& family_called(const std::string& name) {
   for (const weak_scenes::Family& family : weak_scenes::families())
@@ -129,7 +143,8 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
       const Occluders occluders(read);
       const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
       Weak_options lines;
-      lines.search.cells = seed % 2 == 0 ? 100 : 1, lines.search.rays = 0;  // so few cells that there is something to do, also where faces are visible
+      lines.search.cells = seed % 2 == 0 ? 100 : 1,
+      lines.search.rays = 0;  // so few cells that there is something to do, also where faces are visible
       Weakly_visible found = weakly_visible(occluders, sources, lines);
       const Weakly_visible before = found;
       settle_by_events(occluders, sources, 0, {}, found);  // no edges allowed: as it was
@@ -139,8 +154,11 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
       EXPECT_TRUE(found.undecided.empty() && found.open.empty()) << scene.name;
       EXPECT_EQ(found.visible.size() + found.hidden.size(), read.counters().faces) << scene.name;
       EXPECT_GE(counters.targets, before.undecided.size());
-      EXPECT_TRUE(std::is_sorted(found.pairs.begin(), found.pairs.end(), [](const auto& a, const auto& b) { return a.piece < b.piece; })) << scene.name;
-      for (const Face_id target : scene.targets) EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << scene.name;
+      EXPECT_TRUE(std::is_sorted(found.pairs.begin(), found.pairs.end(), [](const auto& a, const auto& b) {
+        return a.piece < b.piece;
+      })) << scene.name;
+      for (const Face_id target : scene.targets)
+        EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << scene.name;
       for (const Face_id face : before.undecided) {
         EXPECT_EQ(contains(found.hidden, face), contains(found.unproved, face)) << scene.name;
         ++(contains(found.visible, face) ? visible : settled);
@@ -155,12 +173,14 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
 }
 
 TEST(Settled_by_events, come_soon_where_edges_are_ulps_beside_a_degeneracy) {
-  // Exactly concurrent, or on one regulus, they have short proofs; so close to that no proof is found, and each cell that stays open would be one of thousands.
+  // Exactly concurrent, or on one regulus, they have short proofs; so close to that no proof is found, and each cell
+  // that stays open would be one of thousands.
   std::size_t settled = 0;
   for (const std::size_t which : {5u, 6u, 7u, 10u})
     for (std::uint64_t seed = 0; seed < weak_scenes::seeds(12); ++seed) {
       Random random(seed);
-      const weak_scenes::Draft draft = weak_scenes::drafters[which].draft(random, Rational(Integer(3), Integer(1) << 49));
+      const weak_scenes::Draft draft =
+          weak_scenes::drafters[which].draft(random, Rational(Integer(3), Integer(1) << 49));
       const Weak_scene scene = weak_scenes::finished(draft, random);
       const std::string name = std::string(weak_scenes::drafters[which].name) + ' ' + std::to_string(seed);
       const Scene read(scene.soup);
@@ -171,7 +191,8 @@ TEST(Settled_by_events, come_soon_where_edges_are_ulps_beside_a_degeneracy) {
       settled += found.undecided.size();
       settle_by_events(occluders, sources, 300, {}, found);
       EXPECT_TRUE(found.undecided.empty()) << name;
-      for (const Face_id target : scene.targets) EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << name;
+      for (const Face_id target : scene.targets)
+        EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << name;
     }
   EXPECT_GE(settled, 2u);
 }
@@ -181,7 +202,8 @@ TEST(Settled_by_events, are_pairs_with_as_many_edges_as_allowed_and_one_that_is_
   const Points target = reversed(rectangle(-2, 2, -2, 2, 4));
   const Scene read(generate::soup_of({target, rectangle(-4, 0, -2, 2, 2), rectangle(0, 4, -2, 2, 2)}));
   const Occluders occluders(read);
-  const std::vector<Weak_source> sources{weak_source(occluders, rectangle(-1, 1, -1, 1, 0)), weak_source(occluders, rectangle(20, 21, -1, 1, 3))};
+  const std::vector<Weak_source> sources{weak_source(occluders, rectangle(-1, 1, -1, 1, 0)),
+                                         weak_source(occluders, rectangle(20, 21, -1, 1, 3))};
   Weak_options lines;
   lines.search.cells = 0, lines.search.rays = 0;  // all is left open
   const Weakly_visible open = weakly_visible(occluders, sources, lines);
@@ -227,19 +249,26 @@ TEST(Open_cells, hold_each_sightline_that_the_search_stopped_short_of) {
       for (const Weakly_visible::Pair& open : stopped.open)
         for (const Weakly_visible::Pair& seen : whole.pairs) {
           if (seen.piece != open.piece || seen.answer.status != Weak_status::visible) continue;
-          const Exact_point p = read.position(seen.answer.sightline[0].exact), q = read.position(seen.answer.sightline[1].exact);
+          const Exact_point p = read.position(seen.answer.sightline[0].exact),
+                            q = read.position(seen.answer.sightline[1].exact);
           std::size_t cells = 0;
           const std::vector<Open_cell> all = open_cells(occluders, source, open, 1000);
           for (const Open_cell& cell : all) {
-            bool inside = oracle::holds(cell.source, from.normal, p) >= 0 && oracle::holds(cell.target, flats[open.piece].plane.normal, q) >= 0;
+            bool inside = oracle::holds(cell.source, from.normal, p) >= 0 &&
+                          oracle::holds(cell.target, flats[open.piece].plane.normal, q) >= 0;
             for (const Open_cell::Side& side : cell.sides) {
               const Points& corners = flats[side.edge.piece].corners;
-              inside = inside && side_of_line(p, q, corners[side.edge.corner], corners[(side.edge.corner + 1) % corners.size()]) * side.sign >= 0;
+              inside = inside &&
+                       side_of_line(p, q, corners[side.edge.corner], corners[(side.edge.corner + 1) % corners.size()]) *
+                               side.sign >=
+                           0;
             }
             cells += inside;
           }
           EXPECT_EQ(cells, 1u) << scene.name << ", piece " << open.piece;
-          with_cuts += std::any_of(open.answer.proof.begin(), open.answer.proof.end(), [](const Weak_step& step) { return step.kind == Weak_step::Kind::cut_source || step.kind == Weak_step::Kind::cut_target; });
+          with_cuts += std::any_of(open.answer.proof.begin(), open.answer.proof.end(), [](const Weak_step& step) {
+            return step.kind == Weak_step::Kind::cut_source || step.kind == Weak_step::Kind::cut_target;
+          });
           EXPECT_EQ(open_cells(occluders, source, open, 1).size(), 1u);
           ++held;
         }
@@ -248,16 +277,23 @@ TEST(Open_cells, hold_each_sightline_that_the_search_stopped_short_of) {
   EXPECT_GT(with_cuts, 2u);
 }
 
-// ---- Surfaces of events -------------------------------------------------------------------------------------------------------------------------
+// ---- Surfaces of events
+// -------------------------------------------------------------------------------------------------------------------------
 
 TEST(Event_surfaces, are_kept_for_faces_that_are_visible_too_and_touch_edges) {
   // A plate over a part of the shaft.
-  const Weak_scene scene{"half", generate::soup_of({reversed(rectangle(-1, 1, -1, 1, 2)), rectangle(Rational(1, 2), 3, -3, 3, 1)}), rectangle(-1, 1, -1, 1, 0), {0}, true};
+  const Weak_scene scene{
+      "half",
+      generate::soup_of({reversed(rectangle(-1, 1, -1, 1, 2)), rectangle(Rational(1, 2), 3, -3, 3, 1)}),
+      rectangle(-1, 1, -1, 1, 0),
+      {0},
+      true};
   const Scene read(scene.soup);
   const Occluders occluders(read);
   Events_options options;
   options.surfaces = true;
-  const Weakly_visible_by_events found = weakly_visible_by_events(occluders, {weak_source(occluders, scene.source)}, options);
+  const Weakly_visible_by_events found =
+      weakly_visible_by_events(occluders, {weak_source(occluders, scene.source)}, options);
   EXPECT_EQ(found.visible, (std::vector<Face_id>{0}));  // the plate is seen from behind
   std::vector<std::array<Exact_point, 2>> edges;
   const auto add_edges = [&](const Points& polygon) {
@@ -283,9 +319,13 @@ TEST(Event_surfaces, are_kept_for_faces_that_are_visible_too_and_touch_edges) {
   EXPECT_GT(by_plate, 1u);
 }
 
-// ---- Solids that look ------------------------------------------------------------------------------------------------------------------------------
+// ---- Solids that look
+// ------------------------------------------------------------------------------------------------------------------------------
 
-Faces box(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z0, const Rational& z1) { return generate::box(at(x0, y0, z0), at(x1, y1, z1)); }
+Faces box(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z0,
+          const Rational& z1) {
+  return generate::box(at(x0, y0, z0), at(x1, y1, z1));
+}
 Faces turned(Faces faces) {
   for (Points& face : faces) face = reversed(face);
   return faces;
@@ -310,7 +350,8 @@ Seen seen_from(const Faces& solid, const Faces& faces, bool two_sided = false) {
   options.search.two_sided = two_sided;
   Seen seen{weakly_visible(occluders, sources, options), {}};
   seen.within = add_seen_from_within(scene, volume, two_sided, seen.answer);
-  EXPECT_EQ(seen.answer.visible.size() + seen.answer.hidden.size() + seen.answer.undecided.size(), scene.counters().faces);
+  EXPECT_EQ(seen.answer.visible.size() + seen.answer.hidden.size() + seen.answer.undecided.size(),
+            scene.counters().faces);
   const Verdict verdict = verify_weak(soup, weak_certificate(scene, volume.surface(), two_sided, seen.answer));
   EXPECT_TRUE(verdict.accepted) << verdict.why;
   EXPECT_EQ(seen.answer.unproved, seen.within);
@@ -326,8 +367,12 @@ TEST(Volume, in_a_room_sees_its_walls_whichever_way_its_own_fronts_look) {
     EXPECT_TRUE(seen.within.empty());
     const Weak_volume volume(generate::soup_of(faces));
     EXPECT_EQ(volume.surface().size(), 6u);
-    for (const Points& part : volume.surface()) EXPECT_LT(weak_oracle::plane_of(part).height(at(Rational(3, 2), Rational(3, 2), Rational(3, 2))), 0) << "looks inwards";
-    EXPECT_TRUE(volume.sees_from_within(rectangle(Rational(5, 4), 3, Rational(5, 4), Rational(7, 4), Rational(3, 2)), false)) << "a part of it is in the solid";
+    for (const Points& part : volume.surface())
+      EXPECT_LT(weak_oracle::plane_of(part).height(at(Rational(3, 2), Rational(3, 2), Rational(3, 2))), 0)
+          << "looks inwards";
+    EXPECT_TRUE(
+        volume.sees_from_within(rectangle(Rational(5, 4), 3, Rational(5, 4), Rational(7, 4), Rational(3, 2)), false))
+        << "a part of it is in the solid";
   }
   EXPECT_TRUE(seen_from(solid, box(0, 4, 0, 4, 0, 4)).answer.visible.empty());  // their fronts look away
   EXPECT_EQ(seen_from(solid, box(0, 4, 0, 4, 0, 4), true).answer.visible.size(), 6u);
@@ -335,9 +380,13 @@ TEST(Volume, in_a_room_sees_its_walls_whichever_way_its_own_fronts_look) {
 
 TEST(Volume, sees_from_within_what_passes_through_it_and_what_lies_in_its_surface_and_looks_in) {
   const Faces solid = box(0, 2, 0, 2, 0, 2);
-  const Points inside = rectangle(Rational(1, 2), 1, Rational(1, 2), 1, 1), through = rectangle(1, 9, 1, 9, 1), bottom = rectangle(0, 1, 0, 1, 0), beside = rectangle(2, 3, 0, 1, 0), touching = rectangle(0, 2, 0, 2, 2);
-  const Seen seen = seen_from(solid, {inside, through, bottom, beside, touching, reversed(rectangle(5, 6, 5, 6, 2)), rectangle(0, 1, 0, 1, -1)});
-  // `through` and `beside` are seen from the side as well. `touching` looks up from the top, which looks up too. `bottom` does not hide what is below it.
+  const Points inside = rectangle(Rational(1, 2), 1, Rational(1, 2), 1, 1), through = rectangle(1, 9, 1, 9, 1),
+               bottom = rectangle(0, 1, 0, 1, 0), beside = rectangle(2, 3, 0, 1, 0),
+               touching = rectangle(0, 2, 0, 2, 2);
+  const Seen seen = seen_from(solid, {inside, through, bottom, beside, touching, reversed(rectangle(5, 6, 5, 6, 2)),
+                                      rectangle(0, 1, 0, 1, -1)});
+  // `through` and `beside` are seen from the side as well. `touching` looks up from the top, which looks up too.
+  // `bottom` does not hide what is below it.
   EXPECT_EQ(seen.within, (Ids{0, 2}));
   EXPECT_EQ(seen.answer.visible, (Ids{0, 1, 2, 3, 5, 6}));
   const Seen both = seen_from(solid, {inside, through, bottom, beside, touching, reversed(bottom)}, true);
@@ -348,19 +397,25 @@ TEST(Volume, sees_from_within_what_passes_through_it_and_what_lies_in_its_surfac
 TEST(Volume, that_is_concave_or_hollow_has_its_inside_where_its_faces_wind_around_it) {
   // An L: [0, 3] x [0, 3] less [1, 3] x [1, 3], of height 1, from two boxes that share a face, and with a cavity.
   const Faces ell = joined(box(0, 3, 0, 1, 0, 1), box(0, 1, 1, 3, 0, 1));
-  const Points in_notch = rectangle(2, Rational(5, 2), 2, Rational(5, 2), Rational(1, 2)), in_foot = rectangle(2, Rational(5, 2), Rational(1, 4), Rational(1, 2), Rational(1, 2)), in_seam = rectangle(Rational(1, 4), Rational(1, 2), Rational(1, 2), Rational(3, 2), Rational(1, 2));
+  const Points in_notch = rectangle(2, Rational(5, 2), 2, Rational(5, 2), Rational(1, 2)),
+               in_foot = rectangle(2, Rational(5, 2), Rational(1, 4), Rational(1, 2), Rational(1, 2)),
+               in_seam = rectangle(Rational(1, 4), Rational(1, 2), Rational(1, 2), Rational(3, 2), Rational(1, 2));
   EXPECT_EQ(seen_from(ell, {in_notch, in_foot, in_seam}).answer.visible, (Ids{0, 1, 2}));
   const Weak_volume volume(generate::soup_of(ell));
   EXPECT_FALSE(volume.sees_from_within(in_notch, false) || volume.sees_from_within(in_notch, true));
-  EXPECT_TRUE(volume.sees_from_within(in_foot, false) && volume.sees_from_within(in_foot, true) && volume.sees_from_within(in_seam, false));
-  // The shared face has the inside on both sides, but for what of it is no part of the other box: two of its three units.
+  EXPECT_TRUE(volume.sees_from_within(in_foot, false) && volume.sees_from_within(in_foot, true) &&
+              volume.sees_from_within(in_seam, false));
+  // The shared face has the inside on both sides, but for what of it is no part of the other box: two of its three
+  // units.
   Rational shared = 0;
   for (const Points& part : volume.surface())
-    if (std::all_of(part.begin(), part.end(), [](const Exact_point& p) { return p[1] == 1; })) shared += oracle::projected_area(part, at(0, 1, 0));
+    if (std::all_of(part.begin(), part.end(), [](const Exact_point& p) { return p[1] == 1; }))
+      shared += oracle::projected_area(part, at(0, 1, 0));
   EXPECT_EQ(shared, 2);
 
   const Faces hollow = joined(box(0, 9, 0, 9, 0, 9), turned(box(3, 6, 3, 6, 3, 6)));
-  const Faces faces{rectangle(4, 5, 4, 5, 4), rectangle(1, 2, 1, 2, 1), rectangle(4, 5, 4, 5, 6), reversed(rectangle(4, 5, 4, 5, 6))};
+  const Faces faces{rectangle(4, 5, 4, 5, 4), rectangle(1, 2, 1, 2, 1), rectangle(4, 5, 4, 5, 6),
+                    reversed(rectangle(4, 5, 4, 5, 6))};
   const Seen around = seen_from(hollow, faces);
   EXPECT_EQ(around.within, (Ids{2}));                   // in the cavity's ceiling, looks up, into the solid
   EXPECT_EQ(around.answer.visible, (Ids{0, 1, 2, 3}));  // the cavity's walls look into it, and on through the solid
@@ -373,7 +428,8 @@ TEST(Volume, sees_exactly_what_random_points_of_its_inside_see_or_sightlines_fro
     Faces faces;
     generate::add_any(faces, 12, random);
     for (int k = 0; k < 2; ++k) faces.push_back(generate::any_face(random, 1));  // in it
-    const Rational low = Rational(-2) + weak_scenes::ratio(static_cast<long>(random.below(7)), 13), high = low + Rational(23, 7);  // off the lattice that faces are on
+    const Rational low = Rational(-2) + weak_scenes::ratio(static_cast<long>(random.below(7)), 13),
+                   high = low + Rational(23, 7);  // off the lattice that faces are on
     const Faces solid = box(low, high, low, high, low, high);
     const Polygon_soup soup = generate::soup_of(faces);
     const Scene scene(soup);
@@ -393,12 +449,17 @@ TEST(Volume, sees_exactly_what_random_points_of_its_inside_see_or_sightlines_fro
     // Sightlines from its surface go on into it.
     for (const Weakly_visible::Pair& pair : seen.answer.pairs) {
       if (pair.answer.status != Weak_status::visible) continue;
-      const Exact_point p = scene.position(pair.answer.sightline[0].exact), q = scene.position(pair.answer.sightline[1].exact);
+      const Exact_point p = scene.position(pair.answer.sightline[0].exact),
+                        q = scene.position(pair.answer.sightline[1].exact);
       Rational step(-1);
       Exact_point inner;
-      const auto is_inside = [&] { return std::all_of(inner.begin(), inner.end(), [&](const Rational& x) { return x > low && x < high; }); };
+      const auto is_inside = [&] {
+        return std::all_of(inner.begin(), inner.end(), [&](const Rational& x) { return x > low && x < high; });
+      };
       for (int k = 0; k < 60; ++k, step /= 2)
-        if (inner = weak_oracle::along(p, step, weak_oracle::minus(q, p)); is_inside() && oracle::is_sightline(flats, inner, q)) break;
+        if (inner = weak_oracle::along(p, step, weak_oracle::minus(q, p));
+            is_inside() && oracle::is_sightline(flats, inner, q))
+          break;
       EXPECT_TRUE(is_inside() && oracle::is_sightline(flats, inner, q)) << "seed " << seed << ", piece " << pair.piece;
       ++by_sightlines;
     }
@@ -410,7 +471,8 @@ TEST(Volume, sees_exactly_what_random_points_of_its_inside_see_or_sightlines_fro
 
 TEST(Volume, settles_what_it_sees_from_within_and_leaves_no_pairs_of_it_open) {
   const Weak_volume volume(generate::soup_of(box(0, 3, 0, 3, 0, 3)));
-  const Scene scene(generate::soup_of({{at(1, 1, 1), at(2, 1, 1), at(2, 1, 9), at(1, 1, 9)}, reversed(rectangle(1, 2, 1, 2, 9))}));  // the first one stands in it
+  const Scene scene(generate::soup_of({{at(1, 1, 1), at(2, 1, 1), at(2, 1, 9), at(1, 1, 9)},
+                                       reversed(rectangle(1, 2, 1, 2, 9))}));  // the first one stands in it
   const Occluders occluders(scene);
   std::vector<Weak_source> sources;
   for (const Points& part : volume.surface()) sources.push_back(weak_source(occluders, part));
@@ -439,7 +501,8 @@ TEST(Volume, that_bounds_nothing_is_refused_with_advice) {
   one_turned[2] = reversed(one_turned[2]);
   EXPECT_NE(refused(one_turned).find("do not close up"), std::string::npos);
   EXPECT_NE(refused({}).find("no faces"), std::string::npos);
-  EXPECT_NE(refused({rectangle(0, 1, 0, 1, 0), reversed(rectangle(0, 1, 0, 1, 0))}).find("enclose nothing"), std::string::npos);
+  EXPECT_NE(refused({rectangle(0, 1, 0, 1, 0), reversed(rectangle(0, 1, 0, 1, 0))}).find("enclose nothing"),
+            std::string::npos);
 }
 
 }  // namespace

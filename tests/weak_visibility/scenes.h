@@ -1,6 +1,7 @@
 #pragma once
-// Small scenes from a seed for weak visibility: a source polygon, targets, and where it is known by construction, the truth. They come in threes: seeds 3 k, 3 k + 1,
-// 3 k + 2 are one scene whose faces touch exactly, are 2^-40 apart, and overlap by 2^-40.
+// Small scenes from a seed for weak visibility: a source polygon, targets, and where it is known by construction, the
+// truth. They come in threes: seeds 3 k, 3 k + 1, 3 k + 2 are one scene whose faces touch exactly, are 2^-40 apart, and
+// overlap by 2^-40.
 
 #include "../point_visibility/oracle.h"
 
@@ -61,7 +62,8 @@ inline Draft drafted(std::size_t which, std::uint64_t seed, Random& random) {
   return drafters[which].draft(random, gap);
 }
 
-/// One for each drafter; and any of them moved by 10^6, scaled by 2^-50, or with some coordinate of a face moved by 2^-40.
+/// One for each drafter; and any of them moved by 10^6, scaled by 2^-50, or with some coordinate of a face moved by
+/// 2^-40.
 inline const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> list;
@@ -75,7 +77,8 @@ inline const std::vector<Family>& families() {
                       }});
     };
     for (std::size_t which = 0; which < drafters.size(); ++which)
-      add(drafters[which].name, [which](std::uint64_t seed, Random& random) { return finished(drafted(which, seed, random), random); });
+      add(drafters[which].name,
+          [which](std::uint64_t seed, Random& random) { return finished(drafted(which, seed, random), random); });
     add("far", [](std::uint64_t seed, Random& random) {
       const Draft draft = drafted(random.below(drafters.size()), seed, random);
       return project(finished(draft, random), scaling(1, at(1000000, -1000000, 1000000)));

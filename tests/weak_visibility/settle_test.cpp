@@ -16,7 +16,8 @@ TEST(Settled_by_events, also_between_the_open_parts_alone) {
   std::size_t by_parts = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     generate::Random random(seed);
-    weak_scenes::Weak_scene scene = weak_scenes::finished(weak_scenes::drafters[tangent].draft(random, Rational(0)), random);
+    weak_scenes::Weak_scene scene =
+        weak_scenes::finished(weak_scenes::drafters[tangent].draft(random, Rational(0)), random);
     // Specks all over the shaft: most of them are not near what stays open.
     weak_scenes::Points goal;
     for (const Point_id id : scene.soup.loop(scene.targets[0])) goal.push_back(scene.soup.point(id));

@@ -1,5 +1,6 @@
 #pragma once
-// Weak visibility as a sentence of nonlinear real arithmetic in four unknowns, and what z3 says to it. For small scenes.
+// Weak visibility as a sentence of nonlinear real arithmetic in four unknowns, and what z3 says to it. For small
+// scenes.
 
 #include "rays.h"
 
@@ -12,16 +13,20 @@
 
 namespace weak_oracle {
 
-// ---- The law as a formula ------------------------------------------------------------------------------------------------------------------------
-// p = S0 + u (S1 - S0) + v (S2 - S0) for three corners of the source, q = T0 + s (T1 - T0) + t (T2 - T0) for three of a piece of the target: all pairs of points of the
-// two planes. The sentence, with strict inequalities only, so that what it describes is open:
-//   p is strictly inside every edge of the source and q of the piece; q is strictly in front of the source, p of the piece;
-//   and for each piece F in another plane than these two: p and q are strictly on one side of F's plane,
-//     or p is strictly in front of it and the line passes strictly outside some edge, or p is strictly behind and the line passes strictly outside some edge.
-// Each pair that satisfies it is free with all its neighbours: if q too is strictly in front where p is, or q is on F's plane, the open segment does not meet F, and a
-// line outside an edge's line meets F's plane outside F. A pair that is free with all its neighbours has one near it with p and q on no plane of an F and the line
-// through no edge's line, and that one satisfies it. So the sentence holds iff the set of free pairs has an interior point.
-// A piece in the source's or the target's plane holds no point of the open segment: h(p) > 0 and h(q) > 0 for the other one's plane.
+// ---- The law as a formula
+// ------------------------------------------------------------------------------------------------------------------------
+// p = S0 + u (S1 - S0) + v (S2 - S0) for three corners of the source, q = T0 + s (T1 - T0) + t (T2 - T0) for three of a
+// piece of the target: all pairs of points of the two planes. The sentence, with strict inequalities only, so that what
+// it describes is open:
+//   p is strictly inside every edge of the source and q of the piece; q is strictly in front of the source, p of the
+//   piece; and for each piece F in another plane than these two: p and q are strictly on one side of F's plane,
+//     or p is strictly in front of it and the line passes strictly outside some edge, or p is strictly behind and the
+//     line passes strictly outside some edge.
+// Each pair that satisfies it is free with all its neighbours: if q too is strictly in front where p is, or q is on F's
+// plane, the open segment does not meet F, and a line outside an edge's line meets F's plane outside F. A pair that is
+// free with all its neighbours has one near it with p and q on no plane of an F and the line through no edge's line,
+// and that one satisfies it. So the sentence holds iff the set of free pairs has an interior point. A piece in the
+// source's or the target's plane holds no point of the open segment: h(p) > 0 and h(q) > 0 for the other one's plane.
 
 /// A form in (p, q), affine in each: its values at the pairs of the three corners.
 using Form = std::array<std::array<Rational, 3>, 3>;
@@ -31,9 +36,12 @@ struct Frame {
   std::array<Exact_point, 3> source, target;
 };
 
-/// Six times a volume: positive iff d is on the side from which a, b, c run counterclockwise. Of (p, q, a, b) it is bilinear in p and q, and positive where the line
-/// passes outside the edge (a, b) of a polygon that p is in front of and q is not.
-inline Rational orient(const Exact_point& a, const Exact_point& b, const Exact_point& c, const Exact_point& d) { return dot(minus(b, a), cross(minus(c, a), minus(d, a))); }
+/// Six times a volume: positive iff d is on the side from which a, b, c run counterclockwise. Of (p, q, a, b) it is
+/// bilinear in p and q, and positive where the line passes outside the edge (a, b) of a polygon that p is in front of
+/// and q is not.
+inline Rational orient(const Exact_point& a, const Exact_point& b, const Exact_point& c, const Exact_point& d) {
+  return dot(minus(b, a), cross(minus(c, a), minus(d, a)));
+}
 
 inline Form side_of_line(const Frame& frame, const Exact_point& a, const Exact_point& b) {
   Form form;
@@ -53,14 +61,16 @@ inline Form height_of_q(const Frame& frame, const Half_space& plane) {
   return form;
 }
 
-/// SMT-LIB 2 for the sentence "this piece is visible", without a question, and whether it is linear: that it is where all planes are parallel.
+/// SMT-LIB 2 for the sentence "this piece is visible", without a question, and whether it is linear: that it is where
+/// all planes are parallel.
 class Sentence {
  public:
   Sentence(const Flats& flats, const Points& source, const Flat& piece)
       : frame_{{source[0], source[1], source[2]}, {piece.corners[0], piece.corners[1], piece.corners[2]}} {
     const Half_space from = plane_of(source);
     for (const Half_space& wall : oracle::walls(source, from.normal)) claim(positive(height_of_p(frame_, wall)));
-    for (const Half_space& wall : oracle::walls(piece.corners, piece.plane.normal)) claim(positive(height_of_q(frame_, wall)));
+    for (const Half_space& wall : oracle::walls(piece.corners, piece.plane.normal))
+      claim(positive(height_of_q(frame_, wall)));
     claim(positive(height_of_q(frame_, from)));
     claim(positive(height_of_p(frame_, piece.plane)));
     for (const Flat& flat : flats)
@@ -70,7 +80,9 @@ class Sentence {
   /// Whether it can be satisfied. The usual way to ask tries several methods, each for some time.
   std::string question() const { return linear_ ? "(check-sat)" : "(check-sat-using qfnra-nlsat)"; }
   std::string text() const {
-    return std::string("(set-logic ") + (linear_ ? "QF_LRA" : "QF_NRA") + ")\n(declare-const u Real)\n(declare-const v Real)\n(declare-const s Real)\n(declare-const t Real)\n" + claims_;
+    return std::string("(set-logic ") + (linear_ ? "QF_LRA" : "QF_NRA") +
+           ")\n(declare-const u Real)\n(declare-const v Real)\n(declare-const s Real)\n(declare-const t Real)\n" +
+           claims_;
   }
 
  private:
@@ -83,8 +95,9 @@ class Sentence {
       const Form side = side_of_line(frame_, flat.corners[k], flat.corners[(k + 1) % flat.corners.size()]);
       outside_from_front += ' ' + positive(side), outside_from_behind += ' ' + negative(side);
     }
-    return "(or (and " + positive(p) + ' ' + positive(q) + ") (and " + negative(p) + ' ' + negative(q) + ")\n  (and " + positive(p) + " (or" + outside_from_front +
-           "))\n  (and " + negative(p) + " (or" + outside_from_behind + ")))";
+    return "(or (and " + positive(p) + ' ' + positive(q) + ") (and " + negative(p) + ' ' + negative(q) + ")\n  (and " +
+           positive(p) + " (or" + outside_from_front + "))\n  (and " + negative(p) + " (or" + outside_from_behind +
+           ")))";
   }
 
   std::string positive(const Form& form) { return "(> " + polynomial(form) + " 0)"; }
@@ -122,19 +135,23 @@ class Sentence {
   bool linear_ = true;
 };
 
-// ---- z3 --------------------------------------------------------------------------------------------------------------------------------------------
+// ---- z3
+// --------------------------------------------------------------------------------------------------------------------------------------------
 
 inline bool has_z3() {
   static const bool there = std::system("command -v z3 >/dev/null 2>&1") == 0;
   return there;
 }
 
-/// What z3 prints when it reads this. `effort` is the most of its own steps that it may take for a question, so that it gives up at the same place everywhere;
-/// a million are about a second. A few steps of algebra take minutes: twenty seconds end these. Pre: has_z3()
+/// What z3 prints when it reads this. `effort` is the most of its own steps that it may take for a question, so that it
+/// gives up at the same place everywhere; a million are about a second. A few steps of algebra take minutes: twenty
+/// seconds end these. Pre: has_z3()
 inline std::string z3_output(const std::string& text, unsigned effort) {
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("sightline_" + std::to_string(::getpid()) + ".smt2");
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("sightline_" + std::to_string(::getpid()) + ".smt2");
   std::ofstream(file) << text;
-  const std::string command = "z3 -smt2 -memory:2000 -T:20 rlimit=" + std::to_string(effort) + ' ' + file.string() + " 2>&1";
+  const std::string command =
+      "z3 -smt2 -memory:2000 -T:20 rlimit=" + std::to_string(effort) + ' ' + file.string() + " 2>&1";
   FILE* const pipe = ::popen(command.c_str(), "r");
   if (pipe == nullptr) throw std::runtime_error("z3 cannot be started");
   std::string output;
@@ -149,7 +166,8 @@ inline std::optional<bool> satisfiable(const Sentence& sentence, unsigned effort
   const std::string output = z3_output(sentence.text() + sentence.question() + '\n', effort);
   if (output == "sat\n") return true;
   if (output == "unsat\n") return false;
-  if (output == "unknown\n" || output == "timeout\n" || output.find("out of memory") != std::string::npos) return std::nullopt;
+  if (output == "unknown\n" || output == "timeout\n" || output.find("out of memory") != std::string::npos)
+    return std::nullopt;
   throw std::runtime_error("z3 says: " + output);
 }
 

@@ -1,5 +1,5 @@
-// The search, with events for what it leaves open, against z3: every face of small scenes, by two programs that share no more than the scene.
-// SIGHTLINE_LONG: so many times the scenes, for a long run.
+// The search, with events for what it leaves open, against z3: every face of small scenes, by two programs that share
+// no more than the scene. SIGHTLINE_LONG: so many times the scenes, for a long run.
 
 #include "parallel_planes.h"
 #include "z3.h"
@@ -31,8 +31,9 @@ struct Opinions {
   std::size_t z3_unknown = 0, undecided = 0;  ///< faces that z3, or the engine, says nothing about
 };
 std::ostream& operator<<(std::ostream& to, const Opinions& o) {
-  return to << o.agreed << " of " << o.scenes << " scenes agree in all faces; of faces " << o.visible << " are visible and " << o.hidden << " hidden by both, " << o.by_events
-            << " of them by events; z3 leaves " << o.z3_unknown << " open, the engine " << o.undecided;
+  return to << o.agreed << " of " << o.scenes << " scenes agree in all faces; of faces " << o.visible
+            << " are visible and " << o.hidden << " hidden by both, " << o.by_events << " of them by events; z3 leaves "
+            << o.z3_unknown << " open, the engine " << o.undecided;
 }
 
 /// Asks both about all faces of a scene.
@@ -53,7 +54,9 @@ void ask_both(const Weak_scene& scene, Opinions& sum) {
       EXPECT_EQ(z3.value_or(visible), visible) << scene.name << ", face " << face;
       agree = agree && z3 == visible;
       if (!z3) ++sum.z3_unknown;
-      else ++(visible ? sum.visible : sum.hidden), sum.by_events += std::binary_search(left_open.begin(), left_open.end(), face);
+      else
+        ++(visible ? sum.visible : sum.hidden),
+            sum.by_events += std::binary_search(left_open.begin(), left_open.end(), face);
     }
   };
   compare(found.visible, true), compare(found.hidden, false);
@@ -75,7 +78,8 @@ TEST(Engine_and_z3, say_the_same_of_scenes_with_a_source) {
   EXPECT_LT(20 * sum.undecided, sum.visible + sum.hidden);
 }
 
-/// Scenes made for an eye: one of their own faces is the source, so that it touches, crosses, or is in the plane of others.
+/// Scenes made for an eye: one of their own faces is the source, so that it touches, crosses, or is in the plane of
+/// others.
 TEST(Engine_and_z3, say_the_same_of_scenes_that_a_face_of_their_own_looks_at) {
   if (!weak_oracle::has_z3()) GTEST_SKIP() << "needs z3 (Debian: z3)";
   Opinions sum;
@@ -84,12 +88,14 @@ TEST(Engine_and_z3, say_the_same_of_scenes_that_a_face_of_their_own_looks_at) {
       if ((k + seed) % 4 != 2) continue;  // a quarter of the families for each seed: all of them take a minute
       const generate::Family& family = generate::families()[k];
       generate::Family_parameters parameters;
-      parameters.seed = seed, parameters.size = family.small_size, parameters.ulps = static_cast<std::int64_t>(seed % 3) - 1;
+      parameters.seed = seed, parameters.size = family.small_size,
+      parameters.ulps = static_cast<std::int64_t>(seed % 3) - 1;
       const generate::Posed_scene posed = family.make(parameters);
       const Scene read(posed.soup);
       if (!posed.source.empty() || read.pieces().empty() || read.pieces().size() > most_faces) continue;
       Points source;
-      for (const Piece_corner& corner : read.corners(read.pieces()[Random(seed).below(read.pieces().size())])) source.push_back(read.position(corner.point));
+      for (const Piece_corner& corner : read.corners(read.pieces()[Random(seed).below(read.pieces().size())]))
+        source.push_back(read.position(corner.point));
       ask_both({posed.name, posed.soup, source, {}, std::nullopt}, sum);
     }
   std::cout << sum << '\n';

@@ -10,7 +10,8 @@ void set_action(CLI::App& command, std::function<Exit()> action) {
 }
 
 int main(int argc, char** argv) {
-  CLI::App app("Looks for the fault that the environment variable SIGHTLINE_FAULT names, by sightline fuzz.", "sightline_faulty");
+  CLI::App app("Looks for the fault that the environment variable SIGHTLINE_FAULT names, by sightline fuzz.",
+               "sightline_faulty");
   app.require_subcommand(1);
   add_fuzz(app);
   try {

@@ -1,5 +1,6 @@
-// The fuzz targets as a program: fuzz_targets TARGET [SECONDS [SEED]] runs the corpus and inputs near it, until something is wrong or the time is up.
-// Exit code 0: nothing found; 1: a finding, whose input is written to finding.TARGET; 2: usage.
+// The fuzz targets as a program: fuzz_targets TARGET [SECONDS [SEED]] runs the corpus and inputs near it, until
+// something is wrong or the time is up. Exit code 0: nothing found; 1: a finding, whose input is written to
+// finding.TARGET; 2: usage.
 
 #include "../targets.h"
 
@@ -29,7 +30,8 @@ int main(int count, char** words) {
       target->run(input);
     } catch (const std::exception& finding) {
       std::ofstream("finding." + name, std::ios::binary) << input;
-      std::cout << name << ": " << finding.what() << "; input " << inputs << " after " << spent() << " s, written to finding." << name << '\n';
+      std::cout << name << ": " << finding.what() << "; input " << inputs << " after " << spent()
+                << " s, written to finding." << name << '\n';
       return 1;
     }
   }
