@@ -80,12 +80,12 @@ compile_jobs() {
   echo "$processors"
 }
 
-# build FOLDER "TARGETS" [CMAKE OPTIONS]: configures and builds, files of one folder together.
+# build FOLDER "TARGETS" [CMAKE OPTIONS]: configures and builds.
 build() {
   local folder=$1 targets
   read -ra targets <<<"$2"
   shift 2
-  if ! cmake -S . -B "$folder" -G Ninja -DSIGHTLINE_UNITY=ON "$@" >"$folder.log" 2>&1; then
+  if ! cmake -S . -B "$folder" -G Ninja "$@" >"$folder.log" 2>&1; then
     cat "$folder.log"
     return 1
   fi

@@ -1,6 +1,6 @@
 // sightline bsp: builds the tree of a scene and says what it took.
 
-#include "methods.h"
+#include "methods/methods.h"
 
 #include <iostream>
 
@@ -17,7 +17,9 @@ static Exit run(const Bsp_arguments& arguments) {
   Scene scene(common.read());
   Progress progress("building");
   Task task;
-  task.bsp.candidates = arguments.candidates, task.bsp.seed = common.seed, task.bsp.threads = common.threads;
+  task.bsp.candidates = arguments.candidates;
+  task.bsp.seed = common.seed;
+  task.bsp.threads = common.threads;
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Outcome outcome = run_method(arguments.kernel, scene, task);
   const Bsp_counters& c = outcome.tree;

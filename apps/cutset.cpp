@@ -1,11 +1,11 @@
 // sightline cutset: the on-view faces of a scene along a path of viewpoints, by Tanimoto's cut-set.
 
-#include "decisions.h"
-#include "paths.h"
+#include "support/decisions.h"
+#include "support/paths.h"
 
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/cutset/update_1977.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
 
@@ -94,7 +94,10 @@ Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, c
     followed.seconds += watch.seconds();
     const std::size_t cut_edges = tracker.cut_edges().size(),
                       wrong = arguments.check ? disagreements(traits, graph, tracker, view) : 0;
-    followed.total += counters, ++followed.count, followed.wrong += wrong > 0, followed.cut_edges += cut_edges;
+    followed.total += counters;
+    ++followed.count;
+    followed.wrong += wrong > 0;
+    followed.cut_edges += cut_edges;
     const bool pictured = !arguments.svg.empty() && k % every == 0;
     if (k >= frames_shown && !pictured && arguments.common.json.empty()) continue;
     std::vector<Face_id> faces = faces_on_view(graph, tracker);

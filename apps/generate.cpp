@@ -1,8 +1,8 @@
 // sightline generate: scenes from a seed, degenerate as much as one wants, and what may be asked of them.
 
-#include "common.h"
+#include "support/common.h"
 
-#include <sightline/algorithms/harness/query_json.h>
+#include <sightline/harness/laws/query_json.h>
 #include <sightline/io/write.h>
 
 #include <charconv>
@@ -45,7 +45,8 @@ Rational parse_scale(const std::string& text) {
 
 Exit run(const Generate_arguments& arguments) {
   generate::Family_parameters parameters;
-  parameters.seed = arguments.seed, parameters.size = arguments.size;
+  parameters.seed = arguments.seed;
+  parameters.size = arguments.size;
   parameters.ulps = parse_ulps(arguments.ulps);
   parameters.offset = parse_point(arguments.offset, "--offset");
   parameters.scale = parse_scale(arguments.scale);

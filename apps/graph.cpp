@@ -1,12 +1,12 @@
 // sightline graph: the priority graph of a scene, its strongly connected components, and their order.
 
-#include "pixels.h"
+#include "support/pixels.h"
 
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/verify/certificate_json.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
 #include <map>
@@ -135,7 +135,8 @@ Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph
   found.seconds = watch.seconds();
   if (arguments.split) {
     Bsp_options options;
-    options.seed = arguments.common.seed, options.threads = arguments.common.threads;
+    options.seed = arguments.common.seed;
+    options.threads = arguments.common.threads;
     found.bsp_fragments = build_bsp(traits, options).counters.fragments;
   }
   if (!arguments.codes) return found;
@@ -288,10 +289,14 @@ static Exit run(const Graph_arguments& arguments) {
   const Faces faces(traits);
   std::string scope = "all viewpoints";
   const Found found = [&] {
-    if (!arguments.direction.empty())
-      return scope = "one ray", find(Ray_relation<Exact_traits>(faces, eye, direction), arguments);
-    if (!arguments.eye.empty())
-      return scope = "one viewpoint", find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments);
+    if (!arguments.direction.empty()) {
+      scope = "one ray";
+      return find(Ray_relation<Exact_traits>(faces, eye, direction), arguments);
+    }
+    if (!arguments.eye.empty()) {
+      scope = "one viewpoint";
+      return find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments);
+    }
     if (!whole) {
       const View_region viewpoints = box.empty() ? View_region{region} : View_region::box(box[0], box[1]);
       scope = viewpoints.points.empty() ? "no viewpoint: the box is empty"
@@ -327,11 +332,14 @@ static Exit run(const Graph_arguments& arguments) {
   }
   Json counters = found.counters, seconds{{"components", found.component_seconds}, {"arcs", found.arc_seconds}};
   if (clusters) {
-    result["tree"] = to_json(*clusters), seconds["tree"] = clusters->seconds;
+    result["tree"] = to_json(*clusters);
+    seconds["tree"] = clusters->seconds;
     if (arguments.codes) result["codes"] = std::move(clusters->codes);
-    if (arguments.split)
-      result["splits"] = clusters->tree.counters.splits, result["pieces"] = clusters->tree.counters.polygons,
+    if (arguments.split) {
+      result["splits"] = clusters->tree.counters.splits;
+      result["pieces"] = clusters->tree.counters.polygons;
       counters["bsp_fragments"] = clusters->bsp_fragments;
+    }
   }
   if (!images.empty()) result["images"] = app::to_json(images);
   if (write_json(common, "graph", scene, std::move(result), counters, seconds)) return Exit::done;
@@ -362,7 +370,8 @@ void add_graph(CLI::App& app) {
   auto* ray = command->add_option("--ray", a->direction, "one ray only, from the eye in direction X,Y,Z")
                   ->check(sightline::app::not_empty)
                   ->needs(eye);
-  box->excludes(region)->excludes(eye), region->excludes(eye);
+  box->excludes(region)->excludes(eye);
+  region->excludes(eye);
   static_cast<void>(ray);
   command->add_flag("--arcs", a->arcs, "write all arcs out, however many, and list them in the JSON");
   command->add_flag(
@@ -385,7 +394,9 @@ void add_graph(CLI::App& app) {
           ->check(sightline::app::not_empty);
   auto* pictures = command->add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")
                        ->check(CLI::ExistingDirectory);
-  pixels->needs(eyes), eyes->needs(pixels), pictures->needs(pixels);
+  pixels->needs(eyes);
+  eyes->needs(pixels);
+  pictures->needs(pixels);
   command->add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");
   command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
   command->footer(

@@ -1,6 +1,6 @@
 // sightline info: what is in a scene, what was set aside, which arithmetic it takes.
 
-#include "common.h"
+#include "support/common.h"
 
 #include <sightline/kernel/scene/closed.h>
 
@@ -21,7 +21,10 @@ static Exit run(const Common& common) {
   std::size_t supporting = 0;
   std::vector<bool> seen(scene.planes().size());
   for (const Piece& piece : scene.pieces())
-    if (!seen[piece.support.id()]) seen[piece.support.id()] = true, ++supporting;
+    if (!seen[piece.support.id()]) {
+      seen[piece.support.id()] = true;
+      ++supporting;
+    }
 
   Json result{{"points_read", c.points_read},
               {"points", c.points},
@@ -32,7 +35,8 @@ static Exit run(const Common& common) {
               {"closed", closing.closed},
               {"scale_bits", scene.scale_bits()}};
   const auto faces = [](const std::vector<Face_id>& list) { return Json(list); };
-  result["non_planar"] = faces(scene.non_planar()), result["concave"] = faces(scene.concave());
+  result["non_planar"] = faces(scene.non_planar());
+  result["concave"] = faces(scene.concave());
   if (c.faces > 0) {
     const auto box = scene.box();
     result["box"] = {point_json(box[0]), point_json(box[1])};

@@ -1,6 +1,6 @@
 // The program sightline: the command line, and what its exit codes mean.
 
-#include "common.h"
+#include "support/common.h"
 
 #include <exception>
 #include <iostream>
@@ -20,8 +20,19 @@ int main(int argc, char** argv) {
     return fmt::format("sightline: {}{}; --help says more\n", error.what(),
                        at->remaining().empty() ? "" : " ('" + at->remaining().front() + "' is none)");
   });
-  add_info(app), add_bsp(app), add_order(app), add_graph(app), add_cutset(app), add_see(app), add_weak(app),
-      add_verify(app), add_compare(app), add_generate(app), add_fuzz(app), add_reduce(app), add_judge(app);
+  add_info(app);
+  add_bsp(app);
+  add_order(app);
+  add_graph(app);
+  add_cutset(app);
+  add_see(app);
+  add_weak(app);
+  add_verify(app);
+  add_compare(app);
+  add_generate(app);
+  add_fuzz(app);
+  add_reduce(app);
+  add_judge(app);
 
   try {
     app.parse(argc, argv);

@@ -1,10 +1,10 @@
 // sightline order: the exact back-to-front order of a scene from an eye, its picture and its certificate.
 
-#include "picture.h"
+#include "support/picture.h"
 
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/verify/certificate_json.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
 
@@ -22,7 +22,8 @@ struct Order_arguments {
 static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn,
                                         bool on_view) {
   Order_certificate certificate;
-  certificate.eye = eye, certificate.on_view = on_view;
+  certificate.eye = eye;
+  certificate.on_view = on_view;
   for (const Drawn& item : drawn) certificate.fragments.push_back(item.fragment);
   add_pieces(certificate, scene);
   return certificate;
@@ -43,12 +44,16 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
   Outcome outcome;
   Stopwatch watch;
   const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {two_sided, false, task.bsp.progress});
-  outcome.build_seconds = watch.seconds(), watch = {};
+  outcome.build_seconds = watch.seconds();
+  watch = {};
   const Eye_order<Exact_traits> order = back_to_front(traits, tree, *task.eye, task.bsp.progress);
   outcome.order_seconds = watch.seconds();
-  graph.tree = tree.counters, graph.eye = order.counters;
-  outcome.tree.fragments = order.counters.fragments, outcome.tree.splits = order.counters.splits;
-  outcome.tree.predicates = tree.counters.predicates, outcome.walk.predicates = order.counters.predicates;
+  graph.tree = tree.counters;
+  graph.eye = order.counters;
+  outcome.tree.fragments = order.counters.fragments;
+  outcome.tree.splits = order.counters.splits;
+  outcome.tree.predicates = tree.counters.predicates;
+  outcome.walk.predicates = order.counters.predicates;
 
   std::vector<std::uint32_t> seen(scene.counters().faces_read);
   Polygon_store<Exact_traits> store;
@@ -56,7 +61,9 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
   for (const Convex_polygon<Exact_traits>& polygon : order.polygons) {
     const Piece& piece = scene.pieces()[polygon.piece];
     Drawn drawn;
-    drawn.fragment.face = piece.face, drawn.fragment.piece = piece.number, drawn.number = seen[piece.face]++;
+    drawn.fragment.face = piece.face;
+    drawn.fragment.piece = piece.number;
+    drawn.number = seen[piece.face]++;
     drawn.side = traits.side(traits.eye(*task.eye), piece.support, outcome.walk.predicates);
     const auto with_corners = [&](const Convex_polygon<Exact_traits>& part) {
       Drawn whole = drawn;
@@ -90,7 +97,8 @@ static Exit run(const Order_arguments& arguments) {
   Progress progress("building");
   Task task;
   task.eye = eye;
-  task.bsp.seed = common.seed, task.bsp.threads = common.threads;
+  task.bsp.seed = common.seed;
+  task.bsp.threads = common.threads;
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   Graph_order graph;
   if (by_graph) task.near = near;
@@ -101,7 +109,10 @@ static Exit run(const Order_arguments& arguments) {
     write_file(arguments.certificate,
                to_json(certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided)).dump() + "\n");
   if (!arguments.svg.empty()) {
-    if (near && !by_graph) task.near = near, graph.in_view = run_method(arguments.kernel, scene, task).drawn;
+    if (near && !by_graph) {
+      task.near = near;
+      graph.in_view = run_method(arguments.kernel, scene, task).drawn;
+    }
     Svg svg = empty_picture(view);
     paint(svg, view, near ? graph.in_view : outcome.drawn, true);
     write_file(arguments.svg, svg.text());

@@ -1,11 +1,13 @@
 // sightline see: the exact visible parts of a scene from an eye, their picture and their certificate.
 
-#include "picture.h"
+#include "support/picture.h"
 
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/visible.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
@@ -52,7 +54,8 @@ template <sightline::View V>
 Seen seen_by(const V& view, const Visible_surface<V>& surface, const Wanted& wanted) {
   Seen seen;
   for (std::uint32_t i = 0; i < view.scene().pieces().size(); ++i) seen.edge_on += view.eye_side(i) == CGAL::ZERO;
-  seen.visible = surface.visible, seen.counters = surface.counters;
+  seen.visible = surface.visible;
+  seen.counters = surface.counters;
   if (wanted.two_sided) {
     seen.visible.clear();
     std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(),

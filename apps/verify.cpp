@@ -1,6 +1,6 @@
 // sightline verify: checks a certificate against a scene.
 
-#include "common.h"
+#include "support/common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/io/input.h>

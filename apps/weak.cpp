@@ -1,7 +1,7 @@
 // sightline weak: the faces that are weakly visible from polygons, a picture of them and their certificate.
 
-#include "picture.h"
-#include "weak_methods.h"
+#include "support/picture.h"
+#include "methods/weak.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -19,7 +19,6 @@ struct Weak_arguments {
 };
 
 // ---- Pictures
-// ---------------------------------------------------------------------------------------------------------------
 
 /// visible, hidden, undecided or "source", by face; sources are numbered after the faces.
 std::vector<std::string> names_of(const Scene& scene, const Weak_faces& found, std::size_t sources) {
@@ -27,7 +26,9 @@ std::vector<std::string> names_of(const Scene& scene, const Weak_faces& found, s
   const auto set = [&](const std::vector<Face_id>& faces, const char* name) {
     for (const Face_id face : faces) names[face] = name;
   };
-  set(found.visible, "visible"), set(found.hidden, "hidden"), set(found.undecided, "undecided");
+  set(found.visible, "visible");
+  set(found.hidden, "hidden");
+  set(found.undecided, "undecided");
   return names;
 }
 
@@ -44,7 +45,8 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Sources& sou
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = arguments.view.view(eye, scene);
   Task task;
-  task.eye = eye, task.bsp.threads = arguments.common.threads;
+  task.eye = eye;
+  task.bsp.threads = arguments.common.threads;
   task.near = near_plane(view, scene);
   std::vector<Drawn> drawn = run_method("exact", scene, task).drawn;
   for (const std::vector<Face_id>* list :
@@ -85,7 +87,6 @@ std::string obj_text(const Scene& scene, const std::vector<std::string>& names) 
 }
 
 // ---- Event surfaces
-// ------------------------------------------------------------------------------------------------------------
 
 const char* name_of(Event_kind kind) {
   return kind == Event_kind::horizon ? "horizon" : kind == Event_kind::edge_vertex ? "edge and vertex" : "triple";
@@ -124,7 +125,6 @@ std::string surfaces_obj(const std::vector<Event_surface>& surfaces) {
 }
 
 // ---- What stays open
-// ---------------------------------------------------------------------------------------------------------------
 
 /// The pairs of undecided faces with the first of their open cells: conditions on segments from a part of a source to a
 /// part of a piece.
@@ -161,7 +161,6 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
 }
 
 // ---- The command
-// ---------------------------------------------------------------------------------------------------------------------
 
 Exit run_weak(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
@@ -181,7 +180,9 @@ Exit run_weak(const Weak_arguments& arguments) {
   const double prepare_seconds = watch.seconds();
   Progress progress("searching");
   Weak_task task = arguments.task;
-  task.two_sided = arguments.sources.two_sided, task.threads = common.threads, task.seed = common.seed,
+  task.two_sided = arguments.sources.two_sided;
+  task.threads = common.threads;
+  task.seed = common.seed;
   task.surfaces = !arguments.surfaces.empty();
   const bool leaves_open = method == "lines" || method == "events";
   const std::function<void(std::size_t, std::size_t)> report = [&](std::size_t done, std::size_t all) {

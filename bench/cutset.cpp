@@ -5,12 +5,15 @@
 
 #include "measure.h"
 
+#include <sightline/kernel/scene/face_mesh.h>
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/cutset/update_1977.h>
-#include <sightline/algorithms/generate/scenes.h>
+#include <sightline/harness/generate/scenes.h>
 #include <sightline/io/plot.h>
 #include <sightline/io/read.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/io/decimal.h>
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <OpenMesh/Tools/Subdivider/Uniform/LoopT.hh>
@@ -35,7 +38,10 @@ struct All_planes {
     const Predicates predicates = graph.scene().predicates();
     for (std::uint32_t i = 0; i < graph.size(); ++i) {
       const Prepared_plane h = predicates.prepare(graph.plane(i));
-      a.push_back(h.a), b.push_back(h.b), c.push_back(h.c), d.push_back(h.d);
+      a.push_back(h.a);
+      b.push_back(h.b);
+      c.push_back(h.c);
+      d.push_back(h.d);
     }
     on.resize(a.size());
   }
@@ -61,8 +67,10 @@ std::vector<Viewpoint> orbit(const Scene& scene, std::size_t frames, std::uint64
   const auto box = scene.box();
   Exact_point centre{0, 0, 0};
   Rational half = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    centre[k] = (box[0][k] + box[1][k]) / 2, half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
+  for (std::size_t k = 0; k < 3; ++k) {
+    centre[k] = (box[0][k] + box[1][k]) / 2;
+    half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
+  }
   std::vector<Viewpoint> path;
   for (std::size_t k = 0; k < frames; ++k) {
     const auto [x, y] = generate::circle_point(k, circle, std::int64_t{1} << 30);
@@ -84,7 +92,9 @@ Run run(const Polygon_soup& soup, std::uint64_t circle) {
   const double start = bench::now();
   const Face_graph graph(scene);
   Cut_set_tracker tracker(traits, graph);
-  r.build = bench::now() - start, r.nodes = graph.size(), r.peak = bench::process_memory("VmRSS") - before;
+  r.build = bench::now() - start;
+  r.nodes = graph.size();
+  r.peak = bench::process_memory("VmRSS") - before;
   tracker.move_to(path[0]);
   r.first_tests = tracker.last().tests;
   std::vector<std::size_t> counts{tracker.on_view_count()};
@@ -99,10 +109,11 @@ Run run(const Polygon_soup& soup, std::uint64_t circle) {
     return best;
   };
   r.tracker = a_frame([&](const Viewpoint& view) {
-    tracker.move_to(view), r.cut += static_cast<double>(tracker.cut_edges().size()) / frames,
-        counts.push_back(tracker.on_view_count());
+    tracker.move_to(view);
+    r.cut += static_cast<double>(tracker.cut_edges().size()) / frames;
+    counts.push_back(tracker.on_view_count());
   });
-  r.tests = static_cast<double>(tracker.counters().tests - r.first_tests) / frames,
+  r.tests = static_cast<double>(tracker.counters().tests - r.first_tests) / frames;
   r.births = static_cast<double>(tracker.counters().births) / frames;
   if (graph.is_convex(0)) {
     Cut_set_1977 plain(traits, graph, path[0], Reading_1977::mended);
@@ -128,7 +139,7 @@ Run run(const Polygon_soup& soup, std::uint64_t circle) {
 
 /// A triangle mesh subdivided by Loop's scheme until it has as many faces, rounded to doubles.
 Polygon_soup subdivided(const Polygon_soup& soup, std::size_t faces) {
-  using Mesh = OpenMesh::TriMesh_ArrayKernelT<Face_graph::Mesh_traits>;
+  using Mesh = OpenMesh::TriMesh_ArrayKernelT<Face_mesh_traits>;
   Mesh mesh;
   const Scene scene(soup);
   std::vector<Mesh::VertexHandle> vertices;
@@ -168,7 +179,10 @@ int main(int argc, char** argv) {
     if (option == "--max") max_faces = std::atof(argv[i + 1]);
     else if (option == "--scenes") scenes = argv[i + 1];
     else if (option == "--out") folder = argv[i + 1];
-    else return std::cerr << "bench_cutset [--max FACES] [--scenes FOLDER] [--out FOLDER]\n", 2;
+    else {
+      std::cerr << "bench_cutset [--max FACES] [--scenes FOLDER] [--out FOLDER]\n";
+      return 2;
+    }
   }
   std::ostringstream csv;
   const auto print = [&](const std::string& line) {
@@ -182,8 +196,10 @@ int main(int argc, char** argv) {
   bool failed = false;
   const auto measure = [&](const std::string& name, const Polygon_soup& soup, std::uint64_t circle) {
     Run r{};
-    if (!bench::in_child<Run>(r, [&] { return run(soup, circle); }) || r.wrong > 0)
-      failed = true, std::cerr << name << ": FAILED\n";
+    if (!bench::in_child<Run>(r, [&] { return run(soup, circle); }) || r.wrong > 0) {
+      failed = true;
+      std::cerr << name << ": FAILED\n";
+    }
     const double nodes = static_cast<double>(r.nodes), degrees = 360.0 / static_cast<double>(circle);
     print(fmt::format("{},{},{:.3g},{:.4f},{:.3e},{:.3e},{:.3e},{:.1f},{:.1f},{:.1f},{:.2f},{},{:.0f},{}", name,
                       r.nodes, degrees, r.build, r.tracker, r.plain, r.all, r.tests, r.plain_tests, r.cut, r.births,
@@ -210,7 +226,10 @@ int main(int argc, char** argv) {
         std::cerr << fmt::format(
             "{:<22} growth n^{:.2f}\n", "",
             std::log(r.tracker / first_seconds) / std::log(static_cast<double>(r.nodes) / first_nodes));
-      else first_nodes = static_cast<double>(r.nodes), first_seconds = r.tracker;
+      else {
+        first_nodes = static_cast<double>(r.nodes);
+        first_seconds = r.tracker;
+      }
     }
   }
   for (const std::uint64_t circle : {360, 3600}) measure("paper_1256", generate::convex_sphere(1256), circle);

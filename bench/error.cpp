@@ -5,10 +5,10 @@
 
 #include "measure.h"
 
-#include <sightline/algorithms/generate/random.h>
+#include <sightline/harness/generate/random.h>
 #include <sightline/io/plot.h>
-#include <sightline/kernel/exact_traits.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -41,7 +41,8 @@ Polygon_soup queries(std::size_t n, long distance, double offset) {
         return soup.add_point(point[0] + s * d[0] + t * e[0], point[1] + s * d[1] + t * e[1],
                               point[2] + s * d[2] + t * e[2] + off);
       };
-      id[0] = corner(1, 0, k == 3 ? static_cast<double>(distance) : 0), id[1] = corner(-1, 0, 0),
+      id[0] = corner(1, 0, k == 3 ? static_cast<double>(distance) : 0);
+      id[1] = corner(-1, 0, 0);
       id[2] = corner(0, 1, 0);
       soup.add_face({id[0], id[1], id[2]});
     }
@@ -81,7 +82,8 @@ Result ask_points(const Scene& scene, const std::vector<Sign>& truth) {
   result.nanoseconds = (bench::now() - start) * 1e9 / static_cast<double>(std::max<std::size_t>(1, answers.size()));
   for (std::size_t i = 0; i < answers.size(); ++i) {
     ++result.asked;
-    result.wrong += answers[i] != truth[i], result.opposite += answers[i] * truth[i] < 0;
+    result.wrong += answers[i] != truth[i];
+    result.opposite += answers[i] * truth[i] < 0;
   }
   return result;
 }

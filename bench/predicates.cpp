@@ -1,9 +1,10 @@
 // The price of one predicate, stage by stage, and of a whole cut: Google Benchmark. bench_predicates
 // [--benchmark_filter=...]
 
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/kernel/exact_traits.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>

@@ -4,11 +4,12 @@
 
 #include "measure.h"
 
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/transform.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/io/plot.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/harness/generate/shapes.h>
 
 #include <fmt/format.h>
 
@@ -135,7 +136,10 @@ int main(int argc, char** argv) {
     const std::string option = argv[i];
     if (option == "--max") max_faces = std::atof(argv[i + 1]);
     else if (option == "--out") folder = argv[i + 1];
-    else return std::cerr << "bench_priority [--max FACES] [--out FOLDER]\n", 2;
+    else {
+      std::cerr << "bench_priority [--max FACES] [--out FOLDER]\n";
+      return 2;
+    }
   }
   std::ostringstream csv;
   const auto print = [&](const std::string& line) {

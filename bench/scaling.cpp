@@ -7,12 +7,13 @@
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/transform.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/io/plot.h>
 #include <sightline/io/read.h>
-#include <sightline/kernel/exact_traits.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
@@ -59,7 +60,8 @@ static Run run(const Scene& scene, const Traits& traits, int threads) {
               peak > before ? peak - before : 0,
               c.predicates.fixed + c.predicates.gmp,
               c.polygon_tests};
-    best.build = std::min(best.build, build), best.order = std::min(best.order, order);
+    best.build = std::min(best.build, build);
+    best.order = std::min(best.order, order);
     if (build > 1) break;
   }
   return best;
@@ -112,7 +114,10 @@ int main(int argc, char** argv) {
     if (option == "--max") max_faces = std::atof(argv[i + 1]);
     else if (option == "--slow") slow = std::atof(argv[i + 1]);
     else if (option == "--out") folder = argv[i + 1];
-    else return std::cerr << "bench_scaling [--max FACES] [--slow SECONDS] [--out FOLDER]\n", 2;
+    else {
+      std::cerr << "bench_scaling [--max FACES] [--slow SECONDS] [--out FOLDER]\n";
+      return 2;
+    }
   }
   struct Case {
     std::string kind;

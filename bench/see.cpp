@@ -6,11 +6,13 @@
 
 #include "measure.h"
 
-#include <sightline/algorithms/generate/scenes.h>
+#include <sightline/harness/generate/scenes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/io/plot.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <CGAL/Env_surface_data_traits_3.h>
 #include <CGAL/Env_triangle_traits_3.h>
@@ -89,7 +91,6 @@ double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_P
 void best(double& least, double seconds) { least = least == 0 ? seconds : std::min(least, seconds); }
 
 // ---- How it scales, and what exactness costs
-// ---------------------------------------------------------------------------------
 
 struct Scaling {
   double boxes, exact, doubles;    // processor seconds; of an eye: view and surface
@@ -121,9 +122,11 @@ Scaling measure_scaling(const Scene& scene, const Exact_point& eye) {
     if (turn == 0) {
       const std::uint64_t peak = bench::process_memory("VmHWM");
       r.bytes = peak > before ? peak - before : 0;
-      r.visible = seen_by(surface).size(), r.parts = surface.parts.size();
+      r.visible = seen_by(surface).size();
+      r.parts = surface.parts.size();
       const Predicate_counts& c = surface.counters.predicates;
-      r.predicates = c.total(), r.beyond = c.fixed + c.gmp;
+      r.predicates = c.total();
+      r.beyond = c.fixed + c.gmp;
     }
     {
       const auto in_doubles =
@@ -239,7 +242,6 @@ bool scaling(double max_faces, const std::string& folder) {
 }
 
 // ---- A room in a large building
-// ------------------------------------------------------------------------------------------------
 
 struct In_rooms {
   double boxes, look;                        // seconds, of an eye: view and surface
@@ -264,10 +266,10 @@ In_rooms measure_rooms(const Scene& scene) {
       const auto surface = visible_surface(Exact_view(scene, eye), boxes, threads(1));
       best(seconds, processor_seconds() - a);
       if (turn > 0) continue;
-      r.visible += static_cast<double>(seen_by(surface).size()) / all,
-          r.parts += static_cast<double>(surface.parts.size()) / all;
-      r.looked_at += static_cast<double>(surface.counters.looked_at) / all,
-          r.opened += static_cast<double>(surface.counters.opened) / all;
+      r.visible += static_cast<double>(seen_by(surface).size()) / all;
+      r.parts += static_cast<double>(surface.parts.size()) / all;
+      r.looked_at += static_cast<double>(surface.counters.looked_at) / all;
+      r.opened += static_cast<double>(surface.counters.opened) / all;
     }
     r.look += seconds / all;
   }
@@ -300,8 +302,8 @@ bool rooms(double max_faces, const std::string& folder) {
     std::fflush(stdout);
     csv += fmt::format("{},{},{:.6f},{:.6f},{:.2f},{:.2f},{:.2f},{:.2f}\n", side * side, faces, r.boxes, r.look,
                        r.visible, r.parts, r.looked_at, r.opened);
-    plot.add("an eye", static_cast<double>(faces), r.look),
-        plot.add("boxes, once", static_cast<double>(faces), r.boxes);
+    plot.add("an eye", static_cast<double>(faces), r.look);
+    plot.add("boxes, once", static_cast<double>(faces), r.boxes);
   }
   fmt::print("\n");
   if (!folder.empty()) {
@@ -312,14 +314,15 @@ bool rooms(double max_faces, const std::string& folder) {
 }
 
 // ---- Envelopes
-// -----------------------------------------------------------------------------------------------------------------
 
 /// Triangles with x, y in [-1/2, 1/2] and z in [1, 2]: a scene turned so that its top looks at the eye in the origin.
 Polygon_soup before_the_eye(const Polygon_soup& soup) {
   Exact_point low = soup.point(0), high = low;
   for (Point_id p = 0; p < soup.point_count(); ++p)
-    for (std::size_t k = 0; k < 3; ++k)
-      low[k] = std::min(low[k], soup.point(p)[k]), high[k] = std::max(high[k], soup.point(p)[k]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], soup.point(p)[k]);
+      high[k] = std::max(high[k], soup.point(p)[k]);
+    }
   const Rational side = std::max({Rational(high[0] - low[0]), Rational(high[1] - low[1]), Rational(high[2] - low[2])});
   Polygon_soup result;
   result.file = soup.file;
@@ -356,8 +359,12 @@ std::vector<Face_id> measure_ours(const Polygon_soup& soup, Ours& r) {
     const Exact_view view(scene, point(0, 0, 0), field_of(cone()));
     const auto surface = visible_surface(view, boxes, field_of_view(view), threads(1));
     const double c = processor_seconds();
-    best(r.scene, b - a), best(r.surface, c - b);
-    seen = seen_by(surface), r.visible = seen.size(), r.parts = surface.parts.size(), r.edge_on = 0;
+    best(r.scene, b - a);
+    best(r.surface, c - b);
+    seen = seen_by(surface);
+    r.visible = seen.size();
+    r.parts = surface.parts.size();
+    r.edge_on = 0;
     for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) r.edge_on += view.eye_side(i) == CGAL::ZERO;
   }
   return seen;
@@ -400,7 +407,9 @@ Theirs measure_envelope(const Polygon_soup& soup) {
   const std::vector<Face_id> by_us = measure_ours(soup, ours);
   std::vector<Face_id> differ;
   std::set_symmetric_difference(seen.begin(), seen.end(), by_us.begin(), by_us.end(), std::back_inserter(differ));
-  r.visible = seen.size(), r.faces = diagram.number_of_faces(), r.differ = differ.size();
+  r.visible = seen.size();
+  r.faces = diagram.number_of_faces();
+  r.differ = differ.size();
   return r;
 }
 
@@ -467,9 +476,10 @@ bool envelopes(double max_faces, double slow, const std::string& folder) {
       csv += fmt::format("{},{},{:.6f},{:.6f},{:.6f},{},{},{},{},{}\n", kind, triangles, ours.scene, ours.surface,
                          done || late ? seconds : 0.0, ours.visible, ours.parts, theirs.faces, ours.edge_on, outcome);
       plot.add(kind + ", ours", static_cast<double>(triangles), ours.surface);
-      if (done)
-        plot.add(kind + ", envelope", static_cast<double>(triangles), seconds),
-            least = std::min(least, seconds / ours.surface);
+      if (done) {
+        plot.add(kind + ", envelope", static_cast<double>(triangles), seconds);
+        least = std::min(least, seconds / ours.surface);
+      }
       if (late) break;
     }
   }
@@ -491,7 +501,10 @@ int main(int argc, char** argv) {
     if (i + 1 < argc && option == "--max") max_faces = std::atof(argv[i + 1]);
     else if (i + 1 < argc && option == "--slow") slow = std::atof(argv[i + 1]);
     else if (i + 1 < argc && option == "--out") folder = argv[i + 1];
-    else return std::cerr << "bench_see [--max FACES] [--slow SECONDS] [--out FOLDER]\n", 2;
+    else {
+      std::cerr << "bench_see [--max FACES] [--slow SECONDS] [--out FOLDER]\n";
+      return 2;
+    }
   }
   const bool scaled = scaling(max_faces, folder), in_rooms = rooms(max_faces, folder),
              compared = envelopes(max_faces, slow, folder);

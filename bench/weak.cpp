@@ -3,10 +3,11 @@
 
 #include "measure.h"
 
-#include <sightline/algorithms/generate/soups.h>
+#include <sightline/harness/generate/soups.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/io/read.h>
+#include <sightline/algorithms/weak_visibility/search/line_search.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -58,7 +59,9 @@ void random_triangles(std::size_t most, std::size_t queries, std::ostream& csv) 
       Line_search search(occluders, source.polygon, source.plane, occluders.polygon(1), 1, options);
       Weak_answer answer = search.run(counters);
       const double found = bench::now();
-      prepare += ready - start, total += found - ready, worst = std::max(worst, found - ready);
+      prepare += ready - start;
+      total += found - ready;
+      worst = std::max(worst, found - ready);
       ++answers[static_cast<std::size_t>(answer.status)];
       steps += answer.proof.size();
       // A certificate for this pair alone: nothing is claimed about other faces.
@@ -113,9 +116,12 @@ void rooms(const std::filesystem::path& folder, std::size_t count, std::ostream&
       events.threads = 1;
       settle_by_events(occluders, sources, 300, events, found);  // as the program does
       const double end = bench::now();
-      total += end - start, worst = std::max(worst, end - start);
-      visible += found.visible.size(), undecided += found.undecided.size(), by_events -= found.undecided.size(),
-          counters += found.counters;
+      total += end - start;
+      worst = std::max(worst, end - start);
+      visible += found.visible.size();
+      undecided += found.undecided.size();
+      by_events -= found.undecided.size();
+      counters += found.counters;
       const Weak_certificate certificate =
           weak_certificate(scene, {corners_of(scene, scene.pieces()[piece])}, false, found);
       const double written = bench::now();

@@ -1,11 +1,12 @@
 #pragma once
 // Numbers in binary data, of either byte order.
 
-#include <sightline/io/input.h>
-
 #include <bit>
-#include <cstdint>
+#include <cstddef>
 #include <cstring>
+#include <string>
+#include <string_view>
+#include <utility>
 
 namespace sightline {
 

@@ -4,9 +4,14 @@
 #include <sightline/io/format.h>
 #include <sightline/io/text.h>
 #include <sightline/kernel/coordinates.h>
+#include <sightline/kernel/number.h>
 
 #include <array>
-#include <numeric>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <variant>
 
 namespace sightline {
@@ -27,19 +32,9 @@ using Number = std::variant<Decimal, double, Rational>;
 /// bytes would fill the memory. Every double is within it (the least is 5^1074 x 10^-1074).
 inline constexpr std::int64_t largest_decimal_exponent = 1100;
 
-inline void push(Coordinates& coordinates, const Number& number) {
-  if (const auto* decimal = std::get_if<Decimal>(&number))
-    coordinates.push_decimal(decimal->mantissa, decimal->exponent);
-  else if (const auto* floating = std::get_if<double>(&number)) coordinates.push_double(*floating);
-  else coordinates.push(std::get<Rational>(number));
-}
+void push(Coordinates& coordinates, const Number& number);
 
-inline Rational value_of(const Number& number) {
-  if (const auto* decimal = std::get_if<Decimal>(&number))
-    return exact_decimal(Integer(static_cast<long>(decimal->mantissa)), decimal->exponent);
-  if (const auto* floating = std::get_if<double>(&number)) return exact(*floating);
-  return std::get<Rational>(number);
-}
+Rational value_of(const Number& number);
 
 namespace detail {
 
@@ -50,201 +45,44 @@ inline constexpr auto powers_of_ten = [] {
 }();
 
 /// digits x 10^exponent where that needs more than 18 digits. Pre: digits only; |exponent| <= largest_decimal_exponent.
-inline Number wide_decimal(bool negative, const std::string& digits, int exponent) {
-  Integer mantissa(digits, 10);
-  if (negative) mantissa = -mantissa;
-  if (exponent < 0) {
-    if (fits_int64(mantissa)) return Decimal{mantissa.get_si(), exponent};
-    return exact_decimal(mantissa, exponent);
-  }
-  const Rational value = exact_decimal(mantissa, exponent);
-  if (fits_int64(value.get_num())) return Decimal{value.get_num().get_si(), 0};
-  return value;
-}
+Number wide_decimal(bool negative, const std::string& digits, int exponent);
 
 /// Why a token is no number, for a message.
-inline std::string not_a_decimal(std::string_view token) {
-  std::string lower(token.substr(0, 8));
-  for (char& c : lower) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  if (const std::size_t sign = lower.find_first_not_of("+-"); sign != std::string::npos) lower.erase(0, sign);
-  if (lower.starts_with("nan") || lower.starts_with("inf") || lower.starts_with("1.#"))
-    return quoted(token) + " is not a finite number; give the point finite coordinates or remove it";
-  if (lower.starts_with("0x")) return quoted(token) + " is a hexadecimal number; write it as a decimal such as 1.25";
-  if (token.find(',') != std::string_view::npos)
-    return quoted(token) + " is not a number; write a decimal point, not a comma";
-  if (token.find('/') != std::string_view::npos)
-    return quoted(token) + " is not a decimal; coordinates p/q belong into a .qoff file";
-  return quoted(token) + " is not a number; write a decimal such as 1.25 or -3e-4";
-}
+std::string not_a_decimal(std::string_view token);
 
 }  // namespace detail
 
 /// The exact number that a decimal token is: [+-] digits, with a point somewhere if you like, and [eE][+-] digits.
 /// Throws on anything else (nan, inf, hexadecimal) and where the exponent is beyond largest_decimal_exponent.
 /// Exact: yes. Cost: a pass over the token; beyond 18 digits GMP's conversion.
-inline Number parse_decimal(const Text_reader& text, std::string_view token) {
-  const char* p = token.data();
-  const char* const end = p + token.size();
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  const bool negative = p != end && *p == '-';
-  if (p != end && (*p == '-' || *p == '+')) ++p;
-
-  // The digits: up to 18 in `mantissa`, which they fit.
-  const char* const digits_begin = p;
-  std::uint64_t mantissa = 0;
-  int significant = 0;
-  std::int64_t digits = 0, after_point = 0;
-  bool point = false;
-  for (; p != end; ++p) {
-    if (*p == '.' && !point) {
-      point = true;
-      continue;
-    }
-    if (!is_digit(*p)) break;
-    ++digits;
-    if (point) ++after_point;
-    if (significant != 0 || *p != '0') ++significant;
-    if (significant <= 18) mantissa = 10 * mantissa + static_cast<std::uint64_t>(*p - '0');
-    else significant = 19;
-  }
-  const char* const digits_end = p;
-  if (digits == 0) text.fail(token, detail::not_a_decimal(token));
-
-  // The exponent, held at 10^17 where it is larger: no file is long enough for its digits to bring that back.
-  std::int64_t exponent = 0;
-  if (p != end && (*p == 'e' || *p == 'E')) {
-    const bool negative_exponent = ++p != end && *p == '-';
-    if (p != end && (*p == '-' || *p == '+')) ++p;
-    if (p == end) text.fail(token, detail::not_a_decimal(token));
-    for (; p != end && is_digit(*p); ++p)
-      if (exponent < 100'000'000'000'000'000) exponent = 10 * exponent + (*p - '0');
-    if (negative_exponent) exponent = -exponent;
-  }
-  if (p != end) text.fail(token, detail::not_a_decimal(token));
-  if (significant == 0) return Decimal{0, 0};
-
-  // Zeros at the end of the digits after the point say nothing; and none of the digits' does where the exponent takes
-  // it back.
-  const char* last = digits_end;
-  std::int64_t zeros = 0;
-  exponent -= after_point;
-  while (last != digits_begin && (last[-1] == '0' || last[-1] == '.') && exponent < 0) {
-    if (*--last == '.') continue;
-    ++zeros, ++exponent;
-  }
-  if (exponent > largest_decimal_exponent || exponent < -largest_decimal_exponent)
-    text.fail(token, "exponent out of range in " + quoted(token) +
-                         "; scale the scene so that exponents stay within +-" +
-                         std::to_string(largest_decimal_exponent));
-
-  const int scale = static_cast<int>(exponent);
-  if (significant <= 18 && scale <= 0) {
-    const auto narrow = static_cast<std::int64_t>(mantissa / detail::powers_of_ten[static_cast<std::size_t>(zeros)]);
-    return Decimal{negative ? -narrow : narrow, scale};
-  }
-  std::string significant_digits;
-  std::copy_if(digits_begin, last, std::back_inserter(significant_digits), is_digit);
-  return detail::wide_decimal(negative, significant_digits, scale);
-}
+Number parse_decimal(const Text_reader& text, std::string_view token);
 
 /// The exact number that a token p or p/q is (integers; a sign before either). Throws on anything else.
 /// Exact: yes. Cost: beyond 18 digits GMP's conversion and gcd.
-inline Number parse_rational(const Text_reader& text, std::string_view token) {
-  const std::size_t slash = token.find('/');
-  if (token.size() <= 18) {
-    const std::optional<std::int64_t> p = parse_integer(token.substr(0, slash));
-    if (slash == std::string_view::npos && p) return Decimal{*p, 0};
-    const std::optional<std::int64_t> q =
-        slash == std::string_view::npos ? std::nullopt : parse_integer(token.substr(slash + 1));
-    if (p && q && *q != 0) {
-      const std::int64_t divisor = std::gcd(*p, *q) * (*q < 0 ? -1 : 1);
-      if (*q == divisor) return Decimal{*p / divisor, 0};
-      Rational value;
-      value.get_num() = static_cast<long>(*p / divisor), value.get_den() = static_cast<long>(*q / divisor);
-      return value;
-    }
-  }
-  try {
-    Rational value = rational_from_string(token);
-    if (value.get_den() == 1 && fits_int64(value.get_num())) return Decimal{value.get_num().get_si(), 0};
-    return value;
-  } catch (const std::invalid_argument&) {
-    const bool zero = slash != std::string_view::npos &&
-                      token.find_first_not_of("+-0", slash + 1) == std::string_view::npos && token.back() == '0';
-    text.fail(
-        token,
-        zero ? quoted(token) + " has the denominator 0; write p/q with q not 0"
-             : quoted(token) +
-                   " is not a number p or p/q; write integers such as -7 or 22/7 (decimals belong into a .off file)");
-  }
-}
+Number parse_rational(const Text_reader& text, std::string_view token);
 
 namespace detail {
 
 /// The double nearest to a decimal, ties to even, where 128 bits suffice; nothing where its exponent is below -19.
 /// Exact: yes. The quotient has at least 64 bits, 53 are kept, the rest and `inexact` (whether the division leaves a
 /// remainder) decide the rounding; and nothing is subnormal or overflows, since 10^-19 <= |value| < 2^63, or it is 0.
-inline std::optional<double> nearest_double_of_short(Decimal decimal) {
-  __extension__ using Wide = unsigned __int128;
-  if (decimal.mantissa == 0) return 0.0;
-  if (decimal.exponent < -19) return std::nullopt;
-  const bool negative = decimal.mantissa < 0;
-  const std::uint64_t numerator =
-      negative ? 0 - static_cast<std::uint64_t>(decimal.mantissa) : static_cast<std::uint64_t>(decimal.mantissa);
-  const std::uint64_t denominator = powers_of_ten[static_cast<std::size_t>(-decimal.exponent)];
-
-  const int shift = 64 + std::countl_zero(numerator);
-  const Wide scaled = Wide{numerator << (shift - 64)}
-                      << 64;  // numerator x 2^shift, at least 2^127; the denominator is below 2^64
-  const Wide quotient = scaled / denominator;
-  const bool inexact = scaled % denominator != 0;
-
-  const auto high = static_cast<std::uint64_t>(quotient >> 64);
-  const int drop = (high != 0 ? 128 - std::countl_zero(high) : 64) - 53;
-  const Wide half = Wide{1} << (drop - 1);
-  const Wide dropped = quotient & (2 * half - 1);
-  auto kept = static_cast<std::uint64_t>(quotient >> drop);
-  if (dropped > half || (dropped == half && (inexact || (kept & 1) != 0))) ++kept;
-  return std::ldexp(negative ? -static_cast<double>(kept) : static_cast<double>(kept), drop - shift);
-}
+std::optional<double> nearest_double_of_short(Decimal decimal);
 
 }  // namespace detail
 
 /// The double nearest to a number, ties to even; +-infinity beyond the range. Exact: yes.
-inline double nearest_double(const Number& number) {
-  if (const auto* decimal = std::get_if<Decimal>(&number))
-    if (const std::optional<double> rounded = detail::nearest_double_of_short(*decimal)) return *rounded;
-  return nearest_double(value_of(number));
-}
+double nearest_double(const Number& number);
 
 /// What a coordinate in text may look like.
 enum class Number_syntax { decimal, rational };
 
 /// A coordinate of a text file, as `options` wish it. Throws where it is missing, no number, or too large to be rounded
 /// to a double.
-inline Number read_coordinate(const Text_reader& text, std::string_view token, Number_syntax syntax,
-                              const Read_options& options) {
-  if (token.empty()) text.fail(token, "a coordinate is missing; a point has three");
-  Number number = syntax == Number_syntax::decimal ? parse_decimal(text, token) : parse_rational(text, token);
-  if (!options.round_to_double) return number;
-  const double rounded = nearest_double(number);
-  if (!std::isfinite(rounded))
-    text.fail(token, quoted(token) + " is beyond the range of a double; scale the scene, or read exact coordinates");
-  return rounded;
-}
+Number read_coordinate(const Text_reader& text, std::string_view token, Number_syntax syntax,
+                       const Read_options& options);
 
 /// Passes over a number that is of no interest (a colour, a normal, which may well be nan). Throws where it is missing
 /// or no number.
-inline void skip_number(const Text_reader& text, std::string_view token) {
-  if (token.empty()) text.fail(token, "a number is missing; complete the line");
-  if (token.find_first_of("0123456789") != std::string_view::npos &&
-      token.find_first_not_of("0123456789+-.eE") == std::string_view::npos)
-    return;
-  std::string_view name = token;
-  if (name.front() == '-' || name.front() == '+') name.remove_prefix(1);
-  for (const std::string_view known : {"nan", "NaN", "NAN", "inf", "Inf", "INF", "1.#"})
-    if (name.starts_with(known)) return;
-  text.fail(token, quoted(token) + " is not a number; write a decimal such as 1.25");
-}
+void skip_number(const Text_reader& text, std::string_view token);
 
 }  // namespace sightline

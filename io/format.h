@@ -1,11 +1,8 @@
 #pragma once
 // The file formats, and how a caller wishes them read.
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
-#include <string>
 
 namespace sightline {
 
@@ -24,16 +21,6 @@ struct Read_options {
 
 /// The format that a file name's ending names, upper or lower case (.ply: text, when written); nothing for any other
 /// ending.
-inline std::optional<Format> format_of_ending(const std::filesystem::path& path) {
-  std::string ending = path.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending == ".obj") return Format::obj;
-  if (ending == ".off") return Format::off;
-  if (ending == ".qoff") return Format::qoff;
-  if (ending == ".ply") return Format::ply;
-  if (ending == ".stl") return Format::stl;
-  return std::nullopt;
-}
+std::optional<Format> format_of_ending(const std::filesystem::path& path);
 
 }  // namespace sightline

@@ -16,11 +16,7 @@ namespace sightline {
 class Input_error : public std::runtime_error {
  public:
   /// Line and column count from 1; a column is a byte of its line (a tab is one, a byte order mark is none).
-  static Input_error in_text(const std::string& file, std::size_t line, std::size_t column,
-                             const std::string& message) {
-    return {file, line, column, std::nullopt,
-            ":" + std::to_string(line) + ":" + std::to_string(column) + ": " + message};
-  }
+  static Input_error in_text(const std::string& file, std::size_t line, std::size_t column, const std::string& message);
   static Input_error in_binary(const std::string& file, std::size_t byte, const std::string& message) {
     return {file, 0, 0, byte, ": byte " + std::to_string(byte) + ": " + message};
   }
@@ -51,18 +47,7 @@ struct Input {
 
   /// Throws the Input_error of a place in text. A line ends with \n, \r\n or \r.
   /// Pre: place points into bytes or to their end. Cost: one pass over what is before it.
-  [[noreturn]] void fail(const char* place, const std::string& message) const {
-    const char* const end = bytes.data() + bytes.size();
-    const char* line_begin = bytes.data();
-    if (bytes.starts_with(byte_order_mark) && place >= line_begin + byte_order_mark.size())
-      line_begin += byte_order_mark.size();
-    std::size_t line = 1;
-    for (const char* p = line_begin; p < place; ++p) {
-      const bool ends_line = *p == '\n' || (*p == '\r' && (p + 1 == end || p[1] != '\n'));
-      if (ends_line) ++line, line_begin = p + 1;
-    }
-    throw Input_error::in_text(name, line, static_cast<std::size_t>(place - line_begin) + 1, message);
-  }
+  [[noreturn]] void fail(const char* place, const std::string& message) const;
 
   /// Throws the Input_error of a place in binary data.
   [[noreturn]] void fail_at_byte(std::size_t offset, const std::string& message) const {

@@ -1,78 +1,32 @@
 #pragma once
 // Lists of numbers, one a line: viewpoints, motions, what is likely to be seen.
 
-#include <sightline/io/decimal.h>
+#include <sightline/io/input.h>
 #include <sightline/kernel/number.h>
 
 #include <functional>
-#include <utility>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace sightline {
 
 /// Numbers with commas between them, decimals or p/q. Errors: std::invalid_argument, one line that begins with
 /// `wanted`. Exact: yes.
-inline std::vector<Rational> numbers_in(std::string_view text, const std::string& wanted) {
-  std::vector<Rational> numbers;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find(',', begin), text.size());
-    const std::string_view token = text.substr(begin, end - begin);
-    try {
-      if (token.find('/') != std::string_view::npos) {
-        numbers.push_back(rational_from_string(token));
-      } else {
-        const Input input{wanted, token};
-        const Text_reader reader(input, Text_reader::Comments::hash);
-        numbers.push_back(value_of(parse_decimal(reader, input.bytes)));
-      }
-    } catch (const std::exception&) {
-      throw std::invalid_argument(wanted + " (decimals or p/q); " + quoted(token) + " is none");
-    }
-    begin = end + 1;
-  }
-  return numbers;
-}
+std::vector<Rational> numbers_in(std::string_view text, const std::string& wanted);
 
 namespace detail {
 
 /// Whether a first line is one of names, such as X,Y,Z: it begins with a letter, and not with what some programs write
 /// for a number.
-inline bool is_header(std::string_view line) {
-  std::string begin(line.substr(0, 3));
-  for (char& c : begin) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-  return begin[0] >= 'a' && begin[0] <= 'z' && begin != "nan" && begin != "inf";
-}
+bool is_header(std::string_view line);
 
 }  // namespace detail
 
 /// Gives the numbers of each line of a text to take(), which returns false where they are not what is wanted. Blanks
 /// beside commas are passed over, as are a first line of names, empty lines, and what follows a #. Errors: Input_error
 /// at the line, or where a comma is missing. Exact: yes. Cost: one pass.
-inline void read_number_lines(const Input& input, const std::string& wanted,
-                              const std::function<bool(const std::vector<Rational>&)>& take) {
-  Text_reader reader(input, Text_reader::Comments::hash);
-  bool any = false, first = true;
-  while (reader.next_line()) {
-    const std::string_view begin = reader.next_token();
-    std::string line(begin);
-    std::string_view apart;  // the first token that no comma joins to what is before it
-    for (std::string_view token = reader.next_token(); !token.empty(); token = reader.next_token()) {
-      if (apart.empty() && line.back() != ',' && token.front() != ',') apart = token;
-      line += token;
-    }
-    if (std::exchange(first, false) && detail::is_header(line)) continue;
-    if (!apart.empty())
-      reader.fail(apart, "expected a comma before " + sightline::quoted(apart) + "; a line wants " + wanted);
-    std::vector<Rational> numbers;
-    try {
-      numbers = numbers_in(line, "a line wants " + wanted);
-    } catch (const std::invalid_argument& error) {
-      reader.fail(begin, error.what());
-    }
-    if (!take(numbers)) reader.fail(begin, "expected " + wanted + ", found " + sightline::quoted(line));
-    any = true;
-  }
-  if (!any) throw Input_error::of_file(input.name, "has no line; write " + wanted + " a line");
-}
+void read_number_lines(const Input& input, const std::string& wanted,
+                       const std::function<bool(const std::vector<Rational>&)>& take);
 
 }  // namespace sightline

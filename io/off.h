@@ -2,10 +2,19 @@
 // Geomview's OFF, and OFF with rational coordinates (.qoff).
 
 #include <sightline/io/decimal.h>
-#include <sightline/io/exact_text.h>
+#include <sightline/io/format.h>
+#include <sightline/io/input.h>
+#include <sightline/io/text.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <string_view>
 #include <unordered_set>
+#include <vector>
 
 namespace sightline {
 
@@ -20,12 +29,7 @@ namespace detail {
 class Common_denominator {
  public:
   /// Takes one more in; false once the multiple needs more bits than allowed.
-  bool include(const Integer& denominator) {
-    if (bit_length(denominator) > largest_common_denominator_bits) return false;  // at once, however long it is
-    if (fits_int64(denominator) && !seen_.insert(denominator.get_si()).second) return true;
-    if (!mpz_divisible_p(common_.get_mpz_t(), denominator.get_mpz_t())) common_ = lcm(common_, denominator);
-    return bit_length(common_) <= largest_common_denominator_bits;
-  }
+  bool include(const Integer& denominator);
 
  private:
   Integer common_ = 1;
@@ -38,106 +42,23 @@ class Off_reader {
   Off_reader(const Input& input, Number_syntax syntax, const Read_options& options)
       : text_(input, Text_reader::Comments::hash), syntax_(syntax), options_(options) {}
 
-  Polygon_soup read() {
-    read_counts(read_header());
-    soup_.coordinates.reserve(3 * points_);
-    for (std::size_t i = 0; i < points_; ++i) read_point(i);
-    for (std::size_t i = 0; i < faces_; ++i) read_face(i);
-    if (text_.next_line())
-      text_.fail(text_.next_token(), "more lines than the " + std::to_string(points_) + " vertices and " +
-                                         std::to_string(faces_) +
-                                         " faces that are announced; correct the counts in the header");
-    return std::move(soup_);
-  }
+  Polygon_soup read();
 
  private:
   /// Reads [ST][C][N][4][n]OFF, of which the last two and BINARY are refused, and gives the first count, which may
   /// stand on its line or the next. As Geomview has it, the word may be missing.
-  std::string_view read_header() {
-    if (!text_.next_line())
-      text_.fail_at_end("no header; begin the file with a line OFF, then the counts of vertices, faces and edges");
-    const std::string_view word = text_.next_token();
-    if (parse_integer(word)) return word;
-    std::string_view kind = word;
-    const auto skip = [&kind](std::string_view prefix) {
-      if (!kind.starts_with(prefix)) return false;
-      kind.remove_prefix(prefix.size());
-      return true;
-    };
-    for (const std::string_view prefix : {"ST", "C", "N"}) attributes_ = skip(prefix) || attributes_;
-    const bool four = skip("4"), many = skip("n");
-    if (kind != "OFF")
-      text_.fail(word, "unknown header " + quoted(word) +
-                           "; begin the file with a line OFF, then the counts of vertices, faces and edges");
-    if (four || many)
-      text_.fail(word, "points of " + quoted(word) + " are not of three dimensions; project them to OFF first");
-    std::string_view token = text_.next_token();
-    if (token == "BINARY") text_.fail(token, "binary OFF is not supported; convert the file to text, or to binary PLY");
-    if (!token.empty()) return token;
-    if (!text_.next_line())
-      text_.fail_at_end("the counts are missing; write the numbers of vertices, faces and edges behind OFF");
-    return text_.next_token();
-  }
+  std::string_view read_header();
 
-  void read_counts(std::string_view token) {
-    points_ = read_count(text_, token, "vertices", std::string_view("0 0 0\n").size());
-    faces_ = read_count(text_, text_.next_token(), "faces", std::string_view("0\n").size());
-    token = text_.next_token();
-    if (!token.empty() && !parse_integer(token))
-      text_.fail(token, quoted(token) + " is not a number of edges; write a count such as 12, or 0");
-    expect_end_of_line(0);
-  }
+  void read_counts(std::string_view token);
 
-  void read_point(std::size_t i) {
-    if (!text_.next_line()) fail_cut_off(i, points_, "vertices");
-    for (int k = 0; k < 3; ++k) {
-      const std::string_view token = text_.next_token();
-      const Number number = read_coordinate(text_, token, syntax_, options_);
-      if (const auto* value = std::get_if<Rational>(&number);
-          value && syntax_ == Number_syntax::rational && !denominator_.include(value->get_den()))
-        text_.fail(token, "common denominator of the coordinates needs more than " +
-                              std::to_string(largest_common_denominator_bits) +
-                              " bits; read the file with coordinates rounded to double, or round them in the file");
-      push(soup_.coordinates, number);
-    }
-    // A normal, a colour, a texture coordinate. Plain OFF has none, but colours are often met there.
-    expect_end_of_line(attributes_ ? 9 : 4);
-  }
+  void read_point(std::size_t i);
 
-  void read_face(std::size_t i) {
-    if (!text_.next_line()) fail_cut_off(i, faces_, "faces");
-    std::string_view token = text_.next_token();
-    const std::size_t count = read_count(text_, token, "corners", std::string_view(" 0").size());
-    corners_.clear();
-    for (std::size_t k = 0; k < count; ++k) {
-      token = text_.next_token();
-      if (token.empty())
-        text_.fail(token, "corner " + std::to_string(k + 1) + " of " + std::to_string(count) +
-                              " is missing; write them all on one line");
-      const std::optional<std::int64_t> index = parse_integer(token);
-      if (!index) text_.fail(token, quoted(token) + " is not a vertex index; write an integer");
-      if (*index >= static_cast<std::int64_t>(points_) || token.front() == '-')
-        text_.fail(token, "vertex index " + quoted(token) + " is out of range; there are " + std::to_string(points_) +
-                              " vertices, counted from 0");
-      corners_.push_back(static_cast<Point_id>(*index));
-    }
-    expect_end_of_line(4);  // a colour
-    soup_.add_face(corners_);
-  }
+  void read_face(std::size_t i);
 
   /// Passes over at most so many numbers. Throws on any others.
-  void expect_end_of_line(int numbers) {
-    for (std::string_view token = text_.next_token(); !token.empty(); token = text_.next_token()) {
-      if (numbers-- == 0)
-        text_.fail(token, "unexpected " + quoted(token) + "; write each vertex and each face on a line of its own");
-      skip_number(text_, token);
-    }
-  }
+  void expect_end_of_line(int numbers);
 
-  [[noreturn]] void fail_cut_off(std::size_t found, std::size_t announced, const std::string& what) {
-    text_.fail_at_end("the file ends after " + std::to_string(found) + " of " + std::to_string(announced) + " " + what +
-                      "; correct the counts, or fetch the file again if it is cut off");
-  }
+  [[noreturn]] void fail_cut_off(std::size_t found, std::size_t announced, const std::string& what);
 
   Text_reader text_;
   Number_syntax syntax_;
@@ -149,23 +70,7 @@ class Off_reader {
   std::vector<Point_id> corners_;
 };
 
-inline void write_off(const Polygon_soup& soup, std::ostream& out, bool rational) {
-  check_no_holes(soup, rational ? "QOFF" : "OFF");
-  out << "OFF\n" + std::to_string(soup.point_count()) + " " + std::to_string(soup.face_count()) + " 0\n";
-  for (Point_id p = 0; p < soup.point_count(); ++p) {
-    if (rational) {
-      const auto [x, y, z] = soup.point(p);
-      out << to_string(x) + " " + to_string(y) + " " + to_string(z) + "\n";
-    } else {
-      out << decimal_texts(soup, p, "OFF").substr(1) + "\n";
-    }
-  }
-  for (Face_id f = 0; f < soup.face_count(); ++f) {
-    std::string line = std::to_string(soup.loop(f).size());
-    for (const Point_id p : soup.loop(f)) (line += ' ') += std::to_string(p);
-    out << line + "\n";
-  }
-}
+void write_off(const Polygon_soup& soup, std::ostream& out, bool rational);
 
 }  // namespace detail
 

@@ -3,8 +3,10 @@
 
 #include <sightline/io/svg.h>
 
-#include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -16,69 +18,9 @@ class Log_plot {
   Log_plot(std::string title, std::string x, std::string y)
       : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)) {}
 
-  void add(const std::string& series, double x, double y) {
-    if (x > 0 && y >= 0 && std::isfinite(x) && std::isfinite(y)) series_[series].push_back({x, y});
-  }
+  void add(const std::string& series, double x, double y);
 
-  std::string text() const {
-    constexpr int width = 860, height = 560;
-    constexpr double left = 70, right = width - 200, top = 70, bottom = height - 55, zero_row = 28;
-    // 1. Whole decades that hold all points.
-    std::array<std::array<double, 2>, 2> range{{{1e300, 0}, {1e300, 0}}};
-    bool zeros = false;
-    for (const auto& [name, points] : series_)
-      for (const Flat_point& p : points)
-        for (std::size_t k = 0; k < 2; ++k) {
-          zeros = zeros || p[k] == 0;
-          if (p[k] > 0) range[k] = {std::min(range[k][0], p[k]), std::max(range[k][1], p[k])};
-        }
-    for (auto& [low, high] : range) {
-      low = high > 0 ? std::floor(std::log10(low)) : 0;
-      high = high > 0 ? std::max(low + 1, std::ceil(std::log10(high))) : 1;
-    }
-    const double floor = zeros ? bottom - zero_row : bottom;  // where the lowest decade begins
-    const auto place = [&](const Flat_point& p) {
-      const auto share = [&](std::size_t k) { return (std::log10(p[k]) - range[k][0]) / (range[k][1] - range[k][0]); };
-      return Flat_point{left + share(0) * (right - left), p[1] == 0 ? bottom : floor - share(1) * (floor - top)};
-    };
-
-    // 2. Axes.
-    Svg svg(width, height);
-    const std::string grey = "#dddddd";
-    const auto decade = [](double exponent) { return "1e" + std::to_string(static_cast<int>(exponent)); };
-    for (double e = range[0][0]; e <= range[0][1]; ++e) {
-      const double x = place({std::pow(10, e), 0})[0];
-      svg.line({x, top}, {x, bottom}, grey, 1);
-      svg.label(x, bottom + 18, 12, decade(e), "middle");
-    }
-    for (double e = range[1][0]; e <= range[1][1]; ++e) {
-      const double y = place({1, std::pow(10, e)})[1];
-      svg.line({left, y}, {right, y}, grey, 1);
-      svg.label(left - 8, y + 4, 12, decade(e), "end");
-    }
-    if (zeros) svg.line({left, bottom}, {right, bottom}, grey, 1), svg.label(left - 8, bottom + 4, 12, "0", "end");
-    svg.label(left, 26, 16, title_);
-    svg.label(left, top - 14, 12, y_);
-    svg.label((left + right) / 2, height - 14, 12, x_, "middle");
-
-    // 3. Series, with their names beside them.
-    int number = 0;
-    for (const auto& [name, unsorted] : series_) {
-      std::vector<Flat_point> points = unsorted;
-      std::sort(points.begin(), points.end());
-      const std::string colour =
-          "hsl(" + std::to_string(number * 137508 / 1000 % 360) + ",65%," + (number % 2 == 0 ? "38%)" : "45%)");
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        const Flat_point at = place(points[i]);
-        if (i > 0) svg.line(place(points[i - 1]), at, colour, 1.8);
-        svg.line(at, at, colour, 7);  // round ends: a dot
-      }
-      const double y = top + 20 * number++;
-      svg.line({right + 14, y}, {right + 26, y}, colour, 4);
-      svg.label(right + 34, y + 4, 12, name);
-    }
-    return svg.text();
-  }
+  std::string text() const;
 
  private:
   std::string title_, x_, y_;

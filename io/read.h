@@ -1,98 +1,36 @@
 #pragma once
 // Reading a scene, whatever its format.
 
-#include <sightline/io/obj.h>
-#include <sightline/io/off.h>
-#include <sightline/io/ply.h>
-#include <sightline/io/stl.h>
+#include <sightline/io/format.h>
+#include <sightline/io/input.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
-#include <memory>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
 
 namespace sightline {
 
 namespace detail {
 
 /// All bytes of a file (or pipe). Throws Input_error where there is none, or it cannot be read.
-inline std::string read_bytes(const std::filesystem::path& path) {
-  const auto fail = [&path](const std::string& message) { throw Input_error::of_file(path.string(), message); };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) fail("no such file, or it is out of reach; check the path");
-  if (std::filesystem::is_directory(status)) fail("is a directory; name a file in it");
-  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
-    fail("is not a file that has an end; name a regular file");
-
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) fail(std::string("cannot be opened: ") + std::strerror(errno) + "; check its permissions");
-  std::string bytes;
-  std::size_t used = 0;
-  if (std::filesystem::is_regular_file(status))
-    if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error) bytes.resize(size + 1);
-  for (;;) {
-    if (used == bytes.size()) bytes.resize(2 * used + 65536);
-    const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
-    used += got;
-    if (got == 0) break;
-  }
-  if (std::ferror(file.get())) fail(std::string("cannot be read: ") + std::strerror(errno) + "; check the file");
-  bytes.resize(used);
-  return bytes;
-}
+std::string read_bytes(const std::filesystem::path& path);
 
 /// The format that the bytes show, for a file whose ending says nothing; nothing where they show none.
-inline std::optional<Format> format_of_content(const Input& input) {
-  if (has_binary_stl_size(input.bytes) || looks_like_stl_text(input)) return Format::stl;
-  Text_reader text(input, Text_reader::Comments::hash);
-  const std::string_view word = text.next_token_of_any_line();
-  if (word == "ply") return Format::ply;
-  if (word.size() < 10 && word.ends_with("OFF")) return Format::off;
-  for (const std::string_view statement : {"v", "vt", "vn", "f", "g", "o", "s", "usemtl", "mtllib"})
-    if (word == statement) return Format::obj;
-  return std::nullopt;
-}
+std::optional<Format> format_of_content(const Input& input);
 
 }  // namespace detail
 
 /// Reads a scene from bytes in a known format; `name` is what messages call it, and Polygon_soup::file.
 /// Throws Input_error on anything that is not well-formed. Faces of fewer than three corners and the like are
 /// well-formed. Exact: yes. Cost: one pass.
-inline Polygon_soup read_scene(std::string_view bytes, Format format, const std::string& name,
-                               const Read_options& options = {}) {
-  const Input input{name, bytes};
-  if (bytes.find_first_not_of(" \t\v\f\r\n", bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) ==
-      std::string_view::npos)
-    input.fail(bytes.data(), "the file is empty; give a scene");
-  Polygon_soup soup = [&] {
-    switch (format) {
-      case Format::obj: return read_obj(input, options);
-      case Format::off: return read_off(input, options);
-      case Format::qoff: return read_qoff(input, options);
-      case Format::stl: return read_stl(input, options);
-      default: return read_ply(input, options);
-    }
-  }();
-  if (soup.point_count() > std::numeric_limits<Point_id>::max() ||
-      soup.face_count() > std::numeric_limits<Face_id>::max())
-    throw Input_error::of_file(name, "more points or faces than ids of 32 bits can number; cut the scene into parts");
-  soup.file = name;
-  return soup;
-}
+Polygon_soup read_scene(std::string_view bytes, Format format, const std::string& name,
+                        const Read_options& options = {});
 
 /// Reads a scene from a file, whose format its ending says (.obj .off .qoff .ply .stl, in upper or lower case), or else
 /// its content. Throws Input_error, also where the file cannot be read or its format is unknown. Exact: yes. Cost: one
 /// pass.
-inline Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& options = {}) {
-  const std::string bytes = detail::read_bytes(path);
-  const std::string name = path.string();
-  std::optional<Format> format = format_of_ending(path);
-  if (!format) format = detail::format_of_content({name, bytes});
-  if (!format)
-    throw Input_error::of_file(
-        name, std::string("neither its ending nor its content is of a known format; give one of ") + supported_formats);
-  return read_scene(bytes, *format, name, options);
-}
+Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& options = {});
 
 }  // namespace sightline

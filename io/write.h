@@ -1,56 +1,25 @@
 #pragma once
 // Writing a scene, exactly or not at all.
 
-#include <sightline/io/obj.h>
-#include <sightline/io/off.h>
-#include <sightline/io/ply.h>
-#include <sightline/io/stl.h>
+#include <sightline/io/format.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
-#include <fstream>
+#include <filesystem>
+#include <ostream>
 
 namespace sightline {
 
 /// Writes a scene such that read_scene gives it back: the same points and faces; from STL the same triangles of the
 /// same points. Throws Not_representable where the format cannot hold it; then some of it may have been written. Exact:
 /// yes. Post: errors of the stream are left in its state.
-inline void write_scene(const Polygon_soup& soup, std::ostream& out, Format format) {
-  switch (format) {
-    case Format::obj: return write_obj(soup, out);
-    case Format::off: return write_off(soup, out);
-    case Format::qoff: return write_qoff(soup, out);
-    case Format::ply: return write_ply(soup, out, false);
-    case Format::ply_binary: return write_ply(soup, out, true);
-    case Format::stl: return write_stl(soup, out);
-  }
-}
+void write_scene(const Polygon_soup& soup, std::ostream& out, Format format);
 
 /// Writes a scene to a file. What was there before is replaced only once all is written (to PATH.partial, first).
 /// Throws Not_representable, or std::runtime_error where the file cannot be written.
-inline void write_scene(const Polygon_soup& soup, const std::filesystem::path& path, Format format) {
-  std::filesystem::path partial = path;
-  partial += ".partial";
-  try {
-    std::ofstream out(partial, std::ios::binary);
-    if (out) write_scene(soup, out, format);
-    out.close();
-    if (!out)
-      throw std::runtime_error(path.string() +
-                               ": cannot be written; check the folder, its permissions and its free space");
-    std::filesystem::rename(partial, path);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw;
-  }
-}
+void write_scene(const Polygon_soup& soup, const std::filesystem::path& path, Format format);
 
 /// Writes a scene to a file in the format that its ending says (.ply: text). Throws as above, and std::runtime_error
 /// where the ending says none.
-inline void write_scene(const Polygon_soup& soup, const std::filesystem::path& path) {
-  const std::optional<Format> format = format_of_ending(path);
-  if (!format)
-    throw std::runtime_error(path.string() + ": no format has this ending; give one of " + supported_formats);
-  write_scene(soup, path, *format);
-}
+void write_scene(const Polygon_soup& soup, const std::filesystem::path& path);
 
 }  // namespace sightline

@@ -4,6 +4,7 @@
 #include <sightline/kernel/number.h>
 
 #include <array>
+#include <cstdint>
 
 namespace sightline {
 
@@ -86,40 +87,13 @@ class Fixed_integer {
 };
 
 /// Writes n as a two's complement number of `count` limbs. Pre: it fits, or std::overflow_error.
-inline void to_limbs(const Integer& n, Limb* limbs, int count) {
-  const bool negative = sgn(n) < 0;
-  const Integer magnitude = negative ? Integer(-n - 1) : n;  // the complement of a negative number
-  if (bit_length(magnitude) >= static_cast<std::size_t>(64 * count))
-    throw std::overflow_error("integer wider than its limbs");
-  std::size_t written = 0;
-  mpz_export(limbs, &written, -1, sizeof(Limb), 0, 0, magnitude.get_mpz_t());
-  for (std::size_t i = written; i < static_cast<std::size_t>(count); ++i) limbs[i] = 0;
-  if (negative)
-    for (int i = 0; i < count; ++i) limbs[i] = ~limbs[i];
-}
+void to_limbs(const Integer& n, Limb* limbs, int count);
 
 /// The integer that `count` two's complement limbs hold.
-inline Integer from_limbs(const Limb* limbs, int count) {
-  if (count == 1) return Integer(static_cast<long>(static_cast<std::int64_t>(limbs[0])));
-  Integer n;
-  mpz_import(n.get_mpz_t(), static_cast<std::size_t>(count), -1, sizeof(Limb), 0, 0, limbs);
-  if (static_cast<std::int64_t>(limbs[count - 1]) < 0) {
-    Integer modulus;
-    mpz_setbit(modulus.get_mpz_t(), static_cast<mp_bitcnt_t>(64 * count));
-    n -= modulus;
-  }
-  return n;
-}
+Integer from_limbs(const Limb* limbs, int count);
 
 /// n x 2^-shift as a double, within one unit in the last place (relative error < 2^-52; exact where n fits 53 bits and
 /// no underflow occurs; an underflow loses at most 2^-1074).
-inline double approximate(const Limb* limbs, int count, long shift) {
-  if (count == 1 && shift == 0) return static_cast<double>(static_cast<std::int64_t>(limbs[0]));
-  if (count == 2 && shift == 0)
-    return static_cast<double>(static_cast<__int128>((static_cast<unsigned __int128>(limbs[1]) << 64) | limbs[0]));
-  long exponent = 0;
-  const double mantissa = mpz_get_d_2exp(&exponent, from_limbs(limbs, count).get_mpz_t());  // truncates
-  return std::ldexp(mantissa, static_cast<int>(exponent - shift));
-}
+double approximate(const Limb* limbs, int count, long shift);
 
 }  // namespace sightline

@@ -5,14 +5,25 @@
 //   side(v, h) == -side(v, h.opposite());  side(meet(p, q, r), h) is the same for every order of p, q, r;
 //   side(meet(p, q, r), p) == 0;  every stage that decides decides the same.
 
+#include <sightline/kernel/arithmetic.h>
+#include <sightline/kernel/fixed_integer.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/vertex.h>
 
 #include <CGAL/Uncertain.h>
 #include <CGAL/enum.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
 
 namespace sightline {
 
@@ -25,7 +36,10 @@ inline Sign sign_of(double value) { return value > 0 ? CGAL::POSITIVE : value < 
 struct Predicate_counts {
   std::uint64_t combinatorial = 0, filtered = 0, fixed = 0, gmp = 0;
   Predicate_counts& operator+=(const Predicate_counts& other) {
-    combinatorial += other.combinatorial, filtered += other.filtered, fixed += other.fixed, gmp += other.gmp;
+    combinatorial += other.combinatorial;
+    filtered += other.filtered;
+    fixed += other.fixed;
+    gmp += other.gmp;
     return *this;
   }
   std::uint64_t total() const { return combinatorial + filtered + fixed + gmp; }
@@ -63,7 +77,7 @@ class Predicates {
   const Plane_table& planes() const { return *planes_; }
   Arithmetic arithmetic() const { return arithmetic_; }
 
-  // ---- Constructions ------------------------------------------------------------------------------------------------
+  // ---- Constructions
 
   /// An input point as a corner where the three given planes meet.
   Vertex input_vertex(std::uint32_t point, std::uint32_t p, std::uint32_t q, std::uint32_t r) const {
@@ -106,7 +120,9 @@ class Predicates {
       return v;
     }
     if (w < 0) std::swap(v.plane[1], v.plane[2]);
-    v.x = x / w, v.y = y / w, v.z = z / w;
+    v.x = x / w;
+    v.y = y / w;
+    v.z = z / w;
     const double reach = std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)});
     if (integers) {
       const bool grid_point = std::rint(v.x) * w == x && std::rint(v.y) * w == y && std::rint(v.z) * w == z &&
@@ -119,8 +135,10 @@ class Predicates {
     }
     // Outside what Prepared_plane::bound covers, or not a number. Numbers all the same, so that no comparison need
     // mind.
-    if (!(reach <= 2 * range_ && v.error < std::numeric_limits<double>::infinity()))
-      v.x = v.y = v.z = 0, v.error = std::numeric_limits<double>::infinity();
+    if (!(reach <= 2 * range_ && v.error < std::numeric_limits<double>::infinity())) {
+      v.x = v.y = v.z = 0;
+      v.error = std::numeric_limits<double>::infinity();
+    }
     return v;
   }
 
@@ -138,7 +156,7 @@ class Predicates {
     return {plane, exact, f.a, f.b, f.c, f.d, norm, 0x1p-50 * size + underflow_};
   }
 
-  // ---- Stages of side() ---------------------------------------------------------------------------------------------
+  // ---- Stages of side()
 
   /// Stage 1: whether the plane is one of those that made the vertex, or of a face with a corner there.
   bool incident(const Vertex& v, std::uint32_t plane) const {
@@ -220,7 +238,7 @@ class Predicates {
     return static_cast<Sign>(plane.flipped() ? -sign : sign);
   }
 
-  // ---- Exact values -------------------------------------------------------------------------------------------------
+  // ---- Exact values
 
   /// A vertex in homogeneous integer grid coordinates (x, y, z, w), w > 0, not reduced.
   std::array<Integer, 4> homogeneous(const Vertex& v) const {

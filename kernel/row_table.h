@@ -3,7 +3,8 @@
 
 #include <sightline/kernel/fixed_integer.h>
 
-#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace sightline {
@@ -22,35 +23,14 @@ class Row_table {
   const Limb* operator[](std::size_t id) const { return &rows_[id * stride_]; }
 
   /// The number of the row; a new one if there was none like it. Pre: `row` does not point into the table.
-  std::uint32_t intern(const Limb* row) {
-    if (2 * (size() + 1) > slots_.size()) grow();
-    std::uint32_t& slot = slots_[slot_of(row)];
-    if (slot == none) {
-      if (size() == none) throw std::length_error("too many rows");
-      slot = static_cast<std::uint32_t>(size());
-      rows_.insert(rows_.end(), row, row + stride_);
-    }
-    return slot;
-  }
+  std::uint32_t intern(const Limb* row);
 
   /// The number of the row, or none.
   std::uint32_t find(const Limb* row) const { return slots_.empty() ? none : slots_[slot_of(row)]; }
 
  private:
-  std::size_t slot_of(const Limb* row) const {
-    Limb h = 0x9e3779b97f4a7c15u;
-    for (std::size_t i = 0; i < stride_; ++i) {
-      h = (h ^ row[i]) * 0xff51afd7ed558ccdu;
-      h ^= h >> 32;
-    }
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t s = h & mask;; s = (s + 1) & mask)
-      if (slots_[s] == none || std::equal(row, row + stride_, &rows_[slots_[s] * stride_])) return s;
-  }
-  void grow() {
-    slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), none);
-    for (std::uint32_t id = 0; id < size(); ++id) slots_[slot_of((*this)[id])] = id;
-  }
+  std::size_t slot_of(const Limb* row) const;
+  void grow();
 
   std::size_t stride_;
   std::vector<Limb> rows_;

@@ -4,6 +4,7 @@
 
 #include <sightline/kernel/plane.h>
 
+#include <cstdint>
 #include <limits>
 
 namespace sightline {

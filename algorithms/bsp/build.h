@@ -2,15 +2,23 @@
 // Building a BSP tree of a scene.
 
 #include <sightline/algorithms/bsp/tree.h>
+#include <sightline/kernel/plane.h>
 #include <sightline/kernel/threads.h>
-
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/task_group.h>
+#include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/vertex.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -57,7 +65,7 @@ class Builder {
   Tree build() {
     Part root;
     run_with_threads(options_.threads, [&] {
-      tbb::task_group group;
+      Task_group group;
       group.run_and_wait([&] { settle({input(), options_.seed, 1}, root, group); });
     });
     Tree tree;
@@ -134,7 +142,7 @@ class Builder {
 
   /// Makes the tree of a cell. The sides of a large cell are parts of their own, and tasks of their own where they are
   /// large, too.
-  void settle(Cell cell, Part& part, tbb::task_group& group) {
+  void settle(Cell cell, Part& part, Task_group& group) {
     Workspace& mine = workspaces_.local();
     const auto is_large = [&](const Polygons& polygons) {
       return polygons.size() >= worth_a_task && options_.threads != 1;
@@ -156,7 +164,8 @@ class Builder {
           settle(std::move(*from), *to, group);
         });
     };
-    settle_side(std::move(behind), part.behind), settle_side(std::move(front), part.front);
+    settle_side(std::move(behind), part.behind);
+    settle_side(std::move(front), part.front);
   }
 
   /// Makes the tree of a cell in this thread, with an explicit stack.
@@ -226,7 +235,10 @@ class Builder {
       const std::size_t before = best_cost;
       for (std::size_t t = 0; t < planes.size(); ++t) {
         balanced |= is_balanced(scores[t]);
-        if (const std::size_t c = cost(scores[t]); c < best_cost) best = begin + t, best_cost = c;
+        if (const std::size_t c = cost(scores[t]); c < best_cost) {
+          best = begin + t;
+          best_cost = c;
+        }
       }
       if (best_cost < before) std::swap(mine.positions, mine.best_positions);
     }
@@ -270,7 +282,9 @@ class Builder {
     for (std::size_t i = 0; i < polygons.size(); ++i) {
       for (std::size_t t = 0; t < front.size(); ++t) {
         const std::uint64_t p = mine.positions[i][t];
-        front[t] += p >> 1, behind[t] += p & 1, across[t] += p >> 1 & p;
+        front[t] += p >> 1;
+        behind[t] += p & 1;
+        across[t] += p >> 1 & p;
       }
     }
     std::array<Score, Plane_group<Traits>::most> scores;
@@ -302,7 +316,10 @@ class Builder {
     for (std::size_t t = 0; t < planes.size(); ++t) {
       // Both sides must shrink to three quarters, or cutting would go on without an end.
       if (4 * std::max(scores[t].front, scores[t].behind) > 3 * scores[t].all) continue;
-      if (const std::size_t c = cost(scores[t]); c < best_cost) best = planes[t], best_cost = c;
+      if (const std::size_t c = cost(scores[t]); c < best_cost) {
+        best = planes[t];
+        best_cost = c;
+      }
     }
     return best;
   }
@@ -325,7 +342,10 @@ class Builder {
       return polygon.size >= 3;
     };
     for (std::size_t i = begin; i < polygons.size(); ++i) {
-      if (i + 2 * ahead < polygons.size()) fetch_corners(polygons[i + 2 * ahead]), fetch_vertices(polygons[i + ahead]);
+      if (i + 2 * ahead < polygons.size()) {
+        fetch_corners(polygons[i + 2 * ahead]);
+        fetch_vertices(polygons[i + ahead]);
+      }
       switch (position_at(i)) {
         case Position::on: add_fragment(polygons[i], choice.plane, part); break;
         case Position::behind: polygons[behind++] = polygons[i]; break;
@@ -352,7 +372,8 @@ class Builder {
 
   /// Makes one tree of the parts: the nodes of a part, its front, what is behind.
   void join(Part& root, Tree& tree) {
-    tree.nodes = std::move(root.nodes), tree.fragments = std::move(root.fragments);
+    tree.nodes = std::move(root.nodes);
+    tree.fragments = std::move(root.fragments);
     std::vector<std::pair<Part*, std::int64_t>> stack{{root.behind, 1},
                                                       {root.front, 0}};  // and the side of a node, as in Waiting
     while (!stack.empty()) {
@@ -369,8 +390,8 @@ class Builder {
         tree.nodes.push_back(node);
       }
       tree.fragments.insert(tree.fragments.end(), part->fragments.begin(), part->fragments.end());
-      stack.emplace_back(part->behind, 2 * std::int64_t{number} + 1),
-          stack.emplace_back(part->front, 2 * std::int64_t{number});
+      stack.emplace_back(part->behind, 2 * std::int64_t{number} + 1);
+      stack.emplace_back(part->front, 2 * std::int64_t{number});
     }
   }
 
@@ -382,20 +403,24 @@ class Builder {
       if (face >= fragments_of.size()) fragments_of.resize(face + 1);
       fragment.number = fragments_of[face]++;
     }
-    for (Workspace& workspace : workspaces_) {
+    workspaces_.for_each([&](Workspace& workspace) {
       const Bsp_counters& c = workspace.counters;
-      tree.counters.pieces += c.pieces, tree.counters.splits += c.splits, tree.counters.free_planes += c.free_planes;
-      tree.counters.degenerate += c.degenerate, tree.counters.polygon_tests += c.polygon_tests;
+      tree.counters.pieces += c.pieces;
+      tree.counters.splits += c.splits;
+      tree.counters.free_planes += c.free_planes;
+      tree.counters.degenerate += c.degenerate;
+      tree.counters.polygon_tests += c.polygon_tests;
       tree.counters.depth = std::max(tree.counters.depth, c.depth);
       tree.counters.predicates += c.predicates;
       tree.memory.push_back(std::move(workspace.store));
-    }
-    tree.counters.nodes = tree.nodes.size(), tree.counters.fragments = tree.fragments.size();
+    });
+    tree.counters.nodes = tree.nodes.size();
+    tree.counters.fragments = tree.fragments.size();
   }
 
   const Traits& traits_;
   Bsp_options options_;
-  tbb::enumerable_thread_specific<Workspace> workspaces_;
+  Per_thread<Workspace> workspaces_;
   std::atomic<std::size_t> settled_{0};
   std::size_t all_ = 0;
 };

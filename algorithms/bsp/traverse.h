@@ -2,6 +2,13 @@
 // Visibility orders from a BSP tree: near -> on -> far, or far -> on -> near.
 
 #include <sightline/algorithms/bsp/tree.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/traits/partition_traits.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 

@@ -1,7 +1,13 @@
 #pragma once
 // Binary space partitioning trees: nodes, the fragments that lie on their planes, and what building one took.
 
-#include <sightline/kernel/partition_traits.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/traits/partition_traits.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace sightline {
 

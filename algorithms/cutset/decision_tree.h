@@ -5,9 +5,20 @@
 // single faces may not reach: a box takes 64/13 tests, the bound and the paper's figure are 62/13.
 
 #include <sightline/algorithms/cutset/view_cells.h>
+#include <sightline/kernel/number.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <map>
 #include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -49,12 +60,7 @@ struct Decision_tree {
 
 /// Each view of an open set of eyes is as likely as any other; one that only eyes in planes have is possible, with
 /// weight 0. No face on-view, from the inside of a convex body, is not possible; with `inside` it is, with weight 0.
-inline std::vector<Weighted_view> uniform_likelihood(std::span<const View_cell> cells, bool inside = false) {
-  std::vector<Weighted_view> views;
-  for (const View_cell& cell : cells)
-    if (cell.on_view != 0 || inside) views.push_back({cell.on_view, cell.on_view != 0 && cell.open ? 1 : 0});
-  return views;
-}
+std::vector<Weighted_view> uniform_likelihood(std::span<const View_cell> cells, bool inside = false);
 
 namespace decision_tree_detail {
 
@@ -72,7 +78,8 @@ class Cost_table {
     if (4 * ++size_ > 3 * keys_.size()) {
       std::vector<std::uint64_t> keys(2 * keys_.size());
       std::vector<Number> costs(2 * keys_.size());
-      keys.swap(keys_), costs.swap(costs_);
+      keys.swap(keys_);
+      costs.swap(costs_);
       for (std::size_t k = 0; k < keys.size(); ++k)
         if (keys[k] != 0) put(keys[k], costs[k]);
     }
@@ -89,7 +96,8 @@ class Cost_table {
   }
   void put(std::uint64_t key, const Number& cost) {
     const std::size_t place = place_of(key);
-    keys_[place] = key, costs_[place] = cost;
+    keys_[place] = key;
+    costs_[place] = cost;
   }
   std::vector<std::uint64_t> keys_ = std::vector<std::uint64_t>(1024);
   std::vector<Number> costs_ = std::vector<Number>(1024);
@@ -143,7 +151,12 @@ class Search {
     std::size_t count = 0;
     Number weight = 0;
 
-    void add(const View& view) { in_all &= view.on_view, in_some |= view.on_view, weight += view.weight, ++count; }
+    void add(const View& view) {
+      in_all &= view.on_view;
+      in_some |= view.on_view;
+      weight += view.weight;
+      ++count;
+    }
   };
   struct Choice {
     Number cost;
@@ -179,7 +192,10 @@ class Search {
           cost += *known;
           continue;
         }
-        if (!is_split) split(views, face), is_split = true;
+        if (!is_split) {
+          split(views, face);
+          is_split = true;
+        }
         const Number least = best(on ? views.first(parts[1].count) : views.last(parts[0].count)).cost;
         if (costs_.size() >= most_states_)
           throw std::length_error(
@@ -202,7 +218,8 @@ class Search {
     tree.steps.push_back({face, 0, 0});
     const std::size_t count = split(views, face);
     const std::uint32_t on = grow(tree, views.first(count)), off = grow(tree, views.subspan(count));
-    tree.steps[place].on = on, tree.steps[place].off = off;
+    tree.steps[place].on = on;
+    tree.steps[place].off = off;
     return place;
   }
 
@@ -217,8 +234,10 @@ void fill(Decision_tree& tree, const std::map<std::uint32_t, Integer>& weights, 
   std::vector<typename Search<Number>::View> views;
   for (const auto& [on_view, weight] : weights) views.push_back({on_view, convert(weight)});
   Search<Number> search(std::move(views), most_states);
-  tree.bound = Rational(Integer(search.bound()), total), tree.expected = Rational(Integer(search.build(tree)), total);
-  tree.bound.canonicalize(), tree.expected.canonicalize();
+  tree.bound = Rational(Integer(search.bound()), total);
+  tree.expected = Rational(Integer(search.build(tree)), total);
+  tree.bound.canonicalize();
+  tree.expected.canonicalize();
 }
 
 }  // namespace decision_tree_detail
@@ -236,31 +255,6 @@ void fill(Decision_tree& tree, const std::map<std::uint32_t, Integer>& weights, 
 ///     MB                      8      90      200     770
 /// So 20 faces in 10 s, 24 in 1 GB. Weights whose sum has more than 57 bits once they are integers take four times as
 /// long. Beyond `most_states` states: std::length_error. Exact: yes. Proof: P-53
-inline Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces,
-                                 std::size_t most_states = 25'000'000) {
-  if (faces > 32) throw std::invalid_argument("decision trees for " + std::to_string(faces) + " faces: at most 32");
-  Integer common = 1, total = 0;
-  for (const Weighted_view& view : views) {
-    if (sgn(view.weight) < 0) throw std::invalid_argument("a view of weight " + to_string(view.weight));
-    const auto width = std::bit_width(view.on_view);
-    if (static_cast<unsigned>(width) > faces)
-      throw std::invalid_argument("a view of face " + std::to_string(width - 1) + ", of " + std::to_string(faces));
-    common = lcm(common, view.weight.get_den());
-  }
-  std::map<std::uint32_t, Integer> weights;
-  for (const Weighted_view& view : views) {
-    const Integer weight = view.weight.get_num() * (common / view.weight.get_den());
-    weights[view.on_view] += weight, total += weight;
-  }
-  if (sgn(total) == 0) throw std::invalid_argument("no view has a weight");
-  Decision_tree tree;
-  if (bit_length(total) <= 57)  // a path has at most 32 tests, so all sums stay below 2^62
-    decision_tree_detail::fill<std::int64_t>(tree, weights, total, most_states,
-                                             [](const Integer& weight) { return weight.get_si(); });
-  else
-    decision_tree_detail::fill<Integer>(tree, weights, total, most_states,
-                                        [](const Integer& weight) { return weight; });
-  return tree;
-}
+Decision_tree least_tests(std::span<const Weighted_view> views, unsigned faces, std::size_t most_states = 25'000'000);
 
 }  // namespace sightline

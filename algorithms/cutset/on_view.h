@@ -1,13 +1,21 @@
 #pragma once
 // Whether a viewpoint is strictly in front of a face's plane, and how far it can move before that changes.
 
-#include <sightline/kernel/partition_traits.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/face_graph.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 namespace sightline {
 
@@ -16,9 +24,7 @@ struct Viewpoint {
   Exact_point at;
   bool at_infinity = false;
 };
-inline bool operator==(const Viewpoint& a, const Viewpoint& b) {
-  return a.at_infinity == b.at_infinity && std::equal(a.at.begin(), a.at.end(), b.at.begin());
-}
+bool operator==(const Viewpoint& a, const Viewpoint& b);
 
 /// The on-view predicate over the nodes of a face graph: a viewpoint in a node's plane is off-view, and so is one at
 /// infinity along it. Doubles decide where their bound allows, and tell how far the viewpoint is from the plane; else

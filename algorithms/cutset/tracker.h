@@ -4,7 +4,18 @@
 
 #include <sightline/algorithms/cutset/on_view.h>
 #include <sightline/algorithms/cutset/watch_list.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/convex_parts.h>
+#include <sightline/kernel/scene/face_graph.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,11 +31,7 @@ struct Cut_set_counters {
   std::uint64_t births = 0;    ///< clusters of these of which none was at the cut-set
   std::uint64_t searches = 0;  ///< convex bodies that showed no face, searched for one
   std::uint64_t compared = 0;  ///< pairs of faces compared in these searches
-  Cut_set_counters& operator+=(const Cut_set_counters& other) {
-    tests += other.tests, away += other.away, exact += other.exact, changed += other.changed, births += other.births,
-        searches += other.searches, compared += other.compared;
-    return *this;
-  }
+  Cut_set_counters& operator+=(const Cut_set_counters& other);
 };
 
 /// The on-view nodes of a face graph and the cut-set, moved from viewpoint to viewpoint. Whatever the move, and
@@ -48,7 +55,9 @@ class Cut_set_tracker {
     links_.reserve(2 * graph.edges().size());
     for (std::uint32_t i = 0; i < graph.size(); ++i) {
       Node& node = nodes_[i];
-      node.row = tester_.row(i), node.component = graph.component(i), node.everywhere = !graph.is_convex(i);
+      node.row = tester_.row(i);
+      node.component = graph.component(i);
+      node.everywhere = !graph.is_convex(i);
       node.first_link = static_cast<std::uint32_t>(links_.size());
       for (const std::uint32_t e : graph.edges_of(i)) links_.push_back({graph.across(e, i), e});
       node.links = static_cast<std::uint32_t>(links_.size()) - node.first_link;
@@ -57,8 +66,10 @@ class Cut_set_tracker {
     for (std::uint32_t c = 0; c < bodies_.size(); ++c) {
       const Face_graph::Component& component = graph.components()[c];
       if (!component.inside) continue;
-      bodies_[c].inside = tester_.locate({*component.inside}), bodies_[c].walk_from = component.node;
-      bodies_[c].dark = true, dark_.push_back(c);
+      bodies_[c].inside = tester_.locate({*component.inside});
+      bodies_[c].walk_from = component.node;
+      bodies_[c].dark = true;
+      dark_.push_back(c);
     }
   }
 
@@ -66,7 +77,8 @@ class Cut_set_tracker {
   /// was.
   const Cut_set_counters& move_to(const Viewpoint& view) {
     typename On_view<Traits>::Eye next = tester_.locate(view);
-    last_ = {}, changed_.clear();
+    last_ = {};
+    changed_.clear();
     const double distance = eye_ ? On_view<Traits>::distance(*eye_, next) : std::numeric_limits<double>::infinity();
     if (distance == 0) return last_;
     eye_ = std::move(next);
@@ -81,7 +93,9 @@ class Cut_set_tracker {
     // What ran out on the way: tested, and from what changed on to its neighbours.
     open_.clear();
     const Watch_list::Confirmed confirmed = watched_.test(*eye_, path_, open_);
-    last_.tests = confirmed.nodes, last_.away = confirmed.away, predicates_.filtered += confirmed.nodes;
+    last_.tests = confirmed.nodes;
+    last_.away = confirmed.away;
+    predicates_.filtered += confirmed.nodes;
     for (const std::uint32_t i : open_) fetch(&nodes_[i]);
     for (const std::uint32_t i : open_) look_at(i);
     settle(0);
@@ -157,11 +171,14 @@ class Cut_set_tracker {
   void look_at(std::uint32_t i) {
     Node& node = nodes_[i];
     const auto answer = tester_.test(i, node.row, *eye_, predicates_);
-    ++last_.tests, last_.away += node.cut_edges == 0, last_.exact += answer.clear == 0;
+    ++last_.tests;
+    last_.away += node.cut_edges == 0;
+    last_.exact += answer.clear == 0;
     node.until = std::max(path_, std::min((path_ + answer.clear) * (1 - 0x1p-52), Watch_list::far));  // rounded down
     if (node.place != nowhere) watched_.set_until(node.place, node.until);
     if (answer.on == node.on) return;
-    node.on = answer.on, node.turned = true;
+    node.on = answer.on;
+    node.turned = true;
     if (node.everywhere) node.cluster = node.cut_edges > 0 ? Cluster::at_cut : Cluster::away;
     answer.on ? ++on_view_ : --on_view_;
     changed_.push_back(i);
@@ -175,7 +192,8 @@ class Cut_set_tracker {
       if (node.place == nowhere) node.place = watched_.take();
       watched_.set(node.place, i, node.row, node.on, node.until, node.cut_edges > 0);
     } else if (node.place != nowhere) {
-      node.until = watched_.remove(node.place), node.place = nowhere;
+      node.until = watched_.remove(node.place);
+      node.place = nowhere;
     }
   }
 
@@ -185,8 +203,10 @@ class Cut_set_tracker {
   void settle(std::size_t begin) {
     for (std::size_t k = begin; k < changed_.size(); ++k) {
       if (k + ahead < changed_.size())
-        for (const Link& link : links(nodes_[changed_[k + ahead]]))
-          fetch(&nodes_[link.node]), fetch(&place_[link.edge]);
+        for (const Link& link : links(nodes_[changed_[k + ahead]])) {
+          fetch(&nodes_[link.node]);
+          fetch(&place_[link.edge]);
+        }
       Node& node = nodes_[changed_[k]];
       Body& body = bodies_[node.component];
       for (const Link& link : links(node)) {
@@ -200,7 +220,10 @@ class Cut_set_tracker {
         else if ((other.cut_edges > 0) != (other.place != nowhere)) update_watch(link.node);
       }
       update_watch(changed_[k]);
-      if (body.cut_edges == 0 && body.inside && !body.dark) body.dark = true, dark_.push_back(node.component);
+      if (body.cut_edges == 0 && body.inside && !body.dark) {
+        body.dark = true;
+        dark_.push_back(node.component);
+      }
     }
     count_births(begin);
     update_cut();
@@ -210,15 +233,23 @@ class Cut_set_tracker {
   void update_cut() {
     while (!entering_.empty() && !leaving_.empty()) {
       const std::uint32_t place = std::exchange(place_[leaving_.back()], nowhere);
-      place_[entering_.back()] = place, cut_[place] = entering_.back();
-      entering_.pop_back(), leaving_.pop_back();
+      place_[entering_.back()] = place;
+      cut_[place] = entering_.back();
+      entering_.pop_back();
+      leaving_.pop_back();
     }
-    for (const std::uint32_t e : entering_) place_[e] = static_cast<std::uint32_t>(cut_.size()), cut_.push_back(e);
+    for (const std::uint32_t e : entering_) {
+      place_[e] = static_cast<std::uint32_t>(cut_.size());
+      cut_.push_back(e);
+    }
     for (const std::uint32_t e : leaving_) {
-      place_[cut_.back()] = place_[e], cut_[place_[e]] = cut_.back();
-      cut_.pop_back(), place_[e] = nowhere;
+      place_[cut_.back()] = place_[e];
+      cut_[place_[e]] = cut_.back();
+      cut_.pop_back();
+      place_[e] = nowhere;
     }
-    entering_.clear(), leaving_.clear();
+    entering_.clear();
+    leaving_.clear();
   }
   /// Of what changed, clusters that were not at the cut-set. A convex body has none: there all that changes hangs
   /// together with a change at the cut-set, but where it showed no face (P-50).
@@ -264,7 +295,8 @@ class Cut_set_tracker {
 
   /// Where no distance was travelled that means anything: from a point to a direction, from nowhere.
   void forget_all() {
-    path_ = 0, watched_.forget_all();
+    path_ = 0;
+    watched_.forget_all();
     for (Node& node : nodes_) node.until = -1;
   }
 

@@ -3,7 +3,13 @@
 // for answers.
 
 #include <sightline/algorithms/cutset/on_view.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/convex_parts.h>
+#include <sightline/kernel/scene/face_graph.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <vector>
 
 namespace sightline {
@@ -26,8 +32,10 @@ class Cut_set_1977 {
   Cut_set_1977(const Traits& traits, const Face_graph& graph, const Viewpoint& start, Reading_1977 reading)
       : graph_(&graph), tester_(traits, graph), reading_(reading), on_(graph.size()), checked_(graph.size(), 0) {
     const auto eye = tester_.locate(start);
-    for (std::uint32_t i = 0; i < graph.size(); ++i)
-      rows_.push_back(tester_.row(i)), on_[i] = tester_.test(i, rows_[i], eye, predicates_).on;
+    for (std::uint32_t i = 0; i < graph.size(); ++i) {
+      rows_.push_back(tester_.row(i));
+      on_[i] = tester_.test(i, rows_[i], eye, predicates_).on;
+    }
     for (std::uint32_t e = 0; e < graph.edges().size(); ++e)
       if (is_cut(e)) cut_.push_back(e);
   }
@@ -40,11 +48,18 @@ class Cut_set_1977 {
     std::vector<std::uint32_t> changed, stack;
     const auto check = [&](std::uint32_t i) {
       if (checked_[i] == frame_) return;
-      checked_[i] = frame_, ++tests;
-      if (const bool on = tester_.test(i, rows_[i], eye, predicates_).on; on != on_[i])
-        on_[i] = on, changed.push_back(i), stack.push_back(i);
+      checked_[i] = frame_;
+      ++tests;
+      if (const bool on = tester_.test(i, rows_[i], eye, predicates_).on; on != on_[i]) {
+        on_[i] = on;
+        changed.push_back(i);
+        stack.push_back(i);
+      }
     };
-    for (const std::uint32_t e : cut_) check(graph_->edges()[e].first), check(graph_->edges()[e].second);
+    for (const std::uint32_t e : cut_) {
+      check(graph_->edges()[e].first);
+      check(graph_->edges()[e].second);
+    }
     std::vector<bool> is_changed(graph_->size());
     for (const std::uint32_t i : changed) is_changed[i] = true;
     const auto gone = [&](std::uint32_t e) {

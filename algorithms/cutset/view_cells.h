@@ -4,10 +4,17 @@
 // n + n (n - 1) / 2 + n (n - 1) (n - 2) / 6 sets, all of them open; faces of a convex body with an inside have open
 // sets only.
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -23,14 +30,7 @@ struct View_cell {
 
 /// The faces of the planes a x + b y + c z + d = 0, fronts where that is positive, that an eye has on-view. In the
 /// plane counts as off-view. Pre: at most 32. Exact: yes
-inline std::uint32_t on_view_from(std::span<const std::array<Rational, 4>> planes, const Exact_point& eye) {
-  std::uint32_t on_view = 0;
-  for (std::size_t k = 0; k < planes.size(); ++k)
-    if (const Rational value = planes[k][0] * eye[0] + planes[k][1] * eye[1] + planes[k][2] * eye[2] + planes[k][3];
-        sgn(value) > 0)
-      on_view |= 1u << k;
-  return on_view;
-}
+std::uint32_t on_view_from(std::span<const std::array<Rational, 4>> planes, const Exact_point& eye);
 
 namespace view_cells_detail {
 
@@ -81,7 +81,10 @@ class Hyperplane {
     Point<dimension> result;
     Rational rest = form_[dimension];
     for (std::size_t k = 0; k < dimension; ++k)
-      if (k != gone_) result[k] = p[k - (k > gone_)], rest += form_[k] * result[k];
+      if (k != gone_) {
+        result[k] = p[k - (k > gone_)];
+        rest += form_[k] * result[k];
+      }
     result[gone_] = -rest / form_[gone_];
     return result;
   }
@@ -182,19 +185,6 @@ Cells<dimension> all_cells(std::span<const Form<dimension>> forms, std::size_t f
 /// which has none on-view. In a plane counts as off-view, so what only eyes in planes have on-view is listed too, with
 /// `open` false. Cost: O(n^4) rational operations; 24 planes of 26-bit coefficients in general position take 1 s if an
 /// open set of eyes has none on-view, else 3 s. Exact: yes. Proof: P-52
-inline std::vector<View_cell> view_cells(std::span<const std::array<Rational, 4>> planes) {
-  using namespace view_cells_detail;
-  if (planes.size() > most_view_faces)
-    throw std::invalid_argument("views of " + std::to_string(planes.size()) + " faces: at most " +
-                                std::to_string(most_view_faces));
-  for (std::size_t k = 0; k < planes.size(); ++k)
-    if (is_constant<3>(planes[k])) throw std::invalid_argument("plane " + std::to_string(k) + " has no normal");
-  std::vector<View_cell> cells;
-  for (const auto& [on, sample] : all_cells<3>(planes, 0)) {
-    const auto off_plane = [&sample = sample](const Form<3>& form) { return sgn(value<3>(form, sample)) != 0; };
-    cells.push_back({on, std::all_of(planes.begin(), planes.end(), off_plane), sample});
-  }
-  return cells;
-}
+std::vector<View_cell> view_cells(std::span<const std::array<Rational, 4>> planes);
 
 }  // namespace sightline

@@ -32,7 +32,8 @@ class Watch_list {
     if (free_.empty()) {
       const std::uint32_t begin = static_cast<std::uint32_t>(block_size * blocks_.size());
       if (blocks_.size() % group_size == 0) first_of_group_.push_back(never);
-      blocks_.emplace_back(), first_.push_back(never);
+      blocks_.emplace_back();
+      first_.push_back(never);
       for (std::uint32_t k = block_size; k-- > 0;) free_.push_back(begin + k);
     }
     const std::uint32_t place = free_.back();
@@ -46,9 +47,13 @@ class Watch_list {
     Block& block = blocks_[place / block_size];
     Two& two = block.rows[k / 2];
     const double sign = on ? 1 : -1;
-    two.a[k % 2] = sign * row.a, two.b[k % 2] = sign * row.b, two.c[k % 2] = sign * row.c, two.d[k % 2] = sign * row.d;
+    two.a[k % 2] = sign * row.a;
+    two.b[k % 2] = sign * row.b;
+    two.c[k % 2] = sign * row.c;
+    two.d[k % 2] = sign * row.d;
     block.node[k] = node;
-    set_until(place, until), set_at_cut(place, at_cut);
+    set_until(place, until);
+    set_at_cut(place, at_cut);
   }
   void set_until(std::uint32_t place, double until) {
     blocks_[place / block_size].until[place % block_size / 2][place % 2] = until;
@@ -65,7 +70,8 @@ class Watch_list {
     const std::uint32_t k = place % block_size;
     Block& block = blocks_[place / block_size];
     const double until = block.until[k / 2][k % 2];
-    block.node[k] = nowhere, block.until[k / 2][k % 2] = never;
+    block.node[k] = nowhere;
+    block.until[k / 2][k % 2] = never;
     free_.push_back(place);
     return until;
   }
@@ -88,8 +94,8 @@ class Watch_list {
         if (first_[b] < path) {
           Block& block = blocks_[b];
           const auto [confirmed_bits, open_bits] = test_block(block, eye, path, first_[b]);
-          confirmed.nodes += static_cast<std::uint64_t>(std::popcount(confirmed_bits)),
-              confirmed.away += static_cast<std::uint64_t>(std::popcount(confirmed_bits & ~block.at_cut));
+          confirmed.nodes += static_cast<std::uint64_t>(std::popcount(confirmed_bits));
+          confirmed.away += static_cast<std::uint64_t>(std::popcount(confirmed_bits & ~block.at_cut));
           for (std::uint64_t bits = open_bits; bits != 0; bits &= bits - 1)
             open.push_back(block.node[static_cast<std::size_t>(std::countr_zero(bits))]);
         }
@@ -113,7 +119,10 @@ class Watch_list {
     std::array<Doubles, block_size / 2> until;  // never: a free place, or one that test() left open
     std::array<std::uint32_t, block_size> node;
     std::uint64_t at_cut = 0;  // bit k: node k
-    Block() { until.fill(Doubles{never, never}), node.fill(nowhere); }
+    Block() {
+      until.fill(Doubles{never, never});
+      node.fill(nowhere);
+    }
   };
 
   /// All nodes of a block, whether they ran out or not; what did not stays what it was. Returns two sets of those that
@@ -133,8 +142,10 @@ class Watch_list {
       until = clear > zero ? until : nevers;
       until = old < now ? until : old;
       const Bits ran_out = std::bit_cast<Bits>(old < now) & bit;
-      expired |= ran_out, open |= ran_out & ~std::bit_cast<Bits>(clear > zero);  // not clear <= 0: it may be no number
-      bit += bit, bit += bit;
+      expired |= ran_out;
+      open |= ran_out & ~std::bit_cast<Bits>(clear > zero);  // not clear <= 0: it may be no number
+      bit += bit;
+      bit += bit;
       least = until < least ? until : least;
       block.until[k] = until;
     }

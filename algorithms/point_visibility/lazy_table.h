@@ -3,7 +3,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -19,7 +18,8 @@ class Lazy_table {
   explicit Lazy_table(std::size_t n) : rows_(n), blocks_(new std::atomic<Row*>[(n + block - 1) / block]()) {}
   Lazy_table(Lazy_table&& other) noexcept : rows_(std::exchange(other.rows_, 0)), blocks_(std::move(other.blocks_)) {}
   Lazy_table& operator=(Lazy_table&& other) noexcept {
-    std::swap(rows_, other.rows_), std::swap(blocks_, other.blocks_);
+    std::swap(rows_, other.rows_);
+    std::swap(blocks_, other.blocks_);
     return *this;
   }
   ~Lazy_table() {

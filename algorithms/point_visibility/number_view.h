@@ -3,7 +3,23 @@
 
 #include <sightline/algorithms/point_visibility/lazy_table.h>
 #include <sightline/algorithms/point_visibility/view.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/fixed_integer.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <type_traits>
 
 namespace sightline {
 

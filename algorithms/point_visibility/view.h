@@ -2,9 +2,14 @@
 // What visibility from a point stands on: planes through the eye, the rays where two of them meet, and the faces as
 // linear forms of the ray.
 
-#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
 
+#include <array>
 #include <concepts>
+#include <cstdint>
 
 namespace sightline {
 

@@ -2,8 +2,20 @@
 // The surfaces that are visible from a point, exactly: the sphere of directions is cut by planes through the eye and
 // scene edges until one piece covers each region.
 
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/algorithms/point_visibility/visible_solver.h>
+#include <sightline/algorithms/point_visibility/visible_surface.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/threads.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 

@@ -1,12 +1,29 @@
 #pragma once
 // How directions are cut: by planes through the eye and scene edges, until one piece covers each region.
 
+#include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/lazy_table.h>
+#include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/convex_parts.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/threads.h>
 
-#include <oneapi/tbb/parallel_invoke.h>
-
+#include <algorithm>
+#include <array>
 #include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -45,7 +62,6 @@ class Solver {
 
  private:
   // ---- What a region holds
-  // -----------------------------------------------------------------------------------------------------
 
   /// A chunk that may meet the region, with a bit for each edge plane that has parts of the region on both sides (none:
   /// it covers the region).
@@ -56,7 +72,10 @@ class Solver {
     const std::uint32_t size = boxes_.chunks()[chunk].size;
     return {chunk, size == 32 ? ~0u : (1u << size) - 1};
   }
-  static void remove(std::vector<Item>& items, std::size_t i) { items[i] = items.back(), items.pop_back(); }
+  static void remove(std::vector<Item>& items, std::size_t i) {
+    items[i] = items.back();
+    items.pop_back();
+  }
   /// A box that has not been opened, by its node.
   struct Closed_box {
     std::uint32_t node;
@@ -111,7 +130,6 @@ class Solver {
   }
 
   // ---- Tests
-  // ---------------------------------------------------------------------------------------------------------------
 
   /// Updates which edges of a chunk cut the region. Returns whether it may still meet it.
   bool update(Item& item, const Region& region, Predicate_counts& counts) const {
@@ -122,7 +140,8 @@ class Solver {
       bool inside = false, outside = false;
       for (const Ray& r : region.rays) {
         const Sign s = view_.side(edge, r, counts);
-        inside = inside || s == CGAL::POSITIVE, outside = outside || s == CGAL::NEGATIVE;
+        inside = inside || s == CGAL::POSITIVE;
+        outside = outside || s == CGAL::NEGATIVE;
         if (inside && outside) break;
       }
       if (!inside) return false;
@@ -155,7 +174,8 @@ class Solver {
     bool nearer = false, farther = false;
     for (const Ray& r : region.rays) {
       const Sign s = view_.nearer(a, b, r, counts);
-      nearer = nearer || s == CGAL::POSITIVE, farther = farther || s == CGAL::NEGATIVE;
+      nearer = nearer || s == CGAL::POSITIVE;
+      farther = farther || s == CGAL::NEGATIVE;
       if (nearer && farther) return Depth::crossing;
     }
     return farther ? Depth::farther : Depth::nearer;
@@ -169,7 +189,6 @@ class Solver {
   }
 
   // ---- One region
-  // ------------------------------------------------------------------------------------------------------------
 
   /// Drops what is hidden in the region, opens boxes, and returns the plane to cut it by; none where it is settled.
   std::optional<Plane> settle(Task& task, Output& out) const {
@@ -208,7 +227,9 @@ class Solver {
       if (task.cover != nothing && view_.same_plane(piece_of(task.cover), piece_of(item.chunk)))
         task.tied.push_back(task.cover);
       else task.tied.clear();
-      task.cover = item.chunk, checked = i = 0, changed = true;  // all others once more
+      task.cover = item.chunk;
+      checked = i = 0;
+      changed = true;  // all others once more
     }
     return changed;
   }
@@ -294,7 +315,11 @@ class Solver {
     for (const Ray& r : region.rays) {
       const Approximate_vector v = view_.approximate(r);
       const double size = std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z);
-      if (size > 0) sum.x += v.x / size, sum.y += v.y / size, sum.z += v.z / size;
+      if (size > 0) {
+        sum.x += v.x / size;
+        sum.y += v.y / size;
+        sum.z += v.z / size;
+      }
     }
     return sum;
   }
@@ -307,7 +332,10 @@ class Solver {
     for (const Item& item : task.items) {
       if (item.active == 0) continue;
       const double near = view_.nearness(piece_of(item.chunk), middle);
-      if (best == nullptr || near > nearest) nearest = near, best = &item;
+      if (best == nullptr || near > nearest) {
+        nearest = near;
+        best = &item;
+      }
     }
     if (best == nullptr) {
       ++out.counters.crossings;
@@ -318,7 +346,10 @@ class Solver {
     for (std::uint32_t bits = best->active; bits != 0; bits &= bits - 1) {
       const Plane& w = edges_of(best->chunk)[std::countr_zero(bits)];
       const double cost = cost_of(w, task, out.counters.predicates);
-      if (cheapest == nullptr || cost < least) least = cost, cheapest = &w;
+      if (cheapest == nullptr || cost < least) {
+        least = cost;
+        cheapest = &w;
+      }
     }
     return *cheapest;
   }
@@ -337,7 +368,8 @@ class Solver {
       bool in_front = false, at_back = false;
       for (const std::uint32_t p : points_of(item.chunk)) {
         const Sign s = view_.side(w, p, counts);
-        in_front = in_front || s == CGAL::POSITIVE, at_back = at_back || s == CGAL::NEGATIVE;
+        in_front = in_front || s == CGAL::POSITIVE;
+        at_back = at_back || s == CGAL::NEGATIVE;
       }
       weigh(in_front, at_back, 1);
     }
@@ -353,7 +385,8 @@ class Solver {
     for (std::size_t k = 0; k < n; ++k) {
       const Sign from = sides[k], to = sides[k + 1 == n ? 0 : k + 1];
       const auto add = [&](std::size_t part, const Ray& ray, const Plane& side) {
-        parts[part].rays.push_back(ray), parts[part].sides.push_back(side);
+        parts[part].rays.push_back(ray);
+        parts[part].sides.push_back(side);
       };
       if (from != CGAL::NEGATIVE)
         add(0, region.rays[k], from == CGAL::POSITIVE || to == CGAL::POSITIVE ? region.sides[k] : w);
@@ -383,7 +416,10 @@ class Solver {
     std::array<Task, 2> tasks;
     for (std::size_t part = 0; part < 2; ++part) {
       Task& to = tasks[part];
-      to.region = std::move(regions[part]), to.cover = task.cover, to.tied = task.tied, to.depth = task.depth + 1;
+      to.region = std::move(regions[part]);
+      to.cover = task.cover;
+      to.tied = task.tied;
+      to.depth = task.depth + 1;
       if (to.region.rays.size() < 3) continue;  // inexact signs only
       const Plane side = part == 0 ? w : view_.opposite(w);
       for (const Closed_box& box : task.boxes)
@@ -398,7 +434,6 @@ class Solver {
   }
 
   // ---- All of them
-  // -----------------------------------------------------------------------------------------------------------
 
   static constexpr std::uint32_t parallel_depth = 10;
 
@@ -411,8 +446,8 @@ class Solver {
     std::array<Task, 2> tasks = divide(task, *w, out);
     Output second;
     std::array<std::int32_t, 2> children;
-    oneapi::tbb::parallel_invoke([&] { children[0] = solve_in_parallel(std::move(tasks[0]), share / 2, out); },
-                                 [&] { children[1] = solve_in_parallel(std::move(tasks[1]), share / 2, second); });
+    parallel_invoke([&] { children[0] = solve_in_parallel(std::move(tasks[0]), share / 2, out); },
+                    [&] { children[1] = solve_in_parallel(std::move(tasks[1]), share / 2, second); });
     children[1] = append(second, children[1], out);
     return merge(*w, children, task.region, out);
   }
@@ -446,7 +481,10 @@ class Solver {
         continue;
       }
       std::array<Task, 2> tasks = divide(step.task, *w, out);
-      step.task.items = {}, step.task.boxes = {}, step.task.tied = {}, step.cut = w;
+      step.task.items = {};
+      step.task.boxes = {};
+      step.task.tied = {};
+      step.cut = w;
       steps.push_back(std::move(step));
       steps.push_back({std::move(tasks[1]), std::nullopt});
       steps.push_back({std::move(tasks[0]), std::nullopt});
@@ -484,7 +522,8 @@ class Solver {
     if (children[0] < 0 && children[1] < 0) {
       const auto first = out.parts[out.parts.size() - 2], second = out.parts.back();
       if (first.piece == second.piece) {
-        out.parts.resize(out.parts.size() - 2), out.rays.resize(first.first);
+        out.parts.resize(out.parts.size() - 2);
+        out.rays.resize(first.first);
         ++out.counters.merged;
         return add(first.piece, region, out);
       }
@@ -497,7 +536,10 @@ class Solver {
   static std::int32_t append(const Output& from, std::int32_t child, To& to) {
     const auto parts = static_cast<std::int32_t>(to.parts.size()), nodes = static_cast<std::int32_t>(to.nodes.size());
     const auto moved = [&](std::int32_t c) { return c == Surface::no_child ? c : c < 0 ? c - parts : c + nodes; };
-    for (typename Surface::Part part : from.parts) part.first += to.rays.size(), to.parts.push_back(part);
+    for (typename Surface::Part part : from.parts) {
+      part.first += to.rays.size();
+      to.parts.push_back(part);
+    }
     for (const typename Surface::Node& node : from.nodes)
       to.nodes.push_back({node.plane, moved(node.front), moved(node.behind)});
     to.rays.insert(to.rays.end(), from.rays.begin(), from.rays.end());

@@ -2,8 +2,16 @@
 // What an eye sees, as a partition of its directions.
 
 #include <sightline/algorithms/point_visibility/view.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <span>
+#include <vector>
 
 namespace sightline {
 
@@ -24,12 +32,7 @@ struct Visible_counters {
       merged = 0;  ///< leaves; cuts, of them along a line where two pieces cross; pairs of leaves put together again
   std::uint64_t depth = 0;
   Predicate_counts predicates;
-  Visible_counters& operator+=(const Visible_counters& o) {
-    opened += o.opened, looked_at += o.looked_at, hidden += o.hidden, hidden_boxes += o.hidden_boxes;
-    regions += o.regions, splits += o.splits, crossings += o.crossings, merged += o.merged,
-        depth = std::max(depth, o.depth), predicates += o.predicates;
-    return *this;
-  }
+  Visible_counters& operator+=(const Visible_counters& o);
 };
 
 /// A partition of the directions around an eye (of a field of view) into convex cones, in each of which one piece is

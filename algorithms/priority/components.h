@@ -16,13 +16,7 @@ class Priority_components {
  public:
   Priority_components() = default;
   /// Pre: h(r) < count for each face r, each number taken.
-  Priority_components(std::vector<std::uint32_t> h, std::uint32_t count)
-      : h_(std::move(h)), begin_(count + std::size_t{1}), members_(h_.size()) {
-    for (const std::uint32_t c : h_) ++begin_[c + std::size_t{1}];
-    for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-    std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t r = 0; r < h_.size(); ++r) members_[next[h_[r]]++] = r;
-  }
+  Priority_components(std::vector<std::uint32_t> h, std::uint32_t count);
 
   std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
   std::span<const std::uint32_t> operator[](std::size_t c) const {
@@ -32,17 +26,9 @@ class Priority_components {
   std::uint32_t h(std::uint32_t face) const { return h_[face]; }
   std::size_t faces() const { return h_.size(); }
 
-  std::size_t largest() const {
-    std::size_t most = 0;
-    for (std::size_t c = 0; c < size(); ++c) most = std::max(most, (*this)[c].size());
-    return most;
-  }
+  std::size_t largest() const;
   /// Components of more than one face.
-  std::size_t cyclic() const {
-    std::size_t count = 0;
-    for (std::size_t c = 0; c < size(); ++c) count += (*this)[c].size() > 1;
-    return count;
-  }
+  std::size_t cyclic() const;
 
  private:
   std::vector<std::uint32_t> h_, begin_{}, members_;

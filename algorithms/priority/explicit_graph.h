@@ -9,8 +9,11 @@
 #include <boost/graph/strong_components.hpp>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -19,29 +22,11 @@ using Arc_graph = boost::compressed_sparse_row_graph<boost::directedS, boost::no
                                                      boost::no_property, std::uint32_t, std::uint64_t>;
 
 /// The components of any graph of arcs in an order of priority. Cost: linear. Exact: yes.
-inline Priority_components components(const Arc_graph& graph) {
-  const std::size_t n = boost::num_vertices(graph);
-  std::vector<std::uint32_t> component(n);
-  if (n == 0) return {};
-  const auto index = boost::get(boost::vertex_index, graph);
-  const std::uint32_t count = boost::strong_components(
-      graph, boost::make_iterator_property_map(component.begin(), index), boost::vertex_index_map(index));
-  for (std::uint32_t& c : component) c = count - 1 - c;  // Boost numbers a component after those that it leads to
-  return {std::move(component), count};
-}
+Priority_components components(const Arc_graph& graph);
 
 /// The arcs between components: G' of the paper, acyclic. Vertex c is component c; an arc a -> b has a < b, once. Cost:
 /// O(arcs log arcs).
-inline Arc_graph condensation(const Arc_graph& graph, const Priority_components& components) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
-  for (const auto& arc : boost::make_iterator_range(boost::edges(graph))) {
-    const std::uint32_t a = components.h(boost::source(arc, graph)), b = components.h(boost::target(arc, graph));
-    if (a != b) arcs.emplace_back(a, b);
-  }
-  std::sort(arcs.begin(), arcs.end());
-  arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
-  return Arc_graph(boost::edges_are_sorted, arcs.begin(), arcs.end(), static_cast<std::uint32_t>(components.size()));
-}
+Arc_graph condensation(const Arc_graph& graph, const Priority_components& components);
 
 /// The graph of a relation, explicit. `Relation` has size() and arcs(i, j, counters).
 class Explicit_priority_graph {
@@ -66,10 +51,7 @@ class Explicit_priority_graph {
 
   std::size_t size() const { return boost::num_vertices(graph_); }
   std::size_t arc_count() const { return boost::num_edges(graph_); }
-  bool has_arc(std::uint32_t i, std::uint32_t j) const {
-    const auto [begin, end] = boost::adjacent_vertices(i, graph_);
-    return std::binary_search(begin, end, j);
-  }
+  bool has_arc(std::uint32_t i, std::uint32_t j) const;
   const Arc_graph& boost_graph() const { return graph_; }
   const Relation_counters& counters() const { return counters_; }
 

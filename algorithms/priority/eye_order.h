@@ -1,8 +1,23 @@
 #pragma once
 // A back-to-front order from one eye, of whole faces wherever there is one: what a priority tree says of that eye.
 
+#include <sightline/algorithms/priority/components.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/priority/index.h>
+#include <sightline/algorithms/priority/relation.h>
 #include <sightline/algorithms/priority/scope.h>
+#include <sightline/algorithms/priority/separation.h>
 #include <sightline/algorithms/priority/tree.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/traits/partition_traits.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -93,7 +108,8 @@ class Eye_walk {
   /// What is on-view, and of a tree of both sides what is edge-on, once.
   bool is_drawn(const Tree& tree, std::uint32_t i) {
     const Sign side = traits_.side(viewpoint_, tree.polygons[i].support, order_.counters.predicates);
-    order_.counters.off_view += side == CGAL::NEGATIVE, order_.counters.edge_on += side == CGAL::ZERO;
+    order_.counters.off_view += side == CGAL::NEGATIVE;
+    order_.counters.edge_on += side == CGAL::ZERO;
     return side == CGAL::POSITIVE || (side == CGAL::ZERO && tree.two_sided && !tree.turned[i]);
   }
   void draw(const Tree& tree, std::uint32_t i) {
@@ -106,8 +122,10 @@ class Eye_walk {
     std::vector<std::uint32_t> members;
     std::vector<Convex_polygon<Traits>> polygons;
     for (const typename Tree::Slot slot : slots)
-      if (const std::uint32_t i = static_cast<std::uint32_t>(slot); is_drawn(tree, i))
-        members.push_back(i), polygons.push_back(tree.polygons[i]);
+      if (const std::uint32_t i = static_cast<std::uint32_t>(slot); is_drawn(tree, i)) {
+        members.push_back(i);
+        polygons.push_back(tree.polygons[i]);
+      }
     order_.counters.searched += members.size();
     const Priority_relation<Traits> faces(traits_, polygons);
     const Region_relation<Traits> relation(faces, View_region::eye(eye_));
@@ -119,10 +137,14 @@ class Eye_walk {
         draw(tree, members[found[c][0]]);
         continue;
       }
-      ++order_.counters.cycles, order_.counters.in_cycles += found[c].size();
+      ++order_.counters.cycles;
+      order_.counters.in_cycles += found[c].size();
       std::vector<Convex_polygon<Traits>> cycle;
       std::vector<char> turned;
-      for (const std::uint32_t k : found[c]) cycle.push_back(polygons[k]), turned.push_back(tree.turned[members[k]]);
+      for (const std::uint32_t k : found[c]) {
+        cycle.push_back(polygons[k]);
+        turned.push_back(tree.turned[members[k]]);
+      }
       Tree cut = build_priority_tree<Traits>(traits_, cycle, turned, {tree.two_sided, true, progress_});
       order_.counters.splits += cut.counters.splits;
       walk(cut);

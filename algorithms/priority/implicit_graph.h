@@ -6,7 +6,11 @@
 #include <sightline/algorithms/priority/index.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -43,7 +47,10 @@ class Implicit_priority_graph {
     std::vector<std::uint32_t> finished;
     finished.reserve(n);
     std::vector<std::uint32_t> h(n);
-    if (trees != nullptr) trees->from.resize(n), trees->to.resize(n);
+    if (trees != nullptr) {
+      trees->from.resize(n);
+      trees->to.resize(n);
+    }
 
     // 1. Along the arcs.
     index_.revive();

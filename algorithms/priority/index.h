@@ -3,12 +3,18 @@
 // it)?
 
 #include <sightline/algorithms/priority/relation.h>
+#include <sightline/kernel/plane_table.h>
+#include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/vertex.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <vector>
 
 namespace sightline {
 
@@ -17,10 +23,7 @@ struct Index_counters {
   std::uint64_t nodes = 0;  ///< nodes of the index visited
   std::uint64_t hits = 0, misses = 0;
   Relation_counters relation;
-  Index_counters& operator+=(const Index_counters& other) {
-    nodes += other.nodes, hits += other.hits, misses += other.misses, relation += other.relation;
-    return *this;
-  }
+  Index_counters& operator+=(const Index_counters& other);
 };
 
 /// Which arcs of a face to follow.
@@ -38,10 +41,14 @@ class Priority_index {
   explicit Priority_index(const Relation& relation) : relation_(&relation) {
     const std::uint32_t n = relation.size();
     measure();
-    order_.resize(n), place_.resize(n);
+    order_.resize(n);
+    place_.resize(n);
     for (std::uint32_t i = 0; i < n; ++i) order_[i] = i;
     if (n > 0) build();
-    for (std::uint32_t p = 0; p < n; ++p) place_[order_[p]] = p, placed_planes_.push_back(planes_[order_[p]]);
+    for (std::uint32_t p = 0; p < n; ++p) {
+      place_[order_[p]] = p;
+      placed_planes_.push_back(planes_[order_[p]]);
+    }
     revive();
   }
 
@@ -128,7 +135,6 @@ class Priority_index {
   };
 
   // ---- The faces in doubles
-  // -------------------------------------------------------------------------------------------------
 
   void measure() {
     const std::uint32_t n = relation_->size();
@@ -163,7 +169,6 @@ class Priority_index {
   }
 
   // ---- The tree
-  // -------------------------------------------------------------------------------------------------------------
 
   void build() {
     const std::uint32_t n = static_cast<std::uint32_t>(order_.size());
@@ -219,7 +224,8 @@ class Priority_index {
     for (std::uint32_t p = begin; p < end; ++p)
       for (std::size_t k = 0; k < 3; ++k) {
         const double x = centre_of(order_[p], k);
-        low[k] = std::min(low[k], x), high[k] = std::max(high[k], x);
+        low[k] = std::min(low[k], x);
+        high[k] = std::max(high[k], x);
       }
     std::size_t axis = 0;
     for (std::size_t k = 1; k < 3; ++k)
@@ -237,8 +243,10 @@ class Priority_index {
   }
   double centre_of(std::uint32_t face, std::size_t axis) const {
     double low = infinity, high = -infinity;
-    for (std::uint32_t c = first_[face]; c < first_[face + 1]; ++c)
-      low = std::min(low, corners_[c][axis]), high = std::max(high, corners_[c][axis]);
+    for (std::uint32_t c = first_[face]; c < first_[face + 1]; ++c) {
+      low = std::min(low, corners_[c][axis]);
+      high = std::max(high, corners_[c][axis]);
+    }
     return low + (high - low) / 2;
   }
 
@@ -247,8 +255,10 @@ class Priority_index {
               infinity,   -infinity,   right_sign, begin,      end,         none,     none,      0};
     for (std::uint32_t p = begin; p < end; ++p)
       for (std::uint32_t c = first_[order_[p]]; c < first_[order_[p] + 1]; ++c)
-        for (std::size_t k = 0; k < 3; ++k)
-          node.low[k] = std::min(node.low[k], corners_[c][k]), node.high[k] = std::max(node.high[k], corners_[c][k]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          node.low[k] = std::min(node.low[k], corners_[c][k]);
+          node.high[k] = std::max(node.high[k], corners_[c][k]);
+        }
     for (std::uint32_t p = begin; p < end; ++p)
       node.slack = std::max(
           node.slack, planes_[order_[p]].normal == planes_[order_[begin]].normal ? planes_[order_[p]].slack : slack_);
@@ -258,17 +268,19 @@ class Priority_index {
       const Oriented_plane& h = planes_[order_[p]];
       double at_centre = h.offset;
       for (std::size_t k = 0; k < 3; ++k) {
-        node.normal_low[k] = std::min(node.normal_low[k], h.normal[k]),
+        node.normal_low[k] = std::min(node.normal_low[k], h.normal[k]);
         node.normal_high[k] = std::max(node.normal_high[k], h.normal[k]);
         at_centre += h.normal[k] * node.centre[k];
       }
-      node.offset_low = std::min(node.offset_low, at_centre), node.offset_high = std::max(node.offset_high, at_centre);
+      node.offset_low = std::min(node.offset_low, at_centre);
+      node.offset_high = std::max(node.offset_high, at_centre);
     }
     for (std::size_t k = 0; k < 3; ++k) node.lean[k] = (node.normal_low[k] + node.normal_high[k]) / 2;
     for (std::uint32_t p = begin; p < end; ++p)
       for (std::uint32_t c = first_[order_[p]]; c < first_[order_[p] + 1]; ++c) {
         const double along = dot(node.lean, corners_[c]);
-        node.slab_low = std::min(node.slab_low, along), node.slab_high = std::max(node.slab_high, along);
+        node.slab_low = std::min(node.slab_low, along);
+        node.slab_high = std::max(node.slab_high, along);
       }
     return node;
   }
@@ -279,8 +291,10 @@ class Priority_index {
     Triple low = nowhere(1), high = nowhere(-1), normal_low = nowhere(1), normal_high = nowhere(-1);
     double offset_low = infinity, offset_high = -infinity;
     const auto join = [](Triple& least, Triple& most, const Triple& least_of, const Triple& most_of) {
-      for (std::size_t k = 0; k < 3; ++k)
-        least[k] = std::min(least[k], least_of[k]), most[k] = std::max(most[k], most_of[k]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        least[k] = std::min(least[k], least_of[k]);
+        most[k] = std::max(most[k], most_of[k]);
+      }
     };
     if (node.right == none) {
       for (std::uint32_t p = node.begin; p < node.end; ++p) {
@@ -288,28 +302,35 @@ class Priority_index {
         for (std::uint32_t c = first_[order_[p]]; c < first_[order_[p] + 1]; ++c)
           join(low, high, corners_[c], corners_[c]);
         join(normal_low, normal_high, placed_planes_[p].normal, placed_planes_[p].normal);
-        offset_low = std::min(offset_low, placed_planes_[p].offset),
+        offset_low = std::min(offset_low, placed_planes_[p].offset);
         offset_high = std::max(offset_high, placed_planes_[p].offset);
       }
     } else {
       for (const Node* child : {&node + 1, &nodes_[node.right]}) {
         if (child->live == 0) continue;
-        join(low, high, child->low, child->high), join(normal_low, normal_high, child->normal_low, child->normal_high);
-        offset_low = std::min(offset_low, child->offset_low), offset_high = std::max(offset_high, child->offset_high);
+        join(low, high, child->low, child->high);
+        join(normal_low, normal_high, child->normal_low, child->normal_high);
+        offset_low = std::min(offset_low, child->offset_low);
+        offset_high = std::max(offset_high, child->offset_high);
       }
     }
     const bool at_origin = node.slack < 0;
     const bool changed = low != node.low || high != node.high || normal_low != node.normal_low ||
                          normal_high != node.normal_high ||
                          (at_origin && (offset_low != node.offset_low || offset_high != node.offset_high));
-    node.low = low, node.high = high, node.normal_low = normal_low, node.normal_high = normal_high;
-    if (at_origin) node.offset_low = offset_low, node.offset_high = offset_high;
+    node.low = low;
+    node.high = high;
+    node.normal_low = normal_low;
+    node.normal_high = normal_high;
+    if (at_origin) {
+      node.offset_low = offset_low;
+      node.offset_high = offset_high;
+    }
     return changed;
   }
   static Triple nowhere(int sign) { return {sign * infinity, sign * infinity, sign * infinity}; }
 
   // ---- Ruling out
-  // -----------------------------------------------------------------------------------------------------------
 
   /// Whether no face j of the node can have i < j (S = 1) or j < i (S = -1): no corner of the node is on side -S of i's
   /// plane, or no corner of i on side S of any plane of the node. Proof: P-31

@@ -4,9 +4,22 @@
 
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/priority/rational_geometry.h>
+#include <sightline/algorithms/priority/relation.h>
+#include <sightline/algorithms/priority/scope.h>
+#include <sightline/algorithms/priority/tree.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -17,12 +30,7 @@ struct Pixel_view {
   std::array<double, 3> look{}, right{}, up{};
   std::uint32_t width = 0, height = 0;
 
-  std::array<double, 3> ray(std::uint32_t x, std::uint32_t y) const {
-    const double across = 2 * (x + 0.5) / width - 1, upwards = 1 - 2 * (y + 0.5) / height;
-    std::array<double, 3> d{};
-    for (std::size_t k = 0; k < 3; ++k) d[k] = look[k] + across * right[k] + upwards * up[k];
-    return d;
-  }
+  std::array<double, 3> ray(std::uint32_t x, std::uint32_t y) const;
 };
 
 /// For each pixel the polygons that its ray pierces from the front, by their numbers in the relation, ascending.
@@ -43,27 +51,11 @@ struct Pixel_cone {
   std::vector<Rounded_plane> sides;  // by edge
   std::vector<Exact_point> arms;     // from the eye to the corners
 
-  Pixel_cone(const std::vector<Exact_point>& corners, const Exact_point& eye) {
-    std::vector<std::array<double, 3>> rounded;
-    for (const Exact_point& p : corners) {
-      const Exact_point& arm = arms.emplace_back(minus(p, eye));
-      rounded.push_back({nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])});
-    }
-    for (std::size_t k = 0; k < arms.size(); ++k) sides.emplace_back(rounded[next(k)], rounded[k]);
-  }
+  Pixel_cone(const std::vector<Exact_point>& corners, const Exact_point& eye);
   std::size_t next(std::size_t k) const { return k + 1 == arms.size() ? 0 : k + 1; }
 
   /// Whether the direction is strictly inside. Proof: P-40
-  bool holds(const std::array<double, 3>& d, Pixel_sets& counts) const {
-    for (std::size_t k = 0; k < sides.size(); ++k) {
-      const int side = sides[k].side(d);
-      if (side > 0) continue;
-      if (side < 0) return false;
-      ++counts.exact;
-      if (sgn(dot(cross(arms[next(k)], arms[k]), {exact(d[0]), exact(d[1]), exact(d[2])})) <= 0) return false;
-    }
-    return true;
-  }
+  bool holds(const std::array<double, 3>& d, Pixel_sets& counts) const;
 };
 
 }  // namespace priority_detail
@@ -124,7 +116,10 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
 
   std::sort(found.begin(), found.end());
   sets.begin.assign(std::size_t{view.width} * view.height + 1, 0);
-  for (const auto& [pixel, i] : found) ++sets.begin[pixel + std::size_t{1}], sets.members.push_back(i);
+  for (const auto& [pixel, i] : found) {
+    ++sets.begin[pixel + std::size_t{1}];
+    sets.members.push_back(i);
+  }
   for (std::size_t p = 1; p < sets.begin.size(); ++p) sets.begin[p] += sets.begin[p - 1];
   return sets;
 }
@@ -157,24 +152,6 @@ struct Pixel_statistics {
 };
 
 /// Cost: linear in the sets. Pre: a number for each polygon of the sets.
-inline Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority) {
-  Pixel_statistics found;
-  found.image.reserve(sets.size());
-  for (std::size_t pixel = 0; pixel < sets.size(); ++pixel) {
-    const std::span<const std::uint32_t> all = sets[pixel];
-    std::uint32_t best = std::numeric_limits<std::uint32_t>::max();
-    for (const std::uint32_t i : all) best = std::min(best, priority[i]);
-    const std::size_t left = static_cast<std::size_t>(
-        std::count_if(all.begin(), all.end(), [&](std::uint32_t i) { return priority[i] == best; }));
-    found.image.push_back(static_cast<std::uint32_t>(left));
-    if (all.empty()) continue;
-    ++found.covered, found.several += all.size() > 1, found.single += left == 1, found.faces += all.size(),
-        found.left += left;
-    if (found.by_size.size() <= all.size()) found.by_size.resize(all.size() + 1);
-    if (found.by_size[all.size()].size() <= left) found.by_size[all.size()].resize(left + 1);
-    ++found.by_size[all.size()][left];
-  }
-  return found;
-}
+Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority);
 
 }  // namespace sightline

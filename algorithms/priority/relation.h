@@ -7,6 +7,13 @@
 //   or face to face, have no arc.
 
 #include <sightline/algorithms/priority/bimodal.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/traits/partition_traits.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
 
 namespace sightline {
 
@@ -15,7 +22,8 @@ struct Relation_counters {
   std::uint64_t pairs = 0;  ///< pairs of faces compared corner by corner
   Predicate_counts predicates;
   Relation_counters& operator+=(const Relation_counters& other) {
-    pairs += other.pairs, predicates += other.predicates;
+    pairs += other.pairs;
+    predicates += other.predicates;
     return *this;
   }
 };
@@ -36,7 +44,8 @@ class Priority_relation {
 
   /// All pieces of the scene. Pre: the traits outlive the relation.
   explicit Priority_relation(const Traits& traits) : traits_(&traits) {
-    polygons_.reserve(traits.piece_count()), cutters_.reserve(traits.piece_count());
+    polygons_.reserve(traits.piece_count());
+    cutters_.reserve(traits.piece_count());
     for (std::uint32_t i = 0; i < traits.piece_count(); ++i) add(store_.piece(traits, i));
   }
   /// Of these polygons only. Pre: their corners live as long as the relation.

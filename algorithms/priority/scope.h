@@ -4,16 +4,21 @@
 // a ray's of its eye's.
 
 #include <sightline/algorithms/priority/pair_code.h>
+#include <sightline/algorithms/priority/rational_geometry.h>
+#include <sightline/algorithms/priority/relation.h>
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
-
-#include <CGAL/Gmpz.h>
-#include <CGAL/QP_functions.h>
-#include <CGAL/QP_models.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -25,30 +30,16 @@ struct View_region {
   static View_region eye(const Exact_point& p) { return {{p}}; }
   /// All points between two corners. Degenerate: empty where `low` is above `high` on some axis; a rectangle, segment
   /// or point where they agree.
-  static View_region box(const Exact_point& low, const Exact_point& high) {
-    View_region region;
-    for (std::size_t k = 0; k < 3; ++k)
-      if (high[k] < low[k]) return region;
-    for (unsigned corner = 0; corner < 8; ++corner)
-      region.points.push_back(
-          {(corner & 1 ? high : low)[0], (corner & 2 ? high : low)[1], (corner & 4 ? high : low)[2]});
-    std::sort(region.points.begin(), region.points.end());
-    region.points.erase(std::unique(region.points.begin(), region.points.end()), region.points.end());
-    return region;
-  }
+  static View_region box(const Exact_point& low, const Exact_point& high);
 };
 
 namespace priority_detail {
 
 using Grid_point = std::array<Integer, 3>;
 
-inline Grid_point difference(const Grid_point& a, const Grid_point& b) {
-  return {Integer(a[0] - b[0]), Integer(a[1] - b[1]), Integer(a[2] - b[2])};
-}
-inline Integer dot(const Grid_point& a, const Grid_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Grid_point cross(const Grid_point& a, const Grid_point& b) {
-  return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]), Integer(a[0] * b[1] - a[1] * b[0])};
-}
+Grid_point difference(const Grid_point& a, const Grid_point& b);
+Integer dot(const Grid_point& a, const Grid_point& b);
+Grid_point cross(const Grid_point& a, const Grid_point& b);
 
 /// A face in integers.
 struct Grid_face {
@@ -71,8 +62,10 @@ struct Grid_scene {
       for (const Rational& x : p) scale = lcm(scale, x.get_den());
     };
     for (std::uint32_t i = 0; i < relation.size(); ++i)
-      for (const Corner<Traits>& corner : relation[i])
-        corners[i].push_back(relation.traits().position(*corner.vertex)), see(corners[i].back());
+      for (const Corner<Traits>& corner : relation[i]) {
+        corners[i].push_back(relation.traits().position(*corner.vertex));
+        see(corners[i].back());
+      }
     std::for_each(further.begin(), further.end(), see);
     const auto scaled = [&](const Exact_point& p) {
       Grid_point q;
@@ -92,6 +85,10 @@ struct Grid_scene {
   }
 };
 
+/// Whether some of the points' convex hull is an eye from which the inside of a may obscure that of b. Exact: yes, a
+/// linear program in CGAL's solver.
+bool an_eye_may_see_over(const Grid_face& a, const Grid_face& b, const std::vector<Grid_point>& eyes);
+
 }  // namespace priority_detail
 
 /// r1 < r2 from a region: some eye of the (closed) region, strictly in front of both planes, sends a ray through the
@@ -110,7 +107,10 @@ class Region_relation {
       seen_[i] = std::any_of(grid_.points.begin(), grid_.points.end(),
                              [&](const Grid_point& p) { return sgn(grid_.faces[i].height(p)) > 0; });
     if (grid_.points.size() == 1)
-      for (const Grid_face& face : grid_.faces) arms_.push_back(arms_of(face)), cones_.push_back(cone_of(arms_.back()));
+      for (const Grid_face& face : grid_.faces) {
+        arms_.push_back(arms_of(face));
+        cones_.push_back(cone_of(arms_.back()));
+      }
   }
 
   std::uint32_t size() const { return faces_->size(); }
@@ -135,7 +135,8 @@ class Region_relation {
     // that is the answer.
     if (apart_for_all(a, b) || apart_for_all(b, a)) return {};
     if ((!whole.forth || !whole.back) && overlap_from_some(a, b)) return whole;
-    return {whole.forth && meets(a, b), whole.back && meets(b, a)};
+    return {whole.forth && priority_detail::an_eye_may_see_over(a, b, grid_.points),
+            whole.back && priority_detail::an_eye_may_see_over(b, a, grid_.points)};
   }
 
  private:
@@ -143,7 +144,6 @@ class Region_relation {
   using Grid_point = priority_detail::Grid_point;
 
   // ---- One viewpoint
-  // ------------------------------------------------------------------------------------------------------------
 
   /// Arcs of the one viewpoint, in front of both: if the cones overlap, a plane between the faces says which is nearer;
   /// only faces that cross need more.
@@ -162,7 +162,8 @@ class Region_relation {
           {Rational(eye[0]), Rational(eye[1]), Rational(eye[2])});
       return {first == true, first == false};
     }
-    return {meets(grid_.faces[i], grid_.faces[j]), meets(grid_.faces[j], grid_.faces[i])};
+    return {priority_detail::an_eye_may_see_over(grid_.faces[i], grid_.faces[j], grid_.points),
+            priority_detail::an_eye_may_see_over(grid_.faces[j], grid_.faces[i], grid_.points)};
   }
 
   using Triple = std::array<double, 3>;
@@ -240,12 +241,12 @@ class Region_relation {
     for (const auto& d : directions)
       least = std::min(least, cone.axis[0] * d[0] + cone.axis[1] * d[1] + cone.axis[2] * d[2]);
     if (!(least > 0x1p-20)) return {};  // also where a number is beyond doubles
-    cone.cosine = least - 0x1p-48, cone.sine = std::sqrt(1 - cone.cosine * cone.cosine);
+    cone.cosine = least - 0x1p-48;
+    cone.sine = std::sqrt(1 - cone.cosine * cone.cosine);
     return cone;
   }
 
   // ---- Any viewpoint
-  // --------------------------------------------------------------------------------------------------------------
 
   /// Whether the plane through an eye and edge k of a has b on its outer side. Pre: the eye is in front of a.
   static bool apart(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b) {
@@ -293,30 +294,6 @@ class Region_relation {
                          [&](const Grid_point& p) { return side * sgn(dot(normal, difference(p, eye))) >= 0; });
     };
     return (on_side(a, 1) && on_side(b, -1)) || (on_side(a, -1) && on_side(b, 1));
-  }
-
-  /// Whether the region holds an eye from which the inside of a may obscure that of b: are there alpha, beta >= 1 and
-  /// gamma >= 0 with
-  ///   sum alpha (a_k, 1) - sum beta (b_l, 1) = sum gamma (p_m, 1),  sum alpha height_b(a_k) >= 1,  sum beta
-  ///   height_a(b_l) <= -1?
-  bool meets(const Grid_face& a, const Grid_face& b) const {
-    using Wide = CGAL::Gmpz;
-    const auto number = [](const Integer& x) { return Wide(x.get_mpz_t()); };
-    CGAL::Quadratic_program<Wide> program(CGAL::EQUAL, true, Wide(1), false, Wide(0));
-    int column = 0;
-    const Grid_point& origin = a.corners[0];
-    const auto add = [&](const Grid_point& p, int sign) {
-      const Grid_point from = priority_detail::difference(p, origin);
-      for (int k = 0; k < 3; ++k) program.set_a(column, k, number(Integer(sign * from[static_cast<std::size_t>(k)])));
-      program.set_a(column, 3, Wide(sign));
-    };
-    for (const Grid_point& p : a.corners) add(p, 1), program.set_a(column++, 4, number(b.height(p)));
-    for (const Grid_point& p : b.corners) add(p, -1), program.set_a(column++, 5, number(a.height(p)));
-    for (const Grid_point& p : grid_.points) add(p, -1), program.set_l(column++, true, Wide(0));
-    for (int k = 0; k < 4; ++k) program.set_b(k, Wide(0));
-    program.set_b(4, Wide(1)), program.set_r(4, CGAL::LARGER);
-    program.set_b(5, Wide(-1)), program.set_r(5, CGAL::SMALLER);
-    return !CGAL::solve_linear_program(program, Wide()).is_infeasible();
   }
 
   const Priority_relation<Traits>* faces_;

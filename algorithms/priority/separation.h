@@ -2,15 +2,22 @@
 // Planes that have polygons on both sides and cut none: what lets each side be ordered alone (Schumacker's clusters,
 // Naylor's inter-object trees).
 
-#include <sightline/kernel/partition_traits.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <set>
+#include <span>
+#include <vector>
 
 namespace sightline {
 
@@ -148,7 +155,8 @@ class Separation_finder {
     Extent e{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), member, 0};
     for (const Triple& corner : corners(member)) {
       const double value = dot(direction, corner);
-      e.low = std::min(e.low, value), e.high = std::max(e.high, value);
+      e.low = std::min(e.low, value);
+      e.high = std::max(e.high, value);
     }
     return e;
   }

@@ -2,12 +2,26 @@
 // A visibility order for all eyes at once, of whole faces wherever there is one: fixed priorities, planes that cut
 // nothing, and, where neither helps, faces that are searched from each eye or cut beforehand.
 
+#include <sightline/algorithms/priority/components.h>
 #include <sightline/algorithms/priority/explicit_graph.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/priority/index.h>
+#include <sightline/algorithms/priority/relation.h>
 #include <sightline/algorithms/priority/separation.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
+#include <set>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -85,7 +99,8 @@ class Tree_builder {
       : traits_(traits), options_(options), finder_(traits) {}
 
   void add(const Polygon& polygon, bool turned) {
-    tree_.polygons.push_back(polygon), tree_.turned.push_back(turned);
+    tree_.polygons.push_back(polygon);
+    tree_.turned.push_back(turned);
     finder_.add(polygon);
   }
   Polygon_store<Traits>& store() { return store_; }
@@ -126,7 +141,8 @@ class Tree_builder {
     }
   }
   void settled(std::uint64_t& way, std::size_t count) {
-    way += count, done_ += count;
+    way += count;
+    done_ += count;
     if (options_.progress) options_.progress(done_, tree_.polygons.size() - gone_);
   }
 
@@ -160,7 +176,8 @@ class Tree_builder {
     const Members& on = found.sides[0];
     typename Tree::Node& node = add_node(job, Tree::Kind::plane, 2 + on.size());
     node.plane = found.plane;
-    ++tree_.counters.planes, tree_.counters.free_planes += node.plane.is_free();
+    ++tree_.counters.planes;
+    tree_.counters.free_planes += node.plane.is_free();
     const std::size_t first = node.first;
     for (std::size_t k = 0; k < on.size(); ++k) tree_.slots[first + 2 + k] = static_cast<typename Tree::Slot>(on[k]);
     settled(tree_.counters.by_plane, on.size());
@@ -234,8 +251,10 @@ class Tree_builder {
             position_to(traits_, tree_.polygons[members[k]], cutter, plane, tree_.counters.predicates))];
       }
       if (const std::size_t cost = split_cost * at[3] + std::max(at[1], at[2]) - std::min(at[1], at[2]);
-          cost < best_cost)
-        best_cost = cost, best = plane;
+          cost < best_cost) {
+        best_cost = cost;
+        best = plane;
+      }
     }
 
     Separation found{{best, {}}, {}};
@@ -249,7 +268,8 @@ class Tree_builder {
       }
       const auto [behind, front] = cut(i, cutter);
       ++tree_.counters.splits;
-      found.sides[1].push_back(behind), found.sides[2].push_back(front);
+      found.sides[1].push_back(behind);
+      found.sides[2].push_back(front);
     }
     tree_.counters.cutting_planes += tree_.counters.splits > before;
     return found;

@@ -3,14 +3,18 @@
 // certificates of orders and of priority graphs have in common. Rationals and integers only; shares nothing with what
 // makes certificates. Laws: proofs/order_certificate.md (P-21, P-22).
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -58,61 +62,32 @@ struct Verify_options {
 namespace certificate_check {
 
 // ---- Vectors
-// ----------------------------------------------------------------------------------------------------------------
 
 using Integer_vector = std::array<Integer, 3>;
 using Polygon = std::vector<Exact_point>;
 
-inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
-}
+Exact_point minus(const Exact_point& a, const Exact_point& b);
 
 template <class Number>
 std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
   return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]), Number(a[0] * b[1] - a[1] * b[0])};
 }
 
-inline Rational dot(const Integer_vector& a, const Exact_point& b) {
-  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
+Rational dot(const Integer_vector& a, const Exact_point& b);
 
-inline Integer dot(const Integer_vector& a, const Integer_vector& b) {
-  return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
+Integer dot(const Integer_vector& a, const Integer_vector& b);
 
-inline int sign_of_dot(const Integer_vector& a, const Integer_vector& b) {
-  thread_local Integer sum;  // reused: most of the time of a check is spent here
-  mpz_mul(sum.get_mpz_t(), a[0].get_mpz_t(), b[0].get_mpz_t());
-  mpz_addmul(sum.get_mpz_t(), a[1].get_mpz_t(), b[1].get_mpz_t());
-  mpz_addmul(sum.get_mpz_t(), a[2].get_mpz_t(), b[2].get_mpz_t());
-  return sgn(sum);
-}
+int sign_of_dot(const Integer_vector& a, const Integer_vector& b);
 
-inline bool is_zero(const Integer_vector& a) { return sgn(a[0]) == 0 && sgn(a[1]) == 0 && sgn(a[2]) == 0; }
-inline Integer_vector negated(const Integer_vector& a) { return {Integer(-a[0]), Integer(-a[1]), Integer(-a[2])}; }
+bool is_zero(const Integer_vector& a);
+Integer_vector negated(const Integer_vector& a);
 
 /// The coprime integer vector that is a positive multiple of v; zero for zero.
-inline Integer_vector primitive(const Integer_vector& v) {
-  const Integer divisor = gcd(gcd(v[0], v[1]), v[2]);
-  if (sgn(divisor) == 0) return v;
-  return {Integer(v[0] / divisor), Integer(v[1] / divisor), Integer(v[2] / divisor)};
-}
-inline Integer_vector primitive(const Exact_point& v) {
-  const Integer scale = lcm(lcm(v[0].get_den(), v[1].get_den()), v[2].get_den());
-  Integer_vector scaled;
-  for (std::size_t k = 0; k < 3; ++k) scaled[k] = v[k].get_num() * (scale / v[k].get_den());
-  return primitive(scaled);
-}
+Integer_vector primitive(const Integer_vector& v);
+Integer_vector primitive(const Exact_point& v);
 
 /// The direction of Newell's normal: the loop runs counterclockwise around it. Zero where the signed areas cancel.
-inline Integer_vector newell_normal(const Polygon& loop) {
-  Exact_point sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Exact_point part = cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0]));
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
-  }
-  return primitive(sum);
-}
+Integer_vector newell_normal(const Polygon& loop);
 
 struct Plane {
   Integer_vector normal;
@@ -123,33 +98,14 @@ struct Plane {
 /// A point, with a positive last coordinate, or a plane: at a point, positive in front.
 using Homogeneous = std::array<Integer, 4>;
 
-inline Homogeneous homogeneous(const Exact_point& p) {
-  const Integer scale = lcm(lcm(p[0].get_den(), p[1].get_den()), p[2].get_den());
-  Homogeneous h;
-  for (std::size_t k = 0; k < 3; ++k) h[k] = p[k].get_num() * (scale / p[k].get_den());
-  h[3] = scale;
-  return h;
-}
+Homogeneous homogeneous(const Exact_point& p);
 
 /// Pre: the polygon has area. Post: it runs counterclockwise as seen from the front.
-inline Homogeneous plane_of(const Polygon& polygon) {
-  const Integer_vector normal = newell_normal(polygon);
-  const Rational offset = -dot(normal, polygon[0]);
-  Homogeneous plane;
-  for (std::size_t k = 0; k < 3; ++k) plane[k] = normal[k] * offset.get_den();
-  plane[3] = offset.get_num();
-  return plane;
-}
+Homogeneous plane_of(const Polygon& polygon);
 
-inline int side(const Homogeneous& plane, const Homogeneous& p) {
-  thread_local Integer sum;
-  mpz_mul(sum.get_mpz_t(), plane[0].get_mpz_t(), p[0].get_mpz_t());
-  for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), plane[k].get_mpz_t(), p[k].get_mpz_t());
-  return sgn(sum);
-}
+int side(const Homogeneous& plane, const Homogeneous& p);
 
 // ---- Faces and polygons
-// -----------------------------------------------------------------------------------------------------
 
 /// A face of the soup as points: consecutive repetitions dropped, holes turned so that they run against the outer loop.
 struct Face {
@@ -158,24 +114,7 @@ struct Face {
   bool has_front = false;  // the outer loop's Newell normal is not zero
   Plane plane;  // of a planar face; if it has no front, either side of its plane; if all points are collinear, zero
 
-  Face(const Polygon_soup& soup, Face_id f) {
-    for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
-      Polygon loop;
-      for (const Point_id p : soup.loop(f, k))
-        if (Exact_point point = soup.point(p); loop.empty() || point != loop.back()) loop.push_back(std::move(point));
-      while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
-      loops.push_back(std::move(loop));
-    }
-    if (loops[0].empty()) return;
-    plane = {newell_normal(loops[0]), loops[0][0]};
-    has_front = !is_zero(plane.normal);
-    if (!has_front) plane.normal = some_normal();
-    for (std::size_t k = 0; k < loops.size(); ++k) {
-      if (k > 0 && has_front && sgn(dot(plane.normal, newell_normal(loops[k]))) > 0)
-        std::reverse(loops[k].begin(), loops[k].end());
-      for (const Exact_point& p : loops[k]) planar = planar && plane.side(p) == 0;
-    }
-  }
+  Face(const Polygon_soup& soup, Face_id f);
 
   std::size_t corner_count() const {
     std::size_t count = 0;
@@ -184,82 +123,31 @@ struct Face {
   }
 
  private:
-  Integer_vector some_normal() const {  // of the first three points that are not collinear
-    std::vector<Exact_point> arms;
-    for (const Polygon& loop : loops)
-      for (const Exact_point& p : loop) {
-        if (p == loops[0][0]) continue;
-        arms.push_back(minus(p, loops[0][0]));
-        const Integer_vector normal = primitive(cross(arms.front(), arms.back()));
-        if (!is_zero(normal)) return normal;
-      }
-    return {};
-  }
+  Integer_vector some_normal() const;
 };
 
 /// Why the polygon is not a convex one of positive area in the plane, counterclockwise around its normal; empty where
 /// it is. Straight corners are allowed, repeated vertices and spikes are not. Pre: the normal is not zero. Cost:
 /// linear. Proof: P-21a
-inline std::string not_convex(const Polygon& polygon, const Plane& plane) {
-  const std::size_t n = polygon.size();
-  if (n < 3) return "has fewer than three vertices";
-  for (const Exact_point& p : polygon)
-    if (plane.side(p) != 0) return "has a vertex off the plane of its face";
-  std::vector<Integer_vector> edges(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    edges[i] = primitive(minus(polygon[(i + 1) % n], polygon[i]));
-    if (is_zero(edges[i])) return "has a repeated vertex";
-  }
-  const int area = sign_of_dot(newell_normal(polygon), plane.normal);
-  if (area <= 0) return area == 0 ? "has zero area" : "is clockwise as seen from the front of its face";
-  // Every corner turns left by less than 180 degrees, and the edges turn once around in all.
-  const auto turn = [&](const Integer_vector& a, const Integer_vector& b) {
-    return sign_of_dot(cross(a, b), plane.normal);
-  };
-  const auto upper = [&](const Integer_vector& edge) {  // angle to edge 0 in [0, 180)
-    const int left = turn(edges[0], edge);
-    return left > 0 || (left == 0 && sign_of_dot(edges[0], edge) > 0);
-  };
-  std::size_t rounds = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Integer_vector &in = edges[i], &out = edges[(i + 1) % n];
-    const int left = turn(in, out);
-    if (left < 0 || (left == 0 && sign_of_dot(in, out) < 0)) return "is not convex";
-    rounds += !upper(in) && upper(out);
-  }
-  return rounds == 1 ? "" : "is not convex (it turns more than once around)";
-}
+std::string not_convex(const Polygon& polygon, const Plane& plane);
 
 /// A sum of directed segments as a chain: two sums are the same chain iff on each line, at each point, the net number
 /// of arrivals is the same. A line through a known point is its direction, so the key is (direction up to sign, point).
 /// Proof: P-21b
 class Boundary_chain {
  public:
-  void add(const Polygon& loop, long multiplicity) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Exact_point &from = loop[i], &to = loop[(i + 1) % loop.size()];
-      Integer_vector direction = primitive(minus(to, from));
-      if (direction < Integer_vector{}) direction = negated(direction);
-      arrivals_[{direction, to}] += multiplicity;
-      arrivals_[{direction, from}] -= multiplicity;
-    }
-  }
+  void add(const Polygon& loop, long multiplicity);
   void add(const Face& face, long multiplicity) {
     for (const Polygon& loop : face.loops) add(loop, multiplicity);
   }
   /// A point where the chain is not zero, if there is one.
-  std::optional<Exact_point> nonzero() const {
-    for (const auto& [place, count] : arrivals_)
-      if (count != 0) return place.second;
-    return std::nullopt;
-  }
+  std::optional<Exact_point> nonzero() const;
 
  private:
   std::map<std::pair<Integer_vector, Exact_point>, long> arrivals_;
 };
 
 // ---- What the eye sees of a polygon
-// -----------------------------------------------------------------------------------------
 
 /// The cone of directions from the eye to a convex polygon. Pre: not_convex() is empty for it.
 struct Cone {
@@ -269,99 +157,23 @@ struct Cone {
   Integer_vector nearness;  ///< the polygon's plane is met along d at t where nearness.d x t = distance;
   Integer distance;         ///< nearness.d > 0 in the cone, distance > 0
 
-  Cone(const Polygon& polygon, const Exact_point& eye) {
-    const Integer_vector normal = newell_normal(polygon);
-    const Rational height = dot(normal, minus(eye, polygon[0]));
-    edge_on = sgn(height) == 0;
-    if (edge_on) return;
-    const bool front = sgn(height) > 0;
-    std::vector<Integer_vector> all;
-    for (const Exact_point& p : polygon) all.push_back(primitive(minus(p, eye)));
-    const auto edge_plane = [&](std::size_t i) {
-      const Integer_vector plane = primitive(cross(all[i], all[(i + 1) % all.size()]));
-      return front ? negated(plane) : plane;
-    };
-    Integer_vector previous = edge_plane(all.size() - 1);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      Integer_vector next = edge_plane(i);
-      if (next == previous) continue;  // a straight corner
-      rays.push_back(all[i]);
-      edge_planes.push_back(next);
-      previous = std::move(next);
-    }
-    const Integer_vector inward = front ? negated(normal) : normal;
-    for (std::size_t k = 0; k < 3; ++k) nearness[k] = inward[k] * height.get_den();
-    distance = abs(height.get_num());  // coprime to nearness, as the normal is primitive and the height reduced
-  }
+  Cone(const Polygon& polygon, const Exact_point& eye);
 };
 
 /// Whether an edge plane of a has no ray of b on its inner side: then the cones have no open set in common.
-inline bool separates(const Cone& a, const Cone& b) {
-  return std::any_of(a.edge_planes.begin(), a.edge_planes.end(), [&](const Integer_vector& plane) {
-    return std::none_of(b.rays.begin(), b.rays.end(),
-                        [&](const Integer_vector& ray) { return sign_of_dot(plane, ray) > 0; });
-  });
-}
+bool separates(const Cone& a, const Cone& b);
 
 // ---- Faces that are not drawn
-// -----------------------------------------------------------------------------------------------
 
 /// Whether two edges of a planar face cross in a point inside both, or its winding number is neither 0 nor 1 somewhere.
 /// Where no edges cross so, a sweep between neighbouring abscissae of vertices meets every cell.
 /// Pre: planar, not all points collinear. Cost: quadratic in the corners. Proof: P-21d
-inline bool self_intersecting(const Face& face) {
-  // Edges seen from the front, as if a coordinate plane were the face's.
-  using Point = std::array<Rational, 2>;
-  std::size_t drop = 0;
-  while (sgn(face.plane.normal[drop]) == 0) ++drop;
-  std::size_t x = (drop + 1) % 3, y = (drop + 2) % 3;
-  if (sgn(face.plane.normal[drop]) < 0) std::swap(x, y);
-  std::vector<std::pair<Point, Point>> edges;
-  std::set<Rational> abscissae;
-  for (const Polygon& loop : face.loops)
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Exact_point &from = loop[i], &to = loop[(i + 1) % loop.size()];
-      edges.push_back({{from[x], from[y]}, {to[x], to[y]}});
-      abscissae.insert(from[x]);
-    }
-
-  const auto side = [](const std::pair<Point, Point>& e, const Point& p) {
-    return sgn(
-        Rational((e.second[0] - e.first[0]) * (p[1] - e.first[1]) - (e.second[1] - e.first[1]) * (p[0] - e.first[0])));
-  };
-  for (auto e = edges.begin(); e != edges.end(); ++e)
-    for (auto f = edges.begin(); f != e; ++f)
-      if (side(*e, f->first) * side(*e, f->second) < 0 && side(*f, e->first) * side(*f, e->second) < 0) return true;
-
-  // Between neighbouring abscissae the edges do not cross: add up the winding number from below on a line in the
-  // middle.
-  for (auto left = abscissae.begin(), right = std::next(left); right != abscissae.end(); ++left, ++right) {
-    const Rational middle = (*left + *right) / 2;
-    std::map<Rational, int> steps;
-    for (const auto& [from, to] : edges)
-      if (std::min(from[0], to[0]) < middle && middle < std::max(from[0], to[0])) {
-        const Rational height = from[1] + (to[1] - from[1]) * (middle - from[0]) / (to[0] - from[0]);
-        steps[height] += from[0] < to[0] ? 1 : -1;
-      }
-    int winding = 0;
-    for (const auto& [height, step] : steps) {
-      winding += step;
-      if (winding != 0 && winding != 1) return true;
-    }
-  }
-  return false;
-}
+bool self_intersecting(const Face& face);
 
 /// Whether two closed sequences of points are the same up to the place where they begin.
-inline bool same_cycle(const Polygon& a, const Polygon& b) {
-  if (a.size() != b.size()) return false;
-  Polygon twice = a;
-  twice.insert(twice.end(), a.begin(), a.end());
-  return std::search(twice.begin(), twice.end(), b.begin(), b.end()) != twice.end();
-}
+bool same_cycle(const Polygon& a, const Polygon& b);
 
 // ---- The covering
-// -----------------------------------------------------------------------------------------------------------
 
 struct Rejection {
   Verdict verdict;
@@ -383,20 +195,14 @@ Verdict verdict_of(Check check) {
 
 inline std::string name(const char* kind, std::size_t number) { return kind + (' ' + std::to_string(number)); }
 
-inline std::string name(const Exact_point& p) {
-  std::ostringstream text;
-  text << '(' << nearest_double(p[0]) << ", " << nearest_double(p[1]) << ", " << nearest_double(p[2]) << ')';
-  return text.str();
-}
+std::string name(const Exact_point& p);
 
-inline bool canonical(const Rational& r) { return sgn(r.get_den()) > 0 && gcd(r.get_num(), r.get_den()) == 1; }
+bool canonical(const Rational& r);
 template <std::size_t n>
 bool canonical(const std::array<Rational, n>& all) {
   return std::all_of(all.begin(), all.end(), [](const Rational& r) { return canonical(r); });
 }
-inline bool canonical(const Polygon& polygon) {
-  return std::all_of(polygon.begin(), polygon.end(), [](const Exact_point& p) { return canonical(p); });
-}
+bool canonical(const Polygon& polygon);
 
 /// A polygon that should be part of a tiling, with its name for messages and its place in the order, if it has one.
 struct Tile {
@@ -407,168 +213,18 @@ struct Tile {
 
 /// Rejects unless the tiles are convex polygons in the plane that cover once what `target` bounds, and nothing else.
 /// `winds_once`: the target is known to be the boundary of a set, taken once. Proof: P-21
-inline void check_tiling(const std::string& what, Boundary_chain target, const Plane& plane, bool winds_once,
-                         const std::vector<Tile>& tiles) {
-  if (tiles.empty()) reject(what + " has no fragment and is not set aside");
-  for (const Tile& tile : tiles) {
-    if (const std::string fault = not_convex(*tile.polygon, plane); !fault.empty())
-      reject(tile.name + " of " + what + " " + fault, tile.fragments);
-    target.add(*tile.polygon, -1);
-  }
-  if (const auto point = target.nonzero())
-    reject(what + " is not tiled by its parts: boundaries do not cancel near " + name(*point));
-  if (winds_once) return;
-  Exact_point eye = plane.origin;
-  for (std::size_t k = 0; k < 3; ++k) eye[k] += plane.normal[k];
-  std::vector<Cone> cones;
-  for (const Tile& tile : tiles) cones.emplace_back(*tile.polygon, eye);
-  for (std::size_t j = 0; j < tiles.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i)
-      if (!separates(cones[i], cones[j]) && !separates(cones[j], cones[i])) {  // in one plane that is an overlap
-        std::vector<std::size_t> both = tiles[i].fragments;
-        both.insert(both.end(), tiles[j].fragments.begin(), tiles[j].fragments.end());
-        reject(tiles[i].name + " and " + tiles[j].name + " of " + what + " overlap", both);
-      }
-}
+void check_tiling(const std::string& what, Boundary_chain target, const Plane& plane, bool winds_once,
+                  const std::vector<Tile>& tiles);
 
 /// Rejects unless the pieces make a surface on the face's own vertices that its loops bound. Proof: P-22
-inline void check_pieces(const std::string& what, const Face& face, const std::vector<Tile>& pieces) {
-  std::set<Exact_point> own;
-  for (const Polygon& loop : face.loops) own.insert(loop.begin(), loop.end());
-  Boundary_chain difference;
-  difference.add(face, 1);
-  std::size_t triangles = 0;
-  for (const Tile& piece : pieces) {
-    for (const Exact_point& p : *piece.polygon)
-      if (!own.count(p)) reject(piece.name + " of " + what + " has a vertex that is not one of the face's");
-    if (face.planar) continue;
-    if (piece.polygon->empty()) reject(piece.name + " of " + what + " is empty");
-    const Plane plane{newell_normal(*piece.polygon), piece.polygon->front()};
-    if (is_zero(plane.normal)) reject(piece.name + " of " + what + " has zero area");
-    if (const std::string fault = not_convex(*piece.polygon, plane); !fault.empty())
-      reject(piece.name + " of " + what + " " + fault);
-    difference.add(*piece.polygon, -1);
-    triangles += piece.polygon->size() - 2;
-  }
-  if (face.planar) {
-    check_tiling(what, difference, face.plane, false, pieces);
-    return;
-  }
-  if (const auto point = difference.nonzero())
-    reject(what + " is not bounded as its pieces are: boundaries do not cancel near " + name(*point));
-  // As many triangles as a polygon with holes has; fewer only where zero-area ones were left out, which holes forbid.
-  const std::size_t holes = face.loops.size() - 1, most = face.corner_count() + 2 * holes - 2;
-  if (triangles > most || (holes > 0 && triangles < most))
-    reject(what + " has the wrong number of pieces for its corners");
-}
+void check_pieces(const std::string& what, const Face& face, const std::vector<Tile>& pieces);
 
 /// Rejects unless the reason holds.
-inline void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry,
-                            const std::set<Face_id>& set_aside) {
-  const std::string what = name("face", entry.face);
-  const std::string_view why = entry.why;
-  const Face face(soup, entry.face);
-  Boundary_chain boundary, outer;
-  boundary.add(face, 1);
-  outer.add(face.loops[0], 1);
-  const bool no_area = !boundary.nonzero() || !outer.nonzero();
-  if (why.starts_with("zero area")) {
-    if (!no_area) reject(what + " is set aside for zero area but has area");
-  } else if (why.starts_with("self-intersecting")) {
-    if (!face.planar) reject(what + " is set aside as self-intersecting but is not planar");
-    if (is_zero(face.plane.normal) || !self_intersecting(face))
-      reject(what + " is set aside as self-intersecting but is not");
-  } else if (constexpr std::string_view words = "duplicate of "; why.starts_with(words)) {
-    std::uint64_t original = 0;
-    std::size_t digits = 0;
-    for (const char c : why.substr(words.size())) {
-      if (c < '0' || c > '9') break;
-      original = std::min(10 * original + static_cast<std::uint64_t>(c - '0'), std::uint64_t{1} << 32), ++digits;
-    }
-    if (digits == 0 || original >= entry.face)
-      reject(what + " is set aside as a duplicate, but not of an earlier face");
-    const Face_id f = static_cast<Face_id>(original);
-    if (set_aside.count(f))
-      reject(what + " is set aside as a duplicate of face " + std::to_string(f) + ", which is set aside itself");
-    const Face other(soup, f);
-    if (!std::equal(face.loops.begin(), face.loops.end(), other.loops.begin(), other.loops.end(), same_cycle))
-      reject(what + " is set aside as a duplicate of face " + std::to_string(f) + " but differs from it");
-  } else {
-    reject(what + " is set aside for no reason that can be checked");
-  }
-}
+void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry, const std::set<Face_id>& set_aside);
 
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
 /// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Proof: P-21, P-22
-inline void check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye = nullptr) {
-  const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
-    return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
-  };
-  // 1. Everything refers to something, once, and is a number.
-  const auto in_scene = [&](const std::string& what, Face_id face) {
-    if (face >= soup.face_count())
-      reject(what + " names face " + std::to_string(face) + ", which the scene does not have");
-  };
-  for (Face_id f = 0; f < soup.face_count(); ++f)
-    for (std::size_t k = 0; k < soup.loop_count(f); ++k)
-      for (const Point_id p : soup.loop(f, k))
-        if (p >= soup.point_count()) reject("the scene's " + name("face", f) + " names a point that it does not have");
-  std::set<Face_id> set_aside;
-  for (const auto& entry : covering.set_aside) {
-    in_scene("set_aside", entry.face);
-    if (!set_aside.insert(entry.face).second) reject(name("face", entry.face) + " is set aside twice");
-  }
-  std::vector<std::map<std::uint32_t, const Polygon*>> pieces(soup.face_count());
-  for (std::size_t i = 0; i < covering.pieces.size(); ++i) {
-    const auto& piece = covering.pieces[i];
-    in_scene(name("piece", i), piece.face);
-    if (!canonical(piece.vertices)) reject(name("piece", i) + " has a vertex that is not in canonical numbers");
-    if (set_aside.count(piece.face)) reject(name("face", piece.face) + " is set aside but has pieces");
-    if (!pieces[piece.face].emplace(piece.piece, &piece.vertices).second)
-      reject(name("face", piece.face) + " has " + name("piece", piece.piece) + " twice");
-  }
-  std::vector<std::map<std::uint32_t, std::vector<Tile>>> tiles(
-      soup.face_count());  // by face, then by piece where it has such
-  for (std::size_t i = 0; i < covering.fragments.size(); ++i) {
-    const Order_fragment& fragment = covering.fragments[i];
-    in_scene(name("fragment", i), fragment.face);
-    if (!canonical(fragment.vertices))
-      reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
-    if (set_aside.count(fragment.face)) reject(name("face", fragment.face) + " is set aside but drawn", {i});
-    const auto& own = pieces[fragment.face];
-    if (!own.empty() && !own.count(fragment.piece))
-      reject(name("fragment", i) + " is of a piece that its face does not have", {i});
-    tiles[fragment.face][own.empty() ? 0 : fragment.piece].push_back({&fragment.vertices, name("fragment", i), {i}});
-  }
-
-  // 2. Nothing is lost and nothing is drawn twice.
-  for (const auto& entry : covering.set_aside) check_set_aside(soup, entry, set_aside);
-  for (Face_id f = 0; f < soup.face_count(); ++f) {
-    if (set_aside.count(f)) continue;
-    const std::string what = name("face", f);
-    const Face face(soup, f);
-    if (pieces[f].empty()) {
-      if (!face.planar) reject(what + " is not planar and has no pieces");
-      if (!face.has_front) reject(what + " has no front and is not set aside");
-      Boundary_chain contour;
-      contour.add(face, 1);
-      const bool winds_once = face.loops.size() == 1 && not_convex(face.loops[0], face.plane).empty();
-      if (!left_out(face.plane, tiles[f][0])) check_tiling(what, contour, face.plane, winds_once, tiles[f][0]);
-      continue;
-    }
-    if (face.planar && !face.has_front) reject(what + " has no front and is not set aside");
-    std::vector<Tile> parts;
-    for (const auto& [number, polygon] : pieces[f]) parts.push_back({polygon, name("piece", number), {}});
-    check_pieces(what, face, parts);
-    for (const auto& [number, polygon] : pieces[f]) {
-      Boundary_chain contour;
-      contour.add(*polygon, 1);
-      const Plane plane{newell_normal(*polygon), polygon->front()};
-      if (!left_out(plane, tiles[f][number]))
-        check_tiling(what + ", " + name("piece", number), contour, plane, true, tiles[f][number]);
-    }
-  }
-}
+void check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye = nullptr);
 
 }  // namespace certificate_check
 

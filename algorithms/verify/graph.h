@@ -3,6 +3,10 @@
 // pairs of faces. Laws: proofs/priority.md (P-34).
 
 #include <sightline/algorithms/verify/covering.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <cstddef>
+#include <vector>
 
 namespace sightline {
 
@@ -33,10 +37,7 @@ struct Oriented_face {
     for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
   }
 
-  bool has_corner(int side_of, const Oriented_face& other) const {
-    return std::any_of(corners.begin(), corners.end(),
-                       [&](const Homogeneous& p) { return side(other.plane, p) == side_of; });
-  }
+  bool has_corner(int side_of, const Oriented_face& other) const;
 };
 
 inline bool may_obscure(const Oriented_face& a, const Oriented_face& b) {
@@ -44,77 +45,11 @@ inline bool may_obscure(const Oriented_face& a, const Oriented_face& b) {
 }
 
 /// Rejects unless every face of the component [begin, end) is reached from the first one, along `next`.
-inline void check_reached(std::size_t begin, std::size_t end, const std::vector<std::vector<std::size_t>>& next,
-                          const char* how) {
-  std::set<std::size_t> seen{begin};
-  std::vector<std::size_t> open{begin};
-  while (!open.empty()) {
-    const std::size_t i = open.back();
-    open.pop_back();
-    for (const std::size_t j : next[i])
-      if (seen.insert(j).second) open.push_back(j);
-  }
-  for (std::size_t i = begin; i < end; ++i)
-    if (!seen.count(i))
-      reject(name("fragment", i) + how + name("fragment", begin) + ", the first of its component, by the arcs given",
-             {begin, i});
-}
+void check_reached(std::size_t begin, std::size_t end, const std::vector<std::vector<std::size_t>>& next,
+                   const char* how);
 
 /// The certificate, step by step; throws a Rejection.
-inline void check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
-  // 1. The fragments are the scene, and the components are the fragments.
-  check_covering(soup, certificate);
-  const std::size_t n = certificate.fragments.size();
-  std::vector<std::size_t> component(n);
-  std::size_t end = 0;
-  for (std::size_t c = 0; c < certificate.sizes.size(); ++c) {
-    const std::size_t size = certificate.sizes[c];
-    if (size == 0) reject(name("component", c) + " is empty");
-    if (size > n - end) reject("the components have more members than there are fragments");
-    std::fill_n(component.begin() + static_cast<std::ptrdiff_t>(end), size, c);
-    end += size;
-  }
-  if (end != n) reject("the components leave out fragments", {end});
-
-  // 2. The arcs are arcs, and hold each component together: from its first face to all, and from all to it.
-  std::vector<Oriented_face> faces;
-  for (const Order_fragment& fragment : certificate.fragments) faces.emplace_back(fragment.vertices);
-  std::vector<std::vector<std::size_t>> forth(n), back(n);
-  for (std::size_t k = 0; k < certificate.arcs.size(); ++k) {
-    const auto& arc = certificate.arcs[k];
-    if (arc.from >= n || arc.to >= n || arc.corner_from >= faces[arc.from].corners.size() ||
-        arc.corner_to >= faces[arc.to].corners.size())
-      reject(name("arc", k) + " names something that is not there");
-    if (component[arc.from] != component[arc.to]) reject(name("arc", k) + " leaves its component", {arc.from, arc.to});
-    if (side(faces[arc.to].plane, faces[arc.from].corners[arc.corner_from]) <= 0)
-      reject(name("arc", k) + ": the corner of " + name("fragment", arc.from) + " is not in front of " +
-                 name("fragment", arc.to),
-             {arc.from, arc.to});
-    if (side(faces[arc.from].plane, faces[arc.to].corners[arc.corner_to]) >= 0)
-      reject(name("arc", k) + ": the corner of " + name("fragment", arc.to) + " is not behind " +
-                 name("fragment", arc.from),
-             {arc.from, arc.to});
-    forth[arc.from].push_back(arc.to), back[arc.to].push_back(arc.from);
-  }
-  std::size_t begin = 0;
-  for (const std::size_t size : certificate.sizes) {
-    check_reached(begin, begin + size, forth, " is not reached from ");
-    check_reached(begin, begin + size, back, " does not reach ");
-    begin += size;
-  }
-
-  // 3. No face may obscure one of an earlier component.
-  for (std::size_t later = 0; later < n; ++later) {
-    if (options.progress) options.progress(later, n);
-    for (std::size_t earlier = 0; earlier < later; ++earlier)
-      if (component[earlier] != component[later] && may_obscure(faces[later], faces[earlier]))
-        reject(name("fragment", later) + " (" + name("face", certificate.fragments[later].face) + ") may obscure " +
-                   name("fragment", earlier) + " (" + name("face", certificate.fragments[earlier].face) +
-                   "), which has higher priority",
-               {earlier, later});
-  }
-  if (options.progress) options.progress(n, n);
-}
+void check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options);
 
 }  // namespace graph_check
 
@@ -123,13 +58,7 @@ inline void check(const Polygon_soup& soup, const Graph_certificate& certificate
 /// component both ways; (3) no fragment may obscure one of an earlier component. Degenerate: as the relation
 /// (algorithms/priority/relation.h). Cost: quadratic in the fragments. Exact: yes, without filters. Proof: P-21, P-22,
 /// P-34
-inline Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate,
-                            const Verify_options& options = {}) {
-  return certificate_check::verdict_of([&] {
-    graph_check::check(soup, certificate, options);
-    return std::to_string(certificate.sizes.size()) + " strongly connected components of " +
-           std::to_string(certificate.fragments.size()) + " faces in order of priority";
-  });
-}
+Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate,
+                     const Verify_options& options = {});
 
 }  // namespace sightline

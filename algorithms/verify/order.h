@@ -3,8 +3,14 @@
 // Laws: proofs/order_certificate.md (P-20 .. P-22). To be read in one sitting, from top to bottom.
 
 #include <sightline/algorithms/verify/covering.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 
-#include <numeric>
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 
@@ -21,7 +27,6 @@ namespace order_check {
 using namespace certificate_check;
 
 // ---- Pairs
-// ------------------------------------------------------------------------------------------------------------------
 
 /// How the rays of cone b lie about the edge planes of cone a.
 struct Sides {
@@ -29,61 +34,14 @@ struct Sides {
   std::vector<std::pair<std::size_t, std::size_t>>
       crossings;  ///< (i, j): rays j and j + 1 of b are strictly on different sides of a's edge plane i
 
-  void find(const Cone& a, const Cone& b) {
-    inside.assign(b.rays.size(), 1);
-    crossings.clear();
-    for (std::size_t i = 0; i < a.edge_planes.size(); ++i) {
-      const int first = sign_of_dot(a.edge_planes[i], b.rays[0]);
-      int side = first;
-      for (std::size_t j = 0; j < b.rays.size(); ++j) {
-        if (side < 0) inside[j] = 0;
-        const int next = j + 1 < b.rays.size() ? sign_of_dot(a.edge_planes[i], b.rays[j + 1]) : first;
-        if (side * next < 0) crossings.push_back({i, j});
-        side = next;
-      }
-    }
-  }
+  void find(const Cone& a, const Cone& b);
 };
 
 /// Compares two fragments. Kept apart from the loop over the pairs, with its own memory, so that the loop can be split.
 class Pair_check {
  public:
   /// Whether a is strictly nearer than b in some direction inside both cones. Pre: neither is edge-on. Proof: P-20
-  bool nearer_somewhere(const Cone& a, const Cone& b) {
-    if (a.nearness == b.nearness && a.distance == b.distance) return false;  // one plane: equally far everywhere
-    if (separates(a, b) || separates(b, a)) return false;
-    a_sides_.find(a, b);
-    b_sides_.find(b, a);
-
-    // Directions that span the common part of the cones: rays of one in the other, and where two edges cross.
-    common_.clear();
-    for (std::size_t i = 0; i < a.rays.size(); ++i)
-      if (b_sides_.inside[i]) common_.push_back(a.rays[i]);
-    for (std::size_t j = 0; j < b.rays.size(); ++j)
-      if (a_sides_.inside[j]) common_.push_back(b.rays[j]);
-    for (const auto& [i, j] : a_sides_.crossings) {
-      const Integer_vector &from = a.rays[i], &to = a.rays[(i + 1) % a.rays.size()];
-      const Integer side_of_from = dot(b.edge_planes[j], from), side_of_to = dot(b.edge_planes[j], to);
-      if (sgn(side_of_from) * sgn(side_of_to) >= 0) continue;
-      Integer_vector d;  // on b's edge plane j, between the two rays of a
-      for (std::size_t k = 0; k < 3; ++k) d[k] = abs(side_of_to) * from[k] + abs(side_of_from) * to[k];
-      if (sign_of_dot(b.nearness, d) > 0) common_.push_back(primitive(d));  // otherwise -d is in b's cone, not d
-    }
-
-    // Has the common part an inside? Then the sum of what spans it is strictly inside a's edge planes.
-    Integer_vector middle;
-    for (const Integer_vector& d : common_)
-      for (std::size_t k = 0; k < 3; ++k) middle[k] += d[k];
-    for (const Integer_vector& plane : a.edge_planes)
-      if (sign_of_dot(plane, middle) <= 0) return false;
-
-    // 1/t of b minus 1/t of a is linear in the direction: a may nowhere be the nearer one.
-    Integer_vector farther;
-    for (std::size_t k = 0; k < 3; ++k) farther[k] = a.distance * b.nearness[k] - b.distance * a.nearness[k];
-    for (const Integer_vector& d : common_)
-      if (sign_of_dot(farther, d) < 0) return true;
-    return false;
-  }
+  bool nearer_somewhere(const Cone& a, const Cone& b);
 
  private:
   Sides a_sides_, b_sides_;  // of a's planes at b's rays, of b's planes at a's rays
@@ -105,8 +63,10 @@ class Pairs {
   /// progress(share): of all pairs, those that are done with, in [0, 1]; before each cone of a part.
   void each(Places a, Places b, const std::function<void(double)>& progress = {}) {
     const auto edge_on = [&](std::size_t i) { return cones_[i].edge_on; };
-    std::erase_if(a, edge_on), std::erase_if(b, edge_on);
-    progress_ = progress, done_ = 0;
+    std::erase_if(a, edge_on);
+    std::erase_if(b, edge_on);
+    progress_ = progress;
+    done_ = 0;
     share_out(a, b, 1, 0);
   }
 
@@ -123,7 +83,8 @@ class Pairs {
       bool in_front = false, at_back = false;
       for (const Integer_vector& ray : cones_[i].rays) {
         const int side = sign_of_dot(plane, ray);
-        in_front = in_front || side > 0, at_back = at_back || side < 0;
+        in_front = in_front || side > 0;
+        at_back = at_back || side < 0;
         if (in_front && at_back) break;
       }
       if (in_front) result.front.push_back(i);
@@ -160,54 +121,17 @@ class Pairs {
 };
 
 /// Calls of Pairs' progress as those of Verify_options, with `total` things in all.
-inline std::function<void(double)> share_of(const Verify_options& options, std::size_t total) {
-  if (!options.progress) return {};
-  return [&options, total](double share) {
-    options.progress(static_cast<std::size_t>(share * static_cast<double>(total)), total);
-  };
-}
+std::function<void(double)> share_of(const Verify_options& options, std::size_t total);
 
 // ---- The order
-// --------------------------------------------------------------------------------------------------------------
 
 /// The first pair (earlier, later), by the later one's place and then the earlier one's, where the earlier one is
 /// nearer somewhere.
-inline std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones,
-                                                                           const Verify_options& options) {
-  Pair_check check;
-  std::optional<std::pair<std::size_t, std::size_t>> first;  // (later, earlier)
-  Pairs pairs(cones, [&](std::size_t earlier, std::size_t later) {
-    if (earlier < later && (!first || std::pair(later, earlier) < *first) &&
-        check.nearer_somewhere(cones[earlier], cones[later]))
-      first = std::pair(later, earlier);
-  });
-  std::vector<std::size_t> all(cones.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  pairs.each(all, all, share_of(options, cones.size()));
-  if (first) std::swap(first->first, first->second);
-  return first;
-}
+std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones,
+                                                                    const Verify_options& options);
 
 /// The certificate, step by step; throws a Rejection.
-inline void check(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options) {
-  // 1. The eye is a point, and the fragments are the scene.
-  if (!canonical(certificate.eye)) reject("the eye is not a point in canonical numbers");
-  check_covering(soup, certificate, certificate.on_view ? &certificate.eye : nullptr);
-
-  // 2. No fragment is nearer than one that is drawn after it.
-  std::vector<Cone> cones;
-  for (const Order_fragment& fragment : certificate.fragments) cones.emplace_back(fragment.vertices, certificate.eye);
-  const auto pair = first_misordered(cones, options);
-  if (pair) {
-    const auto [earlier, later] = *pair;
-    const auto full_name = [&](std::size_t i) {
-      return name("fragment", i) + " (" + name("face", certificate.fragments[i].face) + ")";
-    };
-    reject(full_name(earlier) + " is drawn before " + full_name(later) + " but is nearer somewhere in their overlap",
-           {earlier, later});
-  }
-  if (options.progress) options.progress(cones.size(), cones.size());
-}
+void check(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options);
 
 }  // namespace order_check
 
@@ -221,13 +145,7 @@ inline void check(const Polygon_soup& soup, const Order_certificate& certificate
 /// about O(n log n) for n fragments and the pairs that overlap, each in the product of their corners at most; quadratic
 /// at worst; a set-aside "self-intersecting" face is quadratic in its corners. Exact: yes, without filters. Proof:
 /// P-20, P-21, P-22
-inline Verdict verify_order(const Polygon_soup& soup, const Order_certificate& certificate,
-                            const Verify_options& options = {}) {
-  return certificate_check::verdict_of([&] {
-    order_check::check(soup, certificate, options);
-    return std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every " +
-           (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason";
-  });
-}
+Verdict verify_order(const Polygon_soup& soup, const Order_certificate& certificate,
+                     const Verify_options& options = {});
 
 }  // namespace sightline

@@ -2,27 +2,20 @@
 // The lines from one convex polygon to another: exact vertices with doubles beside them, and the sides of edge lines
 // and planes on them.
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace sightline {
 
 /// p / (w 2^exponent) within a relative 2^-52: a quotient of 63 or 64 bits, rounded. Pre: w > 0.
-inline double near_quotient(const Integer& p, const Integer& w, long exponent) {
-  if (sgn(p) == 0) return 0;
-  const long shift =
-      63 + static_cast<long>(mpz_sizeinbase(w.get_mpz_t(), 2)) - static_cast<long>(mpz_sizeinbase(p.get_mpz_t(), 2));
-  thread_local Integer shifted, quotient;
-  if (shift >= 0) {
-    mpz_mul_2exp(shifted.get_mpz_t(), p.get_mpz_t(), static_cast<mp_bitcnt_t>(shift));
-    mpz_tdiv_q(quotient.get_mpz_t(), shifted.get_mpz_t(), w.get_mpz_t());
-  } else {
-    mpz_mul_2exp(shifted.get_mpz_t(), w.get_mpz_t(), static_cast<mp_bitcnt_t>(-shift));
-    mpz_tdiv_q(quotient.get_mpz_t(), p.get_mpz_t(), shifted.get_mpz_t());
-  }
-  const double size =
-      std::ldexp(static_cast<double>(mpz_getlimbn(quotient.get_mpz_t(), 0)), static_cast<int>(-shift - exponent));
-  return sgn(p) < 0 ? -size : size;
-}
+double near_quotient(const Integer& p, const Integer& w, long exponent);
 
 /// Coordinates near [-1, 1] for doubles: the grid divided by a scale of the scene's own.
 class Near_frame {
@@ -39,12 +32,7 @@ class Near_frame {
     return std::ldexp(scene.points().approximate(point, axis), -exponent_);
   }
   /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
-  Rational near_cubic(const Integer& p, const Integer& w) const {
-    Rational value(p, divisor_ == 1 ? w : Integer(w * divisor_ * divisor_ * divisor_));
-    value.canonicalize();
-    mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(3 * shift_));
-    return value;
-  }
+  Rational near_cubic(const Integer& p, const Integer& w) const;
   /// What a plane's last coefficient is multiplied by less than the others.
   Rational unit() const {
     Rational one(divisor_);
@@ -71,13 +59,7 @@ struct Near_point {
 };
 using Near_polygon = std::vector<Near_point>;
 
-inline Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact) {
-  const Integer common = gcd(gcd(exact[0], exact[1]), gcd(exact[2], exact[3]));
-  Near_point p;
-  for (std::size_t k = 0; k < 4; ++k) p.exact[k] = exact[k] / common;
-  for (std::size_t k = 0; k < 3; ++k) p.near[k] = frame.near(p.exact[k], p.exact[3]);
-  return p;
-}
+Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact);
 
 /// An oriented plane in grid coordinates.
 struct Near_plane {
@@ -85,42 +67,16 @@ struct Near_plane {
   std::array<double, 4> near;  ///< a positive multiple, each within a relative 2^-52
 };
 
-inline Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact) {
-  Near_plane h{exact, {}};
-  const Integer size = std::max({Integer(abs(exact[0])), Integer(abs(exact[1])), Integer(abs(exact[2]))});
-  for (std::size_t k = 0; k < 3; ++k) h.near[k] = near_quotient(exact[k], size, 0);
-  h.near[3] = frame.near(exact[3], size);
-  return h;
-}
+Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact);
 
 /// The side of a point: doubles where they tell, integers where not. The bound: four products of factors each within
 /// 2^-52, and their sum. Exact: yes.
-inline int side(const Near_plane& h, const Near_point& p) {
-  double value = h.near[3], size = std::fabs(h.near[3]);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double product = h.near[k] * p.near[k];
-    value += product, size += std::fabs(product);
-  }
-  const double bound = 0x1p-49 * size + 0x1p-1000;
-  if (value > bound) return 1;
-  if (value < -bound) return -1;
-  thread_local Integer sum;
-  mpz_mul(sum.get_mpz_t(), h.exact[0].get_mpz_t(), p.exact[0].get_mpz_t());
-  for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), h.exact[k].get_mpz_t(), p.exact[k].get_mpz_t());
-  return sgn(sum);
-}
+int side(const Near_plane& h, const Near_point& p);
 
 inline constexpr int both_sides = 2;
 /// 1 or -1: a polygon is on that closed side of a plane, and not all in it; 0: it is in the plane; `both_sides`: it has
 /// vertices on both sides. Exact: yes.
-inline int side(const Near_plane& h, const Near_polygon& polygon) {
-  bool front = false, behind = false;
-  for (const Near_point& p : polygon) {
-    const int s = side(h, p);
-    front |= s > 0, behind |= s < 0;
-  }
-  return front && behind ? both_sides : front ? 1 : behind ? -1 : 0;
-}
+int side(const Near_plane& h, const Near_polygon& polygon);
 inline bool is_across(const Near_plane& h, const Near_polygon& polygon) { return side(h, polygon) == both_sides; }
 
 inline Integer value(const Near_plane& h, const Near_point& p) {
@@ -129,67 +85,26 @@ inline Integer value(const Near_plane& h, const Near_point& p) {
 
 /// The part of a convex polygon where the plane is >= 0: fewer than three vertices where that has no inside. Exact:
 /// yes.
-inline Near_polygon clip(const Near_frame& frame, const Near_polygon& polygon, const Near_plane& h, bool front) {
-  std::vector<int> sides;
-  for (const Near_point& p : polygon) sides.push_back(front ? side(h, p) : -side(h, p));
-  if (std::none_of(sides.begin(), sides.end(), [](int s) { return s > 0; })) return {};
-  Near_polygon part;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const std::size_t next = (i + 1) % polygon.size();
-    if (sides[i] >= 0) part.push_back(polygon[i]);
-    if (sides[i] * sides[next] >= 0) continue;
-    // Where the edge crosses the plane: |h(q)| p + |h(p)| q, each taken with its weight.
-    const Integer at = abs(value(h, polygon[i])), after = abs(value(h, polygon[next]));
-    std::array<Integer, 4> crossing;
-    for (std::size_t k = 0; k < 4; ++k) crossing[k] = after * polygon[i].exact[k] + at * polygon[next].exact[k];
-    part.push_back(near_point(frame, crossing));
-  }
-  return part;
-}
+Near_polygon clip(const Near_frame& frame, const Near_polygon& polygon, const Near_plane& h, bool front);
 
 // ---- Lines as six numbers
-// -----------------------------------------------------------------------------------------------------
 //
 // side(p, q, e) = det[p, q, a, b] for homogeneous points and the edge from a to b. For p in front of a counterclockwise
 // polygon and q behind it, the segment p q crosses its inside iff the side is positive for all of its edges. Proof:
 // P-70
 
 /// The numbers of the ordered pair (p, q), against which an edge's (direction, moment) are multiplied in order.
-inline Six pair_numbers(const Triple& p, const Triple& q) {
-  return {p[2] * q[1] - p[1] * q[2],
-          p[0] * q[2] - p[2] * q[0],
-          p[1] * q[0] - p[0] * q[1],
-          p[0] - q[0],
-          p[1] - q[1],
-          p[2] - q[2]};
-}
+Six pair_numbers(const Triple& p, const Triple& q);
 /// (direction, moment) of the line from a to b.
-inline Six edge_numbers(const Triple& a, const Triple& b) {
-  return {b[0] - a[0],
-          b[1] - a[1],
-          b[2] - a[2],
-          a[1] * b[2] - a[2] * b[1],
-          a[2] * b[0] - a[0] * b[2],
-          a[0] * b[1] - a[1] * b[0]};
-}
+Six edge_numbers(const Triple& a, const Triple& b);
 inline double dot(const Six& a, const Six& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
 
 /// The same in integers: direction and moment of the line through two grid points.
 using Exact_six = std::array<Integer, 6>;
-inline Exact_six exact_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b) {
-  return {b[0] - a[0],
-          b[1] - a[1],
-          b[2] - a[2],
-          a[1] * b[2] - a[2] * b[1],
-          a[2] * b[0] - a[0] * b[2],
-          a[0] * b[1] - a[1] * b[0]};
-}
-inline Exact_six exact_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q) {
-  return {p[2] * q[1] - p[1] * q[2], p[0] * q[2] - p[2] * q[0], p[1] * q[0] - p[0] * q[1],
-          p[0] * q[3] - q[0] * p[3], p[1] * q[3] - q[1] * p[3], p[2] * q[3] - q[2] * p[3]};
-}
+Exact_six exact_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b);
+Exact_six exact_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q);
 inline Integer dot(const Exact_six& a, const Exact_six& b) {
   Integer sum = a[0] * b[0];
   for (std::size_t k = 1; k < 6; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[k].get_mpz_t());

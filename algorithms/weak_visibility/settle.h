@@ -2,7 +2,16 @@
 // What a search among lines leaves open: its cells, and events that decide them where little stands between source and
 // target.
 
-#include <sightline/algorithms/weak_visibility/events.h>
+#include <sightline/algorithms/weak_visibility/events/event_search.h>
+#include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/algorithms/weak_visibility/weak_answer.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
 
 namespace sightline {
 
@@ -26,63 +35,19 @@ struct Cell {
   std::vector<Open_cell::Side> sides;
 };
 
-inline std::vector<Cell> open_cells(const Occluders& occluders, const Weak_source& source,
-                                    const Weakly_visible::Pair& pair, std::size_t most) {
-  std::vector<Cell> found;
-  std::vector<Cell> waiting{
-      {source.polygon, occluders.polygon(pair.piece), {}}};  // the second parts, and the cell at hand on top
-  for (const Weak_step& step : pair.answer.proof) {
-    if (found.size() == most) break;
-    Cell cell = std::move(waiting.back());
-    waiting.pop_back();
-    switch (step.kind) {
-      case Weak_step::Kind::line:
-        for (const int sign : {-1, 1}) {
-          Cell& part = waiting.emplace_back(cell);
-          part.sides.push_back({pair.answer.lines[step.index], sign});
-        }
-        break;
-      case Weak_step::Kind::cut_source:
-      case Weak_step::Kind::cut_target:
-        for (const bool front : {false, true}) {
-          Cell& part = waiting.emplace_back(cell);
-          Near_polygon& polygon = step.kind == Weak_step::Kind::cut_source ? part.source : part.target;
-          polygon = clip(occluders.frame(), polygon, near_plane(occluders.frame(), step.plane), front);
-        }
-        break;
-      case Weak_step::Kind::open: found.push_back(std::move(cell)); break;
-      case Weak_step::Kind::blocked:
-      case Weak_step::Kind::empty:
-      case Weak_step::Kind::away: break;
-    }
-  }
-  return found;
-}
+std::vector<Cell> open_cells(const Occluders& occluders, const Weak_source& source, const Weakly_visible::Pair& pair,
+                             std::size_t most);
 
 }  // namespace settle_detail
 
 /// The first open cells of a pair, as many as are asked for, in the order of its search. Degenerate: none where the
 /// pair is decided. Cost: steps of the proof, times its depth. Exact: yes
-inline std::vector<Open_cell> open_cells(const Occluders& occluders, const Weak_source& source,
-                                         const Weakly_visible::Pair& pair, std::size_t most) {
-  const auto points_of = [&](const Near_polygon& polygon) {
-    std::vector<Exact_point> points;
-    for (const Near_point& p : polygon) points.push_back(occluders.scene().position(p.exact));
-    return points;
-  };
-  std::vector<Open_cell> found;
-  for (settle_detail::Cell& cell : settle_detail::open_cells(occluders, source, pair, most))
-    found.push_back({points_of(cell.source), points_of(cell.target), std::move(cell.sides)});
-  return found;
-}
+std::vector<Open_cell> open_cells(const Occluders& occluders, const Weak_source& source,
+                                  const Weakly_visible::Pair& pair, std::size_t most);
 
 /// The edges of the pieces that may come between a source and a target, with their own: what the cost of events goes
 /// by.
-inline std::size_t edges_between(const Occluders& occluders, const Near_polygon& source, const Near_polygon& target) {
-  std::size_t edges = 0;
-  for (const std::uint32_t near : occluders.near_shaft(source, target)) edges += occluders.size(near);
-  return edges;
-}
+std::size_t edges_between(const Occluders& occluders, const Near_polygon& source, const Near_polygon& target);
 inline std::size_t edges_between(const Occluders& occluders, const Weak_source& source, std::uint32_t piece) {
   return edges_between(occluders, source.polygon, occluders.polygon(piece));
 }
@@ -90,104 +55,19 @@ inline std::size_t edges_between(const Occluders& occluders, const Weak_source& 
 /// What events say of a pair that a search left open: of the whole, or, where more than so many edges are near that, of
 /// the parts of source and target that open cells have: each free line is in a cell that is open. Post: undecided where
 /// too many edges are near a part too. Cost: at most one Event_search for each part. Exact: yes
-inline Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source& source,
-                                         const Weakly_visible::Pair& pair, std::size_t most_edges,
-                                         const Events_options& options, Event_counters& counters) {
-  if (edges_between(occluders, source, pair.piece) <= most_edges)
-    return weakly_visible_by_events(occluders, source, pair.piece, options, counters);
-  struct Parts {
-    Near_polygon source, target;
-  };
-  const auto same = [](const Near_polygon& a, const Near_polygon& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const Near_point& p, const Near_point& q) { return p.exact == q.exact; });
-  };
-  std::vector<Parts> all;
-  for (settle_detail::Cell& cell : settle_detail::open_cells(occluders, source, pair, pair.answer.proof.size())) {
-    if (cell.source.size() < 3 || cell.target.size() < 3) continue;  // no line
-    if (std::any_of(all.begin(), all.end(), [&](const Parts& parts) {
-          return same(parts.source, cell.source) && same(parts.target, cell.target);
-        }))
-      continue;
-    if (edges_between(occluders, cell.source, cell.target) > most_edges) return {};
-    all.push_back({std::move(cell.source), std::move(cell.target)});
-  }
-  Events_answer answer;
-  answer.status = Weak_status::hidden;
-  for (Parts& parts : all) {
-    const Events_answer found = part_visible_by_events(occluders, {std::move(parts.source), source.plane}, parts.target,
-                                                       pair.piece, options, counters);
-    if (found.status == Weak_status::visible) return found;
-    if (found.status == Weak_status::undecided) answer = found;
-  }
-  return answer;
-}
+Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source& source,
+                                  const Weakly_visible::Pair& pair, std::size_t most_edges,
+                                  const Events_options& options, Event_counters& counters);
 
 /// What events found of a pair, as a search among lines would say it; where hidden, without a proof.
-inline Weak_answer weak_answer(const Events_answer& found) {
-  Weak_answer answer;
-  answer.status = found.status, answer.sightline = found.sightline;
-  return answer;
-}
+Weak_answer weak_answer(const Events_answer& found);
 
 /// Takes what is undecided to events, pair by pair, where the pieces that may come between, or between the parts that
 /// are open, have no more than so many edges. A face that is found visible gets its pair, one that is found hidden is
 /// unproved; a face of which some pair stays open stays undecided. Pre: each undecided face has its open pairs, as
 /// weakly_visible() leaves them. Post: the same at any number of threads, unless time runs out. Cost: at most one
 /// Event_search for each open pair, or for each open part of it. Exact: yes. Proof: P-73
-inline Event_counters settle_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources,
-                                       std::size_t most_edges, const Events_options& options, Weakly_visible& found) {
-  struct Settled {
-    Face_id face;
-    Weak_status status = Weak_status::hidden;
-    std::vector<Weakly_visible::Pair> pairs;  // those that stay open, or the one with a sightline
-    Event_counters counters;
-  };
-  // 1. The pairs of each face.
-  std::vector<Settled> faces;
-  for (Weakly_visible::Pair& pair : found.open) {
-    const Face_id face = occluders.scene().pieces()[pair.piece].face;
-    if (faces.empty() || faces.back().face != face) faces.emplace_back().face = face;
-    faces.back().pairs.push_back(std::move(pair));
-  }
-
-  // 2. Events.
-  const auto settle = [&](Settled& face) {
-    std::vector<Weakly_visible::Pair> open;
-    for (Weakly_visible::Pair& pair : face.pairs) {
-      const Events_answer answer =
-          open_pair_by_events(occluders, sources[pair.source], pair, most_edges, options, face.counters);
-      if (answer.status == Weak_status::hidden) continue;
-      if (answer.status == Weak_status::visible) {
-        open.clear();
-        open.push_back({pair.piece, pair.source, weak_answer(answer)});
-        face.status = answer.status;
-        break;
-      }
-      face.status = Weak_status::undecided;
-      open.push_back(std::move(pair));
-    }
-    face.pairs = std::move(open);
-  };
-  run_with_threads(options.threads, [&] {
-    oneapi::tbb::parallel_for(std::size_t{0}, faces.size(), [&](std::size_t f) { settle(faces[f]); });
-  });
-
-  // 3. Faces and pairs to where they belong, in order.
-  Event_counters counters;
-  found.undecided.clear(), found.open.clear();
-  for (Settled& face : faces) {
-    counters += face.counters;
-    found.of(face.status).push_back(face.face);
-    if (face.status == Weak_status::hidden) found.unproved.push_back(face.face);
-    auto& pairs = face.status == Weak_status::visible ? found.pairs : found.open;
-    std::move(face.pairs.begin(), face.pairs.end(), std::back_inserter(pairs));
-  }
-  for (std::vector<Face_id>* list : {&found.visible, &found.hidden, &found.unproved})
-    std::sort(list->begin(), list->end());
-  std::stable_sort(found.pairs.begin(), found.pairs.end(),
-                   [](const auto& a, const auto& b) { return a.piece < b.piece; });
-  return counters;
-}
+Event_counters settle_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources,
+                                std::size_t most_edges, const Events_options& options, Weakly_visible& found);
 
 }  // namespace sightline

@@ -4,6 +4,13 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/query.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <array>
+#include <vector>
 
 namespace sightline {
 
@@ -16,27 +23,7 @@ namespace sightline {
 class Weak_volume {
  public:
   /// Errors: std::invalid_argument where the faces do not close up, or enclose nothing.
-  explicit Weak_volume(const Polygon_soup& soup)
-      : scene_(soup), traits_(scene_), tree_(build_bsp(traits_, one_thread())) {
-    if (scene_.pieces().empty())
-      throw std::invalid_argument("a volume has no faces; give those of a closed polyhedron");
-    if (!closure(scene_).closed)
-      throw std::invalid_argument(
-          "the faces of a volume do not close up; add those that are missing, and turn the others so that all fronts "
-          "look outwards, or all inwards");
-    for (const Piece& piece : scene_.pieces()) {
-      Polygon& polygon = polygons_.emplace_back();
-      for (const Piece_corner& corner : scene_.corners(piece)) polygon.push_back(scene_.position(corner.point));
-      planes_.push_back(scene_.file_coefficients(piece.support));
-      boxes_.push_back(box_of(polygon));
-    }
-    Polygon corners;
-    for (const std::array<Exact_point, 2>& box : boxes_) corners.insert(corners.end(), box.begin(), box.end());
-    box_ = box_of(corners);
-    for (std::size_t k = 0; k < polygons_.size(); ++k) add_surface(polygons_[k], planes_[k]);
-    if (surface_.empty())
-      throw std::invalid_argument("the faces of a volume enclose nothing; give those of a closed polyhedron");
-  }
+  explicit Weak_volume(const Polygon_soup& soup);
 
   Weak_volume(const Weak_volume&) = delete;  // its tree refers to its scene
 
@@ -48,13 +35,7 @@ class Weak_volume {
   /// then these see it, whatever else there is. Degenerate: a polygon in the surface is in front of what it looks into,
   /// and behind it of what has it in front. Cost: none to speak of where it is outside the solid's box, else as said
   /// above. Exact: yes
-  bool sees_from_within(const std::vector<Exact_point>& polygon, bool behind) const {
-    if (apart(box_of(polygon), box_)) return false;
-    const Exact_plane plane = plane_of(polygon);
-    const std::vector<Polygon> parts = parts_of(polygon);
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const Polygon& part) { return is_inside_beside(part, plane, behind ? -1 : 1); });
-  }
+  bool sees_from_within(const std::vector<Exact_point>& polygon, bool behind) const;
 
  private:
   using Polygon = std::vector<Exact_point>;
@@ -65,102 +46,21 @@ class Weak_volume {
     options.threads = 1;
     return options;
   }
-  static Rational height(const Exact_plane& h, const Exact_point& p) {
-    return Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]);
-  }
-  static Exact_plane plane_of(const Polygon& polygon) {  // Newell's normal
-    Exact_plane h{0, 0, 0, 0};
-    for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-        h[k] += (polygon[i][u] - polygon[0][u]) * (polygon[i + 1][v] - polygon[0][v]) -
-                (polygon[i][v] - polygon[0][v]) * (polygon[i + 1][u] - polygon[0][u]);
-      }
-    for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * polygon[0][k];
-    return h;
-  }
-  static std::array<Exact_point, 2> box_of(const Polygon& polygon) {
-    std::array<Exact_point, 2> box{polygon[0], polygon[0]};
-    for (const Exact_point& p : polygon)
-      for (std::size_t k = 0; k < 3; ++k) box[0][k] = std::min(box[0][k], p[k]), box[1][k] = std::max(box[1][k], p[k]);
-    return box;
-  }
-  static bool apart(const std::array<Exact_point, 2>& a, const std::array<Exact_point, 2>& b) {
-    for (std::size_t k = 0; k < 3; ++k)
-      if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) return true;
-    return false;
-  }
+  static Rational height(const Exact_plane& h, const Exact_point& p);
+  static Exact_plane plane_of(const Polygon& polygon);
+  static std::array<Exact_point, 2> box_of(const Polygon& polygon);
+  static bool apart(const std::array<Exact_point, 2>& a, const std::array<Exact_point, 2>& b);
 
   /// The part of a convex polygon with sign * height >= 0; empty where that has no inside.
-  static Polygon clipped(const Polygon& polygon, const Exact_plane& h, int sign) {
-    Polygon part;
-    bool beyond = false;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-      const Rational at = sign * height(h, p), after = sign * height(h, q);
-      beyond |= sgn(at) > 0;
-      if (sgn(at) >= 0) part.push_back(p);
-      if (sgn(at) * sgn(after) >= 0) continue;
-      const Rational share = at / (at - after);
-      Exact_point crossing;
-      for (std::size_t k = 0; k < 3; ++k) crossing[k] = p[k] + share * (q[k] - p[k]);
-      part.push_back(crossing);
-    }
-    return beyond ? part : Polygon{};
-  }
+  static Polygon clipped(const Polygon& polygon, const Exact_plane& h, int sign);
   /// A polygon in parts between which the surface may pass, cut by the planes of faces whose boxes meet its own. On
   /// each part, all points right in front are inside, or none; likewise right behind.
-  std::vector<Polygon> parts_of(const Polygon& polygon) const {
-    std::vector<Polygon> parts{polygon};
-    const std::array<Exact_point, 2> box = box_of(polygon);
-    for (std::size_t k = 0; k < polygons_.size(); ++k) {
-      if (apart(box, boxes_[k])) continue;
-      std::vector<Polygon> cut;
-      for (Polygon& part : parts) {
-        Polygon front = clipped(part, planes_[k], 1), behind = clipped(part, planes_[k], -1);
-        if (!front.empty() && !behind.empty()) cut.push_back(std::move(front)), cut.push_back(std::move(behind));
-        else cut.push_back(std::move(part));
-      }
-      parts = std::move(cut);
-    }
-    return parts;
-  }
+  std::vector<Polygon> parts_of(const Polygon& polygon) const;
   /// Whether the points right in front (side 1) or behind (-1) of a part are inside: one of them, nearer than all
   /// planes of faces that its mean is not in.
-  bool is_inside_beside(const Polygon& part, const Exact_plane& plane, int beside) const {
-    Exact_point mean{0, 0, 0}, direction;
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (const Exact_point& p : part) mean[k] += p[k];
-      mean[k] /= static_cast<long>(part.size());
-      direction[k] = beside * plane[k];
-    }
-    Rational step = 1;
-    for (const Exact_plane& h : planes_) {
-      const Rational at = height(h, mean), slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
-      if (sgn(at) * sgn(slope) < 0) step = std::min(step, Rational(-at / (2 * slope)));
-    }
-    for (Predicate_counts counts;; step /= 2) {
-      Exact_point beside_it;
-      for (std::size_t k = 0; k < 3; ++k) beside_it[k] = mean[k] + step * direction[k];
-      const Location location = locate_point(traits_, tree_, beside_it, true, counts).location;
-      if (location != Location::on)
-        return location == Location::inside;  // on: in a face upright on the part, that the surface passes twice
-    }
-  }
+  bool is_inside_beside(const Polygon& part, const Exact_plane& plane, int beside) const;
 
-  void add_surface(const Polygon& polygon, const Exact_plane& plane) {
-    const std::vector<Polygon> parts = parts_of(polygon);
-    std::vector<int> looks;  // 1: to its front, -1: to its back, 0: the inside is on both sides, or on none
-    for (const Polygon& part : parts)
-      looks.push_back(int{is_inside_beside(part, plane, -1)} - int{is_inside_beside(part, plane, 1)});
-    const auto add = [&](Polygon part, int look) {
-      if (look < 0) std::reverse(part.begin(), part.end());
-      if (look != 0) surface_.push_back(std::move(part));
-    };
-    if (std::all_of(looks.begin(), looks.end(), [&](int look) { return look == looks[0]; }))
-      return add(polygon, looks[0]);
-    for (std::size_t k = 0; k < parts.size(); ++k) add(parts[k], looks[k]);
-  }
+  void add_surface(const Polygon& polygon, const Exact_plane& plane);
 
   Scene scene_;
   Exact_traits traits_;
@@ -175,28 +75,7 @@ class Weak_volume {
 /// Adds the faces that a volume sees from within to those that its surface was found to see; they are unproved, as they
 /// need no sightline. Returns them, sorted. Cost: Weak_volume::sees_from_within() of the pieces that are not found
 /// visible. Exact: yes. Proof: P-74
-inline std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided,
-                                                 Weakly_visible& found) {
-  std::vector<Face_id> within;
-  for (const Piece& piece : scene.pieces()) {
-    if ((!within.empty() && within.back() == piece.face) ||
-        std::binary_search(found.visible.begin(), found.visible.end(), piece.face))
-      continue;
-    std::vector<Exact_point> polygon;
-    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
-    if (volume.sees_from_within(polygon, false) || (two_sided && volume.sees_from_within(polygon, true)))
-      within.push_back(piece.face);
-  }
-  const auto is_within = [&](Face_id face) { return std::binary_search(within.begin(), within.end(), face); };
-  const auto of_face = [&](const Weakly_visible::Pair& pair) { return is_within(scene.pieces()[pair.piece].face); };
-  std::erase_if(found.hidden, is_within), std::erase_if(found.undecided, is_within);
-  std::erase_if(found.pairs, of_face), std::erase_if(found.open, of_face);
-  for (std::vector<Face_id>* list : {&found.visible, &found.unproved}) {
-    list->insert(list->end(), within.begin(), within.end());
-    std::sort(list->begin(), list->end());
-    list->erase(std::unique(list->begin(), list->end()), list->end());
-  }
-  return within;
-}
+std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided,
+                                          Weakly_visible& found);
 
 }  // namespace sightline

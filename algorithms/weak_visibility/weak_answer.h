@@ -2,9 +2,14 @@
 // What a search among lines says, and what it was asked: the answer with its proof, the options, the counters.
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/kernel/number.h>
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 namespace sightline {
 
@@ -22,16 +27,7 @@ struct Weak_counters {
               refuted = 0;  ///< `confirmed`, `refuted`: lines proposed in doubles, by the exact test
   std::size_t lines = 0, open = 0, deepest = 0;
 
-  Weak_counters& operator+=(const Weak_counters& o) {
-    targets += o.targets, away += o.away, by_rays += o.by_rays, occluders += o.occluders, cells += o.cells,
-        cuts += o.cuts, shaves += o.shaves, bisections += o.bisections;
-    blocked += o.blocked, empty += o.empty, corners += o.corners, learned += o.learned, jumps += o.jumps,
-        programs += o.programs, exact_programs += o.exact_programs, form_programs += o.form_programs,
-        by_forms += o.by_forms;
-    confirmed += o.confirmed, refuted += o.refuted, lines += o.lines, open += o.open,
-        deepest = std::max(deepest, o.deepest);
-    return *this;
-  }
+  Weak_counters& operator+=(const Weak_counters& o);
 };
 
 /// One step of a proof that no line is free, in the order of a walk that takes a node before its two parts. P-72 says

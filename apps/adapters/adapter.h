@@ -1,7 +1,7 @@
 #pragma once
 // What the adapters share: reading what `sightline judge` wrote, and writing what it reads.
 
-#include <sightline/algorithms/judge/protocol.h>
+#include <sightline/harness/judge/protocol.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/scene/scene.h>
 

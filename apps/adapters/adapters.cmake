@@ -1,4 +1,4 @@
-# Adapters for `sightline judge`: algorithms/judge/README.md. Part of the top level's CMakeLists.txt, if SIGHTLINE_APPS.
+# Adapters for `sightline judge`: harness/judge/README.md. Part of the top level's CMakeLists.txt, if SIGHTLINE_APPS.
 
 # Each apps/adapters/<name>.cpp is a program adapter_<name>; built by the target adapters, not by default.
 find_path(SIGHTLINE_EMBREE_INCLUDE_DIR embree3/rtcore.h)
@@ -14,7 +14,6 @@ foreach(source IN LISTS sources)
   endif()
   add_executable(adapter_${name} EXCLUDE_FROM_ALL ${source})
   target_link_libraries(adapter_${name} PRIVATE program_settings)
-  reuse_precompiled(adapter_${name} precompiled_for_program)
   add_dependencies(adapters adapter_${name})
 endforeach()
 if(TARGET adapter_weak_embree)

@@ -4,7 +4,8 @@
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/io/decimal.h>
 
 #include <CGAL/Simple_cartesian.h>
 

@@ -3,7 +3,7 @@
 #include "adapter.h"
 
 #include <sightline/algorithms/verify/covering.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
 
 #include <CGAL/Env_surface_data_traits_3.h>
 #include <CGAL/Env_triangle_traits_3.h>

@@ -3,6 +3,8 @@
 
 #include "adapter.h"
 
+#include <sightline/io/decimal.h>
+
 #include <embree3/rtcore.h>
 
 #include <cmath>
@@ -38,8 +40,10 @@ class Traced_scene {
         const Vector at = near(p);
         points.push_back({static_cast<float>(at[0]), static_cast<float>(at[1]), static_cast<float>(at[2])});
       }
-      for (unsigned k = 2; k < piece.size; ++k)
-        triangles.push_back({first, first + k - 1, first + k}), face_of_.push_back(piece.face);
+      for (unsigned k = 2; k < piece.size; ++k) {
+        triangles.push_back({first, first + k - 1, first + k});
+        face_of_.push_back(piece.face);
+      }
     }
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     std::copy(points.begin(), points.end(),
@@ -54,18 +58,25 @@ class Traced_scene {
     rtcCommitScene(traced_);
   }
   Traced_scene(const Traced_scene&) = delete;
-  ~Traced_scene() { rtcReleaseScene(traced_), rtcReleaseDevice(device_); }
+  ~Traced_scene() {
+    rtcReleaseScene(traced_);
+    rtcReleaseDevice(device_);
+  }
 
   /// The face that a ray hits first, if it does so from the front, or from behind where that counts.
   std::optional<Face_id> hit(const Vector& from, const Vector& direction, bool two_sided) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
-    query.ray.org_x = static_cast<float>(from[0]), query.ray.org_y = static_cast<float>(from[1]),
+    query.ray.org_x = static_cast<float>(from[0]);
+    query.ray.org_y = static_cast<float>(from[1]);
     query.ray.org_z = static_cast<float>(from[2]);
-    query.ray.dir_x = static_cast<float>(direction[0]), query.ray.dir_y = static_cast<float>(direction[1]),
+    query.ray.dir_x = static_cast<float>(direction[0]);
+    query.ray.dir_y = static_cast<float>(direction[1]);
     query.ray.dir_z = static_cast<float>(direction[2]);
-    query.ray.tnear = 1e-4f, query.ray.tfar = std::numeric_limits<float>::infinity(), query.ray.mask = ~0u;
+    query.ray.tnear = 1e-4f;
+    query.ray.tfar = std::numeric_limits<float>::infinity();
+    query.ray.mask = ~0u;
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(traced_, &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -104,7 +115,10 @@ void solve(const adapter::Task& task) {
         2 + std::min(areas.size() - 1,
                      static_cast<std::size_t>(std::upper_bound(areas.begin(), areas.end(), place) - areas.begin()));
     double s = share(dice), t = share(dice);
-    if (s + t > 1) s = 1 - s, t = 1 - t;
+    if (s + t > 1) {
+      s = 1 - s;
+      t = 1 - t;
+    }
     const Vector a = minus(source[k - 1], source[0]), b = minus(source[k], source[0]);
     const double height = share(dice), angle = 6.283185307179586 * share(dice), flat = std::sqrt(1 - height * height);
     Vector from{}, direction{};

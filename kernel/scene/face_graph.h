@@ -2,19 +2,20 @@
 // The face graph of a scene: which faces share an edge, where they close up, and which bodies are convex. OpenMesh
 // carries it.
 
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 
-#include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>
-#include <OpenMesh/Core/System/omstream.hh>
-
-#include <array>
-#include <cmath>
-#include <numeric>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace sightline {
+
+struct Face_mesh;  ///< the OpenMesh: face_mesh.h
 
 /// A node is a face of a polyhedron: pieces in one oriented plane that hang together by edges. An edge joins two nodes
 /// that share one, walked in opposite directions. Degenerate: what is no manifold (an edge of three pieces, two pieces
@@ -24,11 +25,6 @@ namespace sightline {
 /// T-junction. Cost: O(corners). Exact: yes. Proof: P-50
 class Face_graph {
  public:
-  struct Mesh_traits : OpenMesh::DefaultTraits {
-    using Point = OpenMesh::Vec3d;
-  };
-  using Mesh = OpenMesh::PolyMesh_ArrayKernelT<Mesh_traits>;
-
   /// Two nodes and the edge that they share: its direction is counterclockwise round the first.
   struct Edge {
     std::uint32_t first, second;  ///< nodes
@@ -45,18 +41,14 @@ class Face_graph {
 
   /// Pre: the scene outlives the graph.
   explicit Face_graph(Scene&&) = delete;
-  explicit Face_graph(const Scene& scene) : scene_(&scene) {
-    build_mesh();
-    find_nodes();
-    find_edges();
-    find_components();
-  }
+  explicit Face_graph(const Scene& scene);
 
   const Scene& scene() const { return *scene_; }
   /// Face k of the mesh is piece k of the scene; its vertices are those of point(), at the approximate coordinates of
   /// Grid_points.
-  const Mesh& mesh() const { return mesh_; }
-  std::uint32_t point(Mesh::VertexHandle v) const { return point_of_vertex_[static_cast<std::size_t>(v.idx())]; }
+  const Face_mesh& mesh() const { return *mesh_; }
+  /// The point of the scene that a vertex of the mesh is at.
+  std::uint32_t point(std::size_t vertex) const { return point_of_vertex_[vertex]; }
 
   std::size_t size() const { return piece_.size(); }
   std::uint32_t node(std::uint32_t piece) const { return node_[piece]; }
@@ -78,226 +70,10 @@ class Face_graph {
   std::size_t refused() const { return refused_; }
 
  private:
-  using Face = Mesh::FaceHandle;
-  /// An input point by itself: the scene's incidences tell which faces' planes it is on.
-  static Vertex vertex(const Predicates& predicates, std::uint32_t point) {
-    return predicates.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane);
-  }
-  static std::uint32_t index(const auto& handle) { return static_cast<std::uint32_t>(handle.idx()); }
-
-  struct Union_find {
-    std::vector<std::uint32_t> parent;
-    explicit Union_find(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-    std::uint32_t find(std::uint32_t i) {
-      while (parent[i] != i) i = parent[i] = parent[parent[i]];
-      return i;
-    }
-    void join(std::uint32_t i, std::uint32_t j) {
-      i = find(i), j = find(j);
-      parent[std::max(i, j)] = std::min(i, j);
-    }
-    /// Numbers of the sets, in the order of their first members.
-    std::vector<std::uint32_t> numbers(std::vector<std::uint32_t>& first) {
-      std::vector<std::uint32_t> number(parent.size());
-      for (std::uint32_t i = 0; i < parent.size(); ++i) {
-        const std::uint32_t root = find(i);
-        if (root == i) number[i] = static_cast<std::uint32_t>(first.size()), first.push_back(i);
-        else number[i] = number[root];
-      }
-      return number;
-    }
-  };
-
-  void build_mesh() {
-    // OpenMesh complains on standard error of what it refuses.
-    struct Silence {
-      Silence() { omerr().disable(); }
-      ~Silence() { omerr().enable(); }
-    } const silence;
-    const Grid_points& points = scene_->points();
-    const auto add_vertex = [&](std::uint32_t p) {
-      point_of_vertex_.push_back(p);
-      return mesh_.add_vertex({points.approximate(p, 0), points.approximate(p, 1), points.approximate(p, 2)});
-    };
-    mesh_.reserve(points.size(), points.size() + scene_->pieces().size(), scene_->pieces().size());
-    for (std::uint32_t p = 0; p < points.size(); ++p) add_vertex(p);
-    std::vector<Mesh::VertexHandle> loop;
-    for (const Piece& piece : scene_->pieces()) {
-      loop.clear();
-      for (const Piece_corner& corner : scene_->corners(piece)) loop.emplace_back(static_cast<int>(corner.point));
-      if (mesh_.add_face(loop).is_valid()) continue;
-      ++refused_;
-      for (Mesh::VertexHandle& v : loop) v = add_vertex(point(v));
-      mesh_.add_face(loop);
-    }
-  }
-
-  /// Calls f(half, piece, neighbour) for each edge that two pieces share.
-  template <class Function>
-  void for_each_shared_edge(Function f) const {
-    for (const auto edge : mesh_.edges()) {
-      const auto half = mesh_.halfedge_handle(edge, 0);
-      const Face one = mesh_.face_handle(half), other = mesh_.opposite_face_handle(half);
-      if (one.is_valid() && other.is_valid()) f(half, index(one), index(other));
-    }
-  }
-
-  void find_nodes() {
-    Union_find sets(scene_->pieces().size());
-    for_each_shared_edge([&](auto, std::uint32_t i, std::uint32_t j) {
-      if (scene_->pieces()[i].support == scene_->pieces()[j].support) sets.join(i, j);
-    });
-    node_ = sets.numbers(piece_);
-    // Renumbered along a curve through space, so that what is near is near in memory.
-    std::vector<std::pair<std::uint64_t, std::uint32_t>> order;
-    for (std::uint32_t i = 0; i < size(); ++i)
-      order.emplace_back(place_on_curve(scene_->corners(scene_->pieces()[piece_[i]]).front().point), piece_[i]);
-    std::sort(order.begin(), order.end());
-    std::vector<std::uint32_t> number(size());
-    for (std::uint32_t i = 0; i < size(); ++i) number[node_[order[i].second]] = i, piece_[i] = order[i].second;
-    for (std::uint32_t& node : node_) node = number[node];
-  }
-
-  /// A point's place on the Z-order curve of the scene's cube: 21 bits of each coordinate in turn.
-  std::uint64_t place_on_curve(std::uint32_t point) const {
-    std::uint64_t place = 0;
-    const double range = scene_->points().range();
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto bits = static_cast<std::uint64_t>((scene_->points().approximate(point, axis) / range + 1) * 0x1p20);
-      for (int k = 0; k < 21; ++k) place |= (bits >> k & 1) << (3 * k + axis);
-    }
-    return place;
-  }
-
-  void find_edges() {
-    begin_.assign(size() + 1, 0);
-    for_each_shared_edge([&](auto half, std::uint32_t i, std::uint32_t j) {
-      if (node_[i] == node_[j]) return;
-      edges_.push_back(
-          {node_[i], node_[j], point(mesh_.from_vertex_handle(half)), point(mesh_.to_vertex_handle(half))});
-      ++begin_[node_[i] + 1], ++begin_[node_[j] + 1];
-    });
-    const auto ends = [](const Edge& edge) { return std::minmax(edge.first, edge.second); };
-    std::stable_sort(edges_.begin(), edges_.end(), [&](const Edge& e, const Edge& f) { return ends(e) < ends(f); });
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-    incident_.resize(2 * edges_.size());
-    for (std::uint32_t e = 0; e < edges_.size(); ++e)
-      incident_[next[edges_[e].first]++] = e, incident_[next[edges_[e].second]++] = e;
-  }
-
-  void find_components() {
-    Union_find sets(size());
-    for (const Edge& edge : edges_) sets.join(edge.first, edge.second);
-    std::vector<std::uint32_t> first;
-    component_ = sets.numbers(first);
-    for (const std::uint32_t node : first) components_.push_back({node, 0, 0, true, std::nullopt});
-    for (const std::uint32_t c : component_) ++components_[c].nodes;
-
-    std::vector<std::vector<std::uint32_t>> pieces(components_.size());
-    for (std::uint32_t i = 0; i < node_.size(); ++i) pieces[component_[node_[i]]].push_back(i);
-    for (const auto half : mesh_.halfedges())
-      if (const Face on = mesh_.face_handle(half); on.is_valid() && !mesh_.opposite_face_handle(half).is_valid())
-        components_[component_[node_[index(on)]]].closed = false;
-    std::vector<bool> bent_outwards(components_.size(), true);
-    Predicate_counts counts;
-    const Predicates predicates = scene_->predicates();
-    for_each_shared_edge([&](auto, std::uint32_t i, std::uint32_t j) {
-      if (node_[i] == node_[j] || !bent_outwards[component_[node_[i]]]) return;
-      const Prepared_plane plane = predicates.prepare(scene_->pieces()[i].support);
-      for (const Piece_corner& corner : scene_->corners(scene_->pieces()[j]))
-        if (predicates.side(vertex(predicates, corner.point), plane, counts) == CGAL::POSITIVE)
-          bent_outwards[component_[node_[i]]] = false;
-    });
-    for (std::size_t c = 0; c < components_.size(); ++c) {
-      components_[c].pieces = static_cast<std::uint32_t>(pieces[c].size());
-      if (components_[c].closed && bent_outwards[c]) components_[c].inside = point_inside(pieces[c]);
-    }
-  }
-
-  // ---- Convex bodies: closed, bent outwards at each edge, all faces seen from behind by a point, and a ray from there
-  // that meets one piece only. P-50
-
-  std::optional<Exact_point> point_inside(const std::vector<std::uint32_t>& pieces) const {
-    const Predicates predicates = scene_->predicates();
-    Predicate_counts counts;
-    const Piece& base = scene_->pieces()[pieces.front()];
-    // Between three corners of a piece and the corner farthest behind it.
-    const Prepared_plane below = predicates.prepare(base.support);
-    std::uint32_t far = Vertex::no_point;
-    double depth = 0;
-    for (const std::uint32_t i : pieces)
-      for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i])) {
-        const Vertex v = vertex(predicates, corner.point);
-        const double height = below.a * v.x + below.b * v.y + below.c * v.z + below.d;
-        if (far == Vertex::no_point || height < depth) far = corner.point, depth = height;
-      }
-    // Where doubles do not tell, any corner that is behind it.
-    const auto is_behind = [&](std::uint32_t p) {
-      return predicates.side(vertex(predicates, p), below, counts) == CGAL::NEGATIVE;
-    };
-    if (!is_behind(far))
-      for (const std::uint32_t i : pieces)
-        for (const Piece_corner& corner : scene_->corners(scene_->pieces()[i]))
-          if (is_behind(corner.point)) far = corner.point;
-    Exact_point inside = scene_->position(far), middle{};  // middle: of three corners of the base, inside it
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Exact_point corner = scene_->position(scene_->corners(base)[k].point);
-      for (std::size_t axis = 0; axis < 3; ++axis) inside[axis] += corner[axis], middle[axis] += corner[axis] / 3;
-    }
-    for (Rational& x : inside) x /= 4;
-    const Located_point at = scene_->locate(inside);
-    for (const std::uint32_t i : pieces)
-      if (predicates.side(at, scene_->pieces()[i].support, counts) != CGAL::NEGATIVE) return std::nullopt;
-    const Ray ray = ray_from(inside, middle);
-    for (const std::uint32_t i : pieces)
-      if (i != pieces.front() && meets(ray, scene_->pieces()[i])) return std::nullopt;
-    return inside;
-  }
-
-  struct Ray {
-    Exact_point from, direction;
-    std::array<double, 3> start, along;  // grid's approximate coordinates
-    double size, error;                  // of arms and of their error
-  };
-  Ray ray_from(const Exact_point& from, const Exact_point& through) const {
-    const Located_point p = scene_->locate(from), q = scene_->locate(through);
-    Ray ray{from, {}, {p.ax, p.ay, p.az}, {q.ax - p.ax, q.ay - p.ay, q.az - p.az}, 4 * scene_->points().range(), 0};
-    for (std::size_t k = 0; k < 3; ++k) ray.direction[k] = through[k] - from[k];
-    ray.error = 0x1p-50 * ray.size + 2 * (p.error + q.error) + 0x1p-1000;
-    return ray;
-  }
-  /// Whether a ray meets a piece that it starts behind: the closed cone of its corners holds the direction.
-  bool meets(const Ray& ray, const Piece& piece) const {
-    const Grid_points& points = scene_->points();
-    const std::span<const Piece_corner> corners = scene_->corners(piece);
-    // A determinant of three vectors below `size`, each off by `error`: off by less than 18 size^2 error and 2^-49 of 6
-    // size^3, which 2^-50 size <= error covers.
-    const double bound = 64 * ray.size * ray.size * ray.error;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const std::uint32_t p = corners[k].point, q = corners[k + 1 == corners.size() ? 0 : k + 1].point;
-      std::array<double, 3> a, b;
-      for (int axis = 0; axis < 3; ++axis) {
-        const std::size_t at = static_cast<std::size_t>(axis);
-        a[at] = points.approximate(p, axis) - ray.start[at], b[at] = points.approximate(q, axis) - ray.start[at];
-      }
-      const double value = ray.along[0] * (a[1] * b[2] - a[2] * b[1]) + ray.along[1] * (a[2] * b[0] - a[0] * b[2]) +
-                           ray.along[2] * (a[0] * b[1] - a[1] * b[0]);
-      if (value > bound) continue;
-      if (value < -bound || exact_side(ray, p, q) < 0) return false;
-    }
-    return true;
-  }
-  int exact_side(const Ray& ray, std::uint32_t p, std::uint32_t q) const {
-    Exact_point a = scene_->position(p), b = scene_->position(q);
-    for (std::size_t k = 0; k < 3; ++k) a[k] -= ray.from[k], b[k] -= ray.from[k];
-    return sgn(Rational(ray.direction[0] * (a[1] * b[2] - a[2] * b[1]) +
-                        ray.direction[1] * (a[2] * b[0] - a[0] * b[2]) +
-                        ray.direction[2] * (a[0] * b[1] - a[1] * b[0])));
-  }
+  struct Builder;
 
   const Scene* scene_;
-  Mesh mesh_;
+  std::shared_ptr<const Face_mesh> mesh_;
   std::vector<std::uint32_t> point_of_vertex_, node_, piece_, component_;
   std::vector<Edge> edges_;
   std::vector<std::size_t> begin_;

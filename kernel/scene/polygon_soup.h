@@ -2,10 +2,15 @@
 // What a file says, before anything is decided about it: points with exact coordinates and faces as loops of points.
 
 #include <sightline/kernel/coordinates.h>
+#include <sightline/kernel/number.h>
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace sightline {
 
@@ -33,14 +38,8 @@ struct Polygon_soup {
   }
 
   /// Appends a point and returns its id.
-  Point_id add_point(const Rational& x, const Rational& y, const Rational& z) {
-    coordinates.push(x), coordinates.push(y), coordinates.push(z);
-    return static_cast<Point_id>(point_count() - 1);
-  }
-  Point_id add_point(double x, double y, double z) {
-    coordinates.push_double(x), coordinates.push_double(y), coordinates.push_double(z);
-    return static_cast<Point_id>(point_count() - 1);
-  }
+  Point_id add_point(const Rational& x, const Rational& y, const Rational& z);
+  Point_id add_point(double x, double y, double z);
   /// Appends a face of one loop (possibly of fewer than three points) and returns its id.
   Face_id add_face(std::span<const Point_id> outer) {
     add_loop(outer);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/baseline/depth_buffer.h>
-#include <sightline/algorithms/generate/random.h>
+#include <sightline/harness/generate/random.h>
 
 using namespace sightline;
 

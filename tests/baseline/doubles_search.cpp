@@ -1,7 +1,7 @@
 // The search in doubles: right where faces are far apart or overlap well, wrong where they are 10^-12 apart.
 
 #include <sightline/algorithms/baseline/doubles_search.h>
-#include <sightline/algorithms/compare/weak_errors.h>
+#include <sightline/harness/compare/weak_errors.h>
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include "support.h"
 
-#include <sightline/algorithms/compare/flat_polygon.h>
+#include <sightline/harness/compare/flat_polygon.h>
 
 namespace bsp_test {
 

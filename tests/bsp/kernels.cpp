@@ -2,7 +2,10 @@
 
 #include "support.h"
 
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -2,6 +2,9 @@
 
 #include "support.h"
 
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/shapes.h>
+
 using namespace bsp_test;
 
 namespace {

@@ -3,13 +3,16 @@
 #include "support.h"
 
 #include <sightline/algorithms/bsp/query.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/soups.h>
+#include <sightline/kernel/scene/closed.h>
 
 using namespace bsp_test;
 
 namespace {
 
 // ---- Brute force: rationals, no tree
-// -----------------------------------------------------------------------------------------
 
 /// Whether a convex polygon (counterclockwise around any normal) holds a point; closed.
 bool holds(const Points& polygon, const Exact_point& p) {
@@ -232,7 +235,6 @@ TEST(Query, points_by_hand) {
 }
 
 // ---- Solids
-// ----------------------------------------------------------------------------------------------------------------------
 
 /// The boundary of a box, fronts outwards, or inwards.
 std::vector<Points> box(long low, long high, bool inwards = false) {

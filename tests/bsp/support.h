@@ -5,11 +5,12 @@
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/tangles.h>
-#include <sightline/algorithms/generate/transform.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/tangles.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/algorithms/verify/order.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/harness/generate/soups.h>
 
 namespace bsp_test {
 
@@ -45,7 +46,6 @@ inline Points rectangle(const Rational& x0, const Rational& x1, const Rational& 
 }
 
 // ---- Vectors, written down once more
-// --------------------------------------------------------------------------------------
 
 inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
   return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
@@ -70,7 +70,6 @@ inline Exact_point normal_of(const Points& convex) {
 }
 
 // ---- A scene and its tree
-// ---------------------------------------------------------------------------------------------------
 
 inline Bsp_options serial() {
   Bsp_options options;
@@ -141,7 +140,6 @@ inline testing::AssertionResult verified(const Built& built, const Exact_point& 
 }
 
 // ---- Random scenes
-// --------------------------------------------------------------------------------------------------------------
 
 using generate::Random;
 

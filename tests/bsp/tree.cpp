@@ -3,6 +3,9 @@
 
 #include "check_tree.h"
 
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/shapes.h>
+
 #include <rapidcheck/gtest.h>
 
 #include <chrono>

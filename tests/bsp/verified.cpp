@@ -2,6 +2,8 @@
 
 #include "support.h"
 
+#include <sightline/harness/generate/shapes.h>
+
 #include <rapidcheck/gtest.h>
 
 using namespace bsp_test;

@@ -4,8 +4,8 @@
 
 #include <rapidcheck/gtest.h>
 
-#include <sightline/algorithms/compare/flat_polygon.h>
-#include <sightline/algorithms/generate/random.h>
+#include <sightline/harness/compare/flat_polygon.h>
+#include <sightline/harness/generate/random.h>
 
 using namespace compare_test;
 

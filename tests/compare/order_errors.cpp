@@ -6,10 +6,13 @@
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
-#include <sightline/algorithms/compare/order_errors.h>
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/transform.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/harness/compare/order_errors.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/soups.h>
 
 using namespace compare_test;
 

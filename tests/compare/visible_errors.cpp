@@ -4,9 +4,14 @@
 
 #include "../soup.h"
 
-#include <sightline/algorithms/compare/visible_errors.h>
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/transform.h>
+#include <sightline/harness/compare/visible_errors.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
@@ -110,7 +115,6 @@ std::vector<Named> scenes() {
 }
 
 // ---- Parts of a partition
-// --------------------------------------------------------------------------------------------------------
 
 TEST(Visible_errors, of_the_exact_answer_against_itself_are_zero) {
   for (Named& named : scenes()) {
@@ -225,7 +229,6 @@ TEST(Visible_errors, faces_that_the_answer_lists_and_the_eye_does_not_see_are_co
 }
 
 // ---- Pixels
-// ----------------------------------------------------------------------------------------------------------------------
 
 TEST(Pixel_errors, are_zero_where_a_face_covers_its_pixels) {
   Case c({rectangle(ratio(-1, 2), ratio(1, 2), ratio(-1, 4), 1, 3)});

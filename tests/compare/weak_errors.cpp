@@ -1,6 +1,6 @@
 // Errors of weak visibility: faces counted by hand.
 
-#include <sightline/algorithms/compare/weak_errors.h>
+#include <sightline/harness/compare/weak_errors.h>
 
 #include <gtest/gtest.h>
 

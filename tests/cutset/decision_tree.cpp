@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/cutset/decision_tree.h>
-#include <sightline/algorithms/generate/random.h>
+#include <sightline/harness/generate/random.h>
 
 #include <set>
 
@@ -23,7 +23,6 @@ Rational fraction(long p, unsigned long q) {
 }
 
 // ---- Bodies
-// ------------------------------------------------------------------------------------------------------------------------------
 
 /// The planes n . x = d, fronts away from the origin if d > 0.
 Plane_list planes_of(const std::vector<std::array<long, 3>>& normals, const Rational& d = 1) {
@@ -93,7 +92,6 @@ Plane_list degenerate_planes(std::size_t n, Random& random) {
 }
 
 // ---- Eyes
-// --------------------------------------------------------------------------------------------------------------------------------
 
 Rational value_at(const Plane4& h, const Exact_point& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]; }
 std::uint32_t signs_from(const Plane_list& planes, const Exact_point& p) {
@@ -138,7 +136,6 @@ Exact_point some_eye(const Plane_list& planes, Random& random) {
 }
 
 // ---- View cells
-// --------------------------------------------------------------------------------------------------------------------------
 
 struct Condition {
   std::vector<Rational> form;  ///< coefficients, then the constant
@@ -371,7 +368,6 @@ TEST(View_cells, refuse_planes_without_a_normal_and_too_many) {
 }
 
 // ---- Decision trees
-// ----------------------------------------------------------------------------------------------------------------------
 
 using Views = std::vector<Weighted_view>;
 

@@ -4,6 +4,9 @@
 #include "support.h"
 
 #include <sightline/io/read.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/io/decimal.h>
+#include <sightline/io/text.h>
 
 #include <nlohmann/json.hpp>
 

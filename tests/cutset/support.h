@@ -2,9 +2,10 @@
 // Convex hulls by brute force in integers, on-view faces by definition, and viewpoints where everything is degenerate.
 
 #include <sightline/algorithms/cutset/tracker.h>
-#include <sightline/algorithms/generate/random.h>
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,8 @@
 
 #include <sightline/algorithms/cutset/motion.h>
 #include <sightline/algorithms/cutset/update_1977.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/harness/generate/shapes.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -194,7 +195,6 @@ TEST(Tracker, agrees_on_scenes_of_any_kind) {
 }
 
 // ---- One step at a time
-// ----------------------------------------------------------------------------------------------------
 
 const Lattice_eye sees_right{{9, 0, 0}, 1}, sees_left{{-9, 0, 0}, 1}, sees_nothing{{0, 0, 0}, 1},
     sees_corner{{9, 9, 9}, 1};
@@ -333,7 +333,6 @@ TEST(Tracker, plain_update_is_right_where_the_proof_says_so) {
 }
 
 // ---- Where the arithmetic is hard
-// -------------------------------------------------------------------------------------------
 
 TEST(Tracker, holds_far_away_scaled_and_one_step_of_the_last_bit_off) {
   for (const auto& [scale, offset] :
@@ -416,7 +415,6 @@ TEST(Tracker, works_under_every_exact_kernel) {
 }
 
 // ---- What it costs
-// ------------------------------------------------------------------------------------------------------------
 
 /// A circle of `frames` rational points round the origin.
 Viewpoint on_circle(std::int64_t k, std::int64_t frames, std::int64_t radius) {
@@ -448,7 +446,6 @@ TEST(Tracker, tests_at_most_twice_the_cut_set_on_a_convex_body_in_small_steps) {
 }
 
 // ---- A moving object
-// --------------------------------------------------------------------------------------------------------
 
 TEST(Rigid_motion, moves_the_viewpoint_the_other_way) {
   const Body body = box({-1, -2, -3}, {2, 3, 4});

@@ -3,7 +3,7 @@
 
 // ---- kernel/README.md
 
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
 
@@ -31,10 +31,11 @@ void convert(const std::filesystem::path& from, const std::filesystem::path& to,
   sightline::write_scene(soup, to);
 }
 
-// ---- algorithms/generate/README.md
+// ---- harness/generate/README.md
 
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/transform.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/transform.h>
 
 namespace generate = sightline::generate;
 
@@ -63,9 +64,9 @@ void count_pixels(const sightline::Scene& scene, const sightline::Exact_point& e
         << std::count(buffer.pieces.begin(), buffer.pieces.end(), piece) << " pixels\n";
 }
 
-// ---- algorithms/compare/README.md
+// ---- harness/compare/README.md
 
-#include <sightline/algorithms/compare/order_errors.h>
+#include <sightline/harness/compare/order_errors.h>
 
 #include <iostream>
 
@@ -77,7 +78,9 @@ void judge(const sightline::Scene& scene, const sightline::Exact_point& eye,
   out << errors.wrong_beyond_rounding << " pairs in the wrong order, " << errors.lost << " of the area lost\n";
 }
 
-#include <sightline/algorithms/compare/visible_errors.h>
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/harness/compare/visible_errors.h>
 
 /// How much of the sphere around an eye a depth buffer of 6 x 256 x 256 pixels gets wrong, and doubles do.
 void judge_views(const sightline::Scene& scene, const sightline::Exact_point& eye, std::ostream& out) {

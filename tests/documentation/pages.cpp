@@ -35,7 +35,9 @@ std::vector<std::string> examples_of(const std::string& page) {
 
 std::vector<fs::path> pages() {
   std::vector<fs::path> found{root / "kernel" / "README.md", root / "io" / "README.md"};
-  for (const auto& entry : fs::directory_iterator(root / "algorithms")) found.push_back(entry.path() / "README.md");
+  for (const char* layer : {"algorithms", "harness"})
+    for (const auto& entry : fs::directory_iterator(root / layer))
+      if (entry.is_directory()) found.push_back(entry.path() / "README.md");
   std::sort(found.begin(), found.end());
   return found;
 }

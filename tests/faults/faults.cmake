@@ -1,6 +1,6 @@
-# The headers with planted faults, and what is built with them: tests/faults/README.md. Part of the top level's CMakeLists.txt, if SIGHTLINE_FAULTS.
+# The library with planted faults, and what is built with them: tests/faults/README.md. Part of the top level's CMakeLists.txt, if SIGHTLINE_FAULTS.
 
-# A copy of the headers in which each fault stands beside what it replaces; the environment variable SIGHTLINE_FAULT says which one is on.
+# A copy of the library in which each fault stands beside what it replaces; the environment variable SIGHTLINE_FAULT says which one is on.
 set(faulty_root "${PROJECT_BINARY_DIR}/faulty")
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS tests/faults/faults.json)
 file(READ tests/faults/faults.json faults)
@@ -26,7 +26,9 @@ foreach(k RANGE ${last})
   string(STRIP "${hunt}" hunt)
   string(APPEND hunts "${name}\t${hunt}\n")
 endforeach()
-file(GLOB_RECURSE originals RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS kernel/*.h algorithms/*.h io/*.h)
+file(GLOB_RECURSE originals RELATIVE "${PROJECT_SOURCE_DIR}" CONFIGURE_DEPENDS
+     kernel/*.h algorithms/*.h io/*.h harness/*.h kernel/*.cpp algorithms/*.cpp io/*.cpp harness/*.cpp)
+set(faulty_sources "")
 foreach(file IN LISTS originals)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
   file(READ "${file}" text)
@@ -44,6 +46,9 @@ foreach(file IN LISTS originals)
     list(REMOVE_ITEM faulty_files "${file}")
   endif()
   file(CONFIGURE OUTPUT "${faulty_root}/sightline/${file}" CONTENT "${text}" @ONLY)
+  if(file MATCHES "[.]cpp$")
+    list(APPEND faulty_sources "${faulty_root}/sightline/${file}")
+  endif()
 endforeach()
 if(faulty_files)
   message(FATAL_ERROR "tests/faults/faults.json: no such file: ${faulty_files}")
@@ -63,13 +68,23 @@ ${switches}
 ")
 file(WRITE "${PROJECT_BINARY_DIR}/faults.txt" "${hunts}")  # for tests/faults/hunt: a name, and what is to find it
 
-add_executable(sightline_faulty EXCLUDE_FROM_ALL tests/faults/program/main.cpp apps/fuzz.cpp apps/case_watch.cpp apps/fuzz_io.cpp apps/query.cpp apps/common.cpp)
-target_link_libraries(sightline_faulty PRIVATE program_settings)
+add_library(faulty_library STATIC EXCLUDE_FROM_ALL ${faulty_sources})
+target_include_directories(faulty_library PUBLIC "${faulty_root}")
+target_compile_features(faulty_library PUBLIC cxx_std_20)
+target_compile_options(faulty_library PUBLIC $<TARGET_PROPERTY:sightline_library,INTERFACE_COMPILE_OPTIONS>)
+target_link_libraries(faulty_library PUBLIC sightline::dependencies)
+
+add_executable(sightline_faulty EXCLUDE_FROM_ALL tests/faults/program/main.cpp
+               apps/fuzz/fuzz.cpp apps/fuzz/case_watch.cpp apps/fuzz/io.cpp apps/support/query.cpp apps/support/common.cpp)
+target_link_libraries(sightline_faulty PRIVATE CLI11::CLI11 fmt::fmt)
 add_executable(fuzz_targets_faulty EXCLUDE_FROM_ALL tests/fuzz/program/main.cpp)
-target_link_libraries(fuzz_targets_faulty PRIVATE test_settings)
+target_link_libraries(fuzz_targets_faulty PRIVATE GTest::gtest rapidcheck)
+target_compile_definitions(fuzz_targets_faulty PRIVATE SIGHTLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
 foreach(target IN ITEMS sightline_faulty fuzz_targets_faulty)
-  target_include_directories(${target} BEFORE PRIVATE "${faulty_root}")
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  target_link_libraries(${target} PRIVATE faulty_library)
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
+endforeach()
+foreach(target IN ITEMS faulty_library sightline_faulty fuzz_targets_faulty)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
 endforeach()
 add_custom_target(faulty DEPENDS sightline_faulty fuzz_targets_faulty)

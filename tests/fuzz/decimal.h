@@ -4,6 +4,9 @@
 #include "support.h"
 
 #include <sightline/io/exact_text.h>
+#include <sightline/io/decimal.h>
+#include <sightline/io/input.h>
+#include <sightline/io/text.h>
 
 #include <cmath>
 

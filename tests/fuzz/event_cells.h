@@ -4,7 +4,7 @@
 
 #include "support.h"
 
-#include <sightline/algorithms/weak_visibility/event_cells.h>
+#include <sightline/algorithms/weak_visibility/events/event_cells.h>
 
 namespace fuzz {
 

@@ -4,9 +4,10 @@
 
 #include "support.h"
 
-#include <sightline/algorithms/harness/query_json.h>
+#include <sightline/harness/laws/query_json.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/io/number_lines.h>
+#include <sightline/harness/judge/protocol.h>
 
 #include <sstream>
 

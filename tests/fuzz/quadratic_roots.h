@@ -3,7 +3,7 @@
 
 #include "support.h"
 
-#include <sightline/algorithms/weak_visibility/quadratic_roots.h>
+#include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 
 namespace fuzz {
 

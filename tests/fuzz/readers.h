@@ -6,6 +6,7 @@
 
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
+#include <sightline/io/exact_text.h>
 
 #include <sstream>
 

@@ -1,7 +1,8 @@
 // Families: the same from the same parameters, exactly degenerate where they say so and beside it else, and where the
 // parameters put them.
 
-#include <sightline/algorithms/generate/families.h>
+#include <sightline/harness/generate/families.h>
+#include <sightline/kernel/scene/scene.h>
 
 #include <gtest/gtest.h>
 

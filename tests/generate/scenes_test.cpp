@@ -1,6 +1,10 @@
 // Claims of the generators: counts, closedness, convexity, planarity, and the same scene everywhere.
 
-#include <sightline/algorithms/generate/scenes.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,9 @@
 // Exact transforms: what they keep, what they change, and that they can be undone.
 
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/transform.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>
 

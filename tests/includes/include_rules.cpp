@@ -32,7 +32,7 @@ TEST(IncludeRules, the_tree_has_no_cycle) { EXPECT_EQ(cycle(SIGHTLINE_SOURCE_DIR
 // No failure: a header this long asks to be read again, and perhaps to be cut in two.
 TEST(IncludeRules, long_files_are_named) {
   constexpr std::size_t many = 600;
-  for (const char* layer : {"kernel", "algorithms", "io", "apps", "tests", "bench"})
+  for (const char* layer : {"kernel", "algorithms", "io", "harness", "apps", "tests", "bench"})
     for (const std::string& file : sources_in(SIGHTLINE_SOURCE_DIR, layer)) {
       std::ifstream in(fs::path(SIGHTLINE_SOURCE_DIR) / file);
       const auto lines = static_cast<std::size_t>(std::count(std::istreambuf_iterator<char>(in), {}, '\n'));
@@ -84,6 +84,22 @@ TEST_F(PlantedBreach, the_wrong_direction) {
                             "kernel/plane.h:3: kernel must not include <sightline/io/obj.h>"}));
 }
 
+TEST_F(PlantedBreach, the_wrong_room) {
+  write("kernel/plane.h", "#pragma once\n#include <sightline/kernel/scene/scene.h>\n");
+  write("kernel/scene/graph.h", "#pragma once\n#include <sightline/kernel/traits/exact.h>\n");
+  write("kernel/traits/exact.h", "#pragma once\n#include <sightline/kernel/scene/scene.h>\n");
+  write("algorithms/verify/check.h",
+        "#pragma once\n#include <sightline/kernel/number.h>\n#include <sightline/kernel/scene/scene.h>\n");
+  write("algorithms/run.h", "#pragma once\n#include <sightline/harness/fuzz.h>\n");
+  write("harness/fuzz.h", "#pragma once\n#include <sightline/algorithms/order.h>\n#include <sightline/io/obj.h>\n");
+  EXPECT_EQ(found(), (Found{"algorithms/run.h:2: algorithms must not include <sightline/harness/fuzz.h>",
+                            "algorithms/verify/check.h:3: algorithms/verify must not include "
+                            "<sightline/kernel/scene/scene.h>",
+                            "kernel/plane.h:2: kernel must not include <sightline/kernel/scene/scene.h>",
+                            "kernel/scene/graph.h:2: kernel/scene must not include "
+                            "<sightline/kernel/traits/exact.h>"}));
+}
+
 TEST_F(PlantedBreach, quotes_in_the_library) {
   write("kernel/plane.h", "#pragma once\n#include \"number.h\"\n");
   EXPECT_EQ(found(), Found{"kernel/plane.h:2: own includes are spelled <sightline/...>: \"number.h\""});
@@ -101,9 +117,11 @@ TEST_F(PlantedBreach, no_guard) {
   EXPECT_EQ(found(), Found{"kernel/plane.h:1: does not begin with #pragma once"});
 }
 
-TEST_F(PlantedBreach, a_source_file_in_the_library) {
-  write("kernel/plane.cpp", "#include <sightline/kernel/number.h>\n");
-  EXPECT_EQ(found(), Found{"kernel/plane.cpp:1: the library is headers only"});
+TEST_F(PlantedBreach, a_source_that_does_not_begin_with_its_header) {
+  write("kernel/number.cpp", "// Numbers.\n#include <sightline/kernel/number.h>\n\n#include <algorithm>\n");
+  EXPECT_EQ(found(), Found{});
+  write("kernel/number.cpp", "#include <algorithm>\n\n#include <sightline/kernel/number.h>\n");
+  EXPECT_EQ(found(), Found{"kernel/number.cpp:1: does not begin with <sightline/kernel/number.h>"});
 }
 
 TEST_F(PlantedBreach, a_dependency_that_is_not_announced) {

@@ -1,7 +1,8 @@
 #pragma once
-// Which header may include which: kernel <- {algorithms, io} <- apps.
+// Which file may include which: kernel <- {algorithms, io} <- harness <- apps, and finer rules for some rooms.
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,7 +14,7 @@
 namespace include_rules {
 
 struct Rules {
-  std::filesystem::path root;  ///< the folder that holds kernel/, algorithms/, io/, apps/ ...
+  std::filesystem::path root;  ///< the folder that holds kernel/, algorithms/, io/, harness/, apps/ ...
   std::vector<std::string>
       outside;  ///< what library headers may include of other libraries: "gmp.h", or a folder "CGAL/"
 };
@@ -56,31 +57,66 @@ inline std::vector<std::string> sources_in(const std::filesystem::path& root, co
   return found;
 }
 
+/// A folder and what may be included there: folders ("io/"), folders without their subfolders ("kernel/."), headers.
+struct Room {
+  std::string_view folder;
+  std::vector<std::string_view> allowed;
+};
+
+/// The rooms of the library, and then who stands above it. A file is in the first that its path begins with.
+inline const std::vector<Room>& rooms() {
+  static const std::vector<Room> all = {
+      {"kernel/scene/", {"kernel/.", "kernel/scene/"}},
+      {"kernel/traits/", {"kernel/"}},
+      {"kernel/", {"kernel/."}},
+      // The checkers share nothing with what they check: numbers, and what a file says.
+      {"algorithms/verify/",
+       {"algorithms/verify/", "kernel/number.h", "kernel/coordinates.h", "kernel/quoted.h",
+        "kernel/scene/polygon_soup.h"}},
+      {"algorithms/", {"kernel/", "algorithms/"}},
+      {"io/", {"kernel/", "io/"}},
+      {"harness/", {"kernel/", "algorithms/", "io/", "harness/"}},
+      {"apps/", {"kernel/", "algorithms/", "io/", "harness/"}},
+      {"tests/", {"kernel/", "algorithms/", "io/", "harness/"}},
+      {"bench/", {"kernel/", "algorithms/", "io/", "harness/"}}};
+  return all;
+}
+
+/// Whether a room lets a header in.
+inline bool lets_in(const Room& room, const std::string& header) {
+  return std::any_of(room.allowed.begin(), room.allowed.end(), [&](std::string_view allowed) {
+    if (!allowed.ends_with("/.")) return header.starts_with(allowed);
+    allowed.remove_suffix(1);
+    return header.starts_with(allowed) && header.find('/', allowed.size()) == std::string::npos;
+  });
+}
+
+inline constexpr std::array<const char*, 4> library_layers{"kernel", "algorithms", "io", "harness"};
+
 /// Every breach of the rules, as "file:line: what is wrong"; sorted by file. Empty: all is well.
 inline std::vector<std::string> breaches(const Rules& rules) {
-  const std::map<std::string, std::set<std::string>> may_include = {{"kernel", {"kernel"}},
-                                                                    {"algorithms", {"kernel", "algorithms"}},
-                                                                    {"io", {"kernel", "io"}},
-                                                                    {"apps", {"kernel", "algorithms", "io"}},
-                                                                    {"tests", {"kernel", "algorithms", "io"}},
-                                                                    {"bench", {"kernel", "algorithms", "io"}}};
   std::vector<std::string> found;
-  for (const auto& [layer, allowed] : may_include) {
-    const bool library = layer == "kernel" || layer == "algorithms" || layer == "io";
+  for (const std::string layer : {"algorithms", "apps", "bench", "harness", "io", "kernel", "tests"}) {
+    const bool library = std::find(library_layers.begin(), library_layers.end(), layer) != library_layers.end();
     for (const std::string& file : sources_in(rules.root, layer)) {
       const std::filesystem::path path = rules.root / file;
+      const Room& room =
+          *std::find_if(rooms().begin(), rooms().end(), [&](const Room& r) { return file.starts_with(r.folder); });
       const auto report = [&](std::size_t line, const std::string& what) {
         found.push_back(file + ':' + std::to_string(line) + ": " + what);
       };
 
-      // A library file is a header that guards itself in its first line.
+      // A header guards itself in its first line; a source of the library begins with its own header, so that each is
+      // seen to compile alone.
       if (path.extension() == ".h") {
         std::ifstream in(path);
         std::string first;
         std::getline(in, first);
         if (first != "#pragma once") report(1, "does not begin with #pragma once");
       } else if (library) {
-        report(1, "the library is headers only");
+        const std::vector<Include> includes = includes_of(path);
+        const std::string own = "sightline/" + file.substr(0, file.size() - 4) + ".h";
+        if (includes.empty() || includes.front().name != own) report(1, "does not begin with <" + own + '>');
       }
 
       for (const auto& [line, open, name] : includes_of(path)) {
@@ -94,8 +130,9 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         // Our own headers: the direction, and that they are there.
         if (name.starts_with("sightline/")) {
           const std::string own = name.substr(name.find('/') + 1);
-          const std::string target = own.substr(0, own.find('/'));
-          if (!allowed.contains(target)) report(line, layer + " must not include <" + name + '>');
+          if (!lets_in(room, own))
+            report(line,
+                   std::string(room.folder.substr(0, room.folder.size() - 1)) + " must not include <" + name + '>');
           else if (!std::filesystem::is_regular_file(rules.root / own)) report(line, "no such header: <" + name + '>');
           continue;
         }
@@ -129,7 +166,7 @@ inline std::string cycle(const std::filesystem::path& root) {
     path.pop_back();
     return false;
   };
-  for (const std::string layer : {"kernel", "algorithms", "io"})
+  for (const std::string layer : library_layers)
     for (const std::string& file : sources_in(root, layer)) {
       path.clear();
       if (!visit(visit, file)) continue;

@@ -2,6 +2,10 @@
 
 #include "soup_text.h"
 
+#include <sightline/io/decimal.h>
+#include <sightline/io/exact_text.h>
+#include <sightline/io/text.h>
+
 #include <cstdlib>
 #include <random>
 

@@ -3,6 +3,7 @@
 #include "soup_text.h"
 
 #include <sightline/io/write.h>
+#include <sightline/io/exact_text.h>
 
 #include <fstream>
 #include <rapidcheck/gtest.h>

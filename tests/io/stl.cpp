@@ -2,6 +2,8 @@
 
 #include "soup_text.h"
 
+#include <sightline/io/binary.h>
+
 namespace sightline::test {
 namespace {
 

@@ -2,6 +2,8 @@
 
 #include "soup_text.h"
 
+#include <sightline/io/text.h>
+
 namespace sightline::test {
 namespace {
 

@@ -2,19 +2,22 @@
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
-#include <sightline/algorithms/generate/shapes.h>
-#include <sightline/algorithms/generate/soups.h>
-#include <sightline/algorithms/generate/transform.h>
-#include <sightline/algorithms/judge/truth.h>
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/soups.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/harness/judge/truth.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 
-// ---- algorithms/judge/README.md
+// ---- harness/judge/README.md
 
-#include <sightline/algorithms/judge/truth.h>
+#include <sightline/harness/judge/truth.h>
+#include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/verify/order.h>
+#include <sightline/harness/generate/random.h>
 
 /// text: what a program answered to the query.
 void grade_text(const sightline::Polygon_soup& soup, const sightline::judge::Query& query, const std::string& text,
@@ -65,7 +68,6 @@ Grade graded(const Polygon_soup& soup, const Query& query, const std::string& te
 using Faces = std::vector<Face_id>;
 
 // ---- The protocol
-// -----------------------------------------------------------------------------------------------------------
 
 TEST(Protocol, writes_doubles_as_numbers_and_others_as_fractions) {
   EXPECT_EQ(to_json(question(Question::see, {Rational(1, 2), Rational(1, 3), -3}, true)).dump(),
@@ -147,7 +149,6 @@ TEST(Protocol, takes_memory_in_proportion_to_an_answer_and_its_scene) {
 }
 
 // ---- See and weak
-// -----------------------------------------------------------------------------------------------------------
 
 TEST(Truth, of_an_eye_above_two_squares) {
   const Polygon_soup soup = tower({0, 1});
@@ -229,7 +230,6 @@ TEST(Truth, is_about_planar_faces_on_doubles) {
 }
 
 // ---- Orders
-// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Orders, of_a_tower) {
   const Polygon_soup soup = tower({0, 1, 2});
@@ -375,7 +375,6 @@ TEST(Orders, by_exact_trees_are_right_with_rounded_corners_and_wrong_when_revers
 }
 
 // ---- Contracts
-// --------------------------------------------------------------------------------------------------------------
 
 TEST(Contracts, are_broken_by_what_they_forbid) {
   Grade shows, hides, open;

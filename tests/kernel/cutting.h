@@ -4,7 +4,7 @@
 
 #include "soup.h"
 
-#include <sightline/kernel/partition_traits.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
 namespace kernel_test {
 

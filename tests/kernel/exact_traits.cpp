@@ -2,7 +2,9 @@
 
 #include "cutting.h"
 
-#include <sightline/kernel/exact_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <CGAL/Simple_cartesian.h>
 
 using namespace kernel_test;
 
@@ -319,7 +321,6 @@ TEST(Polygon_store, takes_the_lists_that_it_is_given_back_and_no_others) {
 }
 
 // ---- Planes at once
-// ---------------------------------------------------------------------------------------------------------------------
 
 namespace {
 /// Every part that cutting a scene by some of its planes makes, to groups of one to six of its planes: as position()
@@ -400,7 +401,6 @@ TEST(Plane_group, finds_the_positions_that_corners_have_one_by_one) {
 }
 
 // ---- Wrong models
-// -----------------------------------------------------------------------------------------------------------------------
 
 namespace {
 /// A model that lacks one requirement, by number; none for -1.

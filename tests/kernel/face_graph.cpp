@@ -2,8 +2,9 @@
 
 #include "soup.h"
 
-#include <sightline/algorithms/generate/scenes.h>
+#include <sightline/harness/generate/scenes.h>
 #include <sightline/kernel/scene/face_graph.h>
+#include <sightline/harness/generate/shapes.h>
 
 using namespace kernel_test;
 

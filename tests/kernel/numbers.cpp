@@ -161,7 +161,6 @@ RC_GTEST_PROP(Number, every_rational_survives_its_text, (std::int64_t p, std::ui
 }
 
 // ---- Coordinates
-// ------------------------------------------------------------------------------------------------------------------------
 
 RC_GTEST_PROP(Coordinates, doubles_decimals_and_rationals_come_back_exactly,
               (std::vector<std::pair<std::uint64_t, std::int16_t>> seeds)) {

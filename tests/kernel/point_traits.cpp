@@ -2,9 +2,9 @@
 
 #include "cutting.h"
 
-#include <sightline/kernel/exact_traits.h>
-#include <sightline/kernel/lockstep_traits.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/lockstep_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -135,7 +135,6 @@ kernel_test::Position position_of(const Grid& grid, std::uint32_t point) {
 }  // namespace
 
 // ---- Each stage by name
-// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Side_combinatorial, a_meet_is_on_the_planes_that_made_it) {
   Grid grid(20);
@@ -277,7 +276,6 @@ TEST(Side_gmp, a_degenerate_meet_in_a_scene_of_a_thousand_bits_is_decided_by_gmp
 }
 
 // ---- Every stage against the oracle
-// -----------------------------------------------------------------------------------------------------
 
 /// Bits of the grid's coordinates, and its divisor (see Grid_points).
 struct Width {
@@ -406,7 +404,6 @@ TEST_P(Side_at_width, planes_that_do_not_meet_in_a_point_are_refused) {
 }
 
 // ---- Bounds
-// -----------------------------------------------------------------------------------------------------------------------------
 
 TEST_P(Side_at_width, the_bound_of_a_prepared_plane_covers_its_rounding_at_any_doubles_in_range) {
   const int bits = GetParam().bits;
@@ -588,7 +585,6 @@ TEST(Filter, no_vertex_in_range_has_doubles_that_say_nothing_but_for_near_parall
 }
 
 // ---- The bit budget
-// ---------------------------------------------------------------------------------------------------------------------
 
 TEST(Bit_budget, the_narrowest_sufficient_arithmetic_is_chosen) {
   const auto chosen = [](int coordinate, int normal, int offset) {
@@ -665,7 +661,6 @@ TEST(Bit_budget, narrow_planes_on_a_wide_grid_are_read_from_more_limbs_than_the_
 }
 
 // ---- Points that are not of the scene
-// ---------------------------------------------------------------------------------------------------
 
 namespace {
 /// The point (x, y, z) / w of the grid, with doubles and their error as Scene::locate makes them.
@@ -768,7 +763,6 @@ TEST(Side_of_a_located_point, is_right_beyond_the_range_of_doubles) {
 }
 
 // ---- Known incidences
-// -------------------------------------------------------------------------------------------------------------------
 
 TEST(Point_planes, hold_the_pairs_that_they_were_made_of) {
   const std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{{2, 9}, {0, 4}, {2, 1}, {0, 4}, {3, 9}, {2, 4}};

@@ -2,6 +2,9 @@
 
 #include "soup.h"
 
+#include <CGAL/int.h>
+#include <CGAL/number_utils.h>
+
 using namespace kernel_test;
 
 namespace {
@@ -65,7 +68,6 @@ Rational tenth(long n) {
 }  // namespace
 
 // ---- What is kept
-// -----------------------------------------------------------------------------------------------------------------------
 
 TEST(Scene_policy, a_convex_face_is_one_piece_whichever_way_it_faces) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}})) expect_kept(soup, 1);
@@ -187,7 +189,6 @@ TEST(Scene_policy, two_corners_of_a_non_planar_face_above_one_another_stay_two) 
 }
 
 // ---- What is set aside
-// ------------------------------------------------------------------------------------------------------------------
 
 TEST(Scene_policy, faces_without_area_are_set_aside) {
   for (const std::vector<Points>& loops : std::vector<std::vector<Points>>{
@@ -308,7 +309,6 @@ TEST(Scene_policy, coplanar_faces_share_a_plane_and_know_which_way_they_face) {
 }
 
 // ---- The grid
-// ---------------------------------------------------------------------------------------------------------------------------
 
 namespace {
 /// Every soup point is a scene point of the very same coordinates, whichever way one asks.
@@ -530,7 +530,6 @@ TEST(Scene_grid, bits_are_those_of_the_largest_coordinate_at_the_common_scale) {
 }
 
 // ---- Planes of one's own, and back to the file's coordinates
-// ------------------------------------------------------------------------------
 
 TEST(Scene_planes, coefficients_in_the_file_and_on_the_grid_are_one_plane) {
   Polygon_soup soup;

@@ -11,7 +11,6 @@
 using namespace kernel_test;
 
 // ---- Rows
-// -------------------------------------------------------------------------------------------------------------------------------
 
 RC_GTEST_PROP(Row_table, numbers_equal_rows_alike_in_the_order_of_their_first_appearance,
               (std::vector<std::pair<std::uint8_t, std::uint8_t>> rows)) {
@@ -60,7 +59,6 @@ TEST(Row_table, rows_that_differ_in_one_limb_differ) {
 }
 
 // ---- Handles
-// ----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Plane, a_handle_knows_its_plane_and_side) {
   constexpr Plane h(12, true);
@@ -79,7 +77,6 @@ TEST(Plane, a_handle_knows_its_plane_and_side) {
 }
 
 // ---- Points
-// -----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Grid_points, equal_points_have_one_id_at_every_width) {
   for (const int bits : {1, 20, 53, 54, 63, 64, 65, 127, 128, 200}) {
@@ -116,7 +113,6 @@ TEST(Grid_points, a_coordinate_wider_than_its_limbs_is_refused) {
 }
 
 // ---- Planes
-// -----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Plane_table, the_form_is_canonical) {
   Grid grid(20);
@@ -336,7 +332,6 @@ TEST(Plane_table, approximations_of_wide_planes_are_within_their_bound_and_about
 }
 
 // ---- Lines
-// ------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Line_table, edges_of_a_T_junction_share_their_line) {
   Grid_points points(10);

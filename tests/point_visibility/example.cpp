@@ -1,6 +1,8 @@
 // The example of algorithms/point_visibility/README.md, run.
 
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/visible.h>
 
 #include <iostream>
 

@@ -2,7 +2,7 @@
 // What an eye sees, by definition and by brute force: every piece against every other in plain rational arithmetic.
 // Knows the scene's pieces and where their corners are, nothing else of the library, and nothing of what it tests.
 
-#include <sightline/algorithms/generate/random.h>
+#include <sightline/harness/generate/random.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <algorithm>
@@ -19,7 +19,6 @@ using sightline::Scene;
 using Points = std::vector<Exact_point>;
 
 // ---- Vectors
-// ---------------------------------------------------------------------------------------------------------------------
 
 inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
   return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
@@ -44,7 +43,6 @@ inline Exact_point centroid(const Points& points) {
 }
 
 // ---- Convex polygons
-// ---------------------------------------------------------------------------------------------------------------
 
 /// A plane and its positive side.
 struct Half_space {
@@ -148,7 +146,6 @@ inline bool same_points(const std::vector<Points>& a, const std::vector<Points>&
 }
 
 // ---- Pieces
-// ----------------------------------------------------------------------------------------------------------------------------
 
 /// A piece of the scene by its corners only. Heights are positive in front.
 struct Flat {
@@ -186,7 +183,6 @@ inline bool wins(const Flat& a, const Flat& b, const Exact_point& eye) {
 }
 
 // ---- 1. One direction
-// --------------------------------------------------------------------------------------------------------------------
 
 /// Where the ray from the eye meets a piece's plane, as eye + t direction with t > 0; none where it does not, or the
 /// eye is in the plane.
@@ -230,7 +226,6 @@ inline std::optional<std::uint32_t> first_hit(const Scene& scene, const Exact_po
 }
 
 // ---- 2. All of what is seen
-// ------------------------------------------------------------------------------------------------------------------
 
 /// The part of a piece that is seen: convex polygons in its plane with disjoint interiors, counterclockwise seen from
 /// the piece's front. Their closure counts.
@@ -308,7 +303,6 @@ inline Rational visible_area(const Scene& scene, const Exact_point& eye, Face_id
 }
 
 // ---- 3. The law
-// ----------------------------------------------------------------------------------------------------------------------------
 
 /// The faces that are visible by the law (P-00): the eye strictly in front, and sightlines to an open part of the face.
 /// Coplanar faces do not hide each other.
@@ -323,7 +317,6 @@ inline std::set<Face_id> visible_faces(const Scene& scene, const Exact_point& ey
 }
 
 // ---- 4. Hidden lines
-// -----------------------------------------------------------------------------------------------------------------------
 
 /// from < to
 struct Interval {
@@ -434,7 +427,6 @@ inline std::vector<Interval> visible_on_edge(const Scene& scene, const Exact_poi
 }
 
 // ---- 5. Directions at random
-// -----------------------------------------------------------------------------------------------------------------
 
 using sightline::generate::Random;
 

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <sightline/algorithms/compare/flat_polygon.h>
+#include <sightline/harness/compare/flat_polygon.h>
 
 using namespace oracle;
 using view_scenes::at;
@@ -36,7 +36,6 @@ Rational area(const Scene& scene, const Exact_point& eye, Face_id face) {
 Rational tiny() { return Rational(1, 1ul << 40); }
 
 // ---- By hand: areas
-// ---------------------------------------------------------------------------------------------------------------------
 
 TEST(Oracle_parts, of_a_square_half_covered_is_the_other_half) {
   const Scene scene = scene_of({rectangle(0, 4, 0, 4, 0), rectangle(2, 3, 1, 3, 1)});
@@ -207,7 +206,6 @@ TEST(Oracle_first_hit, is_the_nearest_and_says_where_it_is_a_convention) {
 }
 
 // ---- By hand: hidden lines
-// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Oracle_edges, of_a_cube_hides_the_edges_at_the_back) {
   const Scene scene = scene_of(view_scenes::box(at(0, 0, 0), at(1, 1, 1)));
@@ -306,7 +304,6 @@ TEST(Oracle_segments, are_open_and_pieces_closed) {
 }
 
 // ---- At random: every family
-// ---------------------------------------------------------------------------------------------------------------
 
 /// For each family.
 class Oracle_in_family : public testing::TestWithParam<Family> {
@@ -550,7 +547,6 @@ INSTANTIATE_TEST_SUITE_P(, Oracle_in_family, testing::ValuesIn(view_scenes::fami
                          [](const auto& tested) { return std::string(view_scenes::name(tested.param)); });
 
 // ---- The families
-// ------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Scene_families, hold_what_they_are_for) {
   for (const Family family : view_scenes::families) {

@@ -3,8 +3,8 @@
 
 #include "oracle.h"
 
-#include <sightline/algorithms/generate/transform.h>
-#include <sightline/algorithms/generate/view_drafts.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/harness/generate/view_drafts.h>
 
 namespace view_scenes {
 

@@ -3,7 +3,7 @@
 
 #include "support.h"
 
-#include <sightline/algorithms/generate/soups.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>
 

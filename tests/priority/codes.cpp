@@ -4,7 +4,8 @@
 #include "support.h"
 
 #include <sightline/algorithms/priority/pair_code.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/harness/generate/shapes.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -189,7 +190,6 @@ TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_
 }
 
 // ---- The paper's components
-// -----------------------------------------------------------------------------------------------------------
 
 /// Rays through inner points of two different faces, from beyond the first: what they pierce, if they pierce both.
 template <class Function>
@@ -266,7 +266,6 @@ TEST(Figure_9, three_bars_over_each_other_are_pierced_by_one_ray_only_from_eyes_
 }
 
 // ---- Laws
-// ------------------------------------------------------------------------------------------------------------------------------
 
 /// The other one first.
 Precedence exchanged(Precedence p) {

@@ -3,8 +3,8 @@
 
 #include "support.h"
 
-#include <sightline/algorithms/generate/scenes.h>
-#include <sightline/algorithms/generate/transform.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/verify/order.h>
 #include <sightline/io/read.h>

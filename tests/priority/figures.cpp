@@ -87,7 +87,6 @@ void look_around(const Related& scene, long reach, int rays, Function tell) {
 }
 
 // ---- Figures 1, 3, 4: objects with a consistent enumeration
-// ---------------------------------------------------------------------------
 
 /// An L: of its six faces two, 2 and 3, make the notch. Nothing is in front of the four outer ones, so nothing obscures
 /// them. 1 is in front of 3 across the notch, and so is the right part of 0 (the relation knows of no other faces, so
@@ -160,7 +159,6 @@ TEST(Figure_4, an_object_that_admits_a_consistent_enumeration) {
 }
 
 // ---- Figures 2, 5, 6: objects without one
-// ---------------------------------------------------------------------------------------------
 
 TEST(Figure_2, a_simple_object_without_viewpoint_independent_priority) {
   // A triangle with three blades, each a side that is longer than it should be: 0 to 8 on the x axis, 3 on x + y = 4, 6
@@ -246,7 +244,6 @@ TEST(Figure_6, the_partial_priority_graph_of_figure_5_is_acyclic_and_has_a_consi
 }
 
 // ---- Figures 7, 8: splitting
-// --------------------------------------------------------------------------------------------------------------
 
 /// A relation to which polygons are added: the scene's walls come first, then what they were split into.
 struct Splitting {
@@ -340,7 +337,6 @@ TEST(Figure_8, splitting_breaks_up_a_pair_that_obscure_each_other) {
 }
 
 // ---- Figure 9: a ring
-// ------------------------------------------------------------------------------------------------------------------
 
 /// A, B, C, D: the sides of a square, looking out, each longer than it should be at one end. That end is in front of
 /// the next side, which is behind the whole of it; opposite sides are back to back.

@@ -4,7 +4,8 @@
 #include "support.h"
 
 #include <sightline/algorithms/priority/pixels.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/harness/generate/buildings.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

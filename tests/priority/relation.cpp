@@ -2,7 +2,7 @@
 
 #include "support.h"
 
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -37,7 +37,6 @@ testing::AssertionResult agrees(const Traits& traits, const Sides& sides, const 
 }
 
 // ---- What kinds of pairs there are
-// ---------------------------------------------------------------------------------------------
 
 /// What two closed polygons that are not in parallel planes have in common.
 struct Common {
@@ -139,7 +138,6 @@ TEST(Relation, is_the_lemma_on_10000_degenerate_scenes_each_under_two_of_three_e
 }
 
 // ---- The definition: eyes and rays
-// -------------------------------------------------------------------------------------------------
 
 /// Whether from this eye, strictly in front of both, the ray towards `through` goes through the inside of a and
 /// strictly later of b.
@@ -225,7 +223,6 @@ TEST(Relation, where_there_is_no_arc_no_eye_and_no_ray_shows_one_face_before_the
 }
 
 // ---- Laws
-// -----------------------------------------------------------------------------------------------------------------------
 
 TEST(Relation, turning_all_faces_round_reverses_all_arcs) {
   std::size_t arcs = 0, one_way = 0;
@@ -324,7 +321,6 @@ TEST(Relation, one_corner_a_hair_out_of_the_other_plane_decides) {
 }
 
 // ---- Polygons that are no pieces of the scene
-// ---------------------------------------------------------------------------------------
 
 TEST(Relation, holds_for_the_fragments_of_a_tree_whose_corners_are_meets_of_planes) {
   std::size_t fragments = 0, cut = 0, arcs = 0;

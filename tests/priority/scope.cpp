@@ -212,7 +212,6 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
 }
 
 // ---- Laws
-// ----------------------------------------------------------------------------------------------------------------------------
 
 TEST(Scope, smaller_regions_have_fewer_arcs_down_to_eyes_and_rays) {
   std::array<std::size_t, 5> arcs{};
@@ -318,7 +317,6 @@ TEST(Scope, graphs_of_regions_and_rays_have_the_components_of_the_closure) {
 }
 
 // ---- Rays
-// -------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
   std::size_t pierced = 0, missed = 0, arcs = 0;
@@ -391,7 +389,6 @@ TEST(Scope, of_a_ray_through_an_edge_along_a_face_or_from_behind_has_no_arc) {
 }
 
 // ---- Regions by hand
-// ----------------------------------------------------------------------------------------------------------------------
 // The eyes that may see the upper square before the lower one: at height 1 + t, t > 0, those with -t < x < 1 + t and -t
 // < y < 1 + t.
 

@@ -6,13 +6,13 @@
 
 #include <sightline/algorithms/priority/explicit_graph.h>
 #include <sightline/algorithms/priority/relation.h>
+#include <sightline/harness/generate/shapes.h>
 
 namespace priority_test {
 
 using namespace bsp_test;
 
 // ---- The Lemma
-// -----------------------------------------------------------------------------------------------------------------
 
 /// A convex polygon by its corners only. `height` is positive in front.
 struct Flat {
@@ -114,7 +114,6 @@ inline testing::AssertionResult part_of(const Matrix& fewer, const Matrix& more)
 }
 
 // ---- Components
-// ----------------------------------------------------------------------------------------------------------------
 
 /// Reachability over one or more arcs (Floyd, Warshall).
 inline Matrix closure(Matrix arcs) {
@@ -169,7 +168,6 @@ testing::AssertionResult right_components(const Components& found, const Matrix&
 }
 
 // ---- A scene and its relation
-// ------------------------------------------------------------------------------------------------------
 
 struct Related {
   Polygon_soup soup;
@@ -189,7 +187,6 @@ struct Related {
 };
 
 // ---- Random scenes
-// -------------------------------------------------------------------------------------------------------------------
 
 /// generate::touching_faces as a soup.
 inline Polygon_soup touching_soup(Random& random) { return soup_of(generate::touching_faces(random)); }

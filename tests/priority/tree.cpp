@@ -4,7 +4,7 @@
 #include "support.h"
 
 #include <sightline/algorithms/priority/tree.h>
-#include <sightline/kernel/point_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
@@ -389,7 +389,6 @@ TEST(Priority_tree, keeps_all_laws_under_other_exact_kernels) {
 }
 
 // ---- By hand
-// -----------------------------------------------------------------------------------------------------------------------------
 
 std::array<Grown, 4> trees_of(const Related& scene, Exact_laws& laws) {
   std::array<Grown, 4> trees;
@@ -466,7 +465,6 @@ TEST(Priority_tree, of_no_face_or_one_has_no_node) {
 }
 
 // ---- Separating planes
-// ----------------------------------------------------------------------------------------------------------------------
 
 /// Triangles of lattice points on one side of a plane through the origin, at least `gap` away by the values of the
 /// normal.

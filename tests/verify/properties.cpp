@@ -79,7 +79,6 @@ TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged)
 }
 
 // ---- The oracle: clip polygon a in space by the planes through the eye (the origin) and b's edges
-// ------------------------------
 
 Rational determinant(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
   const Exact_point n = order_check::cross(a, b);

@@ -85,7 +85,6 @@ Points tile(const Rational& x0, const Rational& x1, const Rational& y0, const Ra
 }
 
 // ---- By hand
-// ----------------------------------------------------------------------------------------------------------------
 
 /// A triangle that fills the first octant, and nothing else.
 Sight one_triangle() {
@@ -478,7 +477,6 @@ TEST(Visible, reports_progress_up_to_the_end) {
 }
 
 // ---- Made by cutting cones
-// --------------------------------------------------------------------------------------------------
 
 /// The two sides of a strictly convex cone; a side without an inside is empty.
 std::array<Directions, 2> halves(const Directions& cone, const Exact_point& plane) {
@@ -695,7 +693,6 @@ TEST(Visible_by_cutting, is_accepted_and_right_in_directions_at_random) {
 }
 
 // ---- Damage
-// -----------------------------------------------------------------------------------------------------------------
 
 TEST(Visible_by_cutting, other_ways_to_say_the_same_are_accepted) {
   for (unsigned seed = 0; seed < sight_count; ++seed) {
@@ -849,7 +846,6 @@ TEST(Visible_by_cutting, pieces_of_one_face_in_one_plane_go_by_their_number) {
 }
 
 // ---- JSON
-// -------------------------------------------------------------------------------------------------------------------
 
 Visible_certificate read_visible(const std::string& text) {
   std::istringstream in(text);

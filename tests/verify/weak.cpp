@@ -87,7 +87,6 @@ TEST(Weak_sources, may_have_straight_corners_and_so_may_fragments) {
 }
 
 // ---- Visible
-// ----------------------------------------------------------------------------------------------------------------
 
 const Exact_point below_slit = at(ratio(3, 5), ratio(1, 2), 0), above_slit = at(ratio(3, 5), ratio(1, 2), 3);
 
@@ -287,7 +286,6 @@ TEST(Sightline, is_judged_as_by_clipping_on_a_small_grid) {
 }
 
 // ---- Faces
-// ------------------------------------------------------------------------------------------------------------------
 
 TEST(Weak_faces, are_each_accounted_for_once) {
   Weak_scene scene = open_slit();

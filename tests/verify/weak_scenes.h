@@ -316,7 +316,6 @@ inline std::vector<std::pair<const char*, Weak_scene>> all_scenes() {
 }
 
 // ---- The judge
-// --------------------------------------------------------------------------------------------------------------
 
 inline Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
   return at(p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]);

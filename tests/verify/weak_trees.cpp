@@ -13,7 +13,6 @@ void expect_rejected_with(Weak_scene scene, const Proof& proof, const std::strin
 }
 
 // ---- Trees
-// ------------------------------------------------------------------------------------------------------------------
 
 TEST(Tree, of_what_is_not_there_is_rejected) {
   Weak_scene scene = one_blocker();
@@ -235,7 +234,6 @@ TEST(Tree, cuts_first_where_the_plane_is_positive) {
 }
 
 // ---- Empty cells
-// ------------------------------------------------------------------------------------------------------------
 
 void expect_rejected_terms(const Weak_scene& scene, const std::vector<Term>& terms, const std::string& words) {
   Weak_scene changed = scene;
@@ -409,7 +407,6 @@ TEST(Empty_cell, is_judged_as_by_interpolation_on_random_terms) {
 }
 
 // ---- Size
-// -------------------------------------------------------------------------------------------------------------------
 
 TEST(Weak_size, of_a_tree_may_be_a_million_deep) {
   const std::size_t depth = 1'000'000 / share;

@@ -3,7 +3,7 @@
 
 #include "scenes.h"
 
-#include <sightline/algorithms/weak_visibility/cell_proofs.h>
+#include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include "parallel_planes.h"
 
 #include <sightline/algorithms/weak_visibility/certificate.h>
-#include <sightline/algorithms/weak_visibility/events.h>
+#include <sightline/algorithms/weak_visibility/events/events.h>
 
 #include <gtest/gtest.h>
 
@@ -211,7 +211,6 @@ TEST(Events, beyond_the_budget_are_undecided) {
 }
 
 // ---- Cells beside events
-// ------------------------------------------------------------------------------------------------------------------
 
 /// The combinations of sides of touched lines that random lines near the event line have; and what the visit says they
 /// can have.
@@ -292,7 +291,6 @@ TEST(Event_cells, around_a_pencil_reach_between_its_own_lines) {
 }
 
 // ---- Roots
-// -----------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Quadratic_roots, compare_as_numbers_where_60_bits_do_not_tell) {
   // Roots 1/2 +- 2^-k sqrt(2), and neighbours: s^2 - s + 1/4 - 2^(1 - 2 k) = 0.

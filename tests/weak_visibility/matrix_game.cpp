@@ -1,6 +1,6 @@
 // Matrix games: values known by hand, and mixtures that prove them on random ones.
 
-#include <sightline/algorithms/weak_visibility/matrix_game.h>
+#include <sightline/algorithms/weak_visibility/search/matrix_game.h>
 
 #include <gtest/gtest.h>
 

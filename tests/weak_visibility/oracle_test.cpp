@@ -40,7 +40,6 @@ void ask(const Weak_scene& scene, Face_id target, std::size_t tries, Tally& tall
 }
 
 // ---- Linear programs
-// ----------------------------------------------------------------------------------------------------------------------
 
 TEST(Weak_oracle_simplex, finds_optima_known_by_hand) {
   // 3 x + 5 y, x <= 4, 2 y <= 12, 3 x + 2 y <= 18: 36 at (2, 6).
@@ -117,7 +116,6 @@ TEST(Weak_oracle_cells, have_an_inner_point_iff_they_are_not_flat) {
 }
 
 // ---- By hand
-// ----------------------------------------------------------------------------------------------------------------------------------
 
 /// What is known of source [-1, 1]^2 at height 0 and the same target at height 1.
 struct Known {
@@ -314,7 +312,6 @@ TEST(Weak_oracle_z3, says_of_single_pairs_what_exact_segments_say) {
 }
 
 // ---- Against each other
-// ------------------------------------------------------------------------------------------------------------------------
 
 TEST(Weak_oracle_parallel_planes, decides_pairs_that_touch_and_are_2_to_the_minus_40_apart) {
   for (std::uint64_t seed = 0; seed < weak_scenes::seeds(60); ++seed) {
@@ -431,7 +428,6 @@ INSTANTIATE_TEST_SUITE_P(All, Weak_families, testing::Range<std::size_t>(0, weak
                          });
 
 // ---- Projective maps
-// ---------------------------------------------------------------------------------------------------------------------------------
 
 TEST(Weak_projection, keeps_sightlines_and_blocked_segments) {
   Random random(4);

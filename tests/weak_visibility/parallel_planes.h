@@ -14,7 +14,6 @@ using weak_scenes::Faces;
 using weak_scenes::ratio;
 
 // ---- Linear programs
-// -----------------------------------------------------------------------------------------------------------------------------
 
 struct Optimum {
   Rational value;
@@ -69,7 +68,6 @@ inline Optimum maximise(std::vector<std::vector<Rational>> rows, std::vector<Rat
 }
 
 // ---- Lines as points of R^4
-// ------------------------------------------------------------------------------------------------------------------------
 
 using Line_point = std::array<Rational, 4>;  ///< (a, b)
 
@@ -142,7 +140,6 @@ inline Rational supremum(const Cell& cell, const Line_point& inside, const Line_
 }
 
 // ---- Scenes
-// -------------------------------------------------------------------------------------------------------------------------------------------
 
 /// All polygons convex and counterclockwise seen from above: the source in z = 0, the target in z = 1, the occluders
 /// strictly between.
@@ -209,7 +206,6 @@ inline Weak_scene in_space(const Parallel_scene& scene, const std::string& name,
 }
 
 // ---- From a seed
-// -----------------------------------------------------------------------------------------------------------------------------------------
 
 /// A triangle or parallelogram in the plane z, corners multiples of 1/2 about a centre in [-reach, reach]^2.
 inline Points random_convex(Random& random, const Rational& z, std::int64_t reach, std::int64_t size) {

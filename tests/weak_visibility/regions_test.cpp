@@ -8,6 +8,7 @@
 #include <sightline/algorithms/weak_visibility/conservative.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/volume.h>
+#include <sightline/algorithms/weak_visibility/events/events.h>
 
 #include <gtest/gtest.h>
 
@@ -28,7 +29,6 @@ bool contains(const std::vector<Face_id>& faces, Face_id face) {
 }
 
 // ---- Conservative
-// ---------------------------------------------------------------------------------------------------------------------------
 
 TEST(Conservative, leaves_out_nothing_that_is_visible_and_proves_what_it_hides) {
   std::size_t hidden = 0, too_many = 0;
@@ -126,7 +126,6 @@ TEST(Conservative, cuts_off_what_source_and_target_do_not_have_in_front_of_each_
 }
 
 // ---- What the search leaves open
-// --------------------------------------------------------------------------------------------------------------
 
 const weak_scenes::Family& family_called(const std::string& name) {
   for (const weak_scenes::Family& family : weak_scenes::families())
@@ -278,7 +277,6 @@ TEST(Open_cells, hold_each_sightline_that_the_search_stopped_short_of) {
 }
 
 // ---- Surfaces of events
-// -------------------------------------------------------------------------------------------------------------------------
 
 TEST(Event_surfaces, are_kept_for_faces_that_are_visible_too_and_touch_edges) {
   // A plate over a part of the shaft.
@@ -320,7 +318,6 @@ TEST(Event_surfaces, are_kept_for_faces_that_are_visible_too_and_touch_edges) {
 }
 
 // ---- Solids that look
-// ------------------------------------------------------------------------------------------------------------------------------
 
 Faces box(const Rational& x0, const Rational& x1, const Rational& y0, const Rational& y1, const Rational& z0,
           const Rational& z1) {

@@ -5,7 +5,7 @@
 
 #include "../point_visibility/oracle.h"
 
-#include <sightline/algorithms/generate/weak_scenes.h>
+#include <sightline/harness/generate/weak_scenes.h>
 
 #include <cstdlib>
 #include <functional>

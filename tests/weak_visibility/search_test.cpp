@@ -6,6 +6,7 @@
 
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/io/read.h>
+#include <sightline/algorithms/weak_visibility/search/line_search.h>
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,6 @@
 namespace weak_oracle {
 
 // ---- The law as a formula
-// ------------------------------------------------------------------------------------------------------------------------
 // p = S0 + u (S1 - S0) + v (S2 - S0) for three corners of the source, q = T0 + s (T1 - T0) + t (T2 - T0) for three of a
 // piece of the target: all pairs of points of the two planes. The sentence, with strict inequalities only, so that what
 // it describes is open:
@@ -136,7 +135,6 @@ class Sentence {
 };
 
 // ---- z3
-// --------------------------------------------------------------------------------------------------------------------------------------------
 
 inline bool has_z3() {
   static const bool there = std::system("command -v z3 >/dev/null 2>&1") == 0;

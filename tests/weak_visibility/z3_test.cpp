@@ -4,7 +4,7 @@
 #include "parallel_planes.h"
 #include "z3.h"
 
-#include <sightline/algorithms/generate/families.h>
+#include <sightline/harness/generate/families.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 
 #include <gtest/gtest.h>

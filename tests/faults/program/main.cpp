@@ -1,6 +1,6 @@
 // The command fuzz alone, for the library with planted faults.
 
-#include "../../../apps/command.h"
+#include "../../../apps/support/command.h"
 
 #include <exception>
 #include <iostream>

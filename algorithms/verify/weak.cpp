@@ -1,0 +1,350 @@
+#include <sightline/algorithms/verify/weak.h>
+
+#include <algorithm>
+#include <set>
+
+namespace sightline {
+namespace weak_check {
+
+Sightlines::Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
+                       const std::vector<Outline>& sources)
+    : certificate_(certificate), fragments_(fragments), sources_(sources) {
+  for (std::size_t i = 0; i < fragments.size(); ++i) boxes_.push_back({i, certificate.fragments[i].vertices});
+  std::sort(boxes_.begin(), boxes_.end(), [](const Box& a, const Box& b) { return a.low[0] < b.low[0]; });
+}
+
+void Sightlines::check(std::size_t k) const {
+  const auto& [fragment, source, from, to] = certificate_.visible[k];
+  const auto refuse = [&, own = fragment](const std::string& why, std::vector<std::size_t> others = {}) {
+    others.insert(others.begin(), own);
+    reject(name("visible", k) + " (" + name("face", certificate_.fragments[own].face) + ") " + why, others);
+  };
+  if (fragment >= fragments_.size())
+    reject(name("visible", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
+  if (source >= sources_.size()) refuse("names source " + std::to_string(source) + ", which there is not");
+  if (!canonical(from) || !canonical(to)) refuse("has an end point that is not in canonical numbers");
+  const Outline &own = fragments_[fragment], &start = sources_[source];
+  const Homogeneous p = homogeneous(from), q = homogeneous(to);
+  if (!start.has_inside(p)) refuse("does not begin inside its source");
+  if (!own.has_inside(q)) refuse("does not end inside its fragment");
+  if (side(start.plane, q) <= 0) refuse("does not end in front of its source");
+  const int front = side(own.plane, p);
+  if (front == 0) refuse("begins in the plane of its fragment");
+  if (front < 0 && !certificate_.two_sided) refuse("begins behind its fragment");
+
+  const Line line = line_through(p, q);
+  const Box segment(0, {from, to});
+  for (const Box& box : boxes_) {
+    if (box.low[0] > segment.high[0]) break;
+    if (box.apart(segment)) continue;
+    const Outline& other = fragments_[box.place];
+    const int at_p = side(other.plane, p), at_q = side(other.plane, q);
+    if (at_p * at_q > 0) continue;
+    if (at_p == 0 && at_q == 0) {
+      if (other.meets_in_plane(p, q)) refuse("meets " + full_name(box.place), {box.place});
+      continue;
+    }
+    if ((at_p == 0 && other.in_plane(start.plane)) || (at_q == 0 && other.in_plane(own.plane)))
+      continue;  // it holds an end point, but none of its neighbours' segments
+    if (crossing(line, other.corners, at_p > 0 || at_q < 0 ? 1 : -1) >= 0)
+      refuse("meets " + full_name(box.place), {box.place});
+  }
+}
+
+Sightlines::Box::Box(std::size_t of, const Polygon& points) : place(of), low(points[0]), high(points[0]) {
+  for (const Exact_point& p : points)
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (p[k] < low[k]) low[k] = p[k];
+      if (p[k] > high[k]) high[k] = p[k];
+    }
+}
+
+bool Sightlines::Box::apart(const Box& other) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (high[k] < other.low[k] || low[k] > other.high[k]) return true;
+  return false;
+}
+
+Scaled_form::Scaled_form(const Weak_certificate::Form& form) : scale(1) {
+  for (const Rational& r : form) scale = lcm(scale, r.get_den());
+  for (std::size_t k = 0; k < 4; ++k) values[k] = form[k].get_num() * (scale / form[k].get_den());
+}
+
+Trees::Trees(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
+             const std::vector<Outline>& sources)
+    : certificate_(certificate), fragments_(fragments), sources_(sources), edges_(fragments.size()) {
+  for (std::size_t k = 0; k < certificate.lines.size(); ++k) {
+    const auto& [fragment, corner] = certificate.lines[k];
+    if (fragment >= fragments.size() || corner >= certificate.fragments[fragment].vertices.size())
+      reject(name("line", k) + " names an edge that there is not");
+    const Polygon& polygon = certificate.fragments[fragment].vertices;
+    named_.push_back(lines_.through(homogeneous(polygon[corner]), homogeneous(polygon[(corner + 1) % polygon.size()])));
+  }
+  path_.resize(lines_.size());
+}
+
+void Trees::check(std::size_t k, const std::function<void()>& step) {
+  const auto& [fragment, source, proof] = certificate_.hidden[k];
+  if (fragment >= fragments_.size())
+    reject(name("hidden", k) + " names fragment " + std::to_string(fragment) + ", which there is not");
+  entry_ = k;
+  fragment_ = fragment;
+  source_ = source;
+  if (source >= sources_.size())
+    reject(entry() + " names source " + std::to_string(source) + ", which there is not", {fragment});
+
+  /// The second part of an inner node, to be gone on with when the first is done.
+  struct Second {
+    std::shared_ptr<Cell> cell;
+    std::size_t decided;  // how much of the trail is above the node
+    std::size_t line;     // to be taken as negative, if there is one
+    int sign;
+  };
+  std::vector<Second> waiting;
+  std::shared_ptr<Cell> cell = cell_of(std::make_shared<const Corners>(sources_[source].corners),
+                                       std::make_shared<const Corners>(fragments_[fragment].corners), 0);
+  for (std::size_t i = 0;; ++i) {
+    if (i == proof.size()) reject(entry() + " ends before each of its cells has a leaf", {fragment});
+    if (i % 1024 == 0) step();
+    const Node& node = proof[i];
+    node_ = i;
+    const bool has_inside = !cell->source->empty() && !cell->target->empty();
+    if (!has_inside && (node.kind != Node::Kind::empty || !node.terms.empty()))
+      refuse("is below a cut that leaves nothing inside, but is no empty leaf without terms");
+    if (node.kind == Node::Kind::line) {
+      if (node.index >= named_.size()) refuse("names line " + std::to_string(node.index) + ", which there is not");
+      const auto& [number, scale] = named_[node.index];
+      waiting.push_back({cell, trail_.size(), number, -sgn(scale)});
+      decide(number, sgn(scale));
+      continue;
+    }
+    if (node.kind == Node::Kind::cut_source || node.kind == Node::Kind::cut_target) {
+      auto [first, second] = halves(*cell, node);
+      waiting.push_back({std::move(second), trail_.size(), 0, 0});
+      cell = std::move(first);
+      continue;
+    }
+    if (has_inside) check_leaf(*cell, node);
+    ++leaves_;
+    const std::size_t left = waiting.empty() ? 0 : waiting.back().decided;
+    for (; trail_.size() > left; trail_.pop_back()) path_[trail_.back().first] = trail_.back().second;
+    if (waiting.empty()) {
+      if (i + 1 < proof.size())
+        reject(entry() + " goes on after its last leaf, with " + name("node", i + 1), {fragment});
+      return;
+    }
+    cell = std::move(waiting.back().cell);
+    if (const int sign = waiting.back().sign; sign != 0) decide(waiting.back().line, sign);
+    waiting.pop_back();
+  }
+}
+
+std::shared_ptr<Cell> Trees::cell_of(std::shared_ptr<const Corners> source, std::shared_ptr<const Corners> target,
+                                     std::size_t cuts) const {
+  if (source->size() > most_products / std::max<std::size_t>(1, target->size()))
+    reject(name("fragment", fragment_) + " and " + name("source", source_) + " have too many corners to be checked",
+           {fragment_});
+  return std::make_shared<Cell>(Cell{std::move(source), std::move(target), cuts, {}});
+}
+
+std::pair<std::shared_ptr<Cell>, std::shared_ptr<Cell>> Trees::halves(const Cell& cell, const Node& node) const {
+  const bool of_source = node.kind == Node::Kind::cut_source;
+  const Corners& corners = of_source ? *cell.source : *cell.target;
+  if (!canonical(node.plane)) refuse("cuts by a plane that is not in canonical numbers");
+  if (cell.cuts == most_cuts) refuse("is below more than " + std::to_string(most_cuts) + " cuts");
+  Homogeneous plane = Scaled_form(node.plane).values;
+  if (!reaches(plane, corners, 1) && !reaches(plane, corners, -1))
+    refuse(std::string("cuts by a plane that holds all of the ") + (of_source ? "source" : "fragment"));
+  const auto half = [&] {
+    auto part = std::make_shared<const Corners>(cut(corners, plane));
+    return of_source ? cell_of(std::move(part), cell.target, cell.cuts + 1)
+                     : cell_of(cell.source, std::move(part), cell.cuts + 1);
+  };
+  std::shared_ptr<Cell> first = half();
+  for (Integer& coefficient : plane) coefficient = -coefficient;
+  return {std::move(first), half()};
+}
+
+void Trees::check_leaf(Cell& cell, const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::blocked: return check_blocked(cell, node.index);
+    case Node::Kind::empty: return check_empty(cell, node.terms);
+    case Node::Kind::away: return check_away(cell);
+    default: refuse("is of no kind that there is");
+  }
+}
+
+void Trees::check_away(const Cell& cell) const {
+  if (!reaches(sources_[source_].plane, *cell.target, 1)) return;
+  const Homogeneous& plane = fragments_[fragment_].plane;
+  if (reaches(plane, *cell.source, 1) || (certificate_.two_sided && reaches(plane, *cell.source, -1)))
+    refuse("is not away: source and fragment look to each other");
+}
+
+void Trees::check_blocked(Cell& cell, std::size_t f) {
+  if (f >= fragments_.size()) refuse("is blocked by fragment " + std::to_string(f) + ", which there is not");
+  const Outline& blocker = fragments_[f];
+  const int front = position(blocker.plane, *cell.source);
+  if (front * position(blocker.plane, *cell.target) >= 0)
+    refuse("is not blocked by " + name("fragment", f) + ": its plane is not between source and fragment");
+  std::vector<Lines::Named>& edges = edges_[f];
+  if (edges.empty())
+    for (std::size_t i = 0; i < blocker.corners.size(); ++i)
+      edges.push_back(lines_.through(blocker.corners[i], blocker.corners[(i + 1) % blocker.corners.size()]));
+  for (const auto& [line, scale] : edges) {
+    const int inwards = front * sgn(scale);
+    if (decided(line) == inwards) continue;
+    const Cell::Signs signs = signs_of(cell, line);
+    if (inwards > 0 ? signs.negative : signs.positive)
+      refuse("is not blocked by " + name("fragment", f) + ": lines may pass an edge of it outside");
+  }
+}
+
+Cell::Signs Trees::signs_of(Cell& cell, std::size_t line) const {
+  const auto [place, is_new] = cell.known.try_emplace(line);
+  Cell::Signs& signs = place->second;
+  if (!is_new) return signs;
+  for (const Homogeneous& p : *cell.source) {
+    const Homogeneous plane = plane_through(lines_[line], p);
+    signs.positive = signs.positive || reaches(plane, *cell.target, 1);
+    signs.negative = signs.negative || reaches(plane, *cell.target, -1);
+    if (signs.positive && signs.negative) break;
+  }
+  return signs;
+}
+
+void Trees::check_empty(const Cell& cell, const std::vector<Term>& terms) const {
+  if (terms.empty()) refuse("says without terms that a cell with an inside is empty");
+  const Corners &source = *cell.source, &target = *cell.target;
+  const bool source_forms =
+      std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.source.has_value(); });
+  const bool target_forms =
+      std::any_of(terms.begin(), terms.end(), [](const Term& term) { return term.target.has_value(); });
+  const auto products = [](const Corners& corners, bool forms) {
+    return forms ? corners.size() * (corners.size() + 1) / 2 : corners.size();
+  };
+  if (products(source, source_forms) * products(target, target_forms) > most_products / terms.size())
+    refuse("has too many terms for its corners to be checked");
+
+  // 1. What is added up, and a common denominator of the weights.
+  struct Summand {
+    std::size_t line;
+    Scaled_form source, target;
+    Rational weight;
+  };
+  std::vector<Summand> summands;
+  Integer denominator = 1;
+  const auto form_of = [&](const std::optional<Weak_certificate::Form>& form, const Corners& corners) {
+    if (!form) return Scaled_form({0, 0, 0, 1});
+    if (!canonical(*form)) refuse("has a form that is not in canonical numbers");
+    Scaled_form scaled(*form);
+    if (position(scaled.values, corners) <= 0) refuse("has a form that is negative somewhere, or zero everywhere");
+    return scaled;
+  };
+  for (const Term& term : terms) {
+    if (term.line >= named_.size()) refuse("has a term of line " + std::to_string(term.line) + ", which there is not");
+    const auto& [line, scale] = named_[term.line];
+    if (decided(line) == 0)
+      refuse("has a term of line " + std::to_string(term.line) + ", which is not decided above it");
+    if (!canonical(term.factor) || sgn(term.factor) <= 0)
+      refuse("has a factor that is not positive, or not in canonical numbers");
+    Summand& summand =
+        summands.emplace_back(Summand{line, form_of(term.source, source), form_of(term.target, target), {}});
+    summand.weight = term.factor * abs(scale) * decided(line) / Rational(summand.source.scale * summand.target.scale);
+    denominator = lcm(denominator, summand.weight.get_den());
+    if (bit_length(denominator) > most_products / terms.size()) refuse("has factors that are too long to be checked");
+  }
+
+  // 2. The sum's coefficients.
+  Matrix sum;
+  for (const Summand& summand : summands) {
+    Matrix values;
+    for (const Homogeneous& p : source) {
+      const Homogeneous plane = plane_through(lines_[summand.line], p);
+      std::vector<Integer>& row = values.emplace_back();
+      for (const Homogeneous& q : target) row.push_back(value(plane, q));
+    }
+    if (source_forms) values = times(summand.source.values, source, values);
+    if (target_forms) values = transposed(times(summand.target.values, target, transposed(values)));
+    const Integer weight = summand.weight.get_num() * (denominator / summand.weight.get_den());
+    if (sum.empty()) sum.assign(values.size(), std::vector<Integer>(values[0].size()));
+    for (std::size_t i = 0; i < sum.size(); ++i)
+      for (std::size_t j = 0; j < sum[i].size(); ++j)
+        mpz_addmul(sum[i][j].get_mpz_t(), weight.get_mpz_t(), values[i][j].get_mpz_t());
+  }
+  for (const std::vector<Integer>& row : sum)
+    for (const Integer& coefficient : row)
+      if (sgn(coefficient) > 0) refuse("is not shown to be empty: its sum has a positive coefficient");
+}
+
+std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
+  // 1. The fragments are the scene, and the sources are convex polygons.
+  check_covering(soup, certificate);
+  std::vector<Outline> fragments, sources;
+  for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
+  if (certificate.sources.empty()) reject("there is no source");
+  for (std::size_t k = 0; k < certificate.sources.size(); ++k) {
+    const Polygon& polygon = certificate.sources[k];
+    if (!canonical(polygon)) reject(name("source", k) + " has a vertex that is not in canonical numbers");
+    const Integer_vector normal = polygon.empty() ? Integer_vector{} : newell_normal(polygon);
+    if (is_zero(normal)) reject(name("source", k) + " has zero area");
+    if (const std::string fault = not_convex(polygon, {normal, polygon[0]}); !fault.empty())
+      reject(name("source", k) + " " + fault);
+    sources.emplace_back(polygon);
+  }
+
+  // 2. What is said of fragments is true.
+  const std::size_t total = certificate.visible.size() + certificate.hidden.size();
+  std::size_t done = 0;
+  const auto progress = [&] {
+    if (options.progress) options.progress(done, total);
+  };
+  std::vector<char> drawn(soup.face_count()), visible(soup.face_count()), undecided(soup.face_count()),
+      open(soup.face_count());
+  const Sightlines sightlines(certificate, fragments, sources);
+  for (std::size_t k = 0; k < certificate.visible.size(); ++k, ++done) {
+    progress();
+    sightlines.check(k);
+    visible[certificate.fragments[certificate.visible[k].fragment].face] = 1;
+  }
+  Trees trees(certificate, fragments, sources);
+  std::set<std::pair<std::size_t, std::size_t>> hidden;
+  for (std::size_t k = 0; k < certificate.hidden.size(); ++k, ++done) {
+    const auto& entry = certificate.hidden[k];
+    if (!hidden.insert({entry.fragment, entry.source}).second)
+      reject(name("hidden", k) + " is of the same fragment and source as one before", {entry.fragment});
+    trees.check(k, progress);
+  }
+  progress();
+
+  // 3. Each face that is drawn is visible, hidden or undecided, and only one of these.
+  for (const Order_fragment& fragment : certificate.fragments) drawn[fragment.face] = 1;
+  for (const Face_id f : certificate.undecided) {
+    if (f >= soup.face_count() || !drawn[f])
+      reject("undecided names face " + std::to_string(f) + ", which is not drawn");
+    if (undecided[f]++) reject(name("face", f) + " is undecided twice");
+    if (visible[f]) reject(name("face", f) + " is undecided, but shown to be visible");
+  }
+  for (std::size_t i = 0; i < fragments.size(); ++i)
+    for (std::size_t s = 0; s < sources.size(); ++s) {
+      const Face_id f = certificate.fragments[i].face;
+      if (visible[f] || hidden.count({i, s})) continue;
+      if (!undecided[f])
+        reject(name("face", f) + " is neither visible nor undecided, and " + name("fragment", i) +
+                   " of it is not shown to be hidden from " + name("source", s),
+               {i});
+      open[f] = 1;
+    }
+  for (const Face_id f : certificate.undecided)
+    if (!open[f]) reject(name("face", f) + " is undecided, but shown to be hidden");
+  const auto count = [](const std::vector<char>& of) {
+    return static_cast<std::size_t>(std::count(of.begin(), of.end(), 1));
+  };
+  const std::size_t faces = count(drawn), seen = count(visible), unknown = count(undecided);
+  return std::to_string(seen) + " faces visible, " + std::to_string(faces - seen - unknown) + " hidden, " +
+         std::to_string(unknown) + " undecided from " + std::to_string(sources.size()) + " source polygons; " +
+         std::to_string(trees.leaves()) + " leaves of proofs";
+}
+
+}  // namespace weak_check
+}  // namespace sightline

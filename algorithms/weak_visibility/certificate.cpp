@@ -1,0 +1,75 @@
+#include <sightline/algorithms/weak_visibility/certificate.h>
+
+#include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/weak_visibility/weak_answer.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace sightline {
+
+Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vector<Exact_point>>& sources,
+                                  bool two_sided, const Weakly_visible& found) {
+  Weak_certificate certificate;
+  certificate.sources = sources;
+  certificate.two_sided = two_sided;
+  std::set_union(found.undecided.begin(), found.undecided.end(), found.unproved.begin(), found.unproved.end(),
+                 std::back_inserter(certificate.undecided));
+  add_all(certificate, scene);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> numbers;
+  for (const Weakly_visible::Pair& pair : found.pairs) {
+    if (pair.answer.status == Weak_status::visible) {
+      certificate.visible.push_back({pair.piece, pair.source, scene.position(pair.answer.sightline[0].exact),
+                                     scene.position(pair.answer.sightline[1].exact)});
+      continue;
+    }
+    const auto line_number = [&](std::uint32_t line) {
+      const Weak_line& edge = pair.answer.lines[line];
+      const auto [place, is_new] = numbers.try_emplace({edge.piece, edge.corner}, certificate.lines.size());
+      if (is_new) certificate.lines.push_back({edge.piece, edge.corner});
+      return place->second;
+    };
+    Weak_certificate::Hidden& hidden = certificate.hidden.emplace_back();
+    hidden.fragment = pair.piece;
+    hidden.source = pair.source;
+    for (const Weak_step& step : pair.answer.proof) {
+      using Kind = Weak_certificate::Node::Kind;
+      Weak_certificate::Node& node = hidden.proof.emplace_back();
+      switch (step.kind) {
+        case Weak_step::Kind::line: {
+          node.kind = Kind::line;
+          node.index = line_number(step.index);
+        } break;
+        case Weak_step::Kind::cut_source: {
+          node.kind = Kind::cut_source;
+          node.plane = scene.file_coefficients(step.plane);
+        } break;
+        case Weak_step::Kind::cut_target: {
+          node.kind = Kind::cut_target;
+          node.plane = scene.file_coefficients(step.plane);
+        } break;
+        case Weak_step::Kind::blocked: {
+          node.kind = Kind::blocked;
+          node.index = step.index;
+        } break;
+        case Weak_step::Kind::away: node.kind = Kind::away; break;
+        case Weak_step::Kind::empty:
+        case Weak_step::Kind::open: node.kind = Kind::empty; break;  // none is open where all is decided
+      }
+      for (const Weak_step::Term& term : step.terms) {
+        const auto form = [&](const std::optional<Weak_step::Form>& h) {
+          return h ? std::optional(scene.file_coefficients(*h)) : std::nullopt;
+        };
+        node.terms.push_back({line_number(term.line), term.factor, form(term.source), form(term.target)});
+      }
+    }
+  }
+  return certificate;
+}
+
+}  // namespace sightline

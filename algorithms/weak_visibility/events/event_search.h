@@ -1,0 +1,185 @@
+#pragma once
+// Plantinga's events between one source and one target: the lines that touch edges where visibility changes, and
+// exactly what is free beside them.
+
+#include <sightline/algorithms/weak_visibility/events/event_cells.h>
+#include <sightline/algorithms/weak_visibility/events/event_lines.h>
+#include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/search/cell_cuts.h>
+#include <sightline/algorithms/weak_visibility/search/line_cell.h>
+#include <sightline/algorithms/weak_visibility/weak_answer.h>
+#include <sightline/kernel/line_table.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/convex_parts.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace sightline {
+
+/// What a search by events modelled.
+struct Event_counters {
+  std::size_t targets = 0;  ///< pairs of a source and a piece
+  std::size_t away = 0, by_rays = 0,
+              in_shadow =
+                  0;  ///< of these, decided at once: facing away, by one of a few lines, hidden by one piece alone
+  std::size_t occluders = 0, lines = 0;  ///< ways in which a piece can block; lines of edges; summed over pairs
+  std::size_t horizon = 0, edge_vertex = 0,
+              triple = 0;  ///< potential events: in a plane of edges, through a vertex and an edge, through three edges
+  std::size_t off_edges = 0, off_polygons = 0,
+              covered = 0;  ///< of these: no line touches all edges between source and target; none goes from one to
+                            ///< the other; all are blocked
+  std::size_t subranges = 0, cells = 0;    ///< active subranges that were looked at, and cells of lines beside them
+  std::size_t confirmed = 0, refuted = 0;  ///< sightlines proposed, by the exact test of all pieces
+
+  Event_counters& operator+=(const Event_counters& o);
+};
+
+struct Events_options {
+  bool two_sided = false;
+  int rays = 24;  ///< lines that are tried before events
+  std::uint64_t seed = 1;
+  std::size_t events = 20000000;  ///< potential events that a pair may have; then `undecided`
+  bool surfaces = false;  ///< whether to keep event surfaces: then all of them, also where a line is free before
+  int threads = 0;        ///< 0: as many as there are processors
+  std::function<bool()> out_of_time;                                ///< asked now and then
+  std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
+};
+
+enum class Event_kind : char { horizon, edge_vertex, triple };
+
+struct Events_answer {
+  Weak_status status = Weak_status::undecided;
+  std::array<Near_point, 2> sightline;  ///< where visible: strictly inside source and target
+};
+
+/// One search, between convex polygons of which the target is in front of the source and the source on one side of the
+/// target. Of every event it looks at each active subrange: at one line there, at all cells of lines around it, and
+/// whether a piece blocks them. If some line is free, so is a cell beside some event. Degenerate: edges may be
+/// parallel, coplanar, concurrent or the same. Cost: O(n^4 log n) for n edges, where few lie in one position. Exact:
+/// yes. Ref: Plantinga. Proof: P-73
+class Event_search {
+ public:
+  Event_search(const Occluders& occluders, const Event_lines& scene, const Events_options& options,
+               Event_counters& counters)
+      : occluders_(&occluders),
+        scene_(&scene),
+        options_(&options),
+        counters_(&counters),
+        polynomials_(scene.lines().size()),
+        known_(scene.lines().size()) {}
+
+  Events_answer run();
+
+  struct Surface {
+    Event_kind kind;
+    std::vector<std::array<Homogeneous, 2>> rulings;
+  };
+  const std::vector<Surface>& surfaces() const { return surfaces_; }
+
+ private:
+  using Line = Event_lines::Line;
+  using Literal = Event_lines::Literal;
+  using Blocker = Event_lines::Blocker;
+  /// Lines l[0] + l[1] s + l[2] s^2, 0 < s < 1.
+  struct Curve {
+    Event_kind kind;
+    std::array<Exact_six, 3> l;
+    std::vector<Quadratic> ends;  // parameters where what is touched changes otherwise than by sides
+    std::function<Event_chart(const Rational&)> chart;
+    std::array<std::uint32_t, 3> edges{};  // of a triple
+  };
+  /// Along an active subrange, p comes before q in the lines' direction, or (-1) after it.
+  struct Active {
+    Parameter_range range;
+    int turn;
+  };
+
+  const std::vector<Line>& lines() const { return scene_->lines(); }
+
+  bool in_one_shadow() const;
+
+  // ---- Events in planes: horizon, edge and vertex
+
+  /// All pencils of lines that touch three edges. Returns whether the search has ended.
+  bool pencils();
+
+  static Homogeneous off_plane(const Homogeneous& plane);
+
+  bool search_pencil(const Homogeneous& vertex, const Homogeneous& plane, Event_kind kind);
+
+  /// The ends of the segment in which a plane meets the source; the same point twice where there is none.
+  std::array<Homogeneous, 2> section(const Homogeneous& plane) const;
+  static Quadratic linear(const Homogeneous& plane, const Homogeneous& first, const Homogeneous& step) {
+    return {{dot(plane, first), dot(plane, step), Integer(0)}};
+  }
+  /// The plane of two lines that meet.
+  static Homogeneous common_plane(const Exact_six& a, const Exact_six& b);
+  static Homogeneous along(const Homogeneous& first, const Homogeneous& step, const Rational& s);
+
+  // ---- Events on ruled quadrics: three skew edges
+
+  bool reguli();
+
+  static std::array<Exact_six, 4> extreme_lines(const Line& a, const Line& b);
+  /// The side of a line that all lines through two edges have inside both; 0 where they differ or are all 0.
+  static int common_sign(const std::array<Exact_six, 4>& extreme, const Exact_six& line);
+  /// Whether lines through two edges may have all literals, or all of them reversed.
+  bool can_pass(const std::array<Exact_six, 4>& extreme, const std::vector<Literal>& literals) const;
+
+  bool search_regulus(const std::array<std::uint32_t, 3>& edges);
+  /// The side of a point of a plane that turns about a line.
+  static Quadratic linear_at(const Homogeneous& plane, const Homogeneous& turn, const Homogeneous& x) {
+    return {{dot(plane, x), dot(turn, x), Integer(0)}};
+  }
+
+  // ---- Along an event: active subranges
+
+  const Quadratic& polynomial(const Curve& curve, std::uint32_t line);
+  /// 1 where all literals hold as far as they are not zero on all of the curve, -1 where all are reversed, else 0.
+  int common_sign(const Curve& curve, const std::vector<Literal>& literals, const Rational& s);
+  std::vector<Quadratic> polynomials(const Curve& curve, const std::vector<Literal>& literals);
+  bool never_passes(const Curve& curve, const std::vector<Literal>& literals);
+
+  /// Looks at a potential event. Returns whether the search has ended.
+  bool search_curve(const Curve& curve, const Parameter_range& range);
+
+  /// Leaves what a piece does not block. Parts that only touch it stay whole.
+  void subtract(const Curve& curve, const Blocker& blocker, std::vector<Active>& active);
+
+  // ---- Beside an event
+
+  bool look_beside(const Curve& curve, const Active& active, const std::vector<const Blocker*>& crossed,
+                   const std::vector<const Blocker*>& grazed);
+  bool is_past(const Curve& curve, const Blocker& blocker, const Rational& s, int turn);
+
+  /// All cells of lines around one event line.
+  bool look_around(const Curve& curve, const Rational& s, int turn, const std::vector<const Blocker*>& grazed);
+  /// Whether the chart's v and w follow each other as the curve's lines are directed: 1, or -1.
+  static int orientation(const Event_chart& chart, const Curve& curve, const Rational& s);
+
+  /// Moves the event line into a free cell, until no piece of the scene meets it: it is a sightline then.
+  void confirm(const Event_chart& chart, const Event_move& move);
+
+  void keep_surface(const Curve& curve, const Parameter_range& range);
+
+  bool out_of_budget();
+
+  static constexpr std::uint32_t none = 0xffffffff;
+  const Occluders* occluders_;
+  const Event_lines* scene_;
+  const Events_options* options_;
+  Event_counters* counters_;
+  std::vector<Quadratic> polynomials_;  // of the curve at hand
+  std::vector<char> known_;
+  Events_answer answer_;
+  std::vector<Surface> surfaces_;
+  std::size_t events_ = 0;
+};
+
+}  // namespace sightline

@@ -1,0 +1,84 @@
+#include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sightline {
+
+bool Quadratic::is_zero() const { return sgn(c[0]) == 0 && sgn(c[1]) == 0 && sgn(c[2]) == 0; }
+
+int Quadratic::sign(const Rational& s) const {
+  const Integer &n = s.get_num(), &d = s.get_den();
+  return sgn(Integer((c[2] * n + c[1] * d) * n + c[0] * d * d));
+}
+
+int Quadratic::certain_sign() const {
+  const int low = sgn(c[0]), middle = sgn(Integer(2 * c[0] + c[1])), high = sgn(Integer(c[0] + c[1] + c[2]));
+  if (low >= 0 && middle >= 0 && high >= 0) return 1;
+  return low <= 0 && middle <= 0 && high <= 0 ? -1 : 0;
+}
+
+Quadratic_root::Quadratic_root(Integer p, int e, Integer d, Integer q)
+    : p_(std::move(p)), d_(std::move(d)), q_(std::move(q)), e_(e) {
+  if (sgn(q_) < 0) {
+    p_ = -p_;
+    q_ = -q_;
+    e_ = -e_;
+  }
+  key_ = bits(60);
+}
+
+Integer Quadratic_root::bits(unsigned long count) const {
+  Integer root = d_ << (2 * count), k;
+  mpz_sqrt(root.get_mpz_t(), root.get_mpz_t());
+  const Integer top = (p_ << count) + e_ * root;
+  mpz_fdiv_q(k.get_mpz_t(), top.get_mpz_t(), q_.get_mpz_t());
+  return k;
+}
+
+void append_roots(const Quadratic& f, const Parameter_range& range, std::vector<Quadratic_root>& roots) {
+  if (f.is_zero() || f.certain_sign() != 0) return;
+  const auto keep = [&](const Quadratic_root& root) {
+    if (range.low < root && root < range.high) roots.push_back(root);
+  };
+  const Integer &c0 = f.c[0], &c1 = f.c[1], &c2 = f.c[2];
+  if (sgn(c2) == 0) return keep({Integer(-c0), 0, Integer(0), c1});  // c1 is not zero, or the sign were certain
+  const Integer d = c1 * c1 - 4 * c2 * c0;
+  if (sgn(d) < 0) return;
+  keep({Integer(-c1), -1, d, Integer(2 * c2)});
+  if (sgn(d) > 0) keep({Integer(-c1), 1, d, Integer(2 * c2)});
+}
+
+Rational inner_rational(const Parameter_range& range, unsigned long attempt) {
+  const unsigned long parts = 2 * attempt + 3, fine = 4 + 2 * bit_length(Integer(attempt + 2));
+  for (unsigned long count = 60;; count *= 2) {
+    const Integer low = range.low.bits(count) + 2, width = Integer(range.high.bits(count) - 1) - low;
+    if (sgn(width) <= 0 || bit_length(width) <= fine) continue;
+    // Fractions (attempt + 1) / parts differ by more than what is cut off here.
+    const unsigned long cut = bit_length(width) - fine;
+    Integer k = low + width * (attempt + 1) / parts;
+    k >>= cut;
+    k <<= cut;
+    if (k < low) continue;
+    Rational s(k, Integer(1) << count);
+    s.canonicalize();
+    return s;
+  }
+}
+
+std::vector<Parameter_range> divided(const Parameter_range& range, std::span<const Quadratic> polynomials) {
+  std::vector<Quadratic_root> ends;
+  for (const Quadratic& f : polynomials) append_roots(f, range, ends);
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  std::vector<Parameter_range> parts;
+  const Quadratic_root* low = &range.low;
+  for (const Quadratic_root& end : ends) {
+    parts.push_back({*low, end});
+    low = &end;
+  }
+  parts.push_back({*low, range.high});
+  return parts;
+}
+
+}  // namespace sightline

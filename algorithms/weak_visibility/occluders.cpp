@@ -1,0 +1,222 @@
+#include <sightline/algorithms/weak_visibility/occluders.h>
+
+#include <sightline/kernel/predicates.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace sightline {
+
+Occluders::Occluders(const Scene& scene) : scene_(&scene), frame_(scene), boxes_(scene) {
+  const Predicates predicates = scene.predicates();
+  for (const Piece& piece : scene.pieces()) {
+    planes_.push_back(near_plane(frame_, predicates.coefficients(piece.support)));
+    first_.push_back(static_cast<std::uint32_t>(corners_.size()));
+    for (const Piece_corner& corner : scene.corners(piece)) corners_.push_back(near(corner.point));
+    const std::size_t begin = first_.back(), size = piece.size;
+    for (std::size_t i = 0; i < size; ++i)
+      edges_.push_back(edge_numbers(corners_[begin + i], corners_[begin + (i + 1) % size]));
+  }
+}
+
+Near_polygon Occluders::polygon(std::uint32_t piece) const {
+  Near_polygon corners;
+  for (const Piece_corner& corner : scene_->corners(scene_->pieces()[piece]))
+    corners.push_back(
+        {{grid(corner.point, 0), grid(corner.point, 1), grid(corner.point, 2), Integer(1)}, near(corner.point)});
+  return corners;
+}
+
+std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Near_polygon& t) const {
+  const std::vector<std::array<double, 4>> shaft = shaft_planes(s, t);
+  std::vector<std::uint32_t> found;
+  const double to_boxes = frame_.to_boxes();
+  each_box(
+      [&](const Piece_boxes::Box& box) {
+        return std::none_of(shaft.begin(), shaft.end(), [&](const std::array<double, 4>& h) {
+          double most = h[3] * to_boxes;
+          for (std::size_t k = 0; k < 3; ++k) most += h[k] * (h[k] > 0 ? box.high[k] : box.low[k]);
+          return most < 0;
+        });
+      },
+      [&](std::uint32_t piece) {
+        const std::span<const Triple> polygon = corners(piece);
+        const bool away = std::any_of(shaft.begin(), shaft.end(), [&](const std::array<double, 4>& h) {
+          return std::all_of(polygon.begin(), polygon.end(),
+                             [&](const Triple& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3] < 0; });
+        });
+        if (!away) found.push_back(piece);
+      });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple& direction) const {
+  const Triple ahead{p[0] + direction[0], p[1] + direction[1], p[2] + direction[2]};
+  const Six numbers = pair_numbers(p, ahead);
+  const double to_boxes = frame_.to_boxes();
+  double nearest = std::numeric_limits<double>::infinity();
+  std::optional<Hit> hit;
+  each_box(
+      [&](const Piece_boxes::Box& box) {
+        double enter = 0, leave = nearest * (1 + 1e-9);
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double a = (box.low[k] / to_boxes - p[k]) / direction[k],
+                       b = (box.high[k] / to_boxes - p[k]) / direction[k];
+          if (direction[k] == 0 ? p[k] * to_boxes < box.low[k] || p[k] * to_boxes > box.high[k] : false) return false;
+          if (direction[k] != 0) {
+            enter = std::max(enter, std::min(a, b) - 1e-12);
+            leave = std::min(leave, std::max(a, b) + 1e-12);
+          }
+        }
+        return enter <= leave;
+      },
+      [&](std::uint32_t piece) {
+        const std::array<double, 4>& h = planes_[piece].near;
+        const double height = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
+                     slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
+        const double at = -height / slope;
+        if (!(at > 1e-9) || at >= nearest) return;
+        const double sense = height > 0 ? 1 : -1;
+        const std::span<const Six> all = edges(piece);
+        if (std::all_of(all.begin(), all.end(), [&](const Six& edge) { return sense * dot(numbers, edge) >= 0; })) {
+          nearest = at;
+          hit = Hit{piece, height > 0};
+        }
+      });
+  return hit;
+}
+
+std::optional<std::uint32_t> Occluders::blocker(const Near_point& p, const Near_point& q, const Near_plane& of_p,
+                                                const Near_plane& of_q) const {
+  const Exact_six pair = exact_pair(p.exact, q.exact);
+  const Six numbers = pair_numbers(p.near, q.near);
+  const double to_boxes = frame_.to_boxes();
+  Piece_boxes::Box around;
+  for (std::size_t k = 0; k < 3; ++k) {
+    around.low[k] = std::min(p.near[k], q.near[k]) * to_boxes;
+    around.high[k] = std::max(p.near[k], q.near[k]) * to_boxes;
+    const double slack = 0x1p-50 * std::max(std::fabs(around.low[k]), std::fabs(around.high[k])) + 0x1p-1000;
+    around.low[k] -= slack;
+    around.high[k] += slack;
+  }
+  std::optional<std::uint32_t> found;
+  each_box(
+      [&](const Piece_boxes::Box& box) {
+        if (found) return false;
+        for (std::size_t k = 0; k < 3; ++k)
+          if (box.low[k] > around.high[k] || box.high[k] < around.low[k]) return false;
+        return !misses(box, p.near, q.near, to_boxes);
+      },
+      [&](std::uint32_t piece) {
+        if (!found && meets(piece, p, q, of_p, of_q, pair, numbers)) found = piece;
+      });
+  return found;
+}
+
+template <class Open, class Visit>
+void Occluders::each_box(Open open, Visit visit) const {
+  const std::span<const Piece_boxes::Node> nodes = boxes_.nodes();
+  if (nodes.empty()) return;
+  std::vector<std::uint32_t> stack{0};
+  while (!stack.empty()) {
+    const std::uint32_t at = stack.back();
+    stack.pop_back();
+    if (!open(nodes[at].box)) continue;
+    if (nodes[at].second != 0) {
+      stack.push_back(nodes[at].second);
+      stack.push_back(at + 1);
+    } else
+      for (std::uint32_t k = 0; k < nodes[at].count; ++k) visit(boxes_.chunks()[nodes[at].first + k].piece);
+  }
+}
+
+std::vector<std::array<double, 4>> Occluders::shaft_planes(const Near_polygon& s, const Near_polygon& t) {
+  std::vector<std::array<double, 4>> planes;
+  constexpr double little = 1e-9;
+  const auto add = [&](Triple n, const Triple& through) {
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 1e-150)) return;
+    for (double& x : n) x /= length;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const Near_polygon* polygon : {&s, &t})
+      for (const Near_point& p : *polygon) {
+        const double height =
+            n[0] * (p.near[0] - through[0]) + n[1] * (p.near[1] - through[1]) + n[2] * (p.near[2] - through[2]);
+        least = std::min(least, height);
+        most = std::max(most, height);
+      }
+    const double offset = n[0] * through[0] + n[1] * through[1] + n[2] * through[2];
+    if (least > -little) planes.push_back({n[0], n[1], n[2], little - offset});
+    else if (most < little) planes.push_back({-n[0], -n[1], -n[2], little + offset});
+  };
+  for (int turn = 0; turn < 2; ++turn) {
+    const Near_polygon &own = turn == 0 ? s : t, &other = turn == 0 ? t : s;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const Triple &a = own[i].near, &b = own[(i + 1) % own.size()].near;
+      for (const Near_point& c : other) {
+        const Triple u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c.near[0] - a[0], c.near[1] - a[1], c.near[2] - a[2]};
+        add({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}, a);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    Triple n{};
+    n[k] = 1;
+    const auto less = [&](const Near_point& a, const Near_point& b) { return a.near[k] < b.near[k]; };
+    add(n,
+        std::min(*std::min_element(s.begin(), s.end(), less), *std::min_element(t.begin(), t.end(), less), less).near);
+    add(n,
+        std::max(*std::max_element(s.begin(), s.end(), less), *std::max_element(t.begin(), t.end(), less), less).near);
+  }
+  // Most of them are given by several corners.
+  std::sort(planes.begin(), planes.end());
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  return planes;
+}
+
+bool Occluders::misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, double to_boxes) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+    const double nu = q[v] - p[v], nv = p[u] - q[u], pu = p[u] * to_boxes, pv = p[v] * to_boxes;
+    const double middle = nu * ((box.low[u] + box.high[u]) / 2 - pu) + nv * ((box.low[v] + box.high[v]) / 2 - pv);
+    const double reach =
+        std::fabs(nu) * (box.high[u] - box.low[u]) / 2 + std::fabs(nv) * (box.high[v] - box.low[v]) / 2;
+    const double scale = (std::fabs(p[u]) + std::fabs(q[u]) + std::fabs(p[v]) + std::fabs(q[v])) *
+                         (std::fabs(pu) + std::fabs(pv) + std::fabs(box.low[u]) + std::fabs(box.high[u]) +
+                          std::fabs(box.low[v]) + std::fabs(box.high[v]));
+    if (std::fabs(middle) > reach + 0x1p-46 * scale + 0x1p-1000) return true;
+  }
+  return false;
+}
+
+bool Occluders::same_plane(const Near_plane& g, const Near_plane& h) {
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = i + 1; k < 4; ++k)
+      if (g.exact[i] * h.exact[k] != g.exact[k] * h.exact[i]) return false;
+  return true;
+}
+
+bool Occluders::meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Near_plane& of_p,
+                      const Near_plane& of_q, const Exact_six& pair, const Six& numbers) const {
+  const int at_p = side(planes_[piece], p), at_q = side(planes_[piece], q);
+  if (at_p == 0 && at_q == 0) return true;  // not looked at further
+  if (at_p * at_q > 0) return false;
+  if ((at_p == 0 && same_plane(planes_[piece], of_p)) || (at_q == 0 && same_plane(planes_[piece], of_q))) return false;
+  const int from = at_p != 0 ? at_p : -at_q;
+  const double ps = size_of(p), qs = size_of(q);
+  const std::span<const Triple> polygon = corners(piece);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const double value = from * sightline::dot(numbers, edges(piece)[i]);
+    const double bound =
+        side_error(ps, qs, sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()]));
+    if (value < -bound) return false;
+    if (value > bound) continue;
+    if (from * sgn(sightline::dot(pair, exact_edge_of(edge_points(piece, i)))) < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace sightline

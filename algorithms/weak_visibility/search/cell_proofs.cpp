@@ -1,0 +1,254 @@
+#include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+
+namespace sightline {
+
+double Cell_proofs::relax(const Line_cell& cell, Weak_counters& counters) {
+  game_.restart(cell.pairs());
+  for (std::size_t k = 0; k < cell.rows.size(); ++k) {
+    const std::span<double> values = game_.add_row();
+    for (std::size_t c = 0; c < values.size(); ++c) values[c] = cell.value(k, c);
+  }
+  ++counters.programs;
+  return game_.solve();
+}
+
+Cell_proofs::Relaxation Cell_proofs::by_relaxation(const Line_cell& cell, std::vector<Multiplier>& proof,
+                                                   Weak_counters& counters) const {
+  // 1. The weights as they are: by doubles, with their errors.
+  std::vector<Weighted> proposal;
+  for (std::size_t k = 0; k < cell.rows.size(); ++k)
+    if (const double w = game_.row_weights()[k]; w > 1e-13) proposal.push_back({k, w, {}});
+  if (is_proof_in_doubles(cell, proposal)) {
+    for (const Weighted& w : proposal)
+      proof.push_back({cell.rows[w.row].place, cell.factor_of(w.row, exact(w.near)), {}, {}});
+    return Relaxation::empty;
+  }
+  // 2. The exact solution for the basis that doubles ended with.
+  ++counters.exact_programs;
+  const std::vector<std::size_t>& rows = game_.tight_rows();
+  std::vector<Rational> weights;
+  Rational value;
+  if (!solve_basis(
+          rows, game_.tight_columns(), [&](std::size_t k, std::size_t c) { return cell.exact_value(k, c); }, weights,
+          value))
+    return Relaxation::unclear;
+  std::vector<Weighted> kept;
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    if (sgn(weights[k]) < 0) return Relaxation::unclear;
+    if (sgn(weights[k]) > 0) kept.push_back({rows[k], 0, weights[k]});
+  }
+  if (sgn(value) > 0) return Relaxation::has_room;
+  return conclude(cell, kept, proof) ? Relaxation::empty : Relaxation::unclear;
+}
+
+bool Cell_proofs::by_exact_relaxation(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters) {
+  if (cell.rows.size() * cell.pairs() > 1500) return false;
+  std::size_t bits = 0;
+  for (const Line_cell::Row& row : cell.rows)
+    for (const Rational& side : cell.domain->exact_sides(*cell.lines, row.literal.line, *cell.frame))
+      bits += bit_length(side.get_num());
+  if (bits > 150000) return false;
+  ++counters.exact_programs;
+  exact_game_.restart(cell.pairs());
+  for (std::size_t k = 0; k < cell.rows.size(); ++k) {
+    const std::span<Rational> values = exact_game_.add_row();
+    for (std::size_t c = 0; c < values.size(); ++c) values[c] = cell.exact_value(k, c);
+  }
+  if (sgn(exact_game_.solve()) > 0) return false;
+  std::vector<Weighted> proposal;
+  for (std::size_t k = 0; k < cell.rows.size(); ++k)
+    if (sgn(exact_game_.row_weights()[k]) > 0) proposal.push_back({k, 0, exact_game_.row_weights()[k]});
+  return conclude(cell, proposal, proof);
+}
+
+bool Cell_proofs::at_corner(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters) {
+  for (std::size_t i = 0; i < cell.rows.size(); ++i)
+    for (const std::uint32_t point : line_of(cell, i).points) {
+      through_.clear();
+      for (std::size_t k = 0; k < cell.rows.size(); ++k)
+        if (lines_->passes(line_of(cell, k), point)) through_.push_back(k);
+      if (through_.size() < 3 || through_[0] < i) continue;  // seen from an earlier line
+      for (std::size_t a = 0; a < through_.size(); ++a)
+        for (std::size_t b = a + 1; b < through_.size(); ++b)
+          for (std::size_t c = b + 1; c < through_.size(); ++c)
+            for (const bool source : {true, false})
+              if (corner_proof(cell, {through_[a], through_[b], through_[c]}, point, source, proof)) {
+                ++counters.corners;
+                return true;
+              }
+    }
+  return false;
+}
+
+bool Cell_proofs::by_forms(const Line_cell& cell, bool source, std::vector<Multiplier>& proof,
+                           Weak_counters& counters) {
+  const Near_polygon &own = source ? cell.domain->source : cell.domain->target,
+                     &other = source ? cell.domain->target : cell.domain->source;
+  const std::size_t m = own.size(), columns = m * (m + 1) / 2 * other.size();
+  if (columns > 400 || cell.rows.size() > 60) return false;
+  Edge_forms edges;
+  if (!edges_of(own, *planes_[source ? 0 : 1], edges)) return false;
+  const auto pair_of = [&](std::size_t i, std::size_t j) { return source ? i * other.size() + j : j * m + i; };
+
+  // 1. The game of all products.
+  wide_.restart(columns);
+  for (std::size_t a = 0; a < m; ++a) {
+    std::vector<double> near;
+    for (const Rational& h : edges.heights[a]) near.push_back(nearest_double(Rational(h / edges.most[a])));
+    for (std::size_t r = 0; r < cell.rows.size(); ++r) {
+      const std::span<double> values = wide_.add_row();
+      std::size_t c = 0;
+      for (std::size_t i = 0; i < m; ++i)
+        for (std::size_t k = i; k < m; ++k)
+          for (std::size_t j = 0; j < other.size(); ++j)
+            values[c++] = 0.5 * (near[i] * cell.value(r, pair_of(k, j)) + near[k] * cell.value(r, pair_of(i, j)));
+    }
+  }
+  ++counters.form_programs;
+  const double result = wide_.solve();
+  if (result > 1e-12) return false;
+
+  // 2. Exact weights: those of the basis, or, where there is room, these very doubles.
+  const auto coefficient = [&](std::size_t row, std::size_t column) {
+    const std::size_t a = row / cell.rows.size(), k = row % cell.rows.size(), j = column % other.size();
+    std::size_t i = 0, rest = column / other.size();
+    while (rest >= m - i) {
+      rest -= m - i;
+      ++i;
+    }
+    return Rational(edges.heights[a][i] * cell.exact_value(k, pair_of(i + rest, j)) +
+                    edges.heights[a][i + rest] * cell.exact_value(k, pair_of(i, j)));
+  };
+  std::vector<std::pair<std::size_t, Rational>> weights;
+  if (result < -1e-11) {
+    for (std::size_t k = 0; k < wide_.rows(); ++k)
+      if (wide_.row_weights()[k] > 1e-10)
+        weights.push_back({k, exact(wide_.row_weights()[k]) / edges.most[k / cell.rows.size()]});
+  } else {
+    const std::vector<std::size_t>& rows = wide_.tight_rows();
+    std::vector<Rational> solved;
+    Rational exact_result;
+    if (!solve_basis(rows, wide_.tight_columns(), coefficient, solved, exact_result)) return false;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (sgn(solved[k]) < 0) return false;
+      if (sgn(solved[k]) > 0) weights.push_back({rows[k], solved[k]});
+    }
+  }
+  for (std::size_t c = 0; c < columns; ++c) {
+    Rational sum;
+    for (const auto& [row, weight] : weights) sum += weight * coefficient(row, c);
+    if (sgn(sum) > 0) return false;
+  }
+  if (weights.empty()) return false;
+
+  // 3. One form for each line.
+  std::map<std::size_t, std::array<Rational, 4>> sums;
+  for (const auto& [row, weight] : weights)
+    for (std::size_t k = 0; k < 4; ++k)
+      sums[row % cell.rows.size()][k] += weight * Rational(edges.forms[row / cell.rows.size()][k]);
+  for (const auto& [row, sum] : sums) {
+    Integer common = 1;
+    for (const Rational& x : sum) common = lcm(common, x.get_den());
+    Weak_step::Form form;
+    for (std::size_t k = 0; k < 4; ++k) form[k] = sum[k].get_num() * (common / sum[k].get_den());
+    Multiplier& multiplier =
+        proof.emplace_back(Multiplier{cell.rows[row].place, cell.factor_of(row, Rational(Integer(1), common)), {}, {}});
+    (source ? multiplier.source : multiplier.target) = form;
+  }
+  ++counters.by_forms;
+  return true;
+}
+
+bool Cell_proofs::conclude(const Line_cell& cell, const std::vector<Weighted>& proposal,
+                           std::vector<Multiplier>& proof) {
+  if (proposal.empty() || !is_proof(cell, proposal)) return false;
+  for (const Weighted& w : proposal) proof.push_back({cell.rows[w.row].place, cell.factor_of(w.row, w.exact), {}, {}});
+  return true;
+}
+
+bool Cell_proofs::is_proof_in_doubles(const Line_cell& cell, const std::vector<Weighted>& weights) {
+  for (std::size_t c = 0; c < cell.pairs(); ++c) {
+    double sum = 0, error = 0x1p-1000;
+    for (const Weighted& w : weights) {
+      const double v = w.near * cell.value(w.row, c);
+      sum += v;
+      error += 1.0001 * (w.near * cell.rows[w.row].sides->error + 0x1p-47 * std::fabs(v));
+    }
+    if (!(sum < -error)) return false;
+  }
+  return true;
+}
+
+bool Cell_proofs::is_proof(const Line_cell& cell, const std::vector<Weighted>& weights) {
+  for (std::size_t c = 0; c < cell.pairs(); ++c) {
+    Rational sum;
+    for (const Weighted& w : weights) sum += w.exact * cell.exact_value(w.row, c);
+    if (sgn(sum) > 0) return false;
+  }
+  return true;
+}
+
+bool Cell_proofs::corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, std::uint32_t point,
+                               bool source, std::vector<Multiplier>& proof) const {
+  const std::array<Integer, 3> v = occluders_->grid_point(point);
+  std::vector<Multiplier> multipliers;
+  int all = 0;  // the sign of all terms
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Exact_six &u = line_of(cell, rows[(k + 1) % 3]).exact, &w = line_of(cell, rows[(k + 2) % 3]).exact;
+    Weak_step::Form h{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0], 0};
+    for (std::size_t i = 0; i < 3; ++i) h[3] -= h[i] * v[i];
+    if (sgn(h[0]) == 0 && sgn(h[1]) == 0 && sgn(h[2]) == 0) return false;
+    const Near_plane plane = near_plane(occluders_->frame(), h);
+    const Near_polygon& polygon = source ? cell.domain->source : cell.domain->target;
+    const int position = side(plane, polygon);
+    if (position == both_sides) return false;
+    const Line_cell::Row& row = cell.rows[rows[k]];
+    const int sign = position * row.literal.sign;
+    if (sign == 0) continue;
+    if (all == 0) all = sign;
+    if (sign != all) return false;
+    if (sign * row.literal.sign < 0)
+      for (Integer& x : h) x = -x;
+    Multiplier& m = multipliers.emplace_back(Multiplier{row.place, Rational(1), {}, {}});
+    (source ? m.source : m.target) = h;
+  }
+  if (multipliers.empty()) return false;
+  proof = std::move(multipliers);
+  return true;
+}
+
+bool Cell_proofs::edges_of(const Near_polygon& polygon, const Near_plane& plane, Edge_forms& edges) {
+  for (std::size_t a = 0; a < polygon.size(); ++a) {
+    edges.forms.push_back(form_of(polygon, a, plane));
+    std::vector<Rational>& heights = edges.heights.emplace_back();
+    for (const Near_point& p : polygon) {
+      Rational& height = heights.emplace_back(value({edges.forms[a], {}}, p), p.exact[3]);
+      height.canonicalize();
+    }
+    if (sgn(*std::min_element(heights.begin(), heights.end())) < 0) return false;
+    edges.most.push_back(*std::max_element(heights.begin(), heights.end()));
+  }
+  return true;
+}
+
+Weak_step::Form Cell_proofs::form_of(const Near_polygon& polygon, std::size_t edge, const Near_plane& plane) {
+  const std::array<Integer, 4>&a = polygon[edge].exact, &b = polygon[(edge + 1) % polygon.size()].exact;
+  std::array<Integer, 3> along;
+  for (std::size_t k = 0; k < 3; ++k) along[k] = a[3] * b[k] - b[3] * a[k];
+  const std::array<Integer, 4>& n = plane.exact;
+  const std::array<Integer, 3> inward{n[1] * along[2] - n[2] * along[1], n[2] * along[0] - n[0] * along[2],
+                                      n[0] * along[1] - n[1] * along[0]};
+  Weak_step::Form form{inward[0] * a[3], inward[1] * a[3], inward[2] * a[3],
+                       Integer(-(inward[0] * a[0] + inward[1] * a[1] + inward[2] * a[2]))};
+  const Integer common = gcd(gcd(form[0], form[1]), gcd(form[2], form[3]));
+  for (Integer& x : form) x /= common;
+  return form;
+}
+
+}  // namespace sightline

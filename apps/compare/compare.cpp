@@ -1,0 +1,180 @@
+// sightline compare: the same question to several kernels and methods, each in a process of its own: time, memory,
+// error.
+
+#include "compare.h"
+
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+
+namespace sightline::app {
+
+/// A value of /proc/self/status in bytes.
+static std::uint64_t process_memory(const std::string& key) {
+  std::ifstream in("/proc/self/status");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(key + ":")) return std::stoull(line.substr(key.size() + 1)) * 1024;
+  return 0;
+}
+
+Peak_memory::Peak_memory() {
+  std::ofstream("/proc/self/clear_refs") << 5;
+  before_ = process_memory("VmRSS");
+}
+std::uint64_t Peak_memory::bytes() const {
+  const std::uint64_t peak = process_memory("VmHWM");
+  return peak > before_ ? peak - before_ : 0;
+}
+
+/// Asks a contestant in a child process, since an inexact kernel may do anything, for at most the budget; what became
+/// of it otherwise is the row's status.
+static Json judge_apart(const Contestant& contestant, double limit) {
+  const auto named = [&](const Json& row) {
+    Json all = contestant.name;
+    all.update(row);
+    return all;
+  };
+  int ends[2];
+  if (pipe(ends) != 0) throw std::runtime_error("no pipe to be had");
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error("no process to be had");
+  if (child == 0) {
+    close(ends[0]);
+    std::string text;
+    try {
+      text = contestant.judge().dump();
+    } catch (const std::exception& error) {
+      text = Json{{"status", std::string("error: ") + error.what()}}.dump();
+    }
+    for (std::size_t written = 0; written < text.size();) {
+      const ssize_t n = write(ends[1], text.data() + written, text.size() - written);
+      if (n <= 0) break;
+      written += static_cast<std::size_t>(n);
+    }
+    _exit(0);
+  }
+  close(ends[1]);
+  const Stopwatch watch;
+  std::string text, status = "crashed";
+  for (;;) {
+    pollfd waiting{ends[0], POLLIN, 0};
+    const int left = limit > 0 ? static_cast<int>(std::clamp(1000 * (limit - watch.seconds()), 0.0, 1e9)) : -1;
+    if (poll(&waiting, 1, left) == 0) {
+      kill(child, SIGKILL);
+      status = "timed out";
+      break;
+    }
+    char buffer[4096];
+    const ssize_t n = read(ends[0], buffer, sizeof buffer);
+    if (n <= 0) break;
+    text.append(buffer, static_cast<std::size_t>(n));
+  }
+  close(ends[0]);
+  int how = 0;
+  waitpid(child, &how, 0);
+  if (status != "timed out") {
+    if (Json row = Json::parse(text, nullptr, false); !row.is_discarded()) return named(row);
+    if (WIFSIGNALED(how)) status += fmt::format(" (signal {})", WTERMSIG(how));
+  }
+  return named({{"status", status}});
+}
+
+static bool is_exact(const Json& row) {
+  return row["kernel"] == "exact" || row["kernel"] == "epeck" || row["kernel"] == "gmpq";
+}
+
+Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
+         const std::function<bool(const Json&)>& right) {
+  bool disagree = false, undecided = false;
+  for (const Contestant& contestant : contestants) {
+    rows.push_back(judge_apart(contestant, budget));
+    const Json& r = rows.back();
+    if (!is_exact(r)) continue;
+    const std::string& status = r["status"].get_ref<const std::string&>();
+    if (status == "timed out") undecided = true;
+    else if (status.starts_with("left out")) continue;
+    else if (status != "done" || !right(r)) disagree = true;
+  }
+  return disagree ? Exit::disagreement : undecided ? Exit::undecided : Exit::done;
+}
+
+}  // namespace sightline::app
+
+void add_compare(CLI::App& app) {
+  using namespace sightline::app;
+  CLI::App* command = app.add_subcommand(
+      "compare", "The same question to several kernels and methods: seconds, memory, and errors against exact");
+  auto a = std::make_shared<Compare_arguments>();
+  a->common.add_to(*command);
+  command->add_option("COMMAND", a->command, "the question")
+      ->check(CLI::IsMember({"order", "bsp", "see", "weak"}))
+      ->capture_default_str();
+  command->add_option("--eye", a->eye, "the eye X,Y,Z, for order and see; by default a place outside the scene")
+      ->check(not_empty);
+  CLI::Option* kernels = command
+                             ->add_option("--kernels", a->kernels,
+                                          "which kernels, with commas; see asks all but epick, weak exact and double")
+                             ->delimiter(',')
+                             ->check(CLI::IsMember(kernel_names))
+                             ->capture_default_str();
+  command->add_option("--max-fragments", a->max_fragments, "order: compare all pairs up to this many fragments")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command
+      ->add_option("--sizes", a->sizes, "see: depth buffers of so many pixels along each side of a cube, with commas")
+      ->delimiter(',')
+      ->check(sightline::app::whole_number)
+      ->check(CLI::Range(1, 16384))
+      ->capture_default_str();
+  command->add_option("--bits", a->bits, "see: bits of their depths, with commas; 32: floats")
+      ->delimiter(',')
+      ->check(sightline::app::whole_number)
+      ->check(CLI::Range(1, 32))
+      ->capture_default_str();
+  command
+      ->add_option("--near", a->near,
+                   "see: their near plane; by default from the scene's box, at least 1/4096 of the far one")
+      ->check(sightline::app::finite_number)
+      ->check(CLI::PositiveNumber);
+  command->add_option("--far", a->far, "see: their far plane; by default from the scene's box")
+      ->check(sightline::app::finite_number)
+      ->check(CLI::PositiveNumber);
+  a->sources.add_to(*command, "weak: ");
+  command->add_option("--rays", a->rays, "weak: numbers of random rays from each source, with commas")
+      ->delimiter(',')
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--cells", a->weak.cells, "weak: how many cells a search may take before its face is undecided")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command
+      ->add_option("--event-edges", a->weak.event_edges,
+                   "weak: faces that lines leave open go to events where so many edges are near at most; events alone "
+                   "are asked where no pair has more")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--svg", a->svg, "weak: plot the seconds and the errors");
+  command->footer(
+      "order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of "
+      "inexact kernels).\n"
+      "pairs wrong: overlapping fragments drawn in the wrong order; beyond rounding: by more than 2^-20 of the "
+      "distance.\n"
+      "see. Areas are shares of the sphere of directions. wrong area: another face is shown than the exact one, or "
+      "none; tied: another one of its plane that is there too;\n"
+      "wrongly visible, wrongly hidden: faces, against the exact list; missing: visible faces that are shown nowhere, "
+      "with the largest area of one;\n"
+      "gaps, overlaps: directions with no part, and with two. Example: sightline compare town.off see --sizes 512,2048 "
+      "--bits 24\n"
+      "weak. Faces that a method says are visible and are not, are hidden and are not, or leaves open, against lines "
+      "and events together; of conservative, wrongly visible are those that it has too many.\n"
+      "Example: sightline compare rooms.off weak --from \"1,1,2 1,2,2 2,2,2 2,1,2\" --rays 100,10000 --svg weak.svg\n"
+      "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
+      "not.");
+  set_action(*command, [a, kernels] {
+    a->kernels_given = kernels->count() > 0;
+    return a->command == "weak" ? compare_weak(*a) : a->command == "see" ? compare_visible(*a) : compare_orders(*a);
+  });
+}

@@ -1,0 +1,277 @@
+// sightline fuzz: random scenes, all methods and all laws, until something disagrees.
+
+#include "fuzz.h"
+
+#include "case_watch.h"
+#include "../support/query.h"
+
+#include <sightline/harness/laws/fuzz.h>
+#include <sightline/harness/laws/subjects.h>
+#include <sightline/io/read.h>
+#include <sightline/io/write.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/judge/protocol.h>
+
+#include <iostream>
+
+namespace sightline::app {
+
+namespace {
+
+struct Fuzz_arguments {
+  std::string command, family, only, check, scene, query, out = "sightline-fuzz", json;
+  double seconds = 60, case_seconds = 120;
+  std::size_t scenes = 0, most_faces = harness::Fuzz_options{}.most_faces;
+  std::uint64_t seed = 1;
+};
+
+std::vector<harness::Subject> all_subjects() {
+  std::vector<harness::Subject> all = harness::subjects();
+  all.push_back(io_subject());
+  return all;
+}
+std::vector<std::string> subject_names() {
+  std::vector<std::string> names;
+  for (const harness::Subject& subject : all_subjects()) names.push_back(subject.name);
+  return names;
+}
+
+// ---- Reports
+
+Json tallies_json(const std::map<std::string, harness::Tally>& tallies) {
+  Json all = Json::object();
+  for (const auto& [name, tally] : tallies)
+    all[name] = {{"passed", tally.passed}, {"undecided", tally.undecided}, {"not_applicable", tally.not_applicable}};
+  return all;
+}
+void print_tallies(const std::string& title, const std::map<std::string, harness::Tally>& tallies) {
+  std::cout << fmt::format("{:<28} {:>10} {:>10} {:>14}\n", title, "passed", "undecided", "not applicable");
+  for (const auto& [name, tally] : tallies)
+    std::cout << fmt::format("  {:<26} {:>10} {:>10} {:>14}\n", name, tally.passed, tally.undecided,
+                             tally.not_applicable);
+}
+void print_finding(const std::string& where, const harness::Disagreement& found) {
+  std::cout << fmt::format("DISAGREEMENT in {}, check '{}':\n  {}\n", where, found.check, found.what);
+}
+
+/// The scene with its question, and the command that replays it.
+std::string write_failing(const Fuzz_arguments& arguments, const generate::Posed_scene& scene, std::uint64_t seed,
+                          const std::string& check) {
+  std::filesystem::create_directories(arguments.out);
+  const std::string stem = (std::filesystem::path(arguments.out) / arguments.command).string();
+  Format format = Format::qoff;
+  std::string ending = ".qoff";
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f)
+    if (scene.soup.loop_count(f) > 1) {
+      format = Format::ply;
+      ending = ".ply";
+    }  // .qoff has no holes
+  write_scene(scene.soup, stem + ending, format);
+  write_file(stem + ".json", harness::query_json(scene, seed).dump(1) + "\n");
+  return fmt::format("sightline fuzz {} --scene {} --query {} --check '{}'", arguments.command, stem + ending,
+                     stem + ".json", check);
+}
+
+std::string replay_of(const Fuzz_arguments& arguments, const harness::Fuzz_case& which) {
+  return fmt::format("sightline fuzz {} --case {}", arguments.command, to_string(which));
+}
+
+/// One scene, be it of a case or of a file: all checks, or the named one.
+Exit run_one(const harness::Subject& subject, const generate::Posed_scene& scene, std::uint64_t seed,
+             const std::string& where, const std::string& check) {
+  std::size_t cases = 0, undecided = 0;
+  const auto tell = [&](const std::string& name, const harness::Outcome& outcome) {
+    cases += outcome.state != harness::Outcome::State::not_applicable;
+    undecided += outcome.state == harness::Outcome::State::undecided;
+    static constexpr const char* words[] = {"passed", "failed", "undecided", "not applicable"};
+    row(name, words[static_cast<std::size_t>(outcome.state)]);
+  };
+  if (const auto found = harness::first_disagreement(subject, scene, seed, check, tell)) {
+    print_finding(where, *found);
+    return Exit::disagreement;
+  }
+  row("cases", fmt::format("{}, {} undecided", cases, undecided));
+  return Exit::done;
+}
+
+Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) {
+  Countdown time("fuzzing", arguments.seconds);
+  harness::Fuzz_options options;
+  options.seed = arguments.seed;
+  options.scenes = arguments.scenes;
+  options.family = arguments.family;
+  options.most_faces = arguments.most_faces;
+  options.out_of_time = [&] { return time.over() && arguments.scenes == 0; };
+  options.begin = [&](const harness::Fuzz_case& which) {
+    begin_case(replay_of(arguments, which), arguments.case_seconds);
+  };
+  harness::Fuzz_summary summary;
+  std::optional<harness::Finding> finding;
+  try {
+    finding = harness::fuzz(subject, options, summary);
+  } catch (const std::invalid_argument& error) {
+    throw Usage_error(error.what());
+  }
+  const double seconds = time.seconds();
+  end_case();
+
+  std::string replay, smaller;
+  harness::Reduced reduced;
+  if (finding) {
+    replay = replay_of(arguments, finding->which);
+    harness::Reduce_options limits;
+    const Stopwatch since;
+    limits.out_of_time = [&] {
+      begin_case(replay, arguments.case_seconds, "making the case small that this replays");
+      return since.seconds() > 120;
+    };
+    reduced = harness::reduce(subject, finding->scene, finding->which.parameters.seed, finding->disagreement, limits);
+    end_case();
+    smaller = write_failing(arguments, reduced.scene, finding->which.parameters.seed, finding->disagreement.check);
+  }
+
+  if (!arguments.json.empty()) {
+    Json result{{"subject", subject.name}, {"seed", arguments.seed}, {"finding", nullptr}};
+    if (finding)
+      result["finding"] = {{"case", to_string(finding->which)},
+                           {"check", finding->disagreement.check},
+                           {"what", finding->disagreement.what},
+                           {"replay", replay},
+                           {"reduced", smaller},
+                           {"faces", finding->scene.soup.face_count()},
+                           {"faces_reduced", reduced.scene.soup.face_count()}};
+    const Json document{{"command", "fuzz"},
+                        {"result", std::move(result)},
+                        {"counters",
+                         {{"scenes", summary.scenes},
+                          {"cases", summary.cases},
+                          {"undecided", summary.undecided},
+                          {"checks", tallies_json(summary.by_check)},
+                          {"families", tallies_json(summary.by_family)}}},
+                        {"seconds", {{"fuzz", seconds}}}};
+    if (arguments.json == "-") std::cout << document.dump(1) << '\n';
+    else write_file(arguments.json, document.dump(1) + "\n");
+  }
+  if (arguments.json != "-") {
+    print_tallies("check", summary.by_check);
+    print_tallies("family", summary.by_family);
+    row("scenes", fmt::format("{} from seed {}", summary.scenes, arguments.seed));
+    row("cases", fmt::format("{}, {} undecided; {:.0f} a second", summary.cases, summary.undecided,
+                             static_cast<double>(summary.cases) / seconds));
+    if (finding) {
+      print_finding("case " + to_string(finding->which), finding->disagreement);
+      row("as found", replay);
+      row("reduced",
+          fmt::format("from {} faces to {} in {} runs{}", finding->scene.soup.face_count(),
+                      reduced.scene.soup.face_count(), reduced.tests, reduced.finished ? "" : ", not to the end"));
+      row("smallest", smaller);
+    }
+  }
+  return finding ? Exit::disagreement : Exit::done;
+}
+
+/// Errors: Usage_error where the source is no convex polygon.
+void check_source(const generate::Posed_scene& posed, const std::string& wanted) {
+  if (posed.source.empty()) throw Usage_error(wanted);
+  try {
+    const Scene scene(posed.soup);
+    weak_source(Occluders(scene), posed.source);
+  } catch (const std::invalid_argument& error) {
+    throw Usage_error(wanted + ": " + error.what());
+  }
+}
+
+Exit run_fuzz(const Fuzz_arguments& arguments) {
+  harness::Subject subject;
+  for (harness::Subject& one : all_subjects())
+    if (one.name == arguments.command) subject = std::move(one);
+  if (!arguments.check.empty() && arguments.check != "certificate" &&
+      std::none_of(subject.checks.begin(), subject.checks.end(),
+                   [&](const harness::Check& check) { return check.name == arguments.check; })) {
+    std::string names = "certificate";
+    for (const harness::Check& check : subject.checks) names += ", " + check.name;
+    throw Usage_error(fmt::format("--check '{}': {} has {}", arguments.check, subject.name, names));
+  }
+  watch_for_crashes();
+  const std::string checks = arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
+  if (!arguments.scene.empty()) {
+    Polygon_soup soup = read_scene(std::filesystem::path(arguments.scene));
+    harness::Posed_query query;
+    if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
+    generate::Posed_scene& scene = query.scene;
+    scene.soup = std::move(soup);
+    if (subject.wants_source) check_source(scene, "'" + subject.name + "' wants a --query with a source polygon");
+    begin_case(fmt::format("sightline fuzz {} --scene {}{}{}", arguments.command, arguments.scene,
+                           arguments.query.empty() ? "" : " --query " + arguments.query, checks),
+               arguments.case_seconds);
+    return run_one(subject, scene, query.seed, arguments.scene, arguments.check);
+  }
+  if (!arguments.only.empty()) {
+    harness::Fuzz_case which;
+    generate::Posed_scene scene;
+    try {
+      which = harness::parse_case(arguments.only);
+      scene = harness::make(which);
+    } catch (const std::invalid_argument& error) {
+      throw Usage_error(std::string("--case: ") + error.what());
+    }
+    if (subject.wants_source && scene.source.empty())
+      throw Usage_error(
+          fmt::format("--case: '{}' wants a source polygon, and '{}' has none", subject.name, which.family));
+    begin_case(replay_of(arguments, which) + checks, arguments.case_seconds);
+    return run_one(subject, scene, which.parameters.seed, "case " + to_string(which), arguments.check);
+  }
+  return run_many(arguments, subject);
+}
+
+std::string list_of_checks() {
+  std::string text;
+  for (const harness::Subject& subject : all_subjects()) {
+    text += fmt::format("\n  {:<8} {}", subject.name, subject.what);
+    for (const harness::Check& check : subject.checks) text += fmt::format("\n    {:<16} {}", check.name, check.what);
+  }
+  return text;
+}
+
+}  // namespace
+
+}  // namespace sightline::app
+
+void add_fuzz(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("fuzz",
+                                         "Random degenerate scenes, all methods and all laws, until something "
+                                         "disagrees; then the smallest scene that shows it");
+  auto a = std::make_shared<sightline::app::Fuzz_arguments>();
+  command->add_option("COMMAND", a->command, "what to run, see below")
+      ->required()
+      ->check(CLI::IsMember(sightline::app::subject_names()));
+  command->add_option("--seconds", a->seconds, "how long to draw scenes")
+      ->check(CLI::PositiveNumber & sightline::app::finite_number)
+      ->capture_default_str();
+  command
+      ->add_option("--case-seconds", a->case_seconds,
+                   "of processor time; a case that takes longer ends the run: a finding, named on standard error")
+      ->check(CLI::PositiveNumber & sightline::app::finite_number)
+      ->capture_default_str();
+  command->add_option("--scenes", a->scenes, "draw so many scenes instead, however long that takes")
+      ->check(sightline::app::whole_number);
+  command->add_option("--seed", a->seed, "one seed is one sequence of cases")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");
+  command->add_option("--max-faces", a->most_faces, "pass over scenes of more faces")
+      ->check(sightline::app::whole_number)
+      ->capture_default_str();
+  command->add_option("--case", a->only, "run one case alone, FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER");
+  command->add_option("--scene", a->scene, "run a scene of a file alone");
+  command->add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them");
+  command->add_option("--check", a->check, "with --case or --scene: this check only");
+  command->add_option("--out", a->out, "the folder for the smallest failing scene")->capture_default_str();
+  command->add_option("--json", a->json, "write the summary as JSON to this file, - for standard output");
+  command->footer("Commands and their checks; each answer is also checked by itself ('certificate'):" +
+                  sightline::app::list_of_checks() +
+                  "\nExit codes: 0 nothing found, 1 something disagrees or a case does not end, 2 usage, 3 bad input."
+                  "\nExample: sightline fuzz see --seconds 600 --seed 7 --out found");
+  set_action(*command, [a] { return sightline::app::run_fuzz(*a); });
+}

@@ -1,0 +1,134 @@
+// sightline reduce: the smallest scene for which somebody's program still fails.
+
+#include "../support/limited_process.h"
+#include "../support/query.h"
+
+#include <sightline/harness/laws/reduce.h>
+#include <sightline/io/read.h>
+#include <sightline/io/write.h>
+#include <sightline/io/exact_text.h>
+
+#include <iostream>
+#include <limits>
+
+namespace sightline::app {
+
+namespace {
+
+struct Reduce_arguments {
+  std::string scene, query, out;
+  std::vector<std::string> program;
+  int code = -1;  ///< any but 0
+  double limit = 10, seconds = 600;
+};
+
+constexpr int timed_out = 124;  // as timeout(1) has it
+
+/// Runs a program with its output thrown away. Returns its exit code, 128 + S where signal S ended it, 124 where it did
+/// not end in time. Errors: std::runtime_error where it cannot be started.
+int exit_code_of(const std::vector<std::string>& words, double limit) {
+  const Process_end end = run_limited(words, {limit, std::numeric_limits<std::uint64_t>::max()}, "/dev/null");
+  return end.kind == Process_end::timed_out ? timed_out
+         : end.kind == Process_end::exited  ? end.number
+                                            : 128 + end.number;
+}
+
+Exit run(const Reduce_arguments& arguments) {
+  const auto names = [&](const char* what) {
+    return std::any_of(arguments.program.begin(), arguments.program.end(),
+                       [&](const std::string& word) { return word.find(what) != std::string::npos; });
+  };
+  if (!names("{}"))
+    throw Usage_error(
+        "the program's words hold no {}, which stands for the scene: sightline reduce SCENE --out FILE -- PROGRAM {}");
+  if (names("{query}") && arguments.query.empty()) throw Usage_error("the program's words hold {query}; give --query");
+  const std::optional<Format> format = format_of_ending(arguments.out);
+  if (!format)
+    throw Usage_error("--out " + arguments.out + ": no format has this ending; give one of " + supported_formats);
+  Polygon_soup soup = read_scene(std::filesystem::path(arguments.scene));
+  harness::Posed_query query;
+  if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
+  generate::Posed_scene& scene = query.scene;
+  scene.soup = std::move(soup);
+  scene.name = scene.soup.file;
+
+  const Temporary_folder folder;
+  const std::string scene_file =
+                        (folder / ("scene" + std::filesystem::path(arguments.out).extension().string())).string(),
+                    query_file = (folder / "query.json").string();
+  std::vector<std::string> words = arguments.program;
+  for (std::string& word : words)
+    for (const auto& [mark, file] : {std::pair<std::string, std::string>{"{}", scene_file}, {"{query}", query_file}})
+      for (std::size_t at = word.find(mark); at != std::string::npos; at = word.find(mark, at + file.size()))
+        word.replace(at, mark.size(), file);
+  const auto code_for = [&](const generate::Posed_scene& smaller) -> int {
+    try {
+      write_scene(smaller.soup, scene_file, *format);
+    } catch (const Not_representable&) {
+      return 0;  // not a scene that can be handed over
+    }
+    if (!arguments.query.empty()) write_file(query_file, harness::query_json(smaller, query.seed).dump(1) + "\n");
+    return exit_code_of(words, arguments.limit);
+  };
+  const auto fails = [&](const generate::Posed_scene& smaller) {
+    const int code = code_for(smaller);
+    return arguments.code < 0 ? code != 0 && code != timed_out : code == arguments.code;
+  };
+
+  if (!fails(scene)) {
+    std::cerr << fmt::format("sightline: the program does not fail on {}: its exit code is {}, {} is wanted\n",
+                             arguments.scene, code_for(scene),
+                             arguments.code < 0 ? "any but 0" : std::to_string(arguments.code));
+    return Exit::disagreement;
+  }
+  Countdown time("reducing", arguments.seconds);
+  harness::Reduce_options options;
+  options.most_tests = 1000000;
+  options.out_of_time = [&] { return time.over(); };
+  const harness::Reduced reduced = harness::reduce(scene, fails, options);
+  write_scene(reduced.scene.soup, arguments.out, *format);
+  if (!arguments.query.empty())
+    write_file(std::filesystem::path(arguments.out).replace_extension(".json").string(),
+               harness::query_json(reduced.scene, query.seed).dump(1) + "\n");
+  row("faces", fmt::format("{} of {}", reduced.scene.soup.face_count(), scene.soup.face_count()));
+  row("points", fmt::format("{} of {}", reduced.scene.soup.point_count(), scene.soup.point_count()));
+  row("runs", fmt::format("{}, {} steps kept, {:.1f} seconds{}", reduced.tests, reduced.kept, time.seconds(),
+                          reduced.finished ? "" : "; not to the end"));
+  return Exit::done;
+}
+
+}  // namespace
+
+}  // namespace sightline::app
+
+void add_reduce(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "reduce", "The smallest and roundest scene for which a program still fails, whatever program it is");
+  auto a = std::make_shared<sightline::app::Reduce_arguments>();
+  command->add_option("SCENE", a->scene, "a scene for which it fails: .obj .off .ply .stl .qoff")->required();
+  command
+      ->add_option("PROGRAM", a->program,
+                   "after --: the program and its arguments; {} stands for the scene's file, {query} for the query's")
+      ->required();
+  command->add_option("--out", a->out, "the file to write; the program gets scenes with the same ending")->required();
+  command->add_option("--query", a->query,
+                      "what is asked of the scene, as `generate --query` writes it: reduced with the scene, and "
+                      "written beside --out as .json");
+  command
+      ->add_option("--code", a->code,
+                   "the exit code that counts as failing; 128 + S for signal S, 124 for no end in time. By default any "
+                   "but 0 and 124")
+      ->check(CLI::Range(0, 255));
+  command->add_option("--limit", a->limit, "seconds for a run of the program")
+      ->check(CLI::PositiveNumber & sightline::app::finite_number)
+      ->capture_default_str();
+  command->add_option("--seconds", a->seconds, "seconds for all")
+      ->check(CLI::PositiveNumber & sightline::app::finite_number)
+      ->capture_default_str();
+  command->footer(
+      "The program and all that it starts end with its limit; it reads nothing, and cannot write a file beyond 256 "
+      "MiB.\n"
+      "Exit codes: 0 done, 1 the program does not fail on SCENE, 2 usage, 3 bad input.\nExample: sightline reduce "
+      "room.off --out small.off -- ./mine --order {}");
+  set_action(*command, [a] { return sightline::app::run(*a); });
+}

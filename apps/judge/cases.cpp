@@ -1,0 +1,212 @@
+// Cases for judging: the scene as programs get it, and the query.
+
+#include "cases.h"
+
+#include "../support/common.h"
+#include "../support/limited_process.h"
+
+#include <sightline/io/read.h>
+
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+
+namespace sightline::app {
+
+namespace {
+
+/// A planar convex piece of the scene.
+std::vector<Exact_point> a_piece(const Scene& scene, std::uint64_t seed) {
+  std::vector<Exact_point> points;
+  if (scene.pieces().empty()) return points;
+  for (const Piece_corner& corner : scene.corners(scene.pieces()[seed % scene.pieces().size()]))
+    points.push_back(scene.position(corner.point));
+  return points;
+}
+
+std::int64_t ulps_of(const std::string& text) {
+  if (text == "far") return generate::far_ulps;
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Usage_error("--ulps wants whole numbers or `far`, with commas; '" + text + "' is none");
+  return value;
+}
+
+bool same_coordinates(const Polygon_soup& a, const Polygon_soup& b) {
+  if (a.coordinates.size() != b.coordinates.size() || a.face_count() != b.face_count()) return false;
+  for (std::size_t k = 0; k < a.coordinates.size(); ++k)
+    if (a.coordinates[k] != b.coordinates[k]) return false;
+  return true;
+}
+
+/// As programs get it: rounded where that is wanted, and with planar faces.
+void prepare(Judge_case& made, const Case_options& options) {
+  const Polygon_soup given = made.soup;
+  const judge::Query wanted = made.query;
+  if (options.doubles) {
+    made.soup = judge::rounded_to_doubles(made.soup);
+    made.query = judge::rounded_to_doubles(std::move(made.query));
+  }
+  made.soup = judge::with_planar_faces(made.soup);
+  made.as_given =
+      same_coordinates(made.soup, given) &&
+      (options.question == judge::Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye);
+}
+
+/// Runs `make`; what cannot be made, or is beyond the range of doubles, is not asked.
+template <class Make>
+Judge_case attempted(Make make) {
+  Judge_case made;
+  try {
+    make(made);
+  } catch (const std::invalid_argument& error) {
+    made.not_asked = error.what();
+  } catch (const std::domain_error&) {
+    made.not_asked = "coordinates are beyond the range of doubles";
+  }
+  return made;
+}
+
+}  // namespace
+
+Judge_case case_of(const generate::Family& family, const generate::Family_parameters& parameters,
+                   const Case_options& options) {
+  return attempted([&](Judge_case& made) {
+    generate::Posed_scene posed = family.make(parameters);
+    made.soup = posed.soup;
+    made.query = {options.question, posed.eye, posed.source, options.two_sided};
+    prepare(made, options);
+    if (options.question != judge::Question::weak) return;
+    if (posed.source.empty()) made.query.source = a_piece(Scene(made.soup), parameters.seed);
+    else if (!options.two_sided && made.as_given) {
+      made.visible = posed.visible;
+      made.hidden = posed.hidden;
+    }
+  });
+}
+
+Judge_case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_options& options) {
+  return attempted([&](Judge_case& made) {
+    made.soup = scene;
+    made.query.question = options.question;
+    made.query.two_sided = options.two_sided;
+    if (scene.point_count() == 0) return;
+    Exact_point low = scene.point(0), high = low;
+    for (Point_id p = 0; p < scene.point_count(); ++p)
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], scene.point(p)[k]);
+        high[k] = std::max(high[k], scene.point(p)[k]);
+      }
+    generate::Random random(seed);
+    // A place in the box, or up to a quarter of its sides outside.
+    Rational longest = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Rational side = high[k] - low[k];
+      made.query.eye[k] = low[k] + side * Rational(static_cast<long>(random.between(-16, 80))) / 64;
+      longest = std::max(longest, side);
+    }
+    // A square around it, counterclockwise as seen from a side of its axis.
+    const std::size_t axis = random.below(3), x = (axis + 1) % 3, y = (axis + 2) % 3;
+    const bool turned = random.chance(1, 2);
+    const Rational half = longest / 32;
+    for (const auto& [dx, dy] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, 1)}) {
+      Exact_point corner = made.query.eye;
+      corner[x] += half * (turned ? dy : dx);
+      corner[y] += half * (turned ? dx : dy);
+      made.query.source.push_back(corner);
+    }
+    prepare(made, options);
+  });
+}
+
+Judge_case case_of(const Polygon_soup& scene, const judge::Query& query, const Case_options& options) {
+  return attempted([&](Judge_case& made) {
+    made.soup = scene;
+    made.query = query;
+    prepare(made, options);
+  });
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The query of a file, as programs get it.
+judge::Query query_of(const std::string& file, judge::Question question) {
+  judge::Query query;
+  try {
+    std::ifstream in(file);
+    query = judge::query_from_json(nlohmann::json::parse(in));
+  } catch (const std::exception& error) {
+    throw Usage_error("--ask " + file + ": no query: " + printable(error.what(), 400, true));
+  }
+  if (query.question != question) throw Usage_error("--ask " + file + ": another question than --query");
+  return query;
+}
+
+std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_options& options) {
+  if (!fs::exists(choice.scenes)) throw Usage_error("--scenes " + choice.scenes + ": there is no such folder or file");
+  std::vector<fs::path> files;
+  if (fs::is_directory(choice.scenes)) {
+    for (const auto& entry : fs::recursive_directory_iterator(choice.scenes))
+      if (entry.is_regular_file() && format_of_ending(entry.path())) files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    if (files.empty())
+      throw Usage_error("--scenes " + choice.scenes + ": the folder holds no scene; give one with " +
+                        std::string(supported_formats));
+  } else {
+    files.push_back(choice.scenes);
+  }
+  std::optional<judge::Query> query;
+  if (!choice.ask.empty()) query = query_of(choice.ask, options.question);
+  std::vector<Case_group> groups;
+  for (const fs::path& file : files) {
+    const auto make = [file, query, options](std::uint64_t seed) {
+      return query ? case_of(read_scene(file), *query, options) : case_of(read_scene(file), seed, options);
+    };
+    groups.push_back({file.filename().string(), "-",
+                      "--scenes " + shell_word(file.string()) + (query ? " --ask " + shell_word(choice.ask) : ""),
+                      make});
+  }
+  return groups;
+}
+
+std::vector<Case_group> groups_of_families(const Case_choice& choice, const Case_options& options) {
+  std::vector<std::string> names = choice.families;
+  if (names.empty())
+    for (const generate::Family& family : generate::families()) names.push_back(family.name);
+  std::vector<Case_group> groups;
+  for (const std::string& name : names)
+    for (const std::string& distance : choice.ulps) {
+      generate::Family_parameters parameters;
+      parameters.ulps = ulps_of(distance);
+      const generate::Family* family = nullptr;
+      try {
+        family = &generate::family(name);
+      } catch (const std::invalid_argument& error) {
+        throw Usage_error(std::string("--families: ") + error.what());
+      }
+      parameters.size = choice.size > 0 ? choice.size : family->small_size;
+      const auto make = [family, parameters, options](std::uint64_t seed) mutable {
+        parameters.seed = seed;
+        return case_of(*family, parameters, options);
+      };
+      groups.push_back({name,
+                        distance == "far"      ? "far"
+                        : parameters.ulps == 0 ? "exact"
+                                               : fmt::format("{:+} ulps", parameters.ulps),
+                        fmt::format("--families {} --ulps {}{}", shell_word(name), distance,
+                                    choice.size > 0 ? fmt::format(" --size {}", choice.size) : ""),
+                        make});
+    }
+  return groups;
+}
+
+}  // namespace
+
+std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options) {
+  return choice.scenes.empty() ? groups_of_families(choice, options) : groups_of_scenes(choice, options);
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,136 @@
+// Asking a program, and grading what it answers.
+
+#include "court.h"
+
+#include <sightline/io/read.h>
+#include <sightline/io/write.h>
+#include <sightline/io/exact_text.h>
+
+#include <csignal>
+#include <cstring>
+
+namespace sightline::app {
+
+namespace fs = std::filesystem;
+
+static std::string in_words(const judge::Grade& grade) {
+  std::vector<std::string> all;
+  for (const auto& [earlier, later] : grade.wrong_pairs)
+    all.push_back(fmt::format("face {} is drawn before face {} but is nearer somewhere", earlier, later));
+  if (grade.wrong_pairs.empty()) {
+    for (const Face_id face : grade.wrong_visible) all.push_back(fmt::format("face {} is shown but hidden", face));
+    for (const Face_id face : grade.wrong_hidden) all.push_back(fmt::format("face {} is missing but visible", face));
+  }
+  std::string text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(all.size(), 4); ++i) text += (i == 0 ? "" : ", ") + all[i];
+  return text + (all.size() > 4 ? fmt::format(", and {} more", all.size() - 4) : "");
+}
+
+Court::Court(Court_options options) : options_(std::move(options)) {
+  try {
+    words_ = split_words(options_.program);
+  } catch (const std::invalid_argument& error) {
+    throw Usage_error(std::string("--program: ") + error.what());
+  }
+  for (const char* place : {"{scene}", "{query}", "{answer}"})
+    if (options_.program.find(place) == std::string::npos)
+      throw Usage_error(std::string("--program has no ") + place +
+                        ": give the command with {scene} {query} {answer} where the names of these files belong");
+}
+
+Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
+  Judged judged;
+  judged.seed = seed;
+  judged.faces = asked.soup.face_count();
+  judged.not_asked = asked.not_asked;
+  if (!judged.not_asked.empty()) return judged;
+  const judge::Truth truth = judge::truth_of(asked.soup, asked.query, options_.truth);
+  judged.not_asked = truth.not_asked;
+  if (!judged.not_asked.empty()) return judged;
+  for (const auto& [known, found] :
+       {std::pair(&asked.visible, &truth.hidden), std::pair(&asked.hidden, &truth.visible)})
+    for (const Face_id face : *known)
+      if (std::binary_search(found->begin(), found->end(), face))
+        throw std::logic_error(fmt::format(
+            "the library says of face {} what its construction excludes (seed {}); please report it", face, seed));
+  try {
+    write_scene(asked.soup, scene());
+  } catch (const Not_representable& error) {
+    judged.not_asked = "the format cannot hold the scene";
+    return judged;
+  }
+  write_file(query(), judge::to_json(asked.query).dump() + "\n");
+  fs::remove_all(answer());
+  run(asked, truth, judged);
+  return judged;
+}
+
+void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
+  std::vector<std::string> words = words_;
+  for (std::string& word : words)
+    for (const auto& [place, file] :
+         {std::pair("{scene}", scene()), std::pair("{query}", query()), std::pair("{answer}", answer())})
+      for (std::size_t at = word.find(place); at != std::string::npos; at = word.find(place, at + file.string().size()))
+        word.replace(at, std::string_view(place).size(), file.string());
+  Process_end end;
+  try {
+    end = run_limited(words, options_.limits, (folder_ / "said").string());
+  } catch (const std::runtime_error& error) {
+    throw Usage_error(std::string("--program: ") + error.what() + "; check the name and PATH");
+  }
+  judged.seconds = end.seconds;
+  judged.bytes = end.bytes;
+  const std::string said = end.said.empty() ? "" : "; it said: " + end.said.substr(end.said.find_last_of('\n') + 1);
+  const auto crashed = [&](const std::string& how) {
+    judged.mark = judge::Mark::crashed;
+    judged.why = how + said;
+  };
+  switch (end.kind) {
+    case Process_end::timed_out: {
+      judged.mark = judge::Mark::timed_out;
+      judged.why = fmt::format("no end within {} s", options_.limits.seconds);
+    } break;
+    case Process_end::out_of_memory: {
+      judged.mark = judge::Mark::out_of_memory;
+      judged.why = fmt::format("more than {} MB", options_.limits.bytes >> 20);
+    } break;
+    case Process_end::signalled: crashed(fmt::format("signal {} ({})", end.number, strsignal(end.number))); break;
+    case Process_end::exited:
+      if (end.number != 0) crashed(fmt::format("exit code {}", end.number));
+      else grade_answer(asked, truth, judged);
+  }
+  judged.breaks = judge::breaks(options_.contract, judged.mark, judged.grade);
+}
+
+void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
+  try {
+    if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
+    judged.grade = judge::grade(
+        truth, judge::read_answer(detail::read_bytes(answer()), asked.query.question, asked.soup.face_count()));
+  } catch (const std::runtime_error& error) {  // no file that can be read
+    judged.mark = judge::Mark::invalid;
+    judged.why = error.what();
+    return;
+  } catch (const std::invalid_argument& error) {
+    judged.mark = judge::Mark::invalid;
+    judged.why = std::string("the answer: ") + error.what();
+    return;
+  }
+  judged.mark = judge::mark_of(judged.grade);
+  judged.why = in_words(judged.grade);
+}
+
+std::vector<std::string> Court::keep_files(const std::string& folder, const std::string& stem) const {
+  std::vector<std::string> kept;
+  fs::create_directories(folder);
+  for (const fs::path& file : {scene(), query(), answer()}) {
+    const fs::path to =
+        fs::path(folder) / (stem + '.' + (file.extension() == "" ? "answer" : file.extension().string().substr(1)));
+    std::error_code ignored;
+    fs::remove(to, ignored);
+    if (fs::exists(file) && fs::copy_file(file, to, ignored)) kept.push_back(to.string());
+  }
+  return kept;
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,58 @@
+#pragma once
+// A program asked one case at a time, within limits, and its answer graded.
+
+#include "../support/common.h"
+#include "cases.h"
+#include "../support/limited_process.h"
+
+namespace sightline::app {
+
+/// What is asked of a program, and what it is allowed.
+struct Court_options {
+  std::string program;         ///< a command line with {scene}, {query} and {answer}
+  std::string format = "off";  ///< of the scene's file: its ending
+  judge::Contract contract = judge::Contract::exact;
+  Process_limits limits;
+  judge::Truth_options truth;
+};
+
+/// What became of a case.
+struct Judged {
+  std::uint64_t seed = 0;
+  std::string not_asked;  ///< why; the rest is then empty
+  std::size_t faces = 0;
+  judge::Mark mark = judge::Mark::right;
+  bool breaks = false;  ///< the contract
+  std::string why;
+  judge::Grade grade;
+  double seconds = 0;
+  std::uint64_t bytes = 0;
+};
+
+/// Asks the program one query after another, in a folder of its own.
+class Court {
+ public:
+  /// Errors: Usage_error where the command line holds not all that it has to.
+  explicit Court(Court_options options);
+
+  /// Errors: Usage_error where the program cannot be started; std::logic_error where the library contradicts what is
+  /// known by construction.
+  Judged judge(const Judge_case& asked, std::uint64_t seed) const;
+
+  /// Copies the files of the last case to a folder, so that the program can be asked again by hand. Returns the names
+  /// that it gave them: STEM.off or what the format is, STEM.json, STEM.answer.
+  std::vector<std::string> keep_files(const std::string& folder, const std::string& stem) const;
+
+ private:
+  std::filesystem::path scene() const { return folder_ / ("scene." + options_.format); }
+  std::filesystem::path query() const { return folder_ / "query.json"; }
+  std::filesystem::path answer() const { return folder_ / "answer"; }
+  void run(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const;
+  void grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const;
+
+  Court_options options_;
+  std::vector<std::string> words_;
+  Temporary_folder folder_;
+};
+
+}  // namespace sightline::app

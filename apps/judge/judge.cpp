@@ -1,0 +1,281 @@
+// sightline judge: somebody else's program, asked many cases and graded against the exact truth.
+
+#include "page.h"
+#include "table.h"
+
+#include <sightline/harness/laws/reduce.h>
+
+#include <iostream>
+
+namespace sightline::app {
+
+namespace {
+
+using namespace judge;
+
+struct Judge_arguments {
+  std::string program, query, contract, format = "off", json, html, keep;
+  Case_choice choice{{}, {"0", "1", "-1", "far"}, 0, {}, {}};
+  std::size_t cases = 5;
+  std::uint64_t seed = 1;
+  double time = 10, budget = 20, reduce = 0;
+  std::uint64_t memory = 1024;
+  int threads = 0;
+  bool two_sided = false, cycles = false;
+
+  Case_options case_options() const {
+    return {static_cast<Question>(place_of(query, question_names)), two_sided, format != "qoff"};
+  }
+  Court_options court_options() const {
+    return {program,
+            format,
+            static_cast<Contract>(place_of(contract, contract_names)),
+            {time, memory << 20},
+            {threads, budget, cycles}};
+  }
+  template <std::size_t n>
+  static std::size_t place_of(const std::string& name, const std::array<std::string_view, n>& names) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
+};
+
+/// The command that asks one case again, which `which` names.
+std::string command_again(const Judge_arguments& arguments, const std::string& which) {
+  return fmt::format("sightline judge --program {} --query {} --contract {} {}{}{}{}", shell_word(arguments.program),
+                     arguments.query, arguments.contract, which,
+                     arguments.format == "off" ? "" : " --format " + arguments.format,
+                     arguments.two_sided ? " --two-sided" : "", arguments.cycles ? " --cycles" : "");
+}
+
+/// Whether a face has a corner twice.
+bool repeats_a_corner(const Polygon_soup& soup) {
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const auto loop = soup.loop(f);
+    std::set<Exact_point> corners;
+    for (const Point_id p : loop) corners.insert(soup.point(p));
+    if (corners.size() < loop.size()) return true;
+  }
+  return false;
+}
+
+/// Whether a case is broken as another one is: the same mark, and faces wrong in no way that is new.
+bool broken_alike(const Judged& judged, const Judged& broken) {
+  return judged.breaks && judged.mark == broken.mark &&
+         (judged.grade.wrong_visible.empty() || !broken.grade.wrong_visible.empty()) &&
+         (judged.grade.wrong_hidden.empty() || !broken.grade.wrong_hidden.empty());
+}
+
+/// A case made smaller as long as the program breaks the contract in the same way: how far, and the files that are
+/// kept. Faces stay planar, their corners apart, and coordinates doubles where these are wanted.
+Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
+  const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
+    return case_of(smaller.soup, {asked.query.question, smaller.eye, smaller.source, asked.query.two_sided},
+                   arguments.case_options());
+  };
+  const bool repeats = repeats_a_corner(asked.soup);
+  const auto fails = [&](const generate::Posed_scene& smaller) {
+    const Judge_case other = case_of_smaller(smaller);
+    return other.as_given && (repeats || !repeats_a_corner(other.soup)) &&
+           broken_alike(court.judge(other, broken.seed), broken);
+  };
+  Countdown time("reducing", arguments.reduce);
+  harness::Reduce_options options;
+  options.most_tests = 1000000;
+  options.out_of_time = [&] { return time.over(); };
+  generate::Posed_scene scene;
+  scene.soup = asked.soup;
+  scene.eye = asked.query.eye;
+  scene.source = asked.query.source;
+  const harness::Reduced reduced = harness::reduce(scene, fails, options);
+  const Judged last = court.judge(case_of_smaller(reduced.scene), broken.seed);
+  const std::vector<std::string> files = court.keep_files(arguments.keep, "reduced");
+  return {
+      {"faces", last.faces},
+      {"runs", reduced.tests},
+      {"finished", reduced.finished},
+      {"mark", mark_names[static_cast<std::size_t>(last.mark)]},
+      {"why", last.why},
+      {"files", files},
+      {"again", command_again(arguments, "--scenes " + shell_word(files.at(0)) + " --ask " + shell_word(files.at(1)))}};
+}
+
+Exit run(const Judge_arguments& arguments) {
+  if (!arguments.choice.scenes.empty() && !arguments.choice.families.empty())
+    throw Usage_error("--scenes and --families exclude each other: ask twice");
+  if (!arguments.choice.ask.empty() && arguments.choice.scenes.empty())
+    throw Usage_error("--ask wants --scenes: which scene is asked about");
+  if (arguments.reduce > 0 && arguments.keep.empty())
+    throw Usage_error("--reduce wants --keep: the folder for the scene");
+  const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
+  const Court court(arguments.court_options());
+  const std::uint64_t cases = arguments.choice.ask.empty() ? arguments.cases : 1;
+  const Stopwatch watch;
+  Progress progress("judging");
+  Json document{{"command", "judge"},
+                {"program", arguments.program},
+                {"query", arguments.query},
+                {"two_sided", arguments.two_sided},
+                {"contract", arguments.contract},
+                {"limits", {{"seconds", arguments.time}, {"bytes", arguments.memory << 20}}},
+                {"result", Json::object()}};
+  Json& result = document["result"];
+  Json rows = Json::array(), failures = Json::array(), smallest, reasons = Json::object();
+  const Case_group* smallest_of = nullptr;
+  Judged smallest_case;
+  std::vector<std::vector<Judged>> judged(groups.size());
+  std::size_t done = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const Case_group& group = groups[g];
+    for (std::uint64_t k = 0; k < cases; ++k) {
+      const Judged& c = judged[g].emplace_back(court.judge(group.make(arguments.seed + k), arguments.seed + k));
+      progress(++done, groups.size() * cases);
+      if (!c.not_asked.empty()) reasons[c.not_asked] = reasons.value(c.not_asked, std::size_t{0}) + 1;
+      if (!c.breaks) continue;
+      failures.push_back(
+          {{"family", group.family},
+           {"distance", group.distance},
+           {"seed", c.seed},
+           {"faces", c.faces},
+           {"mark", mark_names[static_cast<std::size_t>(c.mark)]},
+           {"why", c.why},
+           {"wrong_visible", c.grade.wrong_visible},
+           {"wrong_hidden", c.grade.wrong_hidden},
+           {"again", command_again(arguments, fmt::format("{} --cases 1 --seed {}", group.again, c.seed))}});
+      if (!smallest.is_null() && smallest["faces"] <= c.faces) continue;
+      smallest = failures.back();
+      smallest["files"] =
+          arguments.keep.empty() ? std::vector<std::string>() : court.keep_files(arguments.keep, "smallest");
+      smallest_of = &group;
+      smallest_case = c;
+    }
+    const auto pointers = [](const std::vector<Judged>& of_group) {
+      std::vector<const Judged*> each;
+      for (const Judged& c : of_group) each.push_back(&c);
+      return each;
+    };
+    Json row{{"family", group.family}, {"distance", group.distance}};
+    row.update(sums_of(pointers(judged[g])));
+    rows.push_back(std::move(row));
+  }
+  if (smallest_of != nullptr && arguments.reduce > 0)
+    smallest["reduced"] = made_smaller(arguments, court, smallest_of->make(smallest_case.seed), smallest_case);
+  std::vector<const Judged*> all;
+  for (const std::vector<Judged>& of_group : judged)
+    for (const Judged& c : of_group) all.push_back(&c);
+  Json total{{"family", "all"}, {"distance", ""}};
+  total.update(sums_of(all));
+  result["holds"] = total["breaches"] == 0;
+  result["rows"] = std::move(rows);
+  result["total"] = total;
+  result["not_asked"] = std::move(reasons);
+  result["smallest"] = std::move(smallest);
+  result["failures"] = std::move(failures);
+  document["seconds"] = {{"all", watch.seconds()}};
+
+  if (!arguments.html.empty()) write_file(arguments.html, judge_page(document));
+  const std::string text = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  if (arguments.json == "-") {
+    std::cout << text << std::flush;
+  } else {
+    if (!arguments.json.empty()) write_file(arguments.json, text);
+    print_table(document);
+    print_verdict(document);
+  }
+  return total["breaches"] == 0 ? Exit::done : Exit::disagreement;
+}
+
+}  // namespace
+
+}  // namespace sightline::app
+
+void add_judge(CLI::App& app) {
+  using namespace sightline::app;
+  CLI::App* command = app.add_subcommand(
+      "judge", "Asks somebody else's program many cases, and grades its answers against the exact truth");
+  auto a = std::make_shared<Judge_arguments>();
+  command
+      ->add_option("--program", a->program,
+                   "its command, with {scene} {query} {answer} where the names of these files belong; quotes hold a "
+                   "word together")
+      ->required();
+  command->add_option("--query", a->query, "what it is asked: order, see (from a point), weak (from a polygon)")
+      ->required()
+      ->check(CLI::IsMember(
+          std::vector<std::string>(sightline::judge::question_names.begin(), sightline::judge::question_names.end())));
+  command
+      ->add_option("--contract", a->contract,
+                   "what it promises: exact (no wrong face), conservative (never hides a visible one), aggressive "
+                   "(never shows a hidden one)")
+      ->required()
+      ->check(CLI::IsMember(
+          std::vector<std::string>(sightline::judge::contract_names.begin(), sightline::judge::contract_names.end())));
+  command
+      ->add_option("--families", a->choice.families,
+                   "which families of scenes, with commas (`sightline generate --help` lists them); by default all")
+      ->delimiter(',');
+  command
+      ->add_option(
+          "--ulps", a->choice.ulps,
+          "how far from their degeneracy, with commas: 0 (exactly there), a number of ulps to either side, or far")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--size", a->choice.size, "how large the families' scenes are; 0: small")
+      ->check(whole_number)
+      ->capture_default_str();
+  command->add_option("--scenes", a->choice.scenes, "instead of families: a scene, or a folder of them")
+      ->check(not_empty);
+  command
+      ->add_option(
+          "--ask", a->choice.ask,
+          "with --scenes: a file with the query to ask, as --keep writes it, instead of queries of the judge's own")
+      ->check(not_empty);
+  command->add_option("--cases", a->cases, "of each family at each distance, or of each scene")
+      ->check(whole_number)
+      ->capture_default_str();
+  command->add_option("--seed", a->seed, "of the first case; the next has the next number")
+      ->check(whole_number)
+      ->capture_default_str();
+  command->add_option("--time", a->time, "seconds for a case")
+      ->check(CLI::PositiveNumber & finite_number)
+      ->capture_default_str();
+  command->add_option("--memory", a->memory, "MB for a case")
+      ->check(whole_number)
+      ->check(CLI::Range(1, 1 << 20))
+      ->capture_default_str();
+  command
+      ->add_option("--format", a->format,
+                   "of the scene's file: off, obj, ply, stl with coordinates rounded to doubles, or qoff, exact")
+      ->check(CLI::IsMember({"off", "obj", "ply", "stl", "qoff"}))
+      ->capture_default_str();
+  command->add_flag("--two-sided", a->two_sided, "faces seen from behind count too");
+  command->add_flag("--cycles", a->cycles,
+                    "order: ask also where faces overlap in a cycle, so that some must be drawn in parts");
+  command
+      ->add_option("--budget", a->budget, "seconds for the truth of a weak query; what is undecided then is not judged")
+      ->check(CLI::PositiveNumber & finite_number)
+      ->capture_default_str();
+  command->add_option("--threads", a->threads, "for the truth; 0: one for each processor")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--json", a->json, "write everything as JSON to this file, - for standard output");
+  command->add_option("--html", a->html, "write a page to look at");
+  command->add_option("--keep", a->keep,
+                      "a folder for the smallest case that breaks the contract: scene, query and answer");
+  command
+      ->add_option("--reduce", a->reduce,
+                   "with --keep: make that case smaller still, for so many seconds, as long as the program breaks the "
+                   "contract in the same way; 0: not at all")
+      ->check(CLI::NonNegativeNumber & finite_number)
+      ->capture_default_str();
+  command->footer(
+      "The program reads the scene and the query, {\"query\": \"see\", \"eye\": [0.5, 2, 1], \"two_sided\": false} or "
+      "{\"query\": \"weak\", \"source\": [[0, 0, 1], ...], ...}, and writes the answer:\n"
+      "the visible faces, one number a line, faces counted from 0; for order all faces, farthest first. `abstained 7` "
+      "leaves face 7 open.\n"
+      "Example: sightline judge --program \"python3 mine.py {scene} {query} {answer}\" --query see --contract exact "
+      "--html report.html\n"
+      "A wrong face, an answer outside of the protocol and a crash break the contract; to abstain, and to run out of "
+      "time or memory, does not. Exit code 1: broken.\n"
+      "All of it: harness/judge/README.md.");
+  set_action(*command, [a] { return run(*a); });
+}

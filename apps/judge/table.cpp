@@ -1,0 +1,101 @@
+// Counting what became of cases, and printing it.
+
+#include "table.h"
+
+#include <iostream>
+
+namespace sightline::app {
+
+Json sums_of(const std::vector<const Judged*>& cases) {
+  Json row;
+  std::array<std::size_t, judge::mark_names.size()> marks{};
+  std::size_t not_asked = 0, judged = 0, wrong_visible = 0, wrong_hidden = 0, abstained = 0, breaches = 0;
+  std::vector<double> seconds;
+  std::uint64_t bytes = 0;
+  for (const Judged* c : cases) {
+    if (!c->not_asked.empty()) {
+      ++not_asked;
+      continue;
+    }
+    ++marks[static_cast<std::size_t>(c->mark)];
+    breaches += c->breaks;
+    judged += c->grade.judged;
+    wrong_visible += c->grade.wrong_visible.size();
+    wrong_hidden += c->grade.wrong_hidden.size();
+    abstained += c->grade.abstained.size();
+    seconds.push_back(c->seconds);
+    bytes = std::max(bytes, c->bytes);
+  }
+  row["asked"] = cases.size() - not_asked;
+  row["not_asked"] = not_asked;
+  for (std::size_t k = 0; k < judge::mark_names.size(); ++k) row["cases"][std::string(judge::mark_names[k])] = marks[k];
+  row["breaches"] = breaches;
+  row["faces"] = {
+      {"judged", judged}, {"wrong_visible", wrong_visible}, {"wrong_hidden", wrong_hidden}, {"abstained", abstained}};
+  std::sort(seconds.begin(), seconds.end());
+  const auto percentile = [&](double share) {
+    return seconds.empty()
+               ? Json()
+               : Json(seconds[std::min(seconds.size() - 1,
+                                       static_cast<std::size_t>(share * static_cast<double>(seconds.size())))]);
+  };
+  row["seconds"] = {{"p50", percentile(0.5)}, {"p95", percentile(0.95)}, {"max", percentile(1)}};
+  row["bytes"] = bytes;
+  return row;
+}
+
+void print_table(const Json& document) {
+  const std::string line =
+      "{:<26} {:<8} {:>5} {:>5} {:>5} {:>9} {:>7} {:>7} {:>9} {:>6} {:>13} {:>12} {:>8} {:>8} {:>8} {:>7}\n";
+  std::cout << fmt::format(fmt::runtime(line), "family", "distance", "asked", "right", "wrong", "abstained", "invalid",
+                           "crashed", "timed out", "memory", "wrong visible", "wrong hidden", "p50 s", "p95 s", "max s",
+                           "max MB");
+  const auto print = [&](const Json& r) {
+    const Json &cases = r["cases"], &faces = r["faces"];
+    const auto count = [](const Json& value) { return value == 0 ? std::string("-") : value.dump(); };
+    const auto seconds = [&](const char* key) {
+      return r["seconds"][key].is_null() ? std::string("-") : fmt::format("{:.3f}", r["seconds"][key].get<double>());
+    };
+    std::cout << fmt::format(fmt::runtime(line), r["family"].get<std::string>(), r["distance"].get<std::string>(),
+                             count(r["asked"]), count(cases["right"]), count(cases["wrong"]), count(cases["abstained"]),
+                             count(cases["invalid"]), count(cases["crashed"]), count(cases["timed out"]),
+                             count(cases["out of memory"]), count(faces["wrong_visible"]), count(faces["wrong_hidden"]),
+                             seconds("p50"), seconds("p95"), seconds("max"),
+                             fmt::format("{:.0f}", r["bytes"].get<double>() / 1e6));
+  };
+  for (const Json& r : document["result"]["rows"]) print(r);
+  print(document["result"]["total"]);
+}
+
+void print_verdict(const Json& document) {
+  const Json &result = document["result"], &total = result["total"];
+  for (const auto& [reason, count] : result["not_asked"].items())
+    std::cout << fmt::format("not asked: {} cases, as {}\n", count.get<std::size_t>(), reason);
+  if (!result["smallest"].is_null()) {
+    const Json& s = result["smallest"];
+    std::cout << fmt::format("the smallest that breaks it: {} {}, seed {}, {} faces: {}: {}\n",
+                             s["family"].get<std::string>(), s["distance"].get<std::string>(),
+                             s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(),
+                             s["mark"].get<std::string>(), s["why"].get<std::string>());
+    for (const Json& file : s["files"]) std::cout << fmt::format("  kept: {}\n", file.get<std::string>());
+    std::cout << fmt::format("  again: {}\n", s["again"].get<std::string>());
+    if (s.contains("reduced")) {
+      const Json& r = s["reduced"];
+      std::cout << fmt::format("made smaller, to {} of {} faces in {} runs{}: {}: {}\n", r["faces"].get<std::size_t>(),
+                               s["faces"].get<std::size_t>(), r["runs"].get<std::size_t>(),
+                               r["finished"] == true ? "" : ", not to the end", r["mark"].get<std::string>(),
+                               r["why"].get<std::string>());
+      for (const Json& file : r["files"]) std::cout << fmt::format("  kept: {}\n", file.get<std::string>());
+      std::cout << fmt::format("  again: {}\n", r["again"].get<std::string>());
+    }
+  }
+  const std::string contract = document["contract"].get<std::string>();
+  if (total["asked"] == 0) std::cout << "nothing was asked\n";
+  else if (total["breaches"] == 0)
+    std::cout << fmt::format("the contract `{}` holds in all {} cases\n", contract, total["asked"].get<std::size_t>());
+  else
+    std::cout << fmt::format("the contract `{}` is BROKEN in {} of {} cases\n", contract,
+                             total["breaches"].get<std::size_t>(), total["asked"].get<std::size_t>());
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,49 @@
+#pragma once
+// The same tree and the same order by every kernel, behind one interface, so that each kernel is compiled once.
+
+#include "../support/common.h"
+
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/verify/order.h>
+
+namespace sightline::app {
+
+inline const std::vector<std::string> kernel_names{"exact", "epeck", "gmpq", "epick", "double", "float"};
+
+/// A fragment as drawn: where it is, and which part of its face.
+struct Drawn {
+  Order_fragment fragment;   ///< exact vertices; `piece` is the convex piece of the face, as in the certificate
+  std::uint32_t number = 0;  ///< among the fragments of its face
+  Sign side = CGAL::ZERO;    ///< of the eye to the face's front, as the kernel saw it
+};
+
+struct Task {
+  Bsp_options bsp;
+  std::optional<Exact_point> eye;  ///< none: only build the tree
+  std::optional<std::array<Integer, 4>>
+      near;  ///< only what is in front of this plane (grid coordinates), by making it the root
+  bool keep_fragments = true;
+};
+
+struct Outcome {
+  Bsp_counters tree;
+  Traversal_counters walk;
+  double build_seconds = 0, order_seconds = 0;
+  std::vector<Drawn> drawn;  ///< back to front
+  std::uint64_t not_finite =
+      0;  ///< fragments of an inexact kernel with coordinates that are no numbers; they are left out
+};
+
+/// Builds the tree of a scene by the named kernel and walks it. The scene takes the near plane. Errors: Usage_error for
+/// a name that is none.
+Outcome run_method(const std::string& kernel, Scene& scene, const Task& task);
+
+/// Sides that the kernel would have got wrong while the exact kernel builds its tree and walks it; nothing for kernels
+/// whose numbers are exact.
+struct Lockstep {
+  std::uint64_t asked = 0, opposite = 0, false_zero = 0, missed_zero = 0;
+};
+std::optional<Lockstep> run_lockstep(const std::string& kernel, const Scene& scene, const Task& task);
+
+}  // namespace sightline::app

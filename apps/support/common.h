@@ -1,0 +1,123 @@
+#pragma once
+// What the commands share: reading a scene, exact points on the command line, JSON, tables, progress.
+
+#include "command.h"
+
+#include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <atomic>
+#include <chrono>
+
+namespace sightline::app {
+
+using Json = nlohmann::ordered_json;
+
+/// The options that every command on a scene has.
+struct Common {
+  std::string scene;
+  std::string json;  ///< a file, "-" for standard output, or empty
+  std::string coordinates = "exact";
+  int threads = 0;
+  std::uint64_t seed = 1;
+  double budget = 0;  ///< seconds; 0: none
+
+  void add_to(CLI::App& command);
+  Polygon_soup read() const;
+  /// A progress callback that throws Out_of_budget once the seconds are over.
+  std::function<void(std::size_t, std::size_t)> within_budget(
+      std::function<void(std::size_t, std::size_t)> report) const;
+};
+
+/// The budget ran out: exit code 4.
+struct Out_of_budget : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A usage error that CLI11 cannot see: exit code 2.
+struct Usage_error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Checks that CLI11's own conversions leave out: they wrap -1 to 2^64 - 1, and let nan through every range.
+inline const CLI::Validator whole_number(
+    [](std::string& text) {
+      return !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos
+                 ? ""
+                 : '"' + text + "\" is not a whole number below 10^19";
+    },
+    "");
+inline const CLI::Validator finite_number(
+    [](std::string& text) {
+      return text.find_first_of("nN") == std::string::npos ? "" : '"' + text + "\" is not a finite number";
+    },
+    "");
+inline const CLI::Validator not_empty(
+    [](std::string& text) { return text.empty() ? "is empty; leave the option out, or give it a value" : ""; }, "");
+
+/// Numbers with commas between them, exact decimals or p/q. Errors: Usage_error that begins with `wanted`.
+std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted);
+/// "X,Y,Z" with exact decimals or p/q. Errors: Usage_error naming the option.
+Exact_point parse_point(const std::string& text, const std::string& option);
+
+/// The eye that --eye names, or, where it is empty, a place outside the scene's box from which all of it is seen.
+Exact_point eye_of(const std::string& text, const Scene& scene);
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// A bar on standard error, if that is a terminal and the work lasts; nothing otherwise. Thread-safe.
+class Progress {
+ public:
+  explicit Progress(std::string what);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  void operator()(std::size_t done, std::size_t all);
+
+ private:
+  std::string what_;
+  bool terminal_;
+  Stopwatch watch_;
+  std::atomic<int> shown_{-1};
+};
+
+/// So many seconds from now, and a bar that shows how many of them are over.
+class Countdown {
+ public:
+  Countdown(std::string what, double seconds) : progress_(std::move(what)), limit_(seconds) {}
+  bool over() {
+    progress_(static_cast<std::size_t>(1000 * watch_.seconds()), static_cast<std::size_t>(1000 * limit_));
+    return watch_.seconds() >= limit_;
+  }
+  double seconds() const { return watch_.seconds(); }  ///< since the beginning
+
+ private:
+  Progress progress_;
+  Stopwatch watch_;
+  double limit_;
+};
+
+/// The "scene" object of every command's JSON.
+Json scene_json(const Scene& scene);
+Json predicates_json(const Predicate_counts& counts);
+Json point_json(const Exact_point& p);
+
+/// Writes the JSON document of a command where --json asks for it. Returns whether standard output is taken by it.
+bool write_json(const Common& common, const std::string& command, const Scene& scene, Json result, Json counters,
+                Json seconds);
+/// Writes a file, or throws with the reason.
+void write_file(const std::string& path, const std::string& text);
+
+/// One row of a table for people.
+void row(const std::string& name, const std::string& value);
+void scene_rows(const Scene& scene);
+
+}  // namespace sightline::app

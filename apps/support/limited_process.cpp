@@ -1,0 +1,202 @@
+// Running a program within limits.
+
+#include "limited_process.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+namespace sightline::app {
+
+namespace {
+
+/// A line of /proc/PID/status, in bytes; 0 where there is none.
+std::uint64_t status_bytes(const std::string& process, const std::string& key) {
+  std::ifstream in("/proc/" + process + "/status");
+  for (std::string line; std::getline(in, line);)
+    if (line.starts_with(key + ":")) return std::stoull(line.substr(key.size() + 1)) * 1024;
+  return 0;
+}
+
+/// Memory that a process and all that it started hold now; the peak of the first one alone where that is more.
+std::uint64_t memory_of(pid_t process) {
+  std::uint64_t sum = 0;
+  std::vector<pid_t> open{process};
+  while (!open.empty()) {
+    const std::string name = std::to_string(open.back());
+    open.pop_back();
+    sum += status_bytes(name, "VmRSS");
+    std::ifstream children("/proc/" + name + "/task/" + name + "/children");
+    for (pid_t child = 0; children >> child;) open.push_back(child);
+  }
+  return std::max(sum, status_bytes(std::to_string(process), "VmHWM"));
+}
+
+void set_limit(int what, rlim_t most) {
+  const rlimit limit{most, most};
+  setrlimit(static_cast<__rlimit_resource_t>(what), &limit);
+}
+
+/// In the child, between fork and exec: only what is safe there. Does not return.
+[[noreturn]] void become(const std::vector<char*>& argv, int input, int output, int report, rlim_t processor_seconds) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  set_limit(RLIMIT_CORE, 0);
+  set_limit(RLIMIT_FSIZE, rlim_t{256} << 20);
+  set_limit(RLIMIT_CPU, processor_seconds);
+  dup2(input, 0);
+  dup2(output, 1);
+  dup2(output, 2);
+  execvp(argv[0], argv.data());
+  const int error = errno;
+  [[maybe_unused]] const ssize_t written = write(report, &error, sizeof error);
+  _exit(127);
+}
+
+std::string tail_of(const std::string& file) {
+  constexpr std::streamoff most = 2000;
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = in.tellg();
+  in.seekg(std::max<std::streamoff>(0, size - most));
+  std::ostringstream text;
+  text << in.rdbuf();
+  std::string said = text.str();
+  while (!said.empty() && (said.back() == '\n' || said.back() == '\r')) said.pop_back();
+  return said;
+}
+
+/// A file descriptor that is closed at the end, and not handed on to programs.
+struct Descriptor {
+  int number;
+  explicit Descriptor(int n) : number(n) {
+    if (number < 0) throw std::runtime_error(std::string("a file cannot be opened: ") + std::strerror(errno));
+  }
+  Descriptor(const Descriptor&) = delete;
+  ~Descriptor() { close_now(); }
+  void close_now() {
+    if (number >= 0) close(number);
+    number = -1;
+  }
+};
+
+}  // namespace
+
+std::vector<std::string> split_words(const std::string& command) {
+  std::vector<std::string> words;
+  bool in_word = false;
+  char quote = 0;
+  for (const char c : command) {
+    if (quote != 0 && c == quote) {
+      quote = 0;
+    } else if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+      if (!in_word) words.emplace_back();
+      in_word = true;
+    } else if (quote == 0 && (c == ' ' || c == '\t' || c == '\n')) {
+      in_word = false;
+    } else {
+      if (!in_word) words.emplace_back();
+      in_word = true;
+      words.back() += c;
+    }
+  }
+  if (quote != 0) throw std::invalid_argument(std::string("a quote ") + quote + " is not closed");
+  return words;
+}
+
+std::string shell_word(const std::string& text) {
+  if (!text.empty() &&
+      text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+./,:=@%{}") ==
+          std::string::npos &&
+      text.find("{}") == std::string::npos)
+    return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? "'\\''" : std::string(1, c);
+  return word + "'";
+}
+
+Process_end run_limited(const std::vector<std::string>& words, const Process_limits& limits,
+                        const std::string& output_file) {
+  std::vector<char*> argv;
+  for (const std::string& word : words) argv.push_back(const_cast<char*>(word.c_str()));
+  argv.push_back(nullptr);
+  Descriptor input(open("/dev/null", O_RDONLY | O_CLOEXEC)),
+      output(open(output_file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600));
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) throw std::runtime_error(std::string("no pipe: ") + std::strerror(errno));
+  Descriptor from(ends[0]), to(ends[1]);
+
+  // 1. Start it. The pipe closes by itself once the program runs, so that nothing of this process is measured.
+  const std::uint64_t own = status_bytes("self", "VmHWM");
+  const auto processor_seconds =
+      static_cast<rlim_t>(std::min(1e9, limits.seconds * std::max(1u, std::thread::hardware_concurrency()))) +
+      2;  // ends what escapes from the group
+  const pid_t child = fork();
+  if (child < 0) throw std::runtime_error(std::string("no process: ") + std::strerror(errno));
+  if (child == 0) become(argv, input.number, output.number, to.number, processor_seconds);
+  setpgid(child, child);
+  to.close_now();
+  int error = 0;
+  if (read(from.number, &error, sizeof error) == static_cast<ssize_t>(sizeof error)) {
+    waitpid(child, nullptr, 0);
+    throw std::runtime_error("'" + words[0] + "' cannot be started: " + std::strerror(error));
+  }
+
+  // 2. Wait, and look at its memory now and then.
+  const auto start = std::chrono::steady_clock::now();
+  Process_end end;
+  bool killed = false;
+  int status = 0;
+  rusage usage{};
+  auto pause = std::chrono::microseconds(100);
+  while (wait4(child, &status, WNOHANG, &usage) == 0) {
+    end.bytes = std::max(end.bytes, memory_of(child));
+    end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (end.seconds > limits.seconds || end.bytes > limits.bytes) {
+      end.kind = end.bytes > limits.bytes ? Process_end::out_of_memory : Process_end::timed_out;
+      killed = true;
+      kill(-child, SIGKILL);
+      wait4(child, &status, 0, &usage);
+      break;
+    }
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::microseconds(2000));
+  }
+  end.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  kill(-child, SIGKILL);  // what it left running
+
+  // 3. What became of it. The system's own figure is of use where it is above what this process had when it forked.
+  if (const std::uint64_t most = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024; most > own)
+    end.bytes = std::max(end.bytes, most);
+  if (!killed) {
+    end.kind = WIFEXITED(status) ? Process_end::exited : Process_end::signalled;
+    end.number = WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status);
+    if (end.bytes > limits.bytes) end.kind = Process_end::out_of_memory;
+  }
+  end.said = tail_of(output_file);
+  return end;
+}
+
+Temporary_folder::Temporary_folder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "sightline-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr)
+    throw std::runtime_error(pattern + ": no folder can be made there; check TMPDIR");
+  path_ = pattern;
+}
+Temporary_folder::~Temporary_folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace sightline::app

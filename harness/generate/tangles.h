@@ -1,0 +1,20 @@
+#pragma once
+// Faces on a tiny lattice, where nearly everything touches something.
+
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/random.h>
+
+#include <cstddef>
+
+namespace sightline::generate {
+
+/// A few faces on a tiny lattice: coplanar, touching, interpenetrating, repeated, turned, concave, non-planar, without
+/// area.
+Faces tangle(Random& random, std::size_t most_faces = 7);
+
+/// Two to eight triangles and parallelograms on a small lattice, most of them placed by an earlier one: in its plane
+/// (either sense), parallel to it, on one of its edges, on a corner, with a corner on its edge or inside, or through
+/// it. Every face is planar and convex.
+Faces touching_faces(Random& random);
+
+}  // namespace sightline::generate

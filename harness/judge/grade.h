@@ -1,0 +1,49 @@
+#pragma once
+// What is said of an answer, and what a program may promise.
+
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+namespace sightline::judge {
+
+/// What is wrong with an answer. Lists are sorted. Faces that nothing is known about, or that are no faces (of zero
+/// area, doubles of others), are in none of them.
+struct Grade {
+  std::vector<Face_id> wrong_visible;  ///< shown although hidden; in an order: painted over a face that is nearer
+                                       ///< there, or outside of itself
+  std::vector<Face_id> wrong_hidden;   ///< hidden although visible; in an order: painted over by a face that is farther
+                                       ///< there, or missing, or in part
+  std::vector<Face_id> abstained;      ///< no answer
+  std::vector<std::array<Face_id, 2>>
+      wrong_pairs;         ///< of an order: drawn earlier but nearer somewhere, and what is drawn over it
+  std::size_t judged = 0;  ///< faces about which something is known
+
+  bool wrong() const { return !wrong_visible.empty() || !wrong_hidden.empty(); }
+};
+
+/// What a program promises: no wrong faces; never to hide a visible one; never to show a hidden one. Abstaining breaks
+/// none of them.
+enum class Contract { exact, conservative, aggressive };
+inline constexpr std::array<std::string_view, 3> contract_names{"exact", "conservative", "aggressive"};
+
+bool keeps(Contract contract, const Grade& grade);
+
+/// What became of a case, the worst first. An answer is `wrong` where any face is, `abstained` where none is but some
+/// are left open.
+enum class Mark { crashed, invalid, wrong, out_of_memory, timed_out, abstained, right };
+inline constexpr std::array<std::string_view, 7> mark_names{"crashed",   "invalid",   "wrong", "out of memory",
+                                                            "timed out", "abstained", "right"};
+
+inline Mark mark_of(const Grade& grade) {
+  return grade.wrong() ? Mark::wrong : grade.abstained.empty() ? Mark::right : Mark::abstained;
+}
+
+/// Whether a case breaks the contract: by a wrong face that it forbids, by an answer outside of the protocol, or by a
+/// crash. To run out of time or memory breaks nothing: the judge sets the limits.
+bool breaks(Contract contract, Mark mark, const Grade& grade);
+
+}  // namespace sightline::judge

@@ -1,0 +1,108 @@
+#pragma once
+// How a program that is judged is asked, and how it answers: the query is JSON, the answer JSON or plain lines. The
+// format is described on the page of this folder.
+
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sightline::judge {
+
+using Json = nlohmann::ordered_json;
+
+enum class Question { order, see, weak };
+inline constexpr std::array<std::string_view, 3> question_names{"order", "see", "weak"};
+
+/// What a program is asked about a scene.
+struct Query {
+  Question question = Question::see;
+  Exact_point eye;                  ///< of order and see
+  std::vector<Exact_point> source;  ///< of weak: a convex polygon, counterclockwise as seen from the side it looks to
+  bool two_sided = false;           ///< faces seen from behind count too
+};
+
+/// A face in an order: the whole of it, or the convex hull of some points on it.
+struct Drawn_face {
+  Face_id face = 0;
+  std::vector<Exact_point> part;  ///< none: the whole face
+};
+
+/// What a program answered. A face that is neither visible nor abstained from is hidden.
+struct Answer {
+  std::vector<Face_id> visible;    ///< of see and weak; sorted
+  std::vector<Drawn_face> order;   ///< of order: farthest first
+  std::vector<Face_id> abstained;  ///< sorted
+};
+
+namespace protocol_detail {
+
+[[noreturn]] inline void fail(const std::string& what) { throw std::invalid_argument(what); }
+
+Json number_json(const Rational& value);
+
+inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number_json(p[1]), number_json(p[2])}; }
+
+}  // namespace protocol_detail
+
+/// A number of JSON, as the double that it reads as, or a string "p/q". Errors of this and the next two:
+/// std::invalid_argument that says what is wrong, in one line that begins with `at`. Exact: yes.
+Rational number_from_json(const nlohmann::json& value, const std::string& at);
+
+/// A point [x, y, z].
+Exact_point point_from_json(const nlohmann::json& value, const std::string& at);
+
+/// A list of points.
+std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std::string& at);
+
+namespace protocol_detail {
+
+/// Collects an answer and says what is wrong with it.
+class Answer_reader {
+ public:
+  Answer_reader(Question question, std::size_t faces) : question_(question), faces_(faces) {}
+
+  Answer from_json(const std::string& text);
+
+  /// A face a line, or "abstained FACE", or "abstained all".
+  Answer from_lines(std::string_view text);
+
+ private:
+  Face_id face(std::uint64_t number, const std::string& at) const;
+  Face_id face(const nlohmann::json& value, const std::string& at) const;
+  void take(const nlohmann::json& value, const std::string& at);
+  void take_whole(Face_id id);
+  Answer finished();
+
+  Question question_;
+  std::size_t faces_;
+  Answer answer_;
+  bool abstains_from_all_ = false;
+  std::set<Face_id> whole_, in_parts_;
+};
+
+}  // namespace protocol_detail
+
+/// The query as a program gets it: {"query": "see", "eye": [0.5, 2, 1], "two_sided": false}, or "source" with a list of
+/// points for weak. Coordinates are JSON numbers where they are doubles, in which case they read as those doubles, else
+/// strings "p/q". Exact: yes.
+Json to_json(const Query& query);
+
+/// A query as to_json() writes it. Errors: std::invalid_argument that says what is wrong. Exact: yes.
+Query query_from_json(const nlohmann::json& value);
+
+/// What a program wrote, about a scene of so many faces. Text that begins with { is JSON, all other text has a face a
+/// line; an empty one sees nothing. Errors: std::invalid_argument that says in one line what is wrong: unknown faces, a
+/// face twice in an order, one both answered and abstained from. Exact: yes.
+Answer read_answer(const std::string& text, Question question, std::size_t faces);
+
+}  // namespace sightline::judge

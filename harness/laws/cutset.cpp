@@ -1,0 +1,87 @@
+#include <sightline/harness/laws/cutset.h>
+
+#include <sightline/harness/laws/laws.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+
+#include <CGAL/Cartesian.h>
+
+namespace sightline {
+namespace harness {
+namespace cutset_subject {
+
+std::vector<Viewpoint> path_to_the_eye(const Posed_scene& posed, Random& random) {
+  using namespace generate;
+  std::vector<Viewpoint> path;
+  const std::size_t points = posed.soup.point_count();
+  Exact_point here = posed.eye;
+  for (std::size_t count = points == 0 ? 0 : 6; count > 0; --count) {
+    const Exact_point p = posed.soup.point(static_cast<Point_id>(random.below(points))),
+                      q = posed.soup.point(static_cast<Point_id>(random.below(points)));
+    switch (random.below(4)) {
+      case 0: here = p; break;
+      case 1: here = along(p, integer(random, -2, 3), minus(q, p)); break;
+      case 2: here = along(here, ratio(1, static_cast<long>(random.between(1, 1000))), minus(p, here)); break;
+      default: here = along(centroid({p, q}), integer(random, -3, 3), minus(here, q));
+    }
+    path.push_back({here});
+    const Exact_point direction = minus(p, q);
+    if (random.chance(1, 8) && !is_zero(direction)) path.push_back({direction, true});
+  }
+  path.push_back({posed.eye});
+  return path;
+}
+
+bool is_on_view(const generate::Points& corners, const Viewpoint& view) {
+  using namespace generate;
+  Exact_point normal{0, 0, 0};
+  for (std::size_t k = 0; k < corners.size(); ++k)
+    normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
+  const Exact_point d = view.at_infinity ? view.at : minus(view.at, corners[0]);
+  return sgn(Rational(normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2])) > 0;
+}
+
+Answer answer(const Posed_scene& posed) {
+  const Scene scene(posed.soup);
+  const Exact_traits traits(scene);
+  const Face_graph graph(scene);
+  Cut_set_tracker<Exact_traits> tracker(traits, graph);
+  tracker.move_to({posed.eye});
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  answer.planar = scene.non_planar().empty();
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+    std::uint32_t& label = answer.labels[scene.pieces()[i].face];
+    label = (label == Answer::none ? 0u : label) | (tracker.on_view(graph.node(i)) ? 1u : 0u);
+  }
+  return answer;
+}
+
+}  // namespace cutset_subject
+}  // namespace harness
+}  // namespace sightline
+namespace sightline {
+namespace harness {
+
+Subject cutset() {
+  using namespace cutset_subject;
+  Subject subject;
+  subject.name = "cutset";
+  subject.what = "on-view faces and the cut-set along paths, against the definition";
+  subject.answer = cutset_subject::answer;
+  subject.checks = {
+      {"path", "each frame of a path is as the definition says",
+       [](const Posed_scene& posed, const Answer&, Random& random) {
+         return along_a_path(posed, random, [](const Scene& scene) { return Exact_traits(scene); });
+       }},
+      {"gmpq", "the same by Cartesian<Gmpq>", [](const Posed_scene& posed, const Answer&, Random& random) {
+         return along_a_path(posed, random,
+                             [](const Scene& scene) { return Point_traits<CGAL::Cartesian<CGAL::Gmpq>>(scene); });
+       }}};
+  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
+  return subject;
+}
+
+}  // namespace harness
+}  // namespace sightline

@@ -1,0 +1,83 @@
+#include <sightline/harness/laws/graph.h>
+
+#include <sightline/algorithms/priority/certificate.h>
+#include <sightline/algorithms/priority/explicit_graph.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/priority/relation.h>
+#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/graph.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/laws.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/convex_parts.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <cstdint>
+#include <string>
+
+namespace sightline {
+namespace harness {
+namespace graph_subject {
+
+Answer answer_of(const Polygon_soup& soup, const Scene& scene, const Priority_components& found) {
+  Answer answer;
+  answer.labels.assign(soup.face_count(), Answer::none);
+  answer.is_partition = true;
+  answer.planar = scene.non_planar().empty();
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+    answer.whole = answer.whole && scene.pieces()[i].number == 0;
+    answer.labels[scene.pieces()[i].face] = found.h(i);
+  }
+  return answer;
+}
+
+Answer by_implicit(const Posed_scene& posed, bool verify) {
+  const Scene scene(posed.soup);
+  const Exact_traits traits(scene);
+  const Priority_relation<Exact_traits> faces(traits);
+  Implicit_priority_graph<Priority_relation<Exact_traits>> graph(faces);
+  Component_trees trees;
+  const Priority_components found = graph.find_components(&trees);
+  Answer answer = answer_of(posed.soup, scene, found);
+  if (!verify) return answer;
+  const Verdict verdict = verify_graph(posed.soup, graph_certificate(scene, faces, found, trees));
+  if (!verdict.accepted) answer.flaw = "the certificate is rejected: " + verdict.why;
+  return answer;
+}
+
+Outcome by_explicit(const Posed_scene& posed, const Answer& answer) {
+  const Scene scene(posed.soup);
+  const Exact_traits traits(scene);
+  const Priority_relation<Exact_traits> faces(traits);
+  const Explicit_priority_graph graph(faces);
+  const Priority_components found = components(graph);
+  for (std::uint32_t i = 0; i < faces.size(); ++i)
+    for (std::uint32_t j = 0; j < faces.size(); ++j)
+      if (graph.has_arc(i, j) && found.h(i) > found.h(j))
+        return Outcome::failed("explicit: an arc from piece " + std::to_string(i) + " to piece " + std::to_string(j) +
+                               ", of higher priority");
+  return compared(answer, answer_of(posed.soup, scene, found), "implicit", "explicit");
+}
+
+}  // namespace graph_subject
+}  // namespace harness
+}  // namespace sightline
+namespace sightline {
+namespace harness {
+
+Subject graph() {
+  using namespace graph_subject;
+  Subject subject;
+  subject.name = "graph";
+  subject.what = "components of the priority graph: implicit and explicit, answers checked by verify";
+  subject.answer = [](const Posed_scene& posed) { return by_implicit(posed, false); };
+  subject.verified = [](const Posed_scene& posed) { return by_implicit(posed, true); };
+  subject.checks = {
+      {"explicit", "the same components from all arcs",
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }}};
+  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn"});
+  return subject;
+}
+
+}  // namespace harness
+}  // namespace sightline

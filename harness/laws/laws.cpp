@@ -1,0 +1,192 @@
+#include <sightline/harness/laws/laws.h>
+
+#include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/weak_draft.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/convex_parts.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace sightline {
+namespace harness {
+
+std::vector<std::optional<Face_id>> same_faces(const Polygon_soup& soup) {
+  std::vector<std::optional<Face_id>> faces(soup.face_count());
+  for (std::size_t f = 0; f < faces.size(); ++f) faces[f] = static_cast<Face_id>(f);
+  return faces;
+}
+
+generate::Points convex_corners(const Polygon_soup& soup, Face_id face) {
+  using namespace generate;
+  if (soup.loop_count(face) != 1) return {};
+  Points corners;
+  for (const Point_id p : soup.loop(face)) corners.push_back(soup.point(p));
+  const std::size_t n = corners.size();
+  if (n < 3) return {};
+  const auto dot = [](const Exact_point& a, const Exact_point& b) {
+    return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+  };
+  const Exact_point normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
+  for (std::size_t k = 0; k < n; ++k)
+    for (std::size_t j = 0; j < n; ++j) {
+      const Exact_point &a = corners[k], &b = corners[(k + 1) % n], &c = corners[j];
+      if (sgn(dot(normal, minus(c, a))) != 0) return {};
+      if (j != k && j != (k + 1) % n && sgn(dot(normal, cross(minus(b, a), minus(c, a)))) <= 0) return {};
+    }
+  return corners;
+}
+
+std::optional<Image> permuted(const Posed_scene& scene, Random& random) {
+  const std::vector<Face_id> order = generate::random_order(scene.soup.face_count(), random.below(1u << 30));
+  Image image{scene, {}};
+  image.scene.soup = generate::with_faces(scene.soup, order);
+  image.face_of.assign(order.begin(), order.end());
+  return image;
+}
+
+std::optional<Image> translated(const Posed_scene& scene, Random& random) {
+  const std::int64_t reach = random.chance(1, 2) ? 10 : 100000000;
+  const Exact_point offset = generate::lattice(random, reach);
+  return moved_by(scene, [&](const Exact_point& p) { return generate::along(p, 1, offset); });
+}
+
+std::optional<Image> scaled(const Posed_scene& scene, Random& random) {
+  const std::int64_t power = random.between(-60, 60);
+  const Rational factor = generate::power_of_two(static_cast<int>(power));
+  return moved_by(scene, [&](const Exact_point& p) { return generate::along({0, 0, 0}, factor, p); });
+}
+
+std::optional<Image> rotated(const Posed_scene& scene, Random& random) {
+  const auto part = [&] { return static_cast<long>(random.between(-3, 3)); };
+  const long a = static_cast<long>(random.between(1, 4)), b = part(), c = part(), d = part();
+  const generate::Rational_matrix matrix = generate::rotation(a, b, c, d);
+  return moved_by(scene, [&](const Exact_point& p) {
+    Exact_point q{0, 0, 0};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) q[i] += matrix[i][j] * p[j];
+    return q;
+  });
+}
+
+std::optional<Image> mirrored(const Posed_scene& scene, Random& random) {
+  const std::size_t axis = random.below(3);
+  const bool swaps = random.chance(1, 2);  // two axes, instead of turning one round
+  const auto map = [&](Exact_point p) {
+    if (swaps) std::swap(p[axis], p[(axis + 1) % 3]);
+    else p[axis] = -p[axis];
+    return p;
+  };
+  return moved_by(scene, map, true);
+}
+
+std::optional<Image> turned(const Posed_scene& scene, Random&) {
+  Image image{scene, same_faces(scene.soup), true};
+  image.scene.soup = generate::faces_reversed(scene.soup);
+  return image;
+}
+
+std::optional<Image> cut(const Posed_scene& scene, Random& random) {
+  using namespace generate;
+  const Polygon_soup& soup = scene.soup;
+  if (soup.face_count() == 0) return std::nullopt;
+  const Face_id chosen = static_cast<Face_id>(random.below(soup.face_count()));
+  const Points corners = convex_corners(soup, chosen);
+  if (corners.empty()) return std::nullopt;
+  const std::size_t n = corners.size(), first = random.below(n), other = first + 1 + random.below(n - 1);  // edges
+  const bool at_corner = n > 3 && other > first + 1 && other < first + n - 1 && random.chance(1, 2);
+  const auto on_edge = [&](std::size_t k) {
+    const Rational share = at_corner ? Rational(0) : ratio(static_cast<long>(random.between(1, 3)), 4);
+    return along(corners[k % n], share, minus(corners[(k + 1) % n], corners[k % n]));
+  };
+  const Exact_point p = on_edge(first), q = on_edge(other);
+  Points left{p}, right{q};
+  for (std::size_t k = first + 1; k <= other; ++k) left.push_back(corners[k % n]);
+  for (std::size_t k = other + 1; k <= first + n; ++k) right.push_back(corners[k % n]);
+  if (!at_corner) {
+    left.push_back(q);
+    right.push_back(p);
+  }
+  Image image{scene, same_faces(soup)};
+  std::vector<Face_id> order;
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    if (f != chosen) order.push_back(f);
+  image.scene.soup = with_faces(soup, order);
+  image.face_of.assign(order.begin(), order.end());
+  for (const Points& half : {left, right}) {
+    std::vector<Point_id> ids;
+    for (const Exact_point& c : half) ids.push_back(image.scene.soup.add_point(c[0], c[1], c[2]));
+    image.scene.soup.add_face(ids);
+    image.face_of.push_back(chosen);
+  }
+  return image;
+}
+
+std::optional<Image> with_a_bystander(const Posed_scene& scene, Random& random) {
+  using namespace generate;
+  const std::size_t axis = random.below(3);
+  Rational most = scene.eye[axis];
+  for (const Exact_point& p : scene.source) most = std::max(most, p[axis]);
+  for (Point_id p = 0; p < scene.soup.point_count(); ++p) most = std::max(most, scene.soup.point(p)[axis]);
+  Image image{scene, same_faces(scene.soup)};
+  Points face = any_face(random);
+  std::vector<Point_id> ids;
+  for (Exact_point& p : face) {
+    p[axis] += most + 5;  // its coordinates are at least -4
+    ids.push_back(image.scene.soup.add_point(p[0], p[1], p[2]));
+  }
+  image.scene.soup.add_face(ids);
+  image.face_of.push_back(std::nullopt);
+  return image;
+}
+
+const std::vector<Law>& laws() {
+  static const std::vector<Law> all{{"permute", "faces in another order", Law_kind::renamed, permuted},
+                                    {"translate", "moved by integers up to 10^8", Law_kind::moved, translated},
+                                    {"scale", "scaled by a power of two from 2^-60 to 2^60", Law_kind::moved, scaled},
+                                    {"rotate", "turned by a rational rotation", Law_kind::moved, rotated},
+                                    {"mirror", "mirrored, faces turned back", Law_kind::moved, mirrored},
+                                    {"turn", "all faces turned round: fronts are backs", Law_kind::moved, turned},
+                                    {"cut", "a convex face cut in two", Law_kind::changed, cut},
+                                    {"bystander", "a face more, out of sight", Law_kind::changed, with_a_bystander}};
+  return all;
+}
+
+Answer pulled_back(const Image& image, const Answer& of_image, std::size_t faces) {
+  Answer answer = of_image;
+  answer.labels.assign(faces, 0);
+  for (std::size_t k = 0; k < image.face_of.size(); ++k) {
+    if (!image.face_of[k]) continue;
+    std::uint32_t& label = answer.labels[*image.face_of[k]];
+    std::uint32_t own = of_image.labels[k];
+    if (own != Answer::none && image.sides_swapped && !answer.is_partition)
+      own = (own & ~3u) | (own & 1) << 1 | (own & 2) >> 1;
+    label = label == Answer::none || own == Answer::none ? Answer::none : answer.is_partition ? own : label | own;
+  }
+  return answer;
+}
+
+Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& answer,
+               const std::function<Answer(const Posed_scene&)>& verified) {
+  return {law.name, law.what, [law, answer, verified](const Posed_scene& scene, const Answer& own, Random& random) {
+            const bool verify = verified && random.chance(1, 4);
+            if (law.kind != Law_kind::renamed && !own.planar) return Outcome::not_applicable();
+            if (own.is_partition && !own.whole) return Outcome::not_applicable();
+            const std::optional<Image> image = law.apply(scene, random);
+            if (!image) return Outcome::not_applicable();
+            const Answer other = verify ? verified(image->scene) : answer(image->scene);
+            if (!other.flaw.empty()) return Outcome::failed("after '" + law.name + "': " + other.flaw);
+            return compared(own, pulled_back(*image, other, scene.soup.face_count()), "the scene",
+                            "after '" + law.name + "'");
+          }};
+}
+
+void add_laws(Subject& subject, const std::vector<std::string>& names) {
+  for (const Law& law : laws())
+    if (std::find(names.begin(), names.end(), law.name) != names.end())
+      subject.checks.push_back(check_of(law, subject.answer, subject.verified));
+}
+
+}  // namespace harness
+}  // namespace sightline

@@ -1,0 +1,17 @@
+#pragma once
+// All commands that can be fuzzed without a file.
+
+#include <sightline/harness/laws/cutset.h>
+#include <sightline/harness/laws/graph.h>
+#include <sightline/harness/laws/order.h>
+#include <sightline/harness/laws/see.h>
+#include <sightline/harness/laws/subject.h>
+#include <sightline/harness/laws/weak.h>
+
+#include <vector>
+
+namespace sightline::harness {
+
+inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak()}; }
+
+}  // namespace sightline::harness

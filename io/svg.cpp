@@ -1,0 +1,77 @@
+#include <sightline/io/svg.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <utility>
+
+namespace sightline {
+
+void Svg::polygon(std::vector<Flat_point> points, std::string_view fill, std::string_view stroke, double stroke_width) {
+  for (const Flat_point& p : points)
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1])) return;
+  points = clipped(std::move(points));
+  if (points.size() < 3) return;
+  body_ += "<polygon points=\"";
+  for (const Flat_point& p : points) body_ += number(p[0]) + ',' + number(p[1]) + ' ';
+  body_.back() = '"';
+  body_ += " fill=\"" + std::string(fill) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
+           number(stroke_width) + "\"/>\n";
+}
+
+void Svg::rectangle(double x, double y, double width, double height, std::string_view fill) {
+  body_ += "<rect x=\"" + number(x) + "\" y=\"" + number(y) + "\" width=\"" + number(width) + "\" height=\"" +
+           number(height) + "\" fill=\"" + std::string(fill) + "\" shape-rendering=\"crispEdges\"/>\n";
+}
+
+void Svg::line(const Flat_point& from, const Flat_point& to, std::string_view stroke, double stroke_width,
+               bool dashed) {
+  for (const Flat_point& p : {from, to})
+    if (!(std::fabs(p[0]) < 1e6 && std::fabs(p[1]) < 1e6)) return;
+  body_ += "<line x1=\"" + number(from[0]) + "\" y1=\"" + number(from[1]) + "\" x2=\"" + number(to[0]) + "\" y2=\"" +
+           number(to[1]) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" + number(stroke_width) +
+           (dashed ? "\" stroke-dasharray=\"3 3" : "") + "\" stroke-linecap=\"round\"/>\n";
+}
+
+void Svg::label(double x, double y, double size, std::string_view words, std::string_view anchor) {
+  body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-family=\"sans-serif\" font-size=\"" +
+           number(size) + "\"";
+  if (anchor != "start") body_ += " text-anchor=\"" + std::string(anchor) + '"';
+  body_ += '>' + std::string(words) + "</text>\n";
+}
+
+std::string Svg::text() const {
+  const std::string w = std::to_string(width_), h = std::to_string(height_);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + w + "\" height=\"" + h + "\" viewBox=\"0 0 " + w + ' ' +
+         h + "\" stroke-linejoin=\"round\">\n" + body_ + "</svg>\n";
+}
+
+std::string Svg::number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f", x);
+  std::string s = text;
+  s.erase(s.find_last_not_of('0') + 1);
+  if (s.back() == '.') s.pop_back();
+  return s == "-0" ? "0" : s;
+}
+
+std::vector<Flat_point> Svg::clipped(std::vector<Flat_point> points) const {
+  constexpr double margin = 10;
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}})
+    for (const double sense : {1.0, -1.0}) {
+      const double limit = sense > 0 ? -margin : -((axis == 0 ? width_ : height_) + margin);
+      const auto inside = [&](const Flat_point& p) { return sense * p[axis] - limit; };
+      std::vector<Flat_point> kept;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Flat_point &p = points[i], &q = points[(i + 1) % points.size()];
+        const double a = inside(p), b = inside(q);
+        if (a >= 0) kept.push_back(p);
+        if ((a < 0) != (b < 0))
+          kept.push_back({p[0] + (q[0] - p[0]) * (a / (a - b)), p[1] + (q[1] - p[1]) * (a / (a - b))});
+      }
+      points = std::move(kept);
+    }
+  return points;
+}
+
+}  // namespace sightline

@@ -1,0 +1,52 @@
+#include <sightline/io/write.h>
+
+#include <sightline/io/obj.h>
+#include <sightline/io/off.h>
+#include <sightline/io/ply.h>
+#include <sightline/io/stl.h>
+
+#include <fstream>
+#include <ios>
+#include <optional>
+#include <stdexcept>
+#include <system_error>
+
+namespace sightline {
+
+void write_scene(const Polygon_soup& soup, std::ostream& out, Format format) {
+  switch (format) {
+    case Format::obj: return write_obj(soup, out);
+    case Format::off: return write_off(soup, out);
+    case Format::qoff: return write_qoff(soup, out);
+    case Format::ply: return write_ply(soup, out, false);
+    case Format::ply_binary: return write_ply(soup, out, true);
+    case Format::stl: return write_stl(soup, out);
+  }
+}
+
+void write_scene(const Polygon_soup& soup, const std::filesystem::path& path, Format format) {
+  std::filesystem::path partial = path;
+  partial += ".partial";
+  try {
+    std::ofstream out(partial, std::ios::binary);
+    if (out) write_scene(soup, out, format);
+    out.close();
+    if (!out)
+      throw std::runtime_error(path.string() +
+                               ": cannot be written; check the folder, its permissions and its free space");
+    std::filesystem::rename(partial, path);
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    throw;
+  }
+}
+
+void write_scene(const Polygon_soup& soup, const std::filesystem::path& path) {
+  const std::optional<Format> format = format_of_ending(path);
+  if (!format)
+    throw std::runtime_error(path.string() + ": no format has this ending; give one of " + supported_formats);
+  write_scene(soup, path, *format);
+}
+
+}  // namespace sightline

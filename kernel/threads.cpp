@@ -1,0 +1,56 @@
+#include <sightline/kernel/threads.h>
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
+#include <optional>
+#include <utility>
+
+namespace sightline {
+
+namespace tbb = oneapi::tbb;
+
+void run_with_threads(int threads, const std::function<void()>& work) {
+  std::optional<tbb::global_control> more;
+  if (threads > tbb::info::default_concurrency())
+    more.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+  arena.execute([&] { work(); });
+}
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); });
+}
+
+void parallel_invoke(const std::function<void()>& one, const std::function<void()>& other) {
+  tbb::parallel_invoke([&] { one(); }, [&] { other(); });
+}
+
+struct Task_group::Tasks {
+  tbb::task_group group;
+};
+Task_group::Task_group() : tasks_(std::make_unique<Tasks>()) {}
+Task_group::~Task_group() = default;
+void Task_group::run(std::function<void()> task) { tasks_->group.run(std::move(task)); }
+void Task_group::run_and_wait(const std::function<void()>& task) {
+  tasks_->group.run_and_wait([&] { task(); });
+}
+
+struct Thread_slots::Slots {
+  tbb::enumerable_thread_specific<std::shared_ptr<void>> all;
+};
+Thread_slots::Thread_slots() : slots_(std::make_unique<Slots>()) {}
+Thread_slots::~Thread_slots() = default;
+Thread_slots::Thread_slots(Thread_slots&&) noexcept = default;
+Thread_slots& Thread_slots::operator=(Thread_slots&&) noexcept = default;
+std::shared_ptr<void>& Thread_slots::local() { return slots_->all.local(); }
+void Thread_slots::for_each(const std::function<void(std::shared_ptr<void>&)>& f) {
+  for (std::shared_ptr<void>& slot : slots_->all) f(slot);
+}
+
+}  // namespace sightline

@@ -1,0 +1,140 @@
+// Which scenes fuzzing runs and with which checks, and what each step of making a scene small is for.
+
+#include <sightline/harness/laws/fuzz.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace sightline;
+using generate::Posed_scene;
+using harness::Answer;
+using harness::Outcome;
+
+Answer all_alike(const Posed_scene& posed) {
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), 0);
+  return answer;
+}
+Posed_scene scene_of(const generate::Faces& faces) {
+  Posed_scene scene;
+  scene.soup = generate::soup_of(faces);
+  return scene;
+}
+/// All values of an axis in a scene's faces.
+std::multiset<Rational> values_of(const Posed_scene& scene, std::size_t axis) {
+  std::multiset<Rational> values;
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f)
+    for (const Point_id p : scene.soup.loop(f)) values.insert(scene.soup.point(p)[axis]);
+  return values;
+}
+
+/// Whether there is one face, its corners apart.
+bool is_one_face(const Posed_scene& scene, std::size_t corners) {
+  if (scene.soup.face_count() != 1 || scene.soup.loop(0).size() != corners) return false;
+  std::set<Exact_point> places;
+  for (const Point_id p : scene.soup.loop(0)) places.insert(scene.soup.point(p));
+  return places.size() == corners;
+}
+
+// ---- Fuzzing
+
+TEST(Fuzz_options, keep_scenes_out_that_are_too_large_or_have_no_source) {
+  harness::Subject subject;
+  subject.wants_source = true;
+  subject.answer = [](const Posed_scene& posed) {
+    if (posed.soup.face_count() > 4) throw std::logic_error("too many faces");
+    if (posed.source.empty()) throw std::logic_error("no source");
+    return all_alike(posed);
+  };
+  harness::Fuzz_options options;
+  options.scenes = 100, options.most_faces = 4;
+  harness::Fuzz_summary summary;
+  const auto found = harness::fuzz(subject, options, summary);
+  EXPECT_FALSE(found) << found->disagreement.what;
+  EXPECT_EQ(summary.scenes, 100u);
+}
+
+TEST(First_disagreement, runs_the_named_check_alone_and_each_with_numbers_of_its_own) {
+  std::vector<std::uint64_t> drawn;
+  harness::Subject subject;
+  subject.answer = all_alike;
+  for (const char* name : {"first", "second"})
+    subject.checks.push_back({name, "", [&drawn, name](const Posed_scene&, const Answer&, generate::Random& random) {
+                                drawn.push_back(random.below(std::uint64_t{1} << 60));
+                                return name == std::string("first") ? Outcome::failed("always") : Outcome{};
+                              }});
+  const Posed_scene scene = scene_of({generate::rectangle(0, 1, 0, 1, 0)});
+  ASSERT_TRUE(harness::first_disagreement(subject, scene, 1));
+  EXPECT_FALSE(harness::first_disagreement(subject, scene, 1, "second"));
+  ASSERT_TRUE(harness::first_disagreement(subject, scene, 2, "first"));
+  ASSERT_TRUE(harness::first_disagreement(subject, scene, 1, "first"));
+  ASSERT_EQ(drawn.size(), 4u);
+  EXPECT_NE(drawn[0], drawn[1]) << "by check";
+  EXPECT_NE(drawn[0], drawn[2]) << "by seed";
+  EXPECT_EQ(drawn[0], drawn[3]);
+}
+
+// ---- Making scenes small
+
+TEST(Reduce, stays_with_the_check_that_failed) {
+  harness::Subject subject;
+  subject.answer = [](const Posed_scene& posed) {
+    Answer answer = all_alike(posed);
+    if (posed.soup.face_count() < 3) answer.flaw = "another failure";
+    return answer;
+  };
+  subject.checks = {
+      {"always", "", [](const Posed_scene&, const Answer&, generate::Random&) { return Outcome::failed("always"); }}};
+  const Posed_scene tower = generate::family("stacked").make({1, 8});
+  EXPECT_EQ(harness::reduce(subject, tower, 1, {"always", "always"}).scene.soup.face_count(), 3u);
+}
+
+TEST(Reduce, rounds_one_point_where_another_must_keep_the_value) {
+  const Posed_scene scene = scene_of({{generate::at(7, 0, 0), generate::at(7, 3, 0), generate::at(5, 5, 0)}});
+  const harness::Reduced reduced = harness::reduce(
+      scene, [](const Posed_scene& posed) { return is_one_face(posed, 3) && values_of(posed, 0).count(7) > 0; });
+  EXPECT_EQ(values_of(reduced.scene, 0), (std::multiset<Rational>{0, 0, 7}));
+}
+
+TEST(Reduce, rounds_a_value_everywhere_at_once) {
+  // All corners in one horizontal plane; the eye stays, so that nothing can be moved as a whole.
+  Posed_scene scene = scene_of({generate::rectangle(0, 1, 0, 1, generate::ratio(5, 3))});
+  scene.eye = generate::at(0, 0, 100);
+  const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene& posed) {
+    const std::multiset<Rational> heights = values_of(posed, 2);
+    return posed.eye[2] == 100 && is_one_face(posed, 4) && heights.count(*heights.begin()) == 4;
+  });
+  EXPECT_EQ(values_of(reduced.scene, 2), (std::multiset<Rational>{0, 0, 0, 0}));
+}
+
+TEST(Reduce, moves_what_keeps_its_shape) {
+  const Posed_scene scene = scene_of({{generate::at(1001, 5, 9), generate::at(1004, 5, 9), generate::at(1001, 12, 9)}});
+  const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene& posed) {
+    if (!is_one_face(posed, 3)) return false;
+    const auto corner = [&](std::size_t k) { return posed.soup.point(posed.soup.loop(0)[k]); };
+    return generate::minus(corner(1), corner(0)) == generate::at(3, 0, 0) &&
+           generate::minus(corner(2), corner(0)) == generate::at(0, 7, 0);
+  });
+  EXPECT_EQ(reduced.scene.soup.point(reduced.scene.soup.loop(0)[0]), generate::at(0, 0, 0));
+}
+
+TEST(Reduce, begins_again_as_long_as_it_helps) {
+  // A face can go only once all numbers are small, and these are rounded after faces were tried.
+  const Posed_scene scene = scene_of({generate::rectangle(8, 9, 8, 9, 8), generate::rectangle(20, 21, 20, 21, 20)});
+  const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene& posed) {
+    if (posed.soup.face_count() != 1) return posed.soup.face_count() > 1;
+    return *values_of(posed, 0).rbegin() <= 1 && *values_of(posed, 1).rbegin() <= 1;
+  });
+  EXPECT_EQ(reduced.scene.soup.face_count(), 1u);
+}
+
+TEST(Reduce, leaves_a_source_its_three_corners) {
+  const Posed_scene scene = generate::family("slats").make({1});
+  ASSERT_EQ(scene.source.size(), 4u);
+  const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene&) { return true; });
+  EXPECT_EQ(reduced.scene.source.size(), 3u);
+  EXPECT_EQ(reduced.scene.soup.face_count(), 0u);
+}
+
+}  // namespace
