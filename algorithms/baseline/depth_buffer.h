@@ -56,56 +56,6 @@ struct Depth_buffer {
   std::uint32_t piece(std::size_t side, std::uint32_t x, std::uint32_t y) const { return pieces[pixel(side, x, y)]; }
 };
 
-namespace depth_buffer_detail {
-
-/// A corner in the coordinates of an image: right, up, forward.
-struct Corner {
-  float x, y, w;
-};
-/// A corner in the image: in 256ths of a pixel, and its depth in [0, 1].
-struct Pixel_corner {
-  std::int64_t x, y;
-  float z;
-};
-
-/// The part of a convex polygon where a linear form is not negative.
-template <class Form>
-std::vector<Corner> clipped(const std::vector<Corner>& polygon, Form form) {
-  std::vector<Corner> part;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
-    const Corner &p = polygon[k], &q = polygon[k + 1 == polygon.size() ? 0 : k + 1];
-    const float a = form(p), b = form(q);
-    if (a >= 0) part.push_back(p);
-    if ((a >= 0) == (b >= 0)) continue;
-    const float t = a / (a - b);
-    part.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.w + t * (q.w - p.w)});
-  }
-  return part;
-}
-
-class Rasterizer {
- public:
-  Rasterizer(Depth_buffer& to, std::size_t side)
-      : to_(to), side_(side), scale_(to.far / (to.far - to.near)), shift_(-to.near * scale_) {}
-
-  void draw(std::uint32_t piece, std::vector<Corner> polygon);
-
- private:
-  static constexpr float guard = 16;
-
-  void draw(std::uint32_t piece, const Pixel_corner& a, Pixel_corner b, Pixel_corner c);
-  /// Positive to the left of the edge from p to q.
-  static std::int64_t edge(const Pixel_corner& p, const Pixel_corner& q, std::int64_t x, std::int64_t y);
-  static std::int64_t inclusive(const Pixel_corner& p, const Pixel_corner& q);
-  std::uint32_t stored(float z) const;
-
-  Depth_buffer& to_;
-  std::size_t side_;
-  float scale_, shift_;  // depth of w: scale + shift / w
-};
-
-}  // namespace depth_buffer_detail
-
 /// What a depth buffer sees of a scene: six images of 90 degrees each, all pieces drawn in the scene's order, both
 /// sides of them. As graphics hardware does it: positions, eye, perspective and depths in floats; corners snapped to
 /// 256ths of a pixel; pixel centres tested by edge functions, a centre on an edge drawn with the left and top ones; the

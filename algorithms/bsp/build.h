@@ -6,6 +6,7 @@
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/vertex.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <algorithm>
 #include <array>
@@ -437,5 +438,8 @@ template <Partition_traits Traits>
 Bsp_tree<Traits> build_bsp(const Traits& traits, const Bsp_options& options = {}) {
   return bsp_detail::Builder<Traits>(traits, options).build();
 }
+
+// Compiled once, in build.cpp; for CGAL's kernels see kernels.h.
+extern template Bsp_tree<Exact_traits> build_bsp(const Exact_traits&, const Bsp_options&);
 
 }  // namespace sightline

@@ -1,6 +1,7 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 
 #include <sightline/kernel/vertex.h>
+#include <sightline/algorithms/point_visibility/visible.h>
 
 #include <limits>
 #include <type_traits>
@@ -347,5 +348,8 @@ std::vector<std::array<Integer, 3>> field_of(const std::vector<Exact_point>& ray
   if (n < 3) throw std::invalid_argument("a field of view wants three rays or more");
   return normals;
 }
+
+template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>, const Visible_options&);
+template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, const Visible_options&);
 
 }  // namespace sightline

@@ -9,6 +9,7 @@
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
 
 #include <algorithm>
 #include <array>
@@ -89,5 +90,9 @@ std::vector<Exact_point> vertices(const V& view, const Visible_surface<V>& surfa
   if (view.eye_side(part.piece) == CGAL::POSITIVE) std::reverse(points.begin(), points.end());
   return points;
 }
+
+// Compiled once, beside what it calls most: in exact_view.cpp. For numbers of CGAL's kernels see kernels.h.
+extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>, const Visible_options&);
+extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, const Visible_options&);
 
 }  // namespace sightline

@@ -11,6 +11,7 @@
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -175,5 +176,8 @@ Eye_order<Traits> back_to_front(const Traits& traits, const Priority_tree<Traits
   walk.walk(tree);
   return walk.take();
 }
+
+// Compiled once, in eye_order.cpp.
+extern template Eye_order<Exact_traits> back_to_front(const Exact_traits&, const Priority_tree<Exact_traits>&, const Exact_point&, const std::function<void(std::size_t, std::size_t)>&);
 
 }  // namespace sightline

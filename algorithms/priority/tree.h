@@ -11,6 +11,7 @@
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <algorithm>
 #include <array>
@@ -316,5 +317,9 @@ Priority_tree<Traits> build_priority_tree(const Traits& traits, std::span<const 
   for (std::size_t i = 0; i < polygons.size(); ++i) builder.add(polygons[i], turned[i] != 0);
   return builder.build();
 }
+
+// Compiled once, in tree.cpp.
+extern template Priority_tree<Exact_traits> build_priority_tree(const Exact_traits&, const Priority_tree_options&);
+extern template Priority_tree<Exact_traits> build_priority_tree(const Exact_traits&, std::span<const Convex_polygon<Exact_traits>>, std::span<const char>, const Priority_tree_options&);
 
 }  // namespace sightline

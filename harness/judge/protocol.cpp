@@ -5,9 +5,63 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <sightline/kernel/quoted.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <numeric>
 #include <system_error>
 #include <utility>
+
+namespace sightline::judge {
+
+namespace protocol_detail {
+
+[[noreturn]] inline void fail(const std::string& what) { throw std::invalid_argument(what); }
+
+Json number_json(const Rational& value);
+
+inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number_json(p[1]), number_json(p[2])}; }
+
+}  // namespace protocol_detail
+
+namespace protocol_detail {
+
+/// Collects an answer and says what is wrong with it.
+class Answer_reader {
+ public:
+  Answer_reader(Question question, std::size_t faces) : question_(question), faces_(faces) {}
+
+  Answer from_json(const std::string& text);
+
+  /// A face a line, or "abstained FACE", or "abstained all".
+  Answer from_lines(std::string_view text);
+
+ private:
+  Face_id face(std::uint64_t number, const std::string& at) const;
+  Face_id face(const nlohmann::json& value, const std::string& at) const;
+  void take(const nlohmann::json& value, const std::string& at);
+  void take_whole(Face_id id);
+  Answer finished();
+
+  Question question_;
+  std::size_t faces_;
+  Answer answer_;
+  bool abstains_from_all_ = false;
+  std::set<Face_id> whole_, in_parts_;
+};
+
+}  // namespace protocol_detail
+
+}  // namespace sightline::judge
 
 namespace sightline {
 namespace judge {

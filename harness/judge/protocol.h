@@ -9,9 +9,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <set>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,16 +41,6 @@ struct Answer {
   std::vector<Face_id> abstained;  ///< sorted
 };
 
-namespace protocol_detail {
-
-[[noreturn]] inline void fail(const std::string& what) { throw std::invalid_argument(what); }
-
-Json number_json(const Rational& value);
-
-inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number_json(p[1]), number_json(p[2])}; }
-
-}  // namespace protocol_detail
-
 /// A number of JSON, as the double that it reads as, or a string "p/q". Errors of this and the next two:
 /// std::invalid_argument that says what is wrong, in one line that begins with `at`. Exact: yes.
 Rational number_from_json(const nlohmann::json& value, const std::string& at);
@@ -63,34 +50,6 @@ Exact_point point_from_json(const nlohmann::json& value, const std::string& at);
 
 /// A list of points.
 std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std::string& at);
-
-namespace protocol_detail {
-
-/// Collects an answer and says what is wrong with it.
-class Answer_reader {
- public:
-  Answer_reader(Question question, std::size_t faces) : question_(question), faces_(faces) {}
-
-  Answer from_json(const std::string& text);
-
-  /// A face a line, or "abstained FACE", or "abstained all".
-  Answer from_lines(std::string_view text);
-
- private:
-  Face_id face(std::uint64_t number, const std::string& at) const;
-  Face_id face(const nlohmann::json& value, const std::string& at) const;
-  void take(const nlohmann::json& value, const std::string& at);
-  void take_whole(Face_id id);
-  Answer finished();
-
-  Question question_;
-  std::size_t faces_;
-  Answer answer_;
-  bool abstains_from_all_ = false;
-  std::set<Face_id> whole_, in_parts_;
-};
-
-}  // namespace protocol_detail
 
 /// The query as a program gets it: {"query": "see", "eye": [0.5, 2, 1], "two_sided": false}, or "source" with a list of
 /// points for weak. Coordinates are JSON numbers where they are doubles, in which case they read as those doubles, else

@@ -12,6 +12,28 @@
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <iterator>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/point_visibility/visible_surface.h>
+#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/weak.h>
+#include <sightline/algorithms/verify/weak_lines.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/plane.h>
 #include <sightline/kernel/scene/convex_parts.h>
 
 #include <algorithm>
@@ -21,6 +43,19 @@
 #include <map>
 #include <stdexcept>
 #include <utility>
+
+namespace sightline::judge {
+
+namespace truth_detail {
+
+void find_seen(const Scene& scene, const Query& query, const Truth_options& options, Truth& truth);
+
+void find_lit(const Polygon_soup& soup, const Scene& scene, const Query& query, const Truth_options& options,
+              Truth& truth);
+
+}  // namespace truth_detail
+
+}  // namespace sightline::judge
 
 namespace sightline {
 namespace judge {

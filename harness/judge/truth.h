@@ -5,7 +5,6 @@
 #include <sightline/harness/judge/order.h>
 #include <sightline/harness/judge/protocol.h>
 #include <sightline/kernel/scene/polygon_soup.h>
-#include <sightline/kernel/scene/scene.h>
 
 #include <memory>
 #include <string>
@@ -38,15 +37,6 @@ Exact_point rounded_to_doubles(const Exact_point& p);
 Polygon_soup rounded_to_doubles(const Polygon_soup& soup);
 /// A source that is not planar any more becomes its first triangle that has area.
 Query rounded_to_doubles(Query query);
-
-namespace truth_detail {
-
-void find_seen(const Scene& scene, const Query& query, const Truth_options& options, Truth& truth);
-
-void find_lit(const Polygon_soup& soup, const Scene& scene, const Query& query, const Truth_options& options,
-              Truth& truth);
-
-}  // namespace truth_detail
 
 /// What is true of a query. Faces that are set aside (zero area, duplicates of earlier ones), and those that a search
 /// leaves undecided, are neither visible nor hidden. Weak visibility is certified, and the certificate checked by

@@ -1,6 +1,24 @@
 #include <sightline/harness/laws/graph.h>
 
 #include <sightline/algorithms/priority/certificate.h>
+#include <sightline/algorithms/priority/components.h>
+#include <sightline/algorithms/priority/explicit_graph.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/priority/relation.h>
+#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/graph.h>
+#include <sightline/harness/generate/families.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/laws.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <cstdint>
+#include <string>
+
+#include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/explicit_graph.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/priority/relation.h>
@@ -14,6 +32,22 @@
 
 #include <cstdint>
 #include <string>
+
+namespace sightline::harness {
+
+namespace graph_subject {
+
+/// Labels: the component of a face's last piece. Faces of one piece are the rule.
+Answer answer_of(const Polygon_soup& soup, const Scene& scene, const Priority_components& found);
+
+Answer by_implicit(const Posed_scene& posed, bool verify);
+
+/// All arcs, written out.
+Outcome by_explicit(const Posed_scene& posed, const Answer& answer);
+
+}  // namespace graph_subject
+
+}  // namespace sightline::harness
 
 namespace sightline {
 namespace harness {

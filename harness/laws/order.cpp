@@ -1,5 +1,34 @@
 #include <sightline/harness/laws/order.h>
 
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/kernels.h>
+#include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/bsp/tree.h>
+#include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/priority/rational_geometry.h>
+#include <sightline/algorithms/priority/scope.h>
+#include <sightline/algorithms/priority/tree.h>
+#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/order.h>
+#include <sightline/harness/generate/families.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/laws.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+
+#include <CGAL/Cartesian.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/priority/rational_geometry.h>
 #include <sightline/algorithms/priority/scope.h>
@@ -9,6 +38,89 @@
 #include <sightline/harness/laws/laws.h>
 
 #include <cstddef>
+
+namespace sightline::harness {
+
+namespace order_subject {
+
+using Tree = Bsp_tree<Exact_traits>;
+
+inline Bsp_options serial() {
+  Bsp_options options;
+  options.threads = 1;
+  return options;
+}
+
+/// Polygons farthest first, as a certificate.
+class Order {
+ public:
+  explicit Order(const Scene& scene, const Exact_point& eye) : scene_(scene) {
+    certificate_.eye = eye;
+    add_pieces(certificate_, scene);
+  }
+  template <class Traits>
+  void draw(const Traits& traits, const Convex_polygon<Traits>& polygon) {
+    const Piece& piece = scene_.pieces()[polygon.piece];
+    Order_fragment& fragment = certificate_.fragments.emplace_back();
+    fragment.face = piece.face;
+    fragment.piece = piece.number;
+    for (const Corner<Traits>& corner : polygon) fragment.vertices.push_back(traits.position(*corner.vertex));
+  }
+  /// What the checker finds wrong, or nothing.
+  std::string flaw(const Polygon_soup& soup, bool on_view = false);
+
+ private:
+  const Scene& scene_;
+  Order_certificate certificate_;
+};
+
+/// By a BSP tree. Labels: 1 where the eye is in front of the face, 2 behind, 4 in its plane.
+template <class Traits>
+Answer by_tree(const Posed_scene& posed, const Scene& scene, const Traits& traits, bool verify,
+               Bsp_counters* counters = nullptr) {
+  const Bsp_tree<Traits> tree = build_bsp(traits, serial());
+  if (counters != nullptr) *counters = tree.counters;
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  answer.planar = scene.non_planar().empty();
+  Order order(scene, posed.eye);
+  traverse(
+      traits, tree, traits.eye(posed.eye), Direction::back_to_front,
+      [&](const Fragment<Traits>& fragment, Sign node_side) {
+        const Sign side = fragment.same_sense ? node_side : -node_side;
+        std::uint32_t& label = answer.labels[scene.pieces()[fragment.polygon.piece].face];
+        label = (label == Answer::none ? 0u : label) | (side == CGAL::POSITIVE ? 1u : side == CGAL::NEGATIVE ? 2u : 4u);
+        if (verify) order.draw(traits, fragment.polygon);
+      });
+  if (verify) answer.flaw = order.flaw(posed.soup);
+  return answer;
+}
+
+/// That another kernel, which is exact too, builds the same tree and sees the same sides.
+template <class Kernel>
+Outcome by_kernel(const Posed_scene& posed, const Answer& answer, const std::string& name) {
+  const Scene scene(posed.soup);
+  Bsp_counters here, there;
+  by_tree(posed, scene, Exact_traits(scene), false, &here);
+  const Answer other = by_tree(posed, scene, Point_traits<Kernel>(scene), false, &there);
+  const auto differ = [&](const char* what, std::uint64_t a, std::uint64_t b) {
+    return Outcome::failed(std::string(what) + ": exact " + std::to_string(a) + ", " + name + ' ' + std::to_string(b));
+  };
+  if (here.nodes != there.nodes) return differ("nodes", here.nodes, there.nodes);
+  if (here.splits != there.splits) return differ("splits", here.splits, there.splits);
+  if (here.fragments != there.fragments) return differ("fragments", here.fragments, there.fragments);
+  return compared(answer, other, "exact", name);
+}
+
+/// The order by the priority graph: of what is on-view, or of both sides of everything.
+Outcome by_graph(const Posed_scene& posed, bool two_sided);
+
+/// Labels from corners alone: the eye against the plane of each face's pieces, by Newell's normal in rationals.
+Outcome by_definition(const Posed_scene& posed, const Answer& answer);
+
+}  // namespace order_subject
+
+}  // namespace sightline::harness
 
 namespace sightline {
 namespace harness {

@@ -76,9 +76,10 @@ inline const std::vector<Room>& rooms() {
       {"algorithms/", {"kernel/", "algorithms/"}},
       {"io/", {"kernel/", "io/"}},
       {"harness/", {"kernel/", "algorithms/", "io/", "harness/"}},
-      {"apps/", {"kernel/", "algorithms/", "io/", "harness/"}},
-      {"tests/", {"kernel/", "algorithms/", "io/", "harness/"}},
-      {"bench/", {"kernel/", "algorithms/", "io/", "harness/"}}};
+      {"sightline/", {"kernel/", "algorithms/", "io/", "sightline/"}},
+      {"apps/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}},
+      {"tests/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}},
+      {"bench/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}}};
   return all;
 }
 
@@ -91,12 +92,12 @@ inline bool lets_in(const Room& room, const std::string& header) {
   });
 }
 
-inline constexpr std::array<const char*, 4> library_layers{"kernel", "algorithms", "io", "harness"};
+inline constexpr std::array<const char*, 5> library_layers{"kernel", "algorithms", "io", "harness", "sightline"};
 
 /// Every breach of the rules, as "file:line: what is wrong"; sorted by file. Empty: all is well.
 inline std::vector<std::string> breaches(const Rules& rules) {
   std::vector<std::string> found;
-  for (const std::string layer : {"algorithms", "apps", "bench", "harness", "io", "kernel", "tests"}) {
+  for (const std::string layer : {"algorithms", "apps", "bench", "harness", "io", "kernel", "sightline", "tests"}) {
     const bool library = std::find(library_layers.begin(), library_layers.end(), layer) != library_layers.end();
     for (const std::string& file : sources_in(rules.root, layer)) {
       const std::filesystem::path path = rules.root / file;
@@ -115,7 +116,8 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         if (first != "#pragma once") report(1, "does not begin with #pragma once");
       } else if (library) {
         const std::vector<Include> includes = includes_of(path);
-        const std::string own = "sightline/" + file.substr(0, file.size() - 4) + ".h";
+        const std::string stem = file.substr(0, file.size() - 4);
+        const std::string own = (layer == "sightline" ? stem : "sightline/" + stem) + ".h";
         if (includes.empty() || includes.front().name != own) report(1, "does not begin with <" + own + '>');
       }
 
@@ -129,7 +131,8 @@ inline std::vector<std::string> breaches(const Rules& rules) {
         }
         // Our own headers: the direction, and that they are there.
         if (name.starts_with("sightline/")) {
-          const std::string own = name.substr(name.find('/') + 1);
+          std::string own = name.substr(name.find('/') + 1);
+          if (own.find('/') == std::string::npos) own = name;  // the front door
           if (!lets_in(room, own))
             report(line,
                    std::string(room.folder.substr(0, room.folder.size() - 1)) + " must not include <" + name + '>');
@@ -161,7 +164,9 @@ inline std::string cycle(const std::filesystem::path& root) {
     if (state[file] == 1) return true;
     state[file] = 1;
     for (const Include& include : includes_of(root / file))
-      if (include.name.starts_with("sightline/") && self(self, include.name.substr(10))) return true;
+      if (include.name.starts_with("sightline/") &&
+          self(self, include.name.find('/', 10) == std::string::npos ? include.name : include.name.substr(10)))
+        return true;
     state[file] = 2;
     path.pop_back();
     return false;

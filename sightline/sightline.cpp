@@ -1,0 +1,370 @@
+#include <sightline/sightline.h>
+
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/cutset/tracker.h>
+#include <sightline/algorithms/point_visibility/certificate.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/priority/certificate.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/io/read.h>
+#include <sightline/kernel/threads.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+namespace sightline {
+
+namespace {
+
+// ---- What is made when it is first asked for
+
+template <class T>
+class Once {
+ public:
+  template <class Make>
+  const T& get(const Make& make) const {
+    std::call_once(flag_, [&] { value_ = std::make_unique<T>(make()); });
+    return *value_;
+  }
+
+ private:
+  mutable std::once_flag flag_;
+  mutable std::unique_ptr<T> value_;
+};
+
+// ---- Measures: exact vectors, one root at the end
+
+Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Exact_point cross(const Exact_point& a, const Exact_point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// The root of a rational in doubles, where that is within their range, to three units in the last place.
+double root(const Rational& square) { return std::sqrt(nearest_double(square)); }
+
+double area_of(const std::vector<Exact_point>& corners) {
+  Exact_point twice{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
+    for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
+  }
+  return root(dot(twice, twice)) / 2;
+}
+
+/// Of a triangle by Van Oosterom and Strackee's formula: the volume is exact, so thin triangles keep their precision.
+double solid_angle_of(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
+  const double volume = std::fabs(nearest_double(dot(a, cross(b, c))));
+  const double la = root(dot(a, a)), lb = root(dot(b, b)), lc = root(dot(c, c));
+  const double below =
+      la * lb * lc + nearest_double(dot(a, b)) * lc + nearest_double(dot(b, c)) * la + nearest_double(dot(c, a)) * lb;
+  const double angle = 2 * std::atan2(volume, below);
+  return angle < 0 ? angle + 4 * std::numbers::pi : angle;
+}
+
+double solid_angle_of(const std::vector<Exact_point>& corners, const Exact_point& eye) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    sum += solid_angle_of(minus(corners[0], eye), minus(corners[i], eye), minus(corners[i + 1], eye));
+  return sum;
+}
+
+void require_index(std::uint32_t index, std::size_t count) {
+  if (index >= count)
+    throw std::out_of_range("corner " + std::to_string(index) + " is no point: there are " + std::to_string(count));
+}
+
+}  // namespace
+
+// ---- The model
+
+struct Model::Inside {
+  explicit Inside(Polygon_soup from) : soup(std::move(from)), scene(soup), traits(scene) {
+    for (const Set_aside& entry : scene.set_aside()) left_out.push_back({entry.face, entry.why});
+    for (const Piece& piece : scene.pieces()) {
+      Part& part = parts.emplace_back(Part{piece.face, piece.number, {}});
+      for (const Piece_corner& corner : scene.corners(piece)) part.corners.push_back(scene.position(corner.point));
+    }
+  }
+
+  const Bsp_tree<Exact_traits>& tree(const Asking& asking) const {
+    return tree_.get([&] {
+      Bsp_options options;
+      options.threads = asking.threads;
+      options.progress = asking.progress;
+      return build_bsp(traits, options);
+    });
+  }
+  const Piece_boxes& boxes() const {
+    return boxes_.get([&] { return Piece_boxes(scene); });
+  }
+  const Occluders& occluders() const {
+    return occluders_.get([&] { return Occluders(scene); });
+  }
+
+  const Polygon_soup soup;
+  const Scene scene;
+  const Exact_traits traits;
+  std::vector<Left_out> left_out;
+  std::vector<Part> parts;
+
+ private:
+  Once<Bsp_tree<Exact_traits>> tree_;
+  Once<Piece_boxes> boxes_;
+  Once<Occluders> occluders_;
+};
+
+Model::Model(Polygon_soup soup) : inside_(std::make_shared<const Inside>(std::move(soup))) {}
+
+Model Model::read(const std::filesystem::path& file) { return Model(read_scene(file)); }
+
+Model Model::of_triangles(std::span<const std::array<double, 3>> points,
+                          std::span<const std::array<std::uint32_t, 3>> triangles) {
+  const std::vector<std::uint32_t> sizes(triangles.size(), 3);
+  std::vector<std::uint32_t> corners;
+  corners.reserve(3 * triangles.size());
+  for (const std::array<std::uint32_t, 3>& triangle : triangles)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  return of_polygons(points, corners, sizes);
+}
+
+Model Model::of_polygons(std::span<const std::array<double, 3>> points, std::span<const std::uint32_t> corners,
+                         std::span<const std::uint32_t> sizes) {
+  Polygon_soup soup;
+  for (const std::array<double, 3>& p : points) {
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
+      throw std::domain_error("point " + std::to_string(soup.point_count()) + " has a coordinate that is no number");
+    soup.add_point(p[0], p[1], p[2]);
+  }
+  for (const std::uint32_t corner : corners) require_index(corner, points.size());
+  std::size_t next = 0;
+  for (const std::uint32_t size : sizes) {
+    if (size > corners.size() - next) throw std::invalid_argument("the sizes of faces are more than the corners");
+    soup.add_face(corners.subspan(next, size));
+    next += size;
+  }
+  if (next != corners.size()) throw std::invalid_argument("the sizes of faces are less than the corners");
+  return Model(std::move(soup));
+}
+
+std::size_t Model::face_count() const { return inside_->soup.face_count(); }
+const std::vector<Left_out>& Model::left_out() const { return inside_->left_out; }
+const std::vector<Part>& Model::parts() const { return inside_->parts; }
+const Polygon_soup& Model::soup() const { return inside_->soup; }
+const std::shared_ptr<const Model::Inside>& Model::inside() const { return inside_; }
+
+double Model::area(Face_id face) const {
+  double sum = 0;
+  for (const Part& part : parts())
+    if (part.face == face) sum += area_of(part.corners);
+  return sum;
+}
+
+// ---- An order
+
+Visibility_order order(const Model& model, const Exact_point& eye, const Asking& asking) {
+  const std::shared_ptr<const Model::Inside> inside = model.inside();
+  const Exact_traits& traits = inside->traits;
+  Visibility_order answer;
+  answer.eye = eye;
+  traverse(traits, inside->tree(asking), traits.eye(eye), Direction::back_to_front,
+           [&](const Fragment<Exact_traits>& fragment, Sign) {
+             const Piece& piece = inside->scene.pieces()[fragment.polygon.piece];
+             Part& part = answer.parts.emplace_back(Part{piece.face, piece.number, {}});
+             for (const Corner<Exact_traits>& corner : fragment.polygon)
+               part.corners.push_back(traits.position(*corner.vertex));
+           });
+  answer.certificate_ = [inside, eye, parts = answer.parts] {
+    Order_certificate certificate;
+    certificate.eye = eye;
+    for (const Part& part : parts) certificate.fragments.push_back({part.face, part.piece, part.corners});
+    add_pieces(certificate, inside->scene);
+    return to_json(certificate).dump() + '\n';
+  };
+  return answer;
+}
+
+// ---- The priority graph
+
+Priority priority_graph(const Model& model, const Asking& asking) {
+  const std::shared_ptr<const Model::Inside> inside = model.inside();
+  const auto faces = std::make_shared<const Priority_relation<Exact_traits>>(inside->traits);
+  Implicit_priority_graph<Priority_relation<Exact_traits>> graph(*faces);
+  Component_trees trees;
+  const Priority_components found = graph.find_components(&trees, asking.progress);
+  Priority answer;
+  for (std::size_t c = 0; c < found.size(); ++c) answer.components.emplace_back(found[c].begin(), found[c].end());
+  answer.cyclic = found.cyclic();
+  answer.certificate_ = [inside, faces, found, trees = std::move(trees)] {
+    return to_json(graph_certificate(inside->scene, *faces, found, trees)).dump() + '\n';
+  };
+  return answer;
+}
+
+// ---- A tracker
+
+struct Tracker::Inside {
+  explicit Inside(std::shared_ptr<const Model::Inside> of)
+      : model(std::move(of)),
+        graph(model->scene),
+        tracker(model->traits, graph),
+        nodes_on(model->soup.face_count()),
+        faces_of(graph.size()) {
+    for (std::uint32_t i = 0; i < model->scene.pieces().size(); ++i) {
+      std::vector<Face_id>& faces = faces_of[graph.node(i)];
+      const Face_id face = model->scene.pieces()[i].face;
+      if (faces.empty() || faces.back() != face) faces.push_back(face);
+    }
+  }
+
+  std::shared_ptr<const Model::Inside> model;
+  Face_graph graph;
+  Cut_set_tracker<Exact_traits> tracker;
+  std::vector<std::uint32_t> nodes_on;         // of each face: how many of its nodes are on-view
+  std::vector<std::vector<Face_id>> faces_of;  // each node
+};
+
+Tracker::Tracker(std::unique_ptr<Inside> inside) : inside_(std::move(inside)) {}
+Tracker::~Tracker() = default;
+Tracker::Tracker(Tracker&&) noexcept = default;
+Tracker& Tracker::operator=(Tracker&&) noexcept = default;
+
+Tracker track(const Model& model) { return Tracker(std::make_unique<Tracker::Inside>(model.inside())); }
+
+std::vector<Face_id> Tracker::move_to(const Exact_point& viewpoint) {
+  inside_->tracker.move_to({viewpoint});
+  std::vector<std::pair<Face_id, bool>> before;
+  for (const std::uint32_t node : inside_->tracker.changed())
+    for (const Face_id face : inside_->faces_of[node]) {
+      before.emplace_back(face, inside_->nodes_on[face] > 0);
+      if (inside_->tracker.on_view(node)) ++inside_->nodes_on[face];
+      else --inside_->nodes_on[face];
+    }
+  // A face of several nodes is here several times: the first time it says what it was.
+  std::stable_sort(before.begin(), before.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<Face_id> changed;
+  for (std::size_t k = 0; k < before.size(); ++k)
+    if ((k == 0 || before[k - 1].first != before[k].first) && before[k].second != on_view(before[k].first))
+      changed.push_back(before[k].first);
+  return changed;
+}
+
+bool Tracker::on_view(Face_id face) const { return inside_->nodes_on.at(face) > 0; }
+
+std::vector<Face_id> Tracker::on_view() const {
+  std::vector<Face_id> faces;
+  for (Face_id face = 0; face < inside_->nodes_on.size(); ++face)
+    if (on_view(face)) faces.push_back(face);
+  return faces;
+}
+
+// ---- What is seen from a point
+
+Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
+  const std::shared_ptr<const Model::Inside> inside = model.inside();
+  const auto view = std::make_shared<const Exact_view>(inside->scene, eye);
+  Visible_options options;
+  options.threads = asking.threads;
+  options.progress = asking.progress;
+  const auto surface =
+      std::make_shared<const Visible_surface<Exact_view>>(visible_surface(*view, inside->boxes(), options));
+  Seen answer;
+  answer.eye = eye;
+  answer.visible = surface->visible;
+  for (const auto& part : surface->parts) {
+    if (part.piece == surface->nothing) continue;
+    const Piece& piece = inside->scene.pieces()[part.piece];
+    Seen::Visible_part& seen = answer.parts.emplace_back();
+    seen.face = piece.face;
+    seen.piece = piece.number;
+    seen.corners = vertices(*view, *surface, part);
+    seen.from_front = view->eye_side(part.piece) == CGAL::POSITIVE;
+  }
+  answer.certificate_ = [inside, view, surface, eye] {
+    return to_json(visible_certificate(*view, *surface, eye)).dump() + '\n';
+  };
+  return answer;
+}
+
+double Seen::area(Face_id face) const {
+  double sum = 0;
+  for (const Visible_part& part : parts)
+    if (part.face == face && part.from_front) sum += area_of(part.corners);
+  return sum;
+}
+
+double Seen::solid_angle(Face_id face) const {
+  double sum = 0;
+  for (const Visible_part& part : parts)
+    if (part.face == face && part.from_front) sum += solid_angle_of(part.corners, eye);
+  return sum;
+}
+
+// ---- Weak visibility
+
+Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
+                               const Asking& asking) {
+  const std::shared_ptr<const Model::Inside> inside = model.inside();
+  const Occluders& occluders = inside->occluders();
+  std::vector<Weak_source> polygons;
+  for (const std::vector<Exact_point>& source : sources) polygons.push_back(weak_source(occluders, source));
+  Weak_options options;
+  options.threads = asking.threads;
+  options.progress = asking.progress;
+  const auto found = std::make_shared<Weakly_visible>(weakly_visible(occluders, polygons, options));
+  Events_options events;
+  events.threads = asking.threads;
+  constexpr std::size_t most_edges = 300;  // more take events longer than anybody waits; they stay undecided
+  settle_by_events(occluders, polygons, most_edges, events, *found);
+  Weak_visibility answer;
+  answer.visible = found->visible;
+  answer.hidden = found->hidden;
+  answer.undecided = found->undecided;
+  answer.certificate_ = [inside, sources, found] {
+    return to_json(weak_certificate(inside->scene, sources, false, *found)).dump() + '\n';
+  };
+  return answer;
+}
+
+Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking& asking) {
+  std::vector<std::vector<Exact_point>> sources;
+  for (const Part& part : model.parts())
+    if (part.face == source) sources.push_back(part.corners);
+  if (sources.empty())
+    throw std::out_of_range("face " + std::to_string(source) + " is not there, or was left out: see left_out()");
+  return weakly_visible(model, sources, asking);
+}
+
+// ---- Checking
+
+Checked verify(const Model& model, const std::string& certificate, const Asking& asking) {
+  std::istringstream in(certificate);
+  const Certificate claim = read_certificate(in);
+  Verify_options options;
+  options.progress = asking.progress;
+  const Polygon_soup& soup = model.soup();
+  struct Check {
+    const Polygon_soup& soup;
+    const Verify_options& options;
+    Verdict operator()(const Order_certificate& c) const { return verify_order(soup, c, options); }
+    Verdict operator()(const Graph_certificate& c) const { return verify_graph(soup, c, options); }
+    Verdict operator()(const Visible_certificate& c) const { return verify_visible(soup, c, options); }
+    Verdict operator()(const Weak_certificate& c) const { return verify_weak(soup, c, options); }
+  };
+  const Verdict verdict = std::visit(Check{soup, options}, claim);
+  return {verdict.accepted, verdict.why};
+}
+
+}  // namespace sightline

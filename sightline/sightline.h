@@ -1,0 +1,147 @@
+#pragma once
+// The front door: a scene in, visibility out. Exact, with certificates, and without a template argument: ids of faces
+// and exact points in the file's coordinates. What stands behind it is in kernel/, algorithms/ and io/.
+
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace sightline {
+
+/// How a question is asked. The answer is the same at any number of threads.
+struct Asking {
+  int threads = 0;                                                  ///< 0: as many as there are processors
+  std::function<void(std::size_t done, std::size_t all)> progress;  ///< any thread may call it; what it throws ends the
+                                                                    ///< question, and comes out of it
+};
+
+/// A face that is not modelled, and why.
+struct Left_out {
+  Face_id face;
+  std::string why;
+};
+
+/// A convex part of a face, counterclockwise as seen from the face's front.
+struct Part {
+  Face_id face;
+  std::uint32_t piece;  ///< of the face, 0 for a convex one
+  std::vector<Exact_point> corners;
+};
+
+/// A scene made ready, once, for all questions. Copies share it; it never changes, so any threads may ask it, and what
+/// it answered keeps it alive. Face ids are places in the input. Exact: yes. Cost: O(n), 1 us a triangle; what a kind
+/// of question needs besides (a tree, boxes) is made when it is first asked.
+class Model {
+ public:
+  /// Errors: std::length_error for more than 2^28 points.
+  explicit Model(Polygon_soup soup);
+  /// OBJ, OFF, PLY, STL, or OFF with rational coordinates. Errors: Input_error (io/input.h), a std::runtime_error that
+  /// names file, line and column.
+  static Model read(const std::filesystem::path& file);
+  /// Errors: std::out_of_range for an index that is no point's, std::domain_error for a coordinate that is no number.
+  static Model of_triangles(std::span<const std::array<double, 3>> points,
+                            std::span<const std::array<std::uint32_t, 3>> triangles);
+  /// Polygons of sizes[k] corners each, one after the other. Errors: as of_triangles(); std::invalid_argument where the
+  /// sizes do not add up to the corners.
+  static Model of_polygons(std::span<const std::array<double, 3>> points, std::span<const std::uint32_t> corners,
+                           std::span<const std::uint32_t> sizes);
+
+  std::size_t face_count() const;  ///< of the input
+  const std::vector<Left_out>& left_out() const;
+  const std::vector<Part>& parts() const;  ///< what is modelled: each kept face in convex parts, in order
+  double area(Face_id face) const;         ///< of all its parts, to about 2^-50; 0 for one that was left out
+  const Polygon_soup& soup() const;
+
+  struct Inside;
+  const std::shared_ptr<const Inside>& inside() const;  ///< for what is behind the door
+
+ private:
+  std::shared_ptr<const Inside> inside_;
+};
+
+/// What every answer can show for itself. It keeps what it needs of the model.
+class Answer {
+ public:
+  /// What verify() and `sightline verify` take, as text. Made when asked for. Cost: its length.
+  std::string certificate() const { return certificate_(); }
+  std::function<std::string()> certificate_;
+};
+
+/// An exact back-to-front order of all faces; where faces cross or hide each other in turn they are cut.
+struct Visibility_order : Answer {
+  Exact_point eye;
+  std::vector<Part> parts;  ///< farthest first: none hides, even in part, one that comes after it
+};
+Visibility_order order(const Model& model, const Exact_point& eye, const Asking& asking = {});
+
+/// Which faces may obscure which, from anywhere: the strongly connected components of the priority graph of Fuchs,
+/// Kedem and Naylor. A part is a place in Model::parts().
+struct Priority : Answer {
+  std::vector<std::vector<std::uint32_t>> components;  ///< those that may obscure others first
+  std::size_t cyclic = 0;                              ///< components of more than one part
+};
+Priority priority_graph(const Model& model, const Asking& asking = {});
+
+/// The faces that a moving viewpoint is in front of, by Tanimoto's cut-set: a step costs what changes. One tracker is
+/// one thread's at a time.
+class Tracker {
+ public:
+  ~Tracker();
+  Tracker(Tracker&&) noexcept;
+  Tracker& operator=(Tracker&&) noexcept;
+  /// The faces that came to be on-view or ceased to be, sorted. A viewpoint in a face's plane is not in front of it.
+  std::vector<Face_id> move_to(const Exact_point& viewpoint);
+  bool on_view(Face_id face) const;      ///< before the first move: false
+  std::vector<Face_id> on_view() const;  ///< sorted
+
+ private:
+  struct Inside;
+  explicit Tracker(std::unique_ptr<Inside> inside);
+  friend Tracker track(const Model& model);
+  std::unique_ptr<Inside> inside_;
+};
+Tracker track(const Model& model);
+
+/// What is seen from a point, all around.
+struct Seen : Answer {
+  Exact_point eye;
+  std::vector<Face_id> visible;  ///< from their front, sorted
+  struct Visible_part : Part {
+    bool from_front;
+  };
+  std::vector<Visible_part> parts;         ///< the visible parts of faces, those seen from behind too
+  double area(Face_id face) const;         ///< of what is seen of its front, to about 2^-48
+  double solid_angle(Face_id face) const;  ///< the same in steradians, of 4 pi
+};
+Seen see(const Model& model, const Exact_point& eye, const Asking& asking = {});
+
+/// The faces some point of which is seen from some point of the sources. Every kept face is in one list; lists are
+/// sorted.
+struct Weak_visibility : Answer {
+  std::vector<Face_id> visible, hidden, undecided;
+};
+/// From a face, to its front. Errors: std::out_of_range where the model has no such face.
+Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking& asking = {});
+/// From convex polygons, each counterclockwise as seen from the side that it looks to. Errors: std::invalid_argument,
+/// which says what to do, for one that is not planar, not convex or has no area.
+Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
+                               const Asking& asking = {});
+
+/// What a checker says that shares no code with what made the certificate.
+struct Checked {
+  bool accepted;
+  std::string why;  ///< one line
+};
+/// Errors: std::invalid_argument for a text that is no certificate.
+Checked verify(const Model& model, const std::string& certificate, const Asking& asking = {});
+
+}  // namespace sightline

@@ -1,0 +1,196 @@
+// The front door: answers agree with what stands behind it, with definitions, and with arithmetic done by hand.
+
+#include <sightline/sightline.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace {
+
+using namespace sightline;
+
+using Points = std::vector<std::array<double, 3>>;
+
+/// The cube [-1, 1]^3, its faces seen from outside: -x, +x, -y, +y, -z, +z.
+Model cube() {
+  const Points points{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                      {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  const std::vector<std::uint32_t> corners{0, 4, 7, 3, 1, 2, 6, 5, 0, 1, 5, 4, 3, 7, 6, 2, 0, 3, 2, 1, 4, 5, 6, 7};
+  return Model::of_polygons(points, corners, std::vector<std::uint32_t>(6, 4));
+}
+
+/// A floor, a lid above it that hides it in part, a lamp above both that looks down, and a sliver that is none.
+Model lamp_and_lid() {
+  const Points points{{-4, -4, 0}, {4, -4, 0}, {4, 4, 0},   {-4, 4, 0}, {-1, -1, 1}, {1, -1, 1},
+                      {1, 1, 1},   {-1, 1, 1}, {-1, -1, 3}, {1, -1, 3}, {1, 1, 3},   {-1, 1, 3}};
+  const std::vector<std::uint32_t> corners{0, 1, 2, 3, 4, 5, 6, 7, 11, 10, 9, 8, 0, 1, 1};
+  const std::vector<std::uint32_t> sizes{4, 4, 4, 3};
+  return Model::of_polygons(points, corners, sizes);
+}
+
+TEST(Model, knows_its_faces_areas_and_what_it_left_out) {
+  const Model model = lamp_and_lid();
+  EXPECT_EQ(model.face_count(), 4u);
+  EXPECT_EQ(model.parts().size(), 3u);
+  ASSERT_EQ(model.left_out().size(), 1u);
+  EXPECT_EQ(model.left_out()[0].face, 3u);
+  EXPECT_EQ(model.left_out()[0].why, "zero area");
+  EXPECT_DOUBLE_EQ(model.area(0), 64);
+  EXPECT_DOUBLE_EQ(model.area(1), 4);
+  EXPECT_EQ(model.area(3), 0);
+}
+
+TEST(Model, refuses_what_is_no_scene) {
+  const Points points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  const std::vector<std::array<std::uint32_t, 3>> bad{{0, 1, 3}};
+  EXPECT_THROW(Model::of_triangles(points, bad), std::out_of_range);
+  const Points infinite{{0, 0, 0}, {1, 0, std::nan("")}, {0, 1, 0}};
+  const std::vector<std::array<std::uint32_t, 3>> good{{0, 1, 2}};
+  EXPECT_THROW(Model::of_triangles(infinite, good), std::domain_error);
+  const std::vector<std::uint32_t> corners{0, 1, 2};
+  EXPECT_THROW(Model::of_polygons(points, corners, std::vector<std::uint32_t>{4}), std::invalid_argument);
+  EXPECT_THROW(Model::of_polygons(points, corners, std::vector<std::uint32_t>{2}), std::invalid_argument);
+  EXPECT_THROW(Model::read("no such file.obj"), std::runtime_error);
+}
+
+TEST(Model, reads_a_file) {
+  const std::filesystem::path corpus = std::filesystem::path(SIGHTLINE_SOURCE_DIR) / "tests" / "corpus" / "general";
+  const Model model = Model::read(corpus / "cube.off");
+  EXPECT_EQ(model.face_count(), 6u);
+  EXPECT_EQ(priority_graph(model).cyclic, 0u);
+}
+
+TEST(Order, is_accepted_and_puts_the_lid_before_the_floor) {
+  const Model model = lamp_and_lid();
+  const Visibility_order found = order(model, {0, 0, 10});
+  ASSERT_EQ(found.parts.size(), 3u);
+  EXPECT_EQ(found.parts[0].face, 0u);
+  EXPECT_EQ(found.parts[1].face, 1u);
+  EXPECT_EQ(found.parts[2].face, 2u);
+  const std::string certificate = found.certificate();
+  EXPECT_TRUE(verify(model, certificate).accepted);
+  // The same claim about another eye, from below, is false.
+  std::string forged = certificate;
+  const std::size_t eye = forged.find("\"10\"");
+  ASSERT_NE(eye, std::string::npos);
+  forged.replace(eye, 4, "\"-10\"");
+  EXPECT_FALSE(verify(model, forged).accepted);
+  EXPECT_THROW(verify(model, "{}"), std::invalid_argument);
+}
+
+TEST(Priority, has_the_cycle_of_three_bars_in_one_component) {
+  // Three plates, each of which hides the next one in part.
+  Points points;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const Points bars{{-3, 1, 0}, {3, 1, 1},  {3, 2, 1},  {1, -3, 1}, {1, 3, 0},
+                    {2, 3, 0},  {3, -2, 0}, {-3, 3, 1}, {-2, 3, 1}};
+  for (std::uint32_t k = 0; k < 3; ++k) triangles.push_back({3 * k, 3 * k + 1, 3 * k + 2});
+  const Model model = Model::of_triangles(bars, triangles);
+  const Priority found = priority_graph(model);
+  std::size_t parts = 0;
+  for (const std::vector<std::uint32_t>& component : found.components) parts += component.size();
+  EXPECT_EQ(parts, model.parts().size());
+  EXPECT_TRUE(verify(model, found.certificate()).accepted);
+  EXPECT_EQ(priority_graph(cube()).components.size(), 6u);
+}
+
+TEST(Tracker, agrees_with_the_definition_on_a_path_around_a_cube) {
+  const Model model = cube();
+  Tracker tracker = track(model);
+  EXPECT_TRUE(tracker.on_view().empty());
+  std::vector<Face_id> before;
+  for (const Exact_point& p :
+       std::vector<Exact_point>{{3, 0, 0}, {3, 2, 0}, {1, 0, 0}, {0, 0, 0}, {-3, -2, 5}, {2, 2, 2}}) {
+    const std::vector<Face_id> changed = tracker.move_to(p);
+    std::vector<Face_id> expected;
+    for (Face_id face = 0; face < 6; ++face) {
+      const Rational x = p[face / 2];
+      if (face % 2 == 0 ? x < -1 : x > 1) expected.push_back(face);
+    }
+    EXPECT_EQ(tracker.on_view(), expected);
+    std::vector<Face_id> difference;
+    std::set_symmetric_difference(before.begin(), before.end(), expected.begin(), expected.end(),
+                                  std::back_inserter(difference));
+    EXPECT_EQ(changed, difference);
+    before = expected;
+  }
+}
+
+TEST(See, from_inside_a_cube_turned_inwards_all_of_it_shares_out_the_sphere) {
+  // The cube with its faces turned round, seen from its centre: each face is 4 pi / 6.
+  const Points points{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                      {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+  std::vector<std::uint32_t> corners{0, 4, 7, 3, 1, 2, 6, 5, 0, 1, 5, 4, 3, 7, 6, 2, 0, 3, 2, 1, 4, 5, 6, 7};
+  std::reverse(corners.begin(), corners.end());
+  const Model model = Model::of_polygons(points, corners, std::vector<std::uint32_t>(6, 4));
+  const Seen seen = see(model, {0, 0, 0});
+  EXPECT_EQ(seen.visible.size(), 6u);
+  for (Face_id face = 0; face < 6; ++face) {
+    EXPECT_NEAR(seen.solid_angle(face), 4 * std::numbers::pi / 6, 1e-13);
+    EXPECT_NEAR(seen.area(face), 4, 1e-13);
+  }
+  EXPECT_TRUE(verify(model, seen.certificate()).accepted);
+  // From off the centre they still share out the sphere.
+  const Seen aside = see(model, {Rational(1, 3), Rational(-1, 2), Rational(999, 1000)});
+  double sum = 0;
+  for (Face_id face = 0; face < 6; ++face) sum += aside.solid_angle(face);
+  EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-12);
+}
+
+TEST(See, what_is_hidden_has_no_area) {
+  const Model model = lamp_and_lid();
+  const Seen seen = see(model, {0, 0, 2});
+  EXPECT_EQ(seen.visible, (std::vector<Face_id>{0, 1, 2}));
+  // From (0, 0, 2) the lid hides the square [-2, 2]^2 of the floor.
+  EXPECT_NEAR(seen.area(0), 64 - 16, 1e-12);
+  EXPECT_NEAR(seen.area(1), 4, 1e-12);
+}
+
+TEST(Weak, a_lamp_lights_lid_and_floor_and_both_answers_are_proved) {
+  const Model model = lamp_and_lid();
+  const Weak_visibility lit = weakly_visible(model, 2);
+  EXPECT_EQ(lit.visible, (std::vector<Face_id>{0, 1}));
+  EXPECT_EQ(lit.hidden, (std::vector<Face_id>{2}));
+  EXPECT_TRUE(lit.undecided.empty());
+  EXPECT_TRUE(verify(model, lit.certificate()).accepted);
+  // From a small square on the lid's back nothing but the floor.
+  const Rational e(1, 10);
+  const std::vector<std::vector<Exact_point>> below{
+      {{-e, e, Rational(9, 10)}, {e, e, Rational(9, 10)}, {e, -e, Rational(9, 10)}, {-e, -e, Rational(9, 10)}}};
+  EXPECT_EQ(weakly_visible(model, below).visible, (std::vector<Face_id>{0}));
+  EXPECT_THROW(weakly_visible(model, Face_id{3}), std::out_of_range);
+  EXPECT_THROW(weakly_visible(model, {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}), std::invalid_argument);
+}
+
+TEST(Answers, are_the_same_at_any_number_of_threads_and_outlive_the_model) {
+  Seen one, two;
+  std::string order_certificate;
+  {
+    const Model model = lamp_and_lid();
+    one = see(model, {0, 0, 2}, {1, {}});
+    two = see(model, {0, 0, 2}, {4, {}});
+    order_certificate = order(model, {1, 2, 3}, {3, {}}).certificate();
+  }
+  EXPECT_EQ(one.certificate(), two.certificate());
+  EXPECT_EQ(order_certificate, order(lamp_and_lid(), {1, 2, 3}, {1, {}}).certificate());
+}
+
+TEST(Answers, what_progress_throws_ends_the_question) {
+  struct Enough {};
+  const Asking impatient{1, [](std::size_t, std::size_t) { throw Enough(); }};
+  const Model model = lamp_and_lid();
+  EXPECT_THROW(order(model, {0, 0, 10}, impatient), Enough);
+  EXPECT_THROW(see(model, {0, 0, 10}, impatient), Enough);
+  EXPECT_THROW(weakly_visible(model, 2, impatient), Enough);
+  EXPECT_EQ(order(model, {0, 0, 10}).parts.size(), 3u);  // and the model is as it was
+}
+
+}  // namespace
