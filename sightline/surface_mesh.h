@@ -21,16 +21,16 @@ template <class Face_graph_model, class Point_map>
 Polygon_soup soup_of(const Face_graph_model& mesh, const Point_map& points) {
   using Point = typename boost::property_traits<Point_map>::value_type;
   using number = Field_number<typename CGAL::Kernel_traits<Point>::Kernel::FT>;
-  using Vertex = typename boost::graph_traits<Face_graph_model>::vertex_descriptor;
+  using Descriptor = typename boost::graph_traits<Face_graph_model>::vertex_descriptor;
   Polygon_soup soup;
-  std::unordered_map<Vertex, Point_id> ids;
-  for (const Vertex v : vertices(mesh)) {
+  std::unordered_map<Descriptor, Point_id> ids;
+  for (const Descriptor v : vertices(mesh)) {
     const Point& p = get(points, v);
     ids.emplace(v, soup.add_point(number::to(p.x()), number::to(p.y()), number::to(p.z())));
   }
   for (const auto face : faces(mesh)) {
     std::vector<Point_id> corners;
-    for (const Vertex v : CGAL::vertices_around_face(halfedge(face, mesh), mesh)) corners.push_back(ids.at(v));
+    for (const Descriptor v : CGAL::vertices_around_face(halfedge(face, mesh), mesh)) corners.push_back(ids.at(v));
     soup.add_face(corners);
   }
   return soup;
@@ -47,13 +47,13 @@ std::vector<typename boost::graph_traits<Mesh>::face_descriptor> add_to_mesh(con
   using Point =
       typename boost::property_traits<typename boost::property_map<Mesh, CGAL::vertex_point_t>::type>::value_type;
   using number = Field_number<typename CGAL::Kernel_traits<Point>::Kernel::FT>;
-  using Vertex = typename boost::graph_traits<Mesh>::vertex_descriptor;
+  using Descriptor = typename boost::graph_traits<Mesh>::vertex_descriptor;
   std::vector<typename boost::graph_traits<Mesh>::face_descriptor> result;
-  std::map<Exact_point, Vertex> at;
+  std::map<Exact_point, Descriptor> at;
   for (const Part& part : model.parts()) {
-    std::vector<Vertex> corners;
+    std::vector<Descriptor> corners;
     for (const Exact_point& p : part.corners) {
-      const auto [place, is_new] = at.try_emplace(p, Vertex());
+      const auto [place, is_new] = at.try_emplace(p, Descriptor());
       if (is_new) {
         place->second = add_vertex(mesh);
         put(CGAL::vertex_point, mesh, place->second, Point(number::from(p[0]), number::from(p[1]), number::from(p[2])));

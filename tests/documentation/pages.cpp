@@ -34,7 +34,8 @@ std::vector<std::string> examples_of(const std::string& page) {
 }
 
 std::vector<fs::path> pages() {
-  std::vector<fs::path> found{root / "kernel" / "README.md", root / "io" / "README.md"};
+  std::vector<fs::path> found{root / "kernel" / "README.md", root / "io" / "README.md",
+                              root / "sightline" / "README.md"};
   for (const char* layer : {"algorithms", "harness"})
     for (const auto& entry : fs::directory_iterator(root / layer))
       if (entry.is_directory()) found.push_back(entry.path() / "README.md");
@@ -66,7 +67,8 @@ TEST(Pages, name_headers_and_pictures_that_are_there) {
     for (std::size_t at = text.find("#include <sightline/"); at != std::string::npos;
          at = text.find("#include <sightline/", at + 1)) {
       const std::string header = text.substr(at + 20, text.find('>', at) - at - 20);
-      EXPECT_TRUE(fs::is_regular_file(root / header)) << page << " includes " << header;
+      EXPECT_TRUE(fs::is_regular_file(root / (header.find('/') == std::string::npos ? "sightline/" + header : header)))
+          << page << " includes " << header;
     }
   }
 }
