@@ -34,7 +34,7 @@ std::vector<std::string> examples_of(const std::string& page) {
 }
 
 std::vector<fs::path> pages() {
-  std::vector<fs::path> found{root / "kernel" / "README.md", root / "io" / "README.md",
+  std::vector<fs::path> found{root / "README.md", root / "kernel" / "README.md", root / "io" / "README.md",
                               root / "sightline" / "README.md"};
   for (const char* layer : {"algorithms", "harness"})
     for (const auto& entry : fs::directory_iterator(root / layer))
