@@ -1,11 +1,37 @@
+// From top to bottom: what parts of certificates are in JSON, read and written; then certificates of each kind.
+
 #include <sightline/algorithms/verify/certificate_json.h>
 
+#include <sightline/kernel/number.h>
 #include <sightline/kernel/quoted.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 namespace certificate_json {
+namespace {
+
+constexpr const char* order_format = "sightline order 1";
+constexpr const char* graph_format = "sightline graph 1";
+constexpr const char* see_format = "sightline see 1";
+constexpr const char* weak_format = "sightline weak 1";
+
+// ---- Reading
+
+[[noreturn]] void fail(const std::string& place, const std::string& what) {
+  throw std::invalid_argument("certificate: " + place + ": " + what);
+}
 
 const nlohmann::json& member(const nlohmann::json& object, const char* key, const std::string& place) {
   if (!object.is_object()) fail(place, "expected an object");
@@ -14,6 +40,10 @@ const nlohmann::json& member(const nlohmann::json& object, const char* key, cons
   return *found;
 }
 
+const nlohmann::json& array(const nlohmann::json& value, const std::string& place) {
+  if (!value.is_array()) fail(place, "expected an array");
+  return value;
+}
 std::uint32_t number32(const nlohmann::json& value, const std::string& place) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX)
     fail(place, "expected an integer from 0 to 4294967295");
@@ -29,6 +59,14 @@ Rational exact_number(const nlohmann::json& value, const std::string& place) {
   }
 }
 
+template <std::size_t n>
+std::array<Rational, n> exact_numbers(const nlohmann::json& value, const std::string& place) {
+  if (array(value, place).size() != n) fail(place, std::string("expected ") + (n == 3 ? "three" : "four") + " numbers");
+  std::array<Rational, n> result;
+  for (std::size_t k = 0; k < n; ++k) result[k] = exact_number(value[k], place);
+  return result;
+}
+Exact_point point(const nlohmann::json& value, const std::string& place) { return exact_numbers<3>(value, place); }
 std::vector<Exact_point> points(const nlohmann::json& value, const std::string& place) {
   std::vector<Exact_point> result;
   for (const nlohmann::json& p : array(value, place))
@@ -36,12 +74,32 @@ std::vector<Exact_point> points(const nlohmann::json& value, const std::string& 
   return result;
 }
 
+/// {face, piece, vertices}: a fragment or a piece.
+template <class Part>
+std::vector<Part> parts(const nlohmann::json& certificate, const char* key) {
+  std::vector<Part> result;
+  for (const nlohmann::json& entry : array(member(certificate, key, "top level"), key)) {
+    const std::string place = key + ('[' + std::to_string(result.size()) + ']');
+    result.push_back({number32(member(entry, "face", place), place + ".face"),
+                      number32(member(entry, "piece", place), place + ".piece"),
+                      points(member(entry, "vertices", place), place + ".vertices")});
+  }
+  return result;
+}
+
+/// A number below a bound.
 std::size_t place(const nlohmann::json& value, std::size_t below, const std::string& at) {
   const std::uint32_t number = number32(value, at);
   if (number >= below) fail(at, "expected a number below " + std::to_string(below));
   return number;
 }
 
+bool truth(const nlohmann::json& value, const std::string& at) {
+  if (!value.is_boolean()) fail(at, "expected true or false");
+  return value.get<bool>();
+}
+
+/// What every certificate has.
 void read_covering(const nlohmann::json& value, Covering& covering) {
   covering.fragments = parts<Order_fragment>(value, "fragments");
   if (value.contains("pieces")) covering.pieces = parts<Covering::Piece>(value, "pieces");
@@ -54,6 +112,16 @@ void read_covering(const nlohmann::json& value, Covering& covering) {
   }
 }
 
+/// The kinds of nodes, by the words that they begin with.
+constexpr std::array<std::pair<const char*, Weak_certificate::Node::Kind>, 6> node_words{
+    {{"line", Weak_certificate::Node::Kind::line},
+     {"cut source", Weak_certificate::Node::Kind::cut_source},
+     {"cut target", Weak_certificate::Node::Kind::cut_target},
+     {"blocked", Weak_certificate::Node::Kind::blocked},
+     {"empty", Weak_certificate::Node::Kind::empty},
+     {"away", Weak_certificate::Node::Kind::away}}};
+
+/// [line, factor] or [line, factor, {"source": form, "target": form}].
 Weak_certificate::Term term(const nlohmann::json& value, const Weak_certificate& certificate, const std::string& at) {
   if (array(value, at).size() != 2 && value.size() != 3) fail(at, "expected [line, factor] or [line, factor, forms]");
   Weak_certificate::Term result;
@@ -66,6 +134,7 @@ Weak_certificate::Term term(const nlohmann::json& value, const Weak_certificate&
   return result;
 }
 
+/// [word], or [word, what it is about].
 Weak_certificate::Node node(const nlohmann::json& value, const Weak_certificate& certificate, const std::string& at) {
   using Kind = Weak_certificate::Node::Kind;
   if (array(value, at).empty() || !value[0].is_string()) fail(at, "expected an array that begins with a word");
@@ -101,9 +170,26 @@ nlohmann::json parse(std::istream& in) {
   }
 }
 
+// ---- Writing
+
+template <std::size_t n>
+nlohmann::json write(const std::array<Rational, n>& numbers) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const Rational& r : numbers) result.push_back(to_string(r));
+  return result;
+}
 nlohmann::json write(const std::vector<Exact_point>& all) {
   nlohmann::json result = nlohmann::json::array();
   for (const Exact_point& p : all) result.push_back(write(p));
+  return result;
+}
+
+template <class Part>
+nlohmann::json write(const std::vector<Part>& all) {
+  nlohmann::json result = nlohmann::json::array();
+  for (const Part& part : all) {
+    result.push_back({{"face", part.face}, {"piece", part.piece}, {"vertices", write(part.vertices)}});
+  }
   return result;
 }
 
@@ -136,9 +222,10 @@ nlohmann::json write(const char* format, const Covering& covering) {
           {"set_aside", std::move(set_aside)}};
 }
 
+}  // namespace
 }  // namespace certificate_json
-}  // namespace sightline
-namespace sightline {
+
+// ---- From JSON
 
 Order_certificate order_certificate_from_json(const nlohmann::json& value) {
   using namespace certificate_json;
@@ -223,6 +310,10 @@ Weak_certificate weak_certificate_from_json(const nlohmann::json& value) {
   return certificate;
 }
 
+Order_certificate read_order_certificate(std::istream& in) {
+  return order_certificate_from_json(certificate_json::parse(in));
+}
+
 Certificate read_certificate(std::istream& in) {
   const nlohmann::json value = certificate_json::parse(in);
   if (certificate_json::has_format(value, certificate_json::weak_format)) return weak_certificate_from_json(value);
@@ -230,6 +321,8 @@ Certificate read_certificate(std::istream& in) {
   if (certificate_json::has_format(value, certificate_json::graph_format)) return graph_certificate_from_json(value);
   return order_certificate_from_json(value);
 }
+
+// ---- To JSON
 
 nlohmann::json to_json(const Order_certificate& certificate) {
   nlohmann::json value = certificate_json::write(certificate_json::order_format, certificate);

@@ -1,81 +1,46 @@
+// To be read after polygons.h and verdict.h, from top to bottom: a face and its boundary; when a face may be left out;
+// tilings; and last the check itself, step by step.
+
 #include <sightline/algorithms/verify/covering.h>
 
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/verdict.h>
+#include <sightline/kernel/number.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <iterator>
-#include <sstream>
+#include <map>
+#include <optional>
+#include <set>
 #include <string_view>
+#include <utility>
 
 namespace sightline {
 namespace certificate_check {
+namespace {
 
-Exact_point minus(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
-}
+// ---- Faces and their boundaries
 
-Rational dot(const Integer_vector& a, const Exact_point& b) {
-  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
+/// A face of the soup as points: consecutive repetitions dropped, holes turned so that they run against the outer loop.
+struct Face {
+  std::vector<Polygon> loops;
+  bool planar = true;
+  bool has_front = false;  // the outer loop's Newell normal is not zero
+  Plane plane;  // of a planar face; if it has no front, either side of its plane; if all points are collinear, zero
 
-Integer dot(const Integer_vector& a, const Integer_vector& b) {
-  return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
+  Face(const Polygon_soup& soup, Face_id f);
 
-int sign_of_dot(const Integer_vector& a, const Integer_vector& b) {
-  thread_local Integer sum;  // reused: most of the time of a check is spent here
-  mpz_mul(sum.get_mpz_t(), a[0].get_mpz_t(), b[0].get_mpz_t());
-  mpz_addmul(sum.get_mpz_t(), a[1].get_mpz_t(), b[1].get_mpz_t());
-  mpz_addmul(sum.get_mpz_t(), a[2].get_mpz_t(), b[2].get_mpz_t());
-  return sgn(sum);
-}
-
-bool is_zero(const Integer_vector& a) { return sgn(a[0]) == 0 && sgn(a[1]) == 0 && sgn(a[2]) == 0; }
-
-Integer_vector negated(const Integer_vector& a) { return {Integer(-a[0]), Integer(-a[1]), Integer(-a[2])}; }
-
-Integer_vector primitive(const Integer_vector& v) {
-  const Integer divisor = gcd(gcd(v[0], v[1]), v[2]);
-  if (sgn(divisor) == 0) return v;
-  return {Integer(v[0] / divisor), Integer(v[1] / divisor), Integer(v[2] / divisor)};
-}
-
-Integer_vector primitive(const Exact_point& v) {
-  const Integer scale = lcm(lcm(v[0].get_den(), v[1].get_den()), v[2].get_den());
-  Integer_vector scaled;
-  for (std::size_t k = 0; k < 3; ++k) scaled[k] = v[k].get_num() * (scale / v[k].get_den());
-  return primitive(scaled);
-}
-
-Integer_vector newell_normal(const Polygon& loop) {
-  Exact_point sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Exact_point part = cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0]));
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+  std::size_t corner_count() const {
+    std::size_t count = 0;
+    for (const Polygon& loop : loops) count += loop.size();
+    return count;
   }
-  return primitive(sum);
-}
 
-Homogeneous homogeneous(const Exact_point& p) {
-  const Integer scale = lcm(lcm(p[0].get_den(), p[1].get_den()), p[2].get_den());
-  Homogeneous h;
-  for (std::size_t k = 0; k < 3; ++k) h[k] = p[k].get_num() * (scale / p[k].get_den());
-  h[3] = scale;
-  return h;
-}
-
-Homogeneous plane_of(const Polygon& polygon) {
-  const Integer_vector normal = newell_normal(polygon);
-  const Rational offset = -dot(normal, polygon[0]);
-  Homogeneous plane;
-  for (std::size_t k = 0; k < 3; ++k) plane[k] = normal[k] * offset.get_den();
-  plane[3] = offset.get_num();
-  return plane;
-}
-
-int side(const Homogeneous& plane, const Homogeneous& p) {
-  thread_local Integer sum;
-  mpz_mul(sum.get_mpz_t(), plane[0].get_mpz_t(), p[0].get_mpz_t());
-  for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), plane[k].get_mpz_t(), p[k].get_mpz_t());
-  return sgn(sum);
-}
+ private:
+  Integer_vector some_normal() const;
+};
 
 Face::Face(const Polygon_soup& soup, Face_id f) {
   for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
@@ -108,35 +73,21 @@ Integer_vector Face::some_normal() const {  // of the first three points that ar
   return {};
 }
 
-std::string not_convex(const Polygon& polygon, const Plane& plane) {
-  const std::size_t n = polygon.size();
-  if (n < 3) return "has fewer than three vertices";
-  for (const Exact_point& p : polygon)
-    if (plane.side(p) != 0) return "has a vertex off the plane of its face";
-  std::vector<Integer_vector> edges(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    edges[i] = primitive(minus(polygon[(i + 1) % n], polygon[i]));
-    if (is_zero(edges[i])) return "has a repeated vertex";
+/// A sum of directed segments as a chain: two sums are the same chain iff on each line, at each point, the net number
+/// of arrivals is the same. A line through a known point is its direction, so the key is (direction up to sign, point).
+/// Proof: P-21b
+class Boundary_chain {
+ public:
+  void add(const Polygon& loop, long multiplicity);
+  void add(const Face& face, long multiplicity) {
+    for (const Polygon& loop : face.loops) add(loop, multiplicity);
   }
-  const int area = sign_of_dot(newell_normal(polygon), plane.normal);
-  if (area <= 0) return area == 0 ? "has zero area" : "is clockwise as seen from the front of its face";
-  // Every corner turns left by less than 180 degrees, and the edges turn once around in all.
-  const auto turn = [&](const Integer_vector& a, const Integer_vector& b) {
-    return sign_of_dot(cross(a, b), plane.normal);
-  };
-  const auto upper = [&](const Integer_vector& edge) {  // angle to edge 0 in [0, 180)
-    const int left = turn(edges[0], edge);
-    return left > 0 || (left == 0 && sign_of_dot(edges[0], edge) > 0);
-  };
-  std::size_t rounds = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    const Integer_vector &in = edges[i], &out = edges[(i + 1) % n];
-    const int left = turn(in, out);
-    if (left < 0 || (left == 0 && sign_of_dot(in, out) < 0)) return "is not convex";
-    rounds += !upper(in) && upper(out);
-  }
-  return rounds == 1 ? "" : "is not convex (it turns more than once around)";
-}
+  /// A point where the chain is not zero, if there is one.
+  std::optional<Exact_point> nonzero() const;
+
+ private:
+  std::map<std::pair<Integer_vector, Exact_point>, long> arrivals_;
+};
 
 void Boundary_chain::add(const Polygon& loop, long multiplicity) {
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -154,38 +105,11 @@ std::optional<Exact_point> Boundary_chain::nonzero() const {
   return std::nullopt;
 }
 
-Cone::Cone(const Polygon& polygon, const Exact_point& eye) {
-  const Integer_vector normal = newell_normal(polygon);
-  const Rational height = dot(normal, minus(eye, polygon[0]));
-  edge_on = sgn(height) == 0;
-  if (edge_on) return;
-  const bool front = sgn(height) > 0;
-  std::vector<Integer_vector> all;
-  for (const Exact_point& p : polygon) all.push_back(primitive(minus(p, eye)));
-  const auto edge_plane = [&](std::size_t i) {
-    const Integer_vector plane = primitive(cross(all[i], all[(i + 1) % all.size()]));
-    return front ? negated(plane) : plane;
-  };
-  Integer_vector previous = edge_plane(all.size() - 1);
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    Integer_vector next = edge_plane(i);
-    if (next == previous) continue;  // a straight corner
-    rays.push_back(all[i]);
-    edge_planes.push_back(next);
-    previous = std::move(next);
-  }
-  const Integer_vector inward = front ? negated(normal) : normal;
-  for (std::size_t k = 0; k < 3; ++k) nearness[k] = inward[k] * height.get_den();
-  distance = abs(height.get_num());  // coprime to nearness, as the normal is primitive and the height reduced
-}
+// ---- Faces that are not drawn
 
-bool separates(const Cone& a, const Cone& b) {
-  return std::any_of(a.edge_planes.begin(), a.edge_planes.end(), [&](const Integer_vector& plane) {
-    return std::none_of(b.rays.begin(), b.rays.end(),
-                        [&](const Integer_vector& ray) { return sign_of_dot(plane, ray) > 0; });
-  });
-}
-
+/// Whether two edges of a planar face cross in a point inside both, or its winding number is neither 0 nor 1 somewhere.
+/// Where no edges cross so, a sweep between neighbouring abscissae of vertices meets every cell.
+/// Pre: planar, not all points collinear. Cost: quadratic in the corners. Proof: P-21d
 bool self_intersecting(const Face& face) {
   // Edges seen from the front, as if a coordinate plane were the face's.
   using Point = std::array<Rational, 2>;
@@ -229,6 +153,7 @@ bool self_intersecting(const Face& face) {
   return false;
 }
 
+/// Whether two closed sequences of points are the same up to the place where they begin.
 bool same_cycle(const Polygon& a, const Polygon& b) {
   if (a.size() != b.size()) return false;
   Polygon twice = a;
@@ -236,18 +161,17 @@ bool same_cycle(const Polygon& a, const Polygon& b) {
   return std::search(twice.begin(), twice.end(), b.begin(), b.end()) != twice.end();
 }
 
-std::string name(const Exact_point& p) {
-  std::ostringstream text;
-  text << '(' << nearest_double(p[0]) << ", " << nearest_double(p[1]) << ", " << nearest_double(p[2]) << ')';
-  return text.str();
-}
+// ---- Tilings
 
-bool canonical(const Rational& r) { return sgn(r.get_den()) > 0 && gcd(r.get_num(), r.get_den()) == 1; }
+/// A polygon that should be part of a tiling, with its name for messages and its place in the order, if it has one.
+struct Tile {
+  const Polygon* polygon;
+  std::string name;
+  std::vector<std::size_t> fragments;
+};
 
-bool canonical(const Polygon& polygon) {
-  return std::all_of(polygon.begin(), polygon.end(), [](const Exact_point& p) { return canonical(p); });
-}
-
+/// Rejects unless the tiles are convex polygons in the plane that cover once what `target` bounds, and nothing else.
+/// `winds_once`: the target is known to be the boundary of a set, taken once. Proof: P-21
 void check_tiling(const std::string& what, Boundary_chain target, const Plane& plane, bool winds_once,
                   const std::vector<Tile>& tiles) {
   if (tiles.empty()) reject(what + " has no fragment and is not set aside");
@@ -272,6 +196,7 @@ void check_tiling(const std::string& what, Boundary_chain target, const Plane& p
       }
 }
 
+/// Rejects unless the pieces make a surface on the face's own vertices that its loops bound. Proof: P-22
 void check_pieces(const std::string& what, const Face& face, const std::vector<Tile>& pieces) {
   std::set<Exact_point> own;
   for (const Polygon& loop : face.loops) own.insert(loop.begin(), loop.end());
@@ -302,6 +227,7 @@ void check_pieces(const std::string& what, const Face& face, const std::vector<T
     reject(what + " has the wrong number of pieces for its corners");
 }
 
+/// Rejects unless the reason holds.
 void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry, const std::set<Face_id>& set_aside) {
   const std::string what = name("face", entry.face);
   const std::string_view why = entry.why;
@@ -336,6 +262,8 @@ void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry,
     reject(what + " is set aside for no reason that can be checked");
   }
 }
+
+}  // namespace
 
 void check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye) {
   const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {

@@ -1,6 +1,8 @@
+// To be read after covering.cpp, from top to bottom.
+
 #include <sightline/algorithms/verify/graph.h>
 
-#include <sightline/kernel/number.h>
+#include <sightline/algorithms/verify/polygons.h>
 
 #include <algorithm>
 #include <set>
@@ -8,12 +10,28 @@
 
 namespace sightline {
 namespace graph_check {
+namespace {
 
-bool Oriented_face::has_corner(int side_of, const Oriented_face& other) const {
-  return std::any_of(corners.begin(), corners.end(),
-                     [&](const Homogeneous& p) { return side(other.plane, p) == side_of; });
-}
+using namespace certificate_check;
 
+/// A polygon's corners and its plane.
+struct Oriented_face {
+  std::vector<Homogeneous> corners;
+  Homogeneous plane;
+
+  explicit Oriented_face(const Polygon& polygon) : plane(plane_of(polygon)) {
+    for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
+  }
+
+  bool has_corner(int side_of, const Oriented_face& other) const {
+    return std::any_of(corners.begin(), corners.end(),
+                       [&](const Homogeneous& p) { return side(other.plane, p) == side_of; });
+  }
+};
+
+bool may_obscure(const Oriented_face& a, const Oriented_face& b) { return a.has_corner(1, b) && b.has_corner(-1, a); }
+
+/// Rejects unless every face of the component [begin, end) is reached from the first one, along `next`.
 void check_reached(std::size_t begin, std::size_t end, const std::vector<std::vector<std::size_t>>& next,
                    const char* how) {
   std::set<std::size_t> seen{begin};
@@ -30,6 +48,7 @@ void check_reached(std::size_t begin, std::size_t end, const std::vector<std::ve
              {begin, i});
 }
 
+/// The certificate, step by step; throws a Rejection.
 void check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene, and the components are the fragments.
   check_covering(soup, certificate);
@@ -86,9 +105,8 @@ void check(const Polygon_soup& soup, const Graph_certificate& certificate, const
   if (options.progress) options.progress(n, n);
 }
 
+}  // namespace
 }  // namespace graph_check
-}  // namespace sightline
-namespace sightline {
 
 Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
   return certificate_check::verdict_of([&] {

@@ -3,6 +3,7 @@
 // pairs of faces. Laws: proofs/priority.md (P-34).
 
 #include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
@@ -23,35 +24,6 @@ struct Graph_certificate : Covering {
   };
   std::vector<Arc> arcs;
 };
-
-namespace graph_check {
-
-using namespace certificate_check;
-
-/// A polygon's corners and its plane.
-struct Oriented_face {
-  std::vector<Homogeneous> corners;
-  Homogeneous plane;
-
-  explicit Oriented_face(const Polygon& polygon) : plane(plane_of(polygon)) {
-    for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
-  }
-
-  bool has_corner(int side_of, const Oriented_face& other) const;
-};
-
-inline bool may_obscure(const Oriented_face& a, const Oriented_face& b) {
-  return a.has_corner(1, b) && b.has_corner(-1, a);
-}
-
-/// Rejects unless every face of the component [begin, end) is reached from the first one, along `next`.
-void check_reached(std::size_t begin, std::size_t end, const std::vector<std::vector<std::size_t>>& next,
-                   const char* how);
-
-/// The certificate, step by step; throws a Rejection.
-void check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options);
-
-}  // namespace graph_check
 
 /// Whether the certificate proves the strongly connected components of the priority graph and a consistent enumeration
 /// of them: (1) the fragments are the scene (as for orders); (2) the arcs hold, by their corners, and join each

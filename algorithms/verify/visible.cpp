@@ -1,17 +1,33 @@
+// To be read after covering.cpp and pairs.h, from top to bottom: cones of directions, sums of their boundaries, and the
+// check; in it run() first.
+
 #include <sightline/algorithms/verify/visible.h>
 
-#include <sightline/algorithms/verify/order.h>
+#include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/polygons.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 namespace sightline {
 namespace visible_check {
+namespace {
 
+using namespace order_check;
+
+// ---- Cones
+
+/// Where a direction lies: 1 strictly inside the cone, 0 on its boundary, -1 outside. Zero is on the boundary.
 int side(const Cone& cone, const Integer_vector& direction) {
   int least = 1;
   for (const Integer_vector& plane : cone.edge_planes) {
@@ -21,6 +37,8 @@ int side(const Cone& cone, const Integer_vector& direction) {
   return least;
 }
 
+/// The cone that directions span. It stands at distance 0, that is, nearer than any polygon. Rejects unless it is
+/// convex and pointed, with an inside. Proof: P-63a
 Cone cone_of(const std::string& what, const Visible_certificate::Directions& directions) {
   if (directions.size() < 3) reject(what + " has fewer than three directions");
   if (!canonical(directions)) reject(what + " has a direction that is not in canonical numbers");
@@ -48,6 +66,24 @@ Cone cone_of(const std::string& what, const Visible_certificate::Directions& dir
   cone.distance = 0;
   return cone;
 }
+
+/// A sum of boundaries of cones, as arcs of great circles, each shorter than half a circle. A circle is the normal of
+/// its plane up to sign. The sum is zero iff on each circle it is zero just after one point and does not change at any
+/// point. Proof: P-63d
+class Arc_chain {
+ public:
+  void add(const Cone& cone, long multiplicity);
+  /// A direction where the chain is not zero, if there is one.
+  std::optional<Integer_vector> nonzero() const;
+
+ private:
+  struct Circle {
+    Integer_vector base;
+    long after_base = 0;
+    std::map<Integer_vector, long> jumps;  // counterclockwise around the axis
+  };
+  std::map<Integer_vector, Circle> circles_;
+};
 
 void Arc_chain::add(const Cone& cone, long multiplicity) {
   for (std::size_t i = 0; i < cone.rays.size(); ++i) {
@@ -79,6 +115,10 @@ std::optional<Integer_vector> Arc_chain::nonzero() const {
   return std::nullopt;
 }
 
+// ---- The field
+
+/// Rejects unless each direction of the field, off a set of measure zero, is in exactly one cone, and no other
+/// direction is in any. Proof: P-63e
 void check_field(std::span<const Cone> cones, const std::vector<std::string>& names, const Cone* field) {
   Arc_chain difference;
   for (const Cone& cone : cones) difference.add(cone, 1);
@@ -97,100 +137,139 @@ void check_field(std::span<const Cone> cones, const std::vector<std::string>& na
     if (side(cones[i], inside) >= 0) reject(names[0] + " and " + names[i] + " overlap");
 }
 
-void check(const Polygon_soup& soup, const Visible_certificate& certificate, const Verify_options& options) {
-  // 1. The eye is a point, and the fragments are the scene.
-  if (!canonical(certificate.eye)) reject("the eye is not a point in canonical numbers");
-  check_covering(soup, certificate);
-  const std::size_t pieces = certificate.fragments.size(), parts = certificate.parts.size(),
-                    tiles = parts + certificate.empty.size();
-  std::vector<Cone> cones;  // of the pieces, then of the tiles: of the parts and of what is empty
-  std::vector<certificate_check::Plane> planes;
-  std::vector<std::tuple<bool, Face_id, std::uint32_t>>
-      preference;  // of pieces equally far: seen from the front, then as in the file
-  for (const Order_fragment& piece : certificate.fragments) {
-    cones.emplace_back(piece.vertices, certificate.eye);
-    planes.push_back({newell_normal(piece.vertices), piece.vertices[0]});
-    preference.emplace_back(planes.back().side(certificate.eye) <= 0, piece.face, piece.piece);
-  }
-  const auto face_of = [&](std::size_t piece) { return name("face", certificate.fragments[piece].face); };
+// ---- The certificate
 
-  // 2. Each part is a convex polygon inside its piece, with its ray inside its cone.
-  std::vector<std::string> names;    // of the tiles
-  std::vector<Integer_vector> rays;  // of the parts
-  for (std::size_t k = 0; k < parts; ++k) {
-    const auto& [own, vertices, ray] = certificate.parts[k];
-    if (own >= pieces) reject(name("part", k) + " is of fragment " + std::to_string(own) + ", which there is not");
-    const std::string what = names.emplace_back(name("part", k) + " (" + face_of(own) + ")");
-    if (!canonical(vertices) || !canonical(ray))
-      reject(what + " has a vertex or a ray that is not in canonical numbers", {own});
-    if (cones[own].edge_on) reject(what + " is seen edge-on: the eye is in its plane", {own});
-    if (const std::string fault = not_convex(vertices, planes[own]); !fault.empty()) reject(what + " " + fault, {own});
-    const Cone cone(vertices, certificate.eye);
-    for (const Integer_vector& corner : cone.rays)
-      if (side(cones[own], corner) < 0) reject(what + " is not inside its piece", {own});
-    const Integer_vector direction = primitive(ray);
-    if (side(cone, direction) <= 0) reject(what + " does not have its ray strictly inside its cone", {own});
-    rays.push_back(direction);
-    cones.push_back(cone);
-  }
-  for (std::size_t k = 0; k < certificate.empty.size(); ++k)
-    cones.push_back(cone_of(names.emplace_back(name("empty cone", k)), certificate.empty[k]));
+/// The certificate, step by step; each throws a Rejection.
+class Check {
+ public:
+  Check(const Visible_certificate& certificate, const Verify_options& options)
+      : certificate_(certificate),
+        options_(options),
+        pieces_(certificate.fragments.size()),
+        parts_(certificate.parts.size()),
+        tiles_(parts_ + certificate.empty.size()) {}
 
-  // 3. No ray meets a piece before its part. No piece is nearer than a part, or as far and preferred, and none is in an
-  // empty cone.
+  void run(const Polygon_soup& soup) {
+    // 1. The eye is a point, and the fragments are the scene.
+    if (!canonical(certificate_.eye)) reject("the eye is not a point in canonical numbers");
+    check_covering(soup, certificate_);
+    take_pieces();
+
+    // 2. Each part is a convex polygon inside its piece, with its ray inside its cone.
+    for (std::size_t k = 0; k < parts_; ++k) check_part(k);
+    for (std::size_t k = 0; k < certificate_.empty.size(); ++k)
+      cones_.push_back(cone_of(names_.emplace_back(name("empty cone", k)), certificate_.empty[k]));
+
+    // 3. No ray meets a piece before its part. No piece is nearer than a part, or as far and preferred, and none is in
+    // an empty cone.
+    compare_all();
+
+    // 4. Parts and empty cones are the field.
+    std::optional<Cone> field;
+    if (!certificate_.field.empty()) field = cone_of("the field", certificate_.field);
+    check_field(std::span(cones_).subspan(pieces_), names_, field ? &*field : nullptr);
+  }
+
+ private:
   enum class Fault { meets_first, is_nearer, is_preferred, is_in };
-  std::optional<std::tuple<bool, std::size_t, std::size_t, Fault>>
-      first;  // of rays before others, then by tile, then by piece
-  Pair_check pair;
-  const auto compare = [&](std::size_t tile, std::size_t i) {
-    const std::size_t k = tile - pieces;
-    const auto found = [&](Fault fault) {
-      const std::tuple here(fault != Fault::meets_first, k, i, fault);
-      if (!first || here < *first) first = here;
-    };
-    const Cone &own = cones[tile], &piece = cones[i];
-    if (k >= parts) {  // at distance 0: nearer than the piece wherever both are
-      if (pair.nearer_somewhere(own, piece)) found(Fault::is_in);
-      return;
-    }
-    if (side(piece, rays[k]) >= 0 &&
-        piece.distance * dot(own.nearness, rays[k]) < own.distance * dot(piece.nearness, rays[k]))
-      found(Fault::meets_first);
-    if (pair.nearer_somewhere(piece, own)) found(Fault::is_nearer);
-    const bool one_plane = piece.nearness == own.nearness && piece.distance == own.distance;
-    if (one_plane && preference[i] < preference[certificate.parts[k].fragment] && !separates(piece, own) &&
-        !separates(own, piece))
-      found(Fault::is_preferred);
-  };
-  std::vector<std::size_t> places(cones.size());
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(pieces);
-  Pairs(cones, compare).each({middle, places.end()}, {places.begin(), middle}, share_of(options, tiles));
-  if (first) {
-    const auto [later, k, i, fault] = *first;
-    if (fault == Fault::is_in) reject(names[k] + " has " + face_of(i) + " in it", {i});
-    const std::string what =
-        fault == Fault::meets_first ? " is not what its ray meets first: " + face_of(i) + " is nearer"
-        : fault == Fault::is_nearer ? " is behind " + face_of(i) + " somewhere"
-                                    : " is as far as " + face_of(i) + " somewhere, which is preferred";
-    reject(names[k] + what, {certificate.parts[k].fragment, i});
-  }
-  if (options.progress) options.progress(tiles, tiles);
+  /// Of rays before others, then by tile, then by piece.
+  using Found = std::tuple<bool, std::size_t, std::size_t, Fault>;
 
-  // 4. Parts and empty cones are the field.
-  std::optional<Cone> field;
-  if (!certificate.field.empty()) field = cone_of("the field", certificate.field);
-  check_field(std::span(cones).subspan(pieces), names, field ? &*field : nullptr);
+  void take_pieces();
+  void check_part(std::size_t k);
+  void compare_all();
+  /// Finds what is wrong with tile k and piece i.
+  void compare(std::size_t k, std::size_t i);
+  [[noreturn]] void refuse(const Found& found) const;
+
+  std::string face_of(std::size_t piece) const { return name("face", certificate_.fragments[piece].face); }
+
+  const Visible_certificate& certificate_;
+  const Verify_options& options_;
+  const std::size_t pieces_, parts_, tiles_;      // how many
+  std::vector<Cone> cones_;                       // of the pieces, then of the tiles: of the parts and of what is empty
+  std::vector<certificate_check::Plane> planes_;  // of the pieces
+  std::vector<std::tuple<bool, Face_id, std::uint32_t>>
+      preference_;                    // of pieces equally far: seen from the front, then as in the file
+  std::vector<std::string> names_;    // of the tiles
+  std::vector<Integer_vector> rays_;  // of the parts
+  Pair_check pair_;
+  std::optional<Found> first_;
+};
+
+void Check::take_pieces() {
+  for (const Order_fragment& piece : certificate_.fragments) {
+    cones_.emplace_back(piece.vertices, certificate_.eye);
+    planes_.push_back({newell_normal(piece.vertices), piece.vertices[0]});
+    preference_.emplace_back(planes_.back().side(certificate_.eye) <= 0, piece.face, piece.piece);
+  }
 }
 
+void Check::check_part(std::size_t k) {
+  const auto& [own, vertices, ray] = certificate_.parts[k];
+  if (own >= pieces_) reject(name("part", k) + " is of fragment " + std::to_string(own) + ", which there is not");
+  const std::string what = names_.emplace_back(name("part", k) + " (" + face_of(own) + ")");
+  if (!canonical(vertices) || !canonical(ray))
+    reject(what + " has a vertex or a ray that is not in canonical numbers", {own});
+  if (cones_[own].edge_on) reject(what + " is seen edge-on: the eye is in its plane", {own});
+  if (const std::string fault = not_convex(vertices, planes_[own]); !fault.empty()) reject(what + " " + fault, {own});
+  const Cone cone(vertices, certificate_.eye);
+  for (const Integer_vector& corner : cone.rays)
+    if (side(cones_[own], corner) < 0) reject(what + " is not inside its piece", {own});
+  const Integer_vector direction = primitive(ray);
+  if (side(cone, direction) <= 0) reject(what + " does not have its ray strictly inside its cone", {own});
+  rays_.push_back(direction);
+  cones_.push_back(cone);
+}
+
+void Check::compare_all() {
+  std::vector<std::size_t> places(cones_.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  const auto middle = places.begin() + static_cast<std::ptrdiff_t>(pieces_);
+  Pairs(cones_, [&](std::size_t tile, std::size_t i) {
+    compare(tile - pieces_, i);
+  }).each({middle, places.end()}, {places.begin(), middle}, share_of(options_, tiles_));
+  if (first_) refuse(*first_);
+  if (options_.progress) options_.progress(tiles_, tiles_);
+}
+
+void Check::compare(std::size_t k, std::size_t i) {
+  const auto found = [&](Fault fault) {
+    const Found here(fault != Fault::meets_first, k, i, fault);
+    if (!first_ || here < *first_) first_ = here;
+  };
+  const Cone &own = cones_[pieces_ + k], &piece = cones_[i];
+  if (k >= parts_) {  // at distance 0: nearer than the piece wherever both are
+    if (pair_.nearer_somewhere(own, piece)) found(Fault::is_in);
+    return;
+  }
+  if (side(piece, rays_[k]) >= 0 &&
+      piece.distance * dot(own.nearness, rays_[k]) < own.distance * dot(piece.nearness, rays_[k]))
+    found(Fault::meets_first);
+  if (pair_.nearer_somewhere(piece, own)) found(Fault::is_nearer);
+  const bool one_plane = piece.nearness == own.nearness && piece.distance == own.distance;
+  if (one_plane && preference_[i] < preference_[certificate_.parts[k].fragment] && !separates(piece, own) &&
+      !separates(own, piece))
+    found(Fault::is_preferred);
+}
+
+void Check::refuse(const Found& found) const {
+  const auto& [later, k, i, fault] = found;
+  if (fault == Fault::is_in) reject(names_[k] + " has " + face_of(i) + " in it", {i});
+  const std::string what =
+      fault == Fault::meets_first ? " is not what its ray meets first: " + face_of(i) + " is nearer"
+      : fault == Fault::is_nearer ? " is behind " + face_of(i) + " somewhere"
+                                  : " is as far as " + face_of(i) + " somewhere, which is preferred";
+  reject(names_[k] + what, {certificate_.parts[k].fragment, i});
+}
+
+}  // namespace
 }  // namespace visible_check
-}  // namespace sightline
-namespace sightline {
 
 Verdict verify_visible(const Polygon_soup& soup, const Visible_certificate& certificate,
                        const Verify_options& options) {
   return certificate_check::verdict_of([&] {
-    visible_check::check(soup, certificate, options);
+    visible_check::Check(certificate, options).run(soup);
     const std::string counts = std::to_string(certificate.parts.size()) + " visible parts and " +
                                std::to_string(certificate.empty.size()) + " empty cones";
     return counts + " tile " + (certificate.field.empty() ? "all directions" : "the field") +

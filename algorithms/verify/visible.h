@@ -1,17 +1,12 @@
 #pragma once
 // Checks the visible surfaces from a point without trusting, or sharing a line with, whatever made them: rationals and
-// integers only. Laws: proofs/see_certificate.md (P-63). To be read in one sitting, from top to bottom, after
-// covering.h and order.h.
+// integers only. Laws: proofs/see_certificate.md (P-63).
 
 #include <sightline/algorithms/verify/covering.h>
-#include <sightline/algorithms/verify/order.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
-#include <map>
-#include <optional>
-#include <span>
-#include <string>
 #include <vector>
 
 namespace sightline {
@@ -37,48 +32,6 @@ struct Visible_certificate : Covering {
   std::vector<Part> parts;
   std::vector<Directions> empty;
 };
-
-namespace visible_check {
-
-using namespace order_check;
-
-// ---- Cones
-
-/// Where a direction lies: 1 strictly inside the cone, 0 on its boundary, -1 outside. Zero is on the boundary.
-int side(const Cone& cone, const Integer_vector& direction);
-
-/// The cone that directions span. It stands at distance 0, that is, nearer than any polygon. Rejects unless it is
-/// convex and pointed, with an inside. Proof: P-63a
-Cone cone_of(const std::string& what, const Visible_certificate::Directions& directions);
-
-/// A sum of boundaries of cones, as arcs of great circles, each shorter than half a circle. A circle is the normal of
-/// its plane up to sign. The sum is zero iff on each circle it is zero just after one point and does not change at any
-/// point. Proof: P-63d
-class Arc_chain {
- public:
-  void add(const Cone& cone, long multiplicity);
-  /// A direction where the chain is not zero, if there is one.
-  std::optional<Integer_vector> nonzero() const;
-
- private:
-  struct Circle {
-    Integer_vector base;
-    long after_base = 0;
-    std::map<Integer_vector, long> jumps;  // counterclockwise around the axis
-  };
-  std::map<Integer_vector, Circle> circles_;
-};
-
-// ---- The field
-
-/// Rejects unless each direction of the field, off a set of measure zero, is in exactly one cone, and no other
-/// direction is in any. Proof: P-63e
-void check_field(std::span<const Cone> cones, const std::vector<std::string>& names, const Cone* field);
-
-/// The certificate, step by step; throws a Rejection.
-void check(const Polygon_soup& soup, const Visible_certificate& certificate, const Verify_options& options);
-
-}  // namespace visible_check
 
 /// Whether the certificate proves what the eye sees of the scene in the field: (1) the fragments are the scene (as for
 /// orders); (2) each part is a convex polygon of positive area inside its fragment, and its ray meets no other before

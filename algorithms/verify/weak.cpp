@@ -1,10 +1,60 @@
+// To be read after covering.cpp and weak_lines.h, from top to bottom: sightlines, which prove that a fragment is
+// visible; trees, which prove that one is hidden; and the check, step by step.
+
 #include <sightline/algorithms/verify/weak.h>
 
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/weak_lines.h>
+#include <sightline/kernel/number.h>
+
 #include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace sightline {
 namespace weak_check {
+namespace {
+
+/// A step of the check that would need more products than this, or a leaf whose multipliers have more bits on their
+/// common denominator, is rejected.
+constexpr std::size_t most_products = 10'000'000;
+/// The same for cuts that are below one another: each gives a cell a corner more at most.
+constexpr std::size_t most_cuts = 1000;
+
+// ---- Visible
+
+/// Checks sightlines against all fragments; those whose boxes of coordinates are apart are passed over.
+class Sightlines {
+ public:
+  Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
+             const std::vector<Outline>& sources);
+
+  /// Rejects unless nothing is between the end points, nor near them but what is in the plane of the source or of the
+  /// fragment. Proof: P-72a, P-72b
+  void check(std::size_t k) const;
+
+ private:
+  struct Box {
+    std::size_t place;
+    Exact_point low, high;
+
+    Box(std::size_t of, const Polygon& points);
+    bool apart(const Box& other) const;
+  };
+  std::string full_name(std::size_t i) const {
+    return name("fragment", i) + " (" + name("face", certificate_.fragments[i].face) + ")";
+  }
+
+  const Weak_certificate& certificate_;
+  const std::vector<Outline>&fragments_, &sources_;
+  std::vector<Box> boxes_;
+};
 
 Sightlines::Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
                        const std::vector<Outline>& sources)
@@ -65,10 +115,90 @@ bool Sightlines::Box::apart(const Box& other) const {
   return false;
 }
 
+// ---- Hidden
+
+/// A form times a common denominator, and that.
+struct Scaled_form {
+  Homogeneous values;
+  Integer scale;
+
+  explicit Scaled_form(const Weak_certificate::Form& form);
+};
+
 Scaled_form::Scaled_form(const Weak_certificate::Form& form) : scale(1) {
   for (const Rational& r : form) scale = lcm(scale, r.get_den());
   for (std::size_t k = 0; k < 4; ++k) values[k] = form[k].get_num() * (scale / form[k].get_den());
 }
+
+/// Checks the proofs that a fragment is hidden from a source.
+class Trees {
+ public:
+  using Node = Weak_certificate::Node;
+  using Term = Weak_certificate::Term;
+
+  Trees(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
+        const std::vector<Outline>& sources);
+
+  std::size_t leaves() const { return leaves_; }
+
+  /// Rejects unless the tree is one, and each of its leaves holds. `step` is called now and then.
+  /// Cost: linear in the nodes, each in the pairs of corners of a cell at most; no recursion. Proof: P-72c .. P-72f
+  void check(std::size_t k, const std::function<void()>& step);
+
+ private:
+  std::string entry() const {
+    return name("hidden", entry_) + " (" + name("face", certificate_.fragments[fragment_].face) + ")";
+  }
+  [[noreturn]] void refuse(const std::string& why) const {
+    reject(entry() + ", " + name("node", node_) + " " + why, {fragment_});
+  }
+
+  void decide(std::size_t line, int sign) {
+    trail_.push_back({line, path_[line]});
+    path_[line] = sign;
+  }
+  /// 0: undecided.
+  int decided(std::size_t line) const { return line < path_.size() ? path_[line] : 0; }
+
+  std::shared_ptr<Cell> cell_of(std::shared_ptr<const Corners> source, std::shared_ptr<const Corners> target,
+                                std::size_t cuts) const;
+
+  std::pair<std::shared_ptr<Cell>, std::shared_ptr<Cell>> halves(const Cell& cell, const Node& node) const;
+
+  void check_leaf(Cell& cell, const Node& node);
+
+  /// Nothing of the fragment's part is in front of the source, or nothing of the source's part sees the fragment's
+  /// front.
+  void check_away(const Cell& cell) const;
+
+  /// All lines of the cell cross the fragment's plane between their ends, inside the fragment. Proof: P-72d
+  void check_blocked(Cell& cell, std::size_t f);
+
+  Cell::Signs signs_of(Cell& cell, std::size_t line) const;
+
+  /// What is positive on all of the cell's lines adds up to what is positive on none. Proof: P-72e
+  void check_empty(const Cell& cell, const std::vector<Term>& terms) const;
+
+  /// A term's line and forms, and what their product counts.
+  struct Summand {
+    std::size_t line;
+    Scaled_form source, target;
+    Rational weight;
+  };
+  Summand summand_of(const Term& term, const Cell& cell) const;
+
+  /// A line's values at the pairs of corners.
+  static Matrix values_of(const Line& line, const Cell& cell);
+
+  const Weak_certificate& certificate_;
+  const std::vector<Outline>&fragments_, &sources_;
+  Lines lines_;                                     // those of the certificate, then those of blockers
+  std::vector<Lines::Named> named_;                 // the certificate's
+  std::vector<std::vector<Lines::Named>> edges_;    // of fragments that block, when they first do
+  std::vector<int> path_;                           // signs of numbered lines
+  std::vector<std::pair<std::size_t, int>> trail_;  // lines decided, and what was there before
+  std::size_t entry_ = 0, node_ = 0, source_ = 0, fragment_ = 0, leaves_ = 0;
+};
 
 Trees::Trees(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
              const std::vector<Outline>& sources)
@@ -227,30 +357,10 @@ void Trees::check_empty(const Cell& cell, const std::vector<Term>& terms) const 
     refuse("has too many terms for its corners to be checked");
 
   // 1. What is added up, and a common denominator of the weights.
-  struct Summand {
-    std::size_t line;
-    Scaled_form source, target;
-    Rational weight;
-  };
   std::vector<Summand> summands;
   Integer denominator = 1;
-  const auto form_of = [&](const std::optional<Weak_certificate::Form>& form, const Corners& corners) {
-    if (!form) return Scaled_form({0, 0, 0, 1});
-    if (!canonical(*form)) refuse("has a form that is not in canonical numbers");
-    Scaled_form scaled(*form);
-    if (position(scaled.values, corners) <= 0) refuse("has a form that is negative somewhere, or zero everywhere");
-    return scaled;
-  };
   for (const Term& term : terms) {
-    if (term.line >= named_.size()) refuse("has a term of line " + std::to_string(term.line) + ", which there is not");
-    const auto& [line, scale] = named_[term.line];
-    if (decided(line) == 0)
-      refuse("has a term of line " + std::to_string(term.line) + ", which is not decided above it");
-    if (!canonical(term.factor) || sgn(term.factor) <= 0)
-      refuse("has a factor that is not positive, or not in canonical numbers");
-    Summand& summand =
-        summands.emplace_back(Summand{line, form_of(term.source, source), form_of(term.target, target), {}});
-    summand.weight = term.factor * abs(scale) * decided(line) / Rational(summand.source.scale * summand.target.scale);
+    const Summand& summand = summands.emplace_back(summand_of(term, cell));
     denominator = lcm(denominator, summand.weight.get_den());
     if (bit_length(denominator) > most_products / terms.size()) refuse("has factors that are too long to be checked");
   }
@@ -258,12 +368,7 @@ void Trees::check_empty(const Cell& cell, const std::vector<Term>& terms) const 
   // 2. The sum's coefficients.
   Matrix sum;
   for (const Summand& summand : summands) {
-    Matrix values;
-    for (const Homogeneous& p : source) {
-      const Homogeneous plane = plane_through(lines_[summand.line], p);
-      std::vector<Integer>& row = values.emplace_back();
-      for (const Homogeneous& q : target) row.push_back(value(plane, q));
-    }
+    Matrix values = values_of(lines_[summand.line], cell);
     if (source_forms) values = times(summand.source.values, source, values);
     if (target_forms) values = transposed(times(summand.target.values, target, transposed(values)));
     const Integer weight = summand.weight.get_num() * (denominator / summand.weight.get_den());
@@ -277,11 +382,42 @@ void Trees::check_empty(const Cell& cell, const std::vector<Term>& terms) const 
       if (sgn(coefficient) > 0) refuse("is not shown to be empty: its sum has a positive coefficient");
 }
 
-std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
-  // 1. The fragments are the scene, and the sources are convex polygons.
-  check_covering(soup, certificate);
-  std::vector<Outline> fragments, sources;
-  for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
+Trees::Summand Trees::summand_of(const Term& term, const Cell& cell) const {
+  const auto form_of = [&](const std::optional<Weak_certificate::Form>& form, const Corners& corners) {
+    if (!form) return Scaled_form({0, 0, 0, 1});
+    if (!canonical(*form)) refuse("has a form that is not in canonical numbers");
+    Scaled_form scaled(*form);
+    if (position(scaled.values, corners) <= 0) refuse("has a form that is negative somewhere, or zero everywhere");
+    return scaled;
+  };
+  if (term.line >= named_.size()) refuse("has a term of line " + std::to_string(term.line) + ", which there is not");
+  const auto& [line, scale] = named_[term.line];
+  if (decided(line) == 0) refuse("has a term of line " + std::to_string(term.line) + ", which is not decided above it");
+  if (!canonical(term.factor) || sgn(term.factor) <= 0)
+    refuse("has a factor that is not positive, or not in canonical numbers");
+  Summand summand{line, form_of(term.source, *cell.source), form_of(term.target, *cell.target), {}};
+  summand.weight = term.factor * abs(scale) * decided(line) / Rational(summand.source.scale * summand.target.scale);
+  return summand;
+}
+
+Matrix Trees::values_of(const Line& line, const Cell& cell) {
+  Matrix values;
+  for (const Homogeneous& p : *cell.source) {
+    const Homogeneous plane = plane_through(line, p);
+    std::vector<Integer>& row = values.emplace_back();
+    for (const Homogeneous& q : *cell.target) row.push_back(value(plane, q));
+  }
+  return values;
+}
+
+// ---- The certificate
+
+using Faces = std::vector<char>;                               // 1 for those that are meant
+using Places = std::set<std::pair<std::size_t, std::size_t>>;  // of fragments and sources
+
+/// Rejects unless the sources are convex polygons.
+std::vector<Outline> outlines_of_sources(const Weak_certificate& certificate) {
+  std::vector<Outline> sources;
   if (certificate.sources.empty()) reject("there is no source");
   for (std::size_t k = 0; k < certificate.sources.size(); ++k) {
     const Polygon& polygon = certificate.sources[k];
@@ -292,41 +428,20 @@ std::string check(const Polygon_soup& soup, const Weak_certificate& certificate,
       reject(name("source", k) + " " + fault);
     sources.emplace_back(polygon);
   }
+  return sources;
+}
 
-  // 2. What is said of fragments is true.
-  const std::size_t total = certificate.visible.size() + certificate.hidden.size();
-  std::size_t done = 0;
-  const auto progress = [&] {
-    if (options.progress) options.progress(done, total);
-  };
-  std::vector<char> drawn(soup.face_count()), visible(soup.face_count()), undecided(soup.face_count()),
-      open(soup.face_count());
-  const Sightlines sightlines(certificate, fragments, sources);
-  for (std::size_t k = 0; k < certificate.visible.size(); ++k, ++done) {
-    progress();
-    sightlines.check(k);
-    visible[certificate.fragments[certificate.visible[k].fragment].face] = 1;
-  }
-  Trees trees(certificate, fragments, sources);
-  std::set<std::pair<std::size_t, std::size_t>> hidden;
-  for (std::size_t k = 0; k < certificate.hidden.size(); ++k, ++done) {
-    const auto& entry = certificate.hidden[k];
-    if (!hidden.insert({entry.fragment, entry.source}).second)
-      reject(name("hidden", k) + " is of the same fragment and source as one before", {entry.fragment});
-    trees.check(k, progress);
-  }
-  progress();
-
-  // 3. Each face that is drawn is visible, hidden or undecided, and only one of these.
+/// Rejects unless each face that is drawn is visible, hidden or undecided, and only one of these. Returns how many are.
+std::string check_faces(const Weak_certificate& certificate, const Faces& visible, const Places& hidden) {
+  Faces drawn(visible.size()), undecided(visible.size()), open(visible.size());
   for (const Order_fragment& fragment : certificate.fragments) drawn[fragment.face] = 1;
   for (const Face_id f : certificate.undecided) {
-    if (f >= soup.face_count() || !drawn[f])
-      reject("undecided names face " + std::to_string(f) + ", which is not drawn");
+    if (f >= drawn.size() || !drawn[f]) reject("undecided names face " + std::to_string(f) + ", which is not drawn");
     if (undecided[f]++) reject(name("face", f) + " is undecided twice");
     if (visible[f]) reject(name("face", f) + " is undecided, but shown to be visible");
   }
-  for (std::size_t i = 0; i < fragments.size(); ++i)
-    for (std::size_t s = 0; s < sources.size(); ++s) {
+  for (std::size_t i = 0; i < certificate.fragments.size(); ++i)
+    for (std::size_t s = 0; s < certificate.sources.size(); ++s) {
       const Face_id f = certificate.fragments[i].face;
       if (visible[f] || hidden.count({i, s})) continue;
       if (!undecided[f])
@@ -337,14 +452,53 @@ std::string check(const Polygon_soup& soup, const Weak_certificate& certificate,
     }
   for (const Face_id f : certificate.undecided)
     if (!open[f]) reject(name("face", f) + " is undecided, but shown to be hidden");
-  const auto count = [](const std::vector<char>& of) {
-    return static_cast<std::size_t>(std::count(of.begin(), of.end(), 1));
-  };
+  const auto count = [](const Faces& of) { return static_cast<std::size_t>(std::count(of.begin(), of.end(), 1)); };
   const std::size_t faces = count(drawn), seen = count(visible), unknown = count(undecided);
   return std::to_string(seen) + " faces visible, " + std::to_string(faces - seen - unknown) + " hidden, " +
-         std::to_string(unknown) + " undecided from " + std::to_string(sources.size()) + " source polygons; " +
+         std::to_string(unknown) + " undecided";
+}
+
+/// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
+std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
+  // 1. The fragments are the scene, and the sources are convex polygons.
+  check_covering(soup, certificate);
+  std::vector<Outline> fragments;
+  for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
+  const std::vector<Outline> sources = outlines_of_sources(certificate);
+
+  // 2. What is said of fragments is true.
+  const std::size_t total = certificate.visible.size() + certificate.hidden.size();
+  std::size_t done = 0;
+  const auto progress = [&] {
+    if (options.progress) options.progress(done, total);
+  };
+  Faces visible(soup.face_count());
+  const Sightlines sightlines(certificate, fragments, sources);
+  for (std::size_t k = 0; k < certificate.visible.size(); ++k, ++done) {
+    progress();
+    sightlines.check(k);
+    visible[certificate.fragments[certificate.visible[k].fragment].face] = 1;
+  }
+  Places hidden;
+  Trees trees(certificate, fragments, sources);
+  for (std::size_t k = 0; k < certificate.hidden.size(); ++k, ++done) {
+    const auto& entry = certificate.hidden[k];
+    if (!hidden.insert({entry.fragment, entry.source}).second)
+      reject(name("hidden", k) + " is of the same fragment and source as one before", {entry.fragment});
+    trees.check(k, progress);
+  }
+  progress();
+
+  // 3. Each face that is drawn is visible, hidden or undecided, and only one of these.
+  return check_faces(certificate, visible, hidden) + " from " + std::to_string(sources.size()) + " source polygons; " +
          std::to_string(trees.leaves()) + " leaves of proofs";
 }
 
+}  // namespace
 }  // namespace weak_check
+
+Verdict verify_weak(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
+  return certificate_check::verdict_of([&] { return weak_check::check(soup, certificate, options); });
+}
+
 }  // namespace sightline

@@ -1,3 +1,5 @@
+// To be read after polygons.cpp and before weak.cpp, in the order of weak_lines.h.
+
 #include <sightline/algorithms/verify/weak_lines.h>
 
 #include <algorithm>

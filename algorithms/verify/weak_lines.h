@@ -1,8 +1,8 @@
 #pragma once
 // Lines, polygons and cells of lines, for the check of weak visibility: rationals and integers only, shared with
-// nothing that is checked. To be read after covering.h and before weak.h.
+// nothing that is checked. To be read after polygons.h and before weak.cpp.
 
-#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/polygons.h>
 #include <sightline/kernel/number.h>
 
 #include <array>

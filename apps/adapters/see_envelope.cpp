@@ -2,7 +2,7 @@
 
 #include "adapter.h"
 
-#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/polygons.h>
 #include <sightline/kernel/traits/point_traits.h>
 
 #include <CGAL/Env_surface_data_traits_3.h>

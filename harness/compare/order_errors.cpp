@@ -1,6 +1,7 @@
 #include <sightline/harness/compare/order_errors.h>
 
-#include <sightline/algorithms/verify/order.h>
+#include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/polygons.h>
 #include <sightline/harness/compare/flat_polygon.h>
 #include <sightline/kernel/plane.h>
 

@@ -1,6 +1,7 @@
 #include <sightline/harness/judge/order.h>
 
-#include <sightline/algorithms/verify/order.h>
+#include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/polygons.h>
 #include <sightline/kernel/plane.h>
 
 #include <algorithm>

@@ -1,14 +1,14 @@
 #pragma once
 // What a back-to-front order is judged against: which faces must be in it, and for each two which one must come first.
 
-#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/polygons.h>
 #include <sightline/harness/compare/flat_polygon.h>
 #include <sightline/harness/judge/grade.h>
 #include <sightline/harness/judge/protocol.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
-#include <sightline/algorithms/verify/order.h>
 
 #include <array>
 #include <cstddef>

@@ -4,9 +4,9 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
-#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/verify/weak.h>
-#include <sightline/algorithms/verify/weak_lines.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak.h>

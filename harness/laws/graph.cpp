@@ -22,8 +22,8 @@
 #include <sightline/algorithms/priority/explicit_graph.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/priority/relation.h>
-#include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/graph.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/number.h>

@@ -22,7 +22,7 @@
 
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
-#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/laws.h>

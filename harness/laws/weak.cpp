@@ -1,6 +1,6 @@
 #include <sightline/harness/laws/weak.h>
 
-#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/verify/weak.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/events/event_search.h>

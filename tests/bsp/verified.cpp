@@ -2,6 +2,7 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/verify/pairs.h>
 #include <sightline/harness/generate/shapes.h>
 
 #include <rapidcheck/gtest.h>

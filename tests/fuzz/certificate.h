@@ -7,6 +7,8 @@
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/io/read.h>
 
+#include <nlohmann/json.hpp>
+
 #include <sstream>
 
 namespace fuzz {

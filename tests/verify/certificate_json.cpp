@@ -4,6 +4,8 @@
 
 #include <sightline/algorithms/verify/certificate_json.h>
 
+#include <nlohmann/json.hpp>
+
 #include <sstream>
 
 namespace {

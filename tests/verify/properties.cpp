@@ -2,6 +2,9 @@
 
 #include "scenes.h"
 
+#include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/polygons.h>
+
 #include <rapidcheck.h>
 
 namespace {

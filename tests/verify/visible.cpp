@@ -4,6 +4,10 @@
 #include "scenes.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/polygons.h>
+
+#include <nlohmann/json.hpp>
 
 #include <numeric>
 #include <sstream>

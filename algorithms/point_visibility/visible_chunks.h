@@ -1,0 +1,142 @@
+#pragma once
+// The scene as an eye sees it, in chunks of pieces and in boxes: on which side of a plane through the eye they are, and
+// whether they meet a region. And what is known of a region that is not settled yet.
+
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/lazy_table.h>
+#include <sightline/algorithms/point_visibility/view.h>
+#include <sightline/algorithms/point_visibility/visible_region.h>
+#include <sightline/algorithms/point_visibility/visible_surface.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace sightline::visible_detail {
+
+/// A chunk that may meet the region, with a bit for each edge plane that has parts of the region on both sides.
+struct Item {
+  std::uint32_t chunk, active;
+  bool covers() const { return active == 0; }
+};
+
+/// A box that has not been opened, by its node.
+struct Closed_box {
+  std::uint32_t node;
+  double distance;  // from the eye
+  friend bool operator<(const Closed_box& a, const Closed_box& b) {
+    return a.distance != b.distance ? a.distance > b.distance : a.node > b.node;
+  }  // a heap has the nearest first
+};
+
+/// A region and what may be seen in it.
+template <View V>
+struct Task {
+  Region<V> region;
+  std::vector<Item> items;
+  std::vector<Closed_box> boxes;                      // a heap
+  std::uint32_t cover = Visible_surface<V>::nothing;  // the chunk that is nearest of those that cover the region
+  std::vector<std::uint32_t> tied;                    // chunks in the plane of the cover that come after it
+  std::uint32_t depth = 0;
+
+  bool has_cover() const { return cover != Visible_surface<V>::nothing; }
+  void remove_item(std::size_t i) {
+    items[i] = items.back();
+    items.pop_back();
+  }
+};
+
+template <View V>
+class Chunks {
+ public:
+  using Plane = typename V::Plane;
+
+  Chunks(const V& view, const Piece_boxes& boxes)
+      : view_(view), boxes_(boxes), eye_(view.scene().locate(view.eye())), edges_(boxes.chunks().size()) {}
+
+  const V& view() const { return view_; }
+  const Located_point& eye() const { return eye_; }
+  const Piece_boxes& boxes() const { return boxes_; }
+  const Piece_boxes::Node& node(const Closed_box& box) const { return boxes_.nodes()[box.node]; }
+  std::uint32_t piece_of(std::uint32_t chunk) const { return boxes_.chunks()[chunk].piece; }
+  std::span<const std::uint32_t> points_of(std::uint32_t chunk) const { return boxes_.points(boxes_.chunks()[chunk]); }
+
+  /// The planes through the eye and a chunk's edges, its inside in their front. Pre: it is not edge-on.
+  const Plane* edges_of(std::uint32_t chunk) const {
+    return edges_.at(chunk, [&](std::size_t c) { return make_edges(static_cast<std::uint32_t>(c)); }).data();
+  }
+
+  /// A chunk of which nothing is known in a region.
+  Item with_all_edges(std::uint32_t chunk) const {
+    const std::uint32_t size = boxes_.chunks()[chunk].size;
+    return {chunk, size == 32 ? ~0u : (1u << size) - 1};
+  }
+  /// Updates which edges of a chunk cut the region. Returns whether it may still meet it.
+  bool update(Item& item, const Region<V>& region, Predicate_counts& counts) const {
+    const Plane* edges = item.active != 0 ? edges_of(item.chunk) : nullptr;
+    for (std::uint32_t bits = item.active; bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::uint32_t>(std::countr_zero(bits));
+      const Plane& edge = edges[k];
+      bool inside = false, outside = false;
+      for (const typename V::Ray& r : region.rays) {
+        const Sign s = view_.side(edge, r, counts);
+        inside = inside || s == CGAL::POSITIVE;
+        outside = outside || s == CGAL::NEGATIVE;
+        if (inside && outside) break;
+      }
+      if (!inside) return false;
+      if (!outside) item.active &= ~(1u << k);
+    }
+    return true;
+  }
+  /// Whether a chunk and a region in front of its plane have an open set in common. Proof: P-62
+  bool meets(std::uint32_t chunk, const Region<V>& region, Predicate_counts& counts) const {
+    Item item = with_all_edges(chunk);
+    return update(item, region, counts) && (item.covers() || !is_outside(chunk, region, counts));
+  }
+
+  bool is_behind(std::uint32_t chunk, const Plane& w, Predicate_counts& counts) const {
+    for (const std::uint32_t p : points_of(chunk))
+      if (view_.side(w, p, counts) == CGAL::POSITIVE) return false;
+    return true;
+  }
+  bool is_behind(const Piece_boxes::Node& node, const Plane& w) const {
+    const Approximate_eye_plane a = view_.approximate(w);
+    return Piece_boxes::is_behind(node.box, a.normal, a.size, a.error, eye_);
+  }
+  /// Whether it is behind a side of the region, so none of it is in there.
+  bool is_outside(std::uint32_t chunk, const Region<V>& region, Predicate_counts& counts) const {
+    return std::any_of(region.sides.begin(), region.sides.end(),
+                       [&](const Plane& w) { return is_behind(chunk, w, counts); });
+  }
+  bool is_outside(const Piece_boxes::Node& node, const Region<V>& region) const {
+    return std::any_of(region.sides.begin(), region.sides.end(), [&](const Plane& w) { return is_behind(node, w); });
+  }
+
+ private:
+  std::vector<Plane> make_edges(std::uint32_t chunk) const {
+    const std::span<const std::uint32_t> points = points_of(chunk);
+    // Counterclockwise as seen from the front is clockwise around the rays from an eye in front.
+    const bool turned = view_.eye_side(piece_of(chunk)) == CGAL::POSITIVE;
+    std::vector<Plane> edges;
+    edges.reserve(points.size());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const std::uint32_t p = points[k], q = points[k + 1 == points.size() ? 0 : k + 1];
+      edges.push_back(turned ? view_.edge(q, p) : view_.edge(p, q));
+    }
+    return edges;
+  }
+
+  const V& view_;
+  const Piece_boxes& boxes_;
+  Located_point eye_;
+  Lazy_table<std::vector<Plane>, 1> edges_;
+};
+
+}  // namespace sightline::visible_detail
