@@ -27,7 +27,7 @@ namespace conservative_detail {
 /// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between
 /// them, and on no pair of corners does a line pass an edge outside. Exact: yes. Proof: P-70
 bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
-                std::span<const Six> pairs);
+                std::span<const Pluecker> pairs);
 
 }  // namespace conservative_detail
 

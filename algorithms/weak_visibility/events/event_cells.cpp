@@ -2,7 +2,7 @@
 
 namespace sightline {
 
-Exact_six moved(const Event_chart& chart, const Event_move& move, const Rational& t) {
+Exact_pluecker moved(const Event_chart& chart, const Event_move& move, const Rational& t) {
   std::array<Rational, 4> by;
   Integer common = 1;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -89,7 +89,7 @@ class Event_search {
   /// Lines l[0] + l[1] s + l[2] s^2, 0 < s < 1.
   struct Curve {
     Event_kind kind;
-    std::array<Exact_six, 3> l;
+    std::array<Exact_pluecker, 3> l;
     std::vector<Quadratic> ends;  // parameters where what is touched changes otherwise than by sides
     std::function<Event_chart(const Rational&)> chart;
     std::array<std::uint32_t, 3> edges{};  // of a triple
@@ -119,18 +119,18 @@ class Event_search {
     return {{dot(plane, first), dot(plane, step), Integer(0)}};
   }
   /// The plane of two lines that meet.
-  static Homogeneous common_plane(const Exact_six& a, const Exact_six& b);
+  static Homogeneous common_plane(const Exact_pluecker& a, const Exact_pluecker& b);
   static Homogeneous along(const Homogeneous& first, const Homogeneous& step, const Rational& s);
 
   // ---- Events on ruled quadrics: three skew edges
 
   bool reguli();
 
-  static std::array<Exact_six, 4> extreme_lines(const Line& a, const Line& b);
+  static std::array<Exact_pluecker, 4> extreme_lines(const Line& a, const Line& b);
   /// The side of a line that all lines through two edges have inside both; 0 where they differ or are all 0.
-  static int common_sign(const std::array<Exact_six, 4>& extreme, const Exact_six& line);
+  static int common_sign(const std::array<Exact_pluecker, 4>& extreme, const Exact_pluecker& line);
   /// Whether lines through two edges may have all literals, or all of them reversed.
-  bool can_pass(const std::array<Exact_six, 4>& extreme, const std::vector<Literal>& literals) const;
+  bool can_pass(const std::array<Exact_pluecker, 4>& extreme, const std::vector<Literal>& literals) const;
 
   bool search_regulus(const std::array<std::uint32_t, 3>& edges);
   /// The side of a point of a plane that turns about a line.

@@ -18,7 +18,7 @@ std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occ
     Integer product = 0;
     for (std::size_t x = 0; x < 6; ++x) product += a.exact[x] * b.exact[(x + 3) % 6];
     if (sgn(product) != 0) return {};
-    const auto direction = [](const Exact_six& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
+    const auto direction = [](const Exact_pluecker& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
     const auto cross = [](const std::array<Integer, 3>& u, const std::array<Integer, 3>& v) {
       return std::array<Integer, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
     };
