@@ -1,8 +1,11 @@
 #pragma once
-// What a search among lines says, and what it was asked: the answer with its proof, the options, the counters.
+// What is said of faces, and what proves it: the answer to a pair of a source and a piece, the lists of faces; and what
+// a search among lines was asked, and counted.
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
 
 #include <array>
 #include <cstddef>
@@ -68,5 +71,39 @@ struct Weak_search_options {
   std::uint64_t seed = 1;
   std::function<bool()> out_of_time;  ///< asked now and then
 };
+
+// ---- Of all faces
+
+/// Every kept face is in one of the three lists, which are sorted.
+struct Weak_faces {
+  std::vector<Face_id> visible, hidden, undecided;
+
+  std::vector<Face_id>& of(Weak_status status) {
+    return status == Weak_status::visible ? visible : status == Weak_status::hidden ? hidden : undecided;
+  }
+};
+
+/// What was found, and what proves it.
+struct Weakly_visible : Weak_faces {
+  struct Pair {
+    std::uint32_t piece, source;
+    Weak_answer answer;
+  };
+  std::vector<Pair> pairs;  ///< of a visible face the one pair with a sightline, of a hidden one all pairs; faces in
+                            ///< order, then pieces, then sources
+  std::vector<Pair> open;   ///< of an undecided face the pairs that are so, in the same order
+  std::vector<Face_id> unproved;  ///< faces among the visible and the hidden ones that no pairs prove, sorted: other
+                                  ///< methods leave some, weakly_visible() none
+  Weak_counters counters;
+};
+
+/// The first piece of each face that is kept; pieces of a face are neighbours.
+std::vector<std::uint32_t> first_pieces(const std::vector<Piece>& pieces);
+
+/// Calls decide(f, begin, end) for each kept face, the f-th in order, of the pieces from `begin` to before `end`: on so
+/// many threads, in any order. After each, progress(done, all) by any thread.
+void for_each_face(const std::vector<Piece>& pieces, const std::vector<std::uint32_t>& first, int threads,
+                   const std::function<void(std::size_t, std::size_t)>& progress,
+                   const std::function<void(std::size_t f, std::uint32_t begin, std::uint32_t end)>& decide);
 
 }  // namespace sightline

@@ -4,6 +4,7 @@
 #include "parallel_planes.h"
 
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
 
 #include <gtest/gtest.h>

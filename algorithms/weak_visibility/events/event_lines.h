@@ -4,8 +4,6 @@
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/search/line_cell.h>
-#include <sightline/kernel/line_table.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>

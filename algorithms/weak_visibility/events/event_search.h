@@ -7,12 +7,8 @@
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/search/cell_cuts.h>
-#include <sightline/algorithms/weak_visibility/search/line_cell.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
-#include <sightline/kernel/line_table.h>
 #include <sightline/kernel/number.h>
-#include <sightline/kernel/scene/convex_parts.h>
 
 #include <array>
 #include <cstddef>
