@@ -5,6 +5,7 @@
 #include <sightline/algorithms/priority/relation.h>
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/vectors.h>
 #include <sightline/kernel/vertex.h>
 
 #include <algorithm>
@@ -371,7 +372,6 @@ class Priority_index {
     for (std::size_t k = 0; k < 3; ++k) least += std::min(S * v[k] * node.low[k], S * v[k] * node.high[k]);
     return least;
   }
-  static double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
   /// The same for the face at one place.
   template <int S>

@@ -2,6 +2,7 @@
 
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/predicates.h>
+#include <sightline/kernel/vectors.h>
 
 #include <cstddef>
 #include <stdexcept>
@@ -9,17 +10,6 @@
 namespace sightline {
 
 Weak_source weak_source(const Occluders& occluders, const std::vector<Exact_point>& points) {
-  const auto minus = [](const Exact_point& a, const Exact_point& b) {
-    return Exact_point{Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
-  };
-  const auto cross = [](const Exact_point& a, const Exact_point& b) {
-    return Exact_point{Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
-                       Rational(a[0] * b[1] - a[1] * b[0])};
-  };
-  const auto dot = [](const Exact_point& a, const Exact_point& b) {
-    return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-  };
-  const auto is_zero = [](const Exact_point& a) { return sgn(a[0]) == 0 && sgn(a[1]) == 0 && sgn(a[2]) == 0; };
   std::vector<Exact_point> corners;
   for (const Exact_point& p : points)
     if (corners.empty() || corners.back() != p) corners.push_back(p);

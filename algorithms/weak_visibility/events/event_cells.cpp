@@ -33,12 +33,6 @@ std::vector<Rational> numbers_between(std::vector<Rational> at) {
   return between;
 }
 
-Form cross(const Form& a, const Form& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Integer dot(const Form& a, const Form& b) { return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
-
 Form rounded(const Form& a, long bits) {
   long cut = -bits;
   for (const Integer& x : a) cut = std::max(cut, static_cast<long>(bit_length(x)) - bits);

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -38,8 +39,6 @@ namespace event_cells_detail {
 std::vector<Rational> numbers_between(std::vector<Rational> at);
 
 using Form = std::array<Integer, 3>;
-Form cross(const Form& a, const Form& b);
-Integer dot(const Form& a, const Form& b);
 
 /// Divided by a power of two and rounded, so that the largest entry has so many bits. Pre: not zero.
 Form rounded(const Form& a, long bits);
@@ -60,7 +59,7 @@ bool visit_cells(const std::vector<Form>& forms, Visit visit) {
   for (std::size_t i = 0; i < forms.size(); ++i)
     for (std::size_t j = i + 1; j < forms.size(); ++j) {
       const Form ray = cross(forms[i], forms[j]);
-      if (sgn(ray[0]) == 0 && sgn(ray[1]) == 0 && sgn(ray[2]) == 0) continue;
+      if (is_zero(ray)) continue;
       std::vector<Form> around;  // half-planes, in the planes that hold the ray
       std::size_t first = forms.size();
       for (std::size_t k = 0; k < forms.size(); ++k) {
