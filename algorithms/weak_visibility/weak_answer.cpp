@@ -7,32 +7,6 @@
 
 namespace sightline {
 
-Weak_counters& Weak_counters::operator+=(const Weak_counters& o) {
-  targets += o.targets;
-  away += o.away;
-  by_rays += o.by_rays;
-  occluders += o.occluders;
-  cells += o.cells;
-  cuts += o.cuts;
-  shaves += o.shaves;
-  bisections += o.bisections;
-  blocked += o.blocked;
-  empty += o.empty;
-  corners += o.corners;
-  learned += o.learned;
-  jumps += o.jumps;
-  programs += o.programs;
-  exact_programs += o.exact_programs;
-  form_programs += o.form_programs;
-  by_forms += o.by_forms;
-  confirmed += o.confirmed;
-  refuted += o.refuted;
-  lines += o.lines;
-  open += o.open;
-  deepest = std::max(deepest, o.deepest);
-  return *this;
-}
-
 std::vector<std::uint32_t> first_pieces(const std::vector<Piece>& pieces) {
   std::vector<std::uint32_t> first;
   for (std::uint32_t i = 0; i < pieces.size(); ++i)

@@ -3,6 +3,7 @@
 // a search among lines was asked, and counted.
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -30,7 +31,32 @@ struct Weak_counters {
               refuted = 0;  ///< `confirmed`, `refuted`: lines proposed in doubles, by the exact test
   std::size_t lines = 0, open = 0, deepest = 0;
 
-  Weak_counters& operator+=(const Weak_counters& o);
+  /// Each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("searches", &Weak_counters::targets);
+    visit("away", &Weak_counters::away);
+    visit("by_rays", &Weak_counters::by_rays);
+    visit("occluders", &Weak_counters::occluders);
+    visit("cells", &Weak_counters::cells);
+    visit("cuts", &Weak_counters::cuts);
+    visit("shaves", &Weak_counters::shaves);
+    visit("bisections", &Weak_counters::bisections);
+    visit("blocked", &Weak_counters::blocked);
+    visit("empty", &Weak_counters::empty);
+    visit("", &Weak_counters::corners);
+    visit("learned", &Weak_counters::learned);
+    visit("jumps", &Weak_counters::jumps);
+    visit("programs", &Weak_counters::programs);
+    visit("exact_programs", &Weak_counters::exact_programs);
+    visit("", &Weak_counters::form_programs);
+    visit("", &Weak_counters::by_forms);
+    visit("confirmed", &Weak_counters::confirmed);
+    visit("refuted", &Weak_counters::refuted);
+    visit("lines", &Weak_counters::lines);
+    visit("open", &Weak_counters::open);
+    visit("deepest", &Weak_counters::deepest, largest);
+  }
 };
 
 /// One step of a proof that no line is free, in the order of a walk that takes a node before its two parts. P-72 says

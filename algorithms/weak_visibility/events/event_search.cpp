@@ -8,26 +8,6 @@
 
 namespace sightline {
 
-Event_counters& Event_counters::operator+=(const Event_counters& o) {
-  targets += o.targets;
-  away += o.away;
-  by_rays += o.by_rays;
-  in_shadow += o.in_shadow;
-  occluders += o.occluders;
-  lines += o.lines;
-  horizon += o.horizon;
-  edge_vertex += o.edge_vertex;
-  triple += o.triple;
-  off_edges += o.off_edges;
-  off_polygons += o.off_polygons;
-  covered += o.covered;
-  subranges += o.subranges;
-  cells += o.cells;
-  confirmed += o.confirmed;
-  refuted += o.refuted;
-  return *this;
-}
-
 Events_answer Event_search::run() {
   counters_->occluders += scene_->blockers().size();
   counters_->lines += scene_->lines().size();

@@ -8,6 +8,7 @@
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/number.h>
 
 #include <array>
@@ -33,7 +34,26 @@ struct Event_counters {
   std::size_t subranges = 0, cells = 0;    ///< active subranges that were looked at, and cells of lines beside them
   std::size_t confirmed = 0, refuted = 0;  ///< sightlines proposed, by the exact test of all pieces
 
-  Event_counters& operator+=(const Event_counters& o);
+  /// Each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("searches", &Event_counters::targets);
+    visit("", &Event_counters::away);
+    visit("", &Event_counters::by_rays);
+    visit("", &Event_counters::in_shadow);
+    visit("", &Event_counters::occluders);
+    visit("", &Event_counters::lines);
+    visit("horizon", &Event_counters::horizon);
+    visit("edge_vertex", &Event_counters::edge_vertex);
+    visit("triple", &Event_counters::triple);
+    visit("", &Event_counters::off_edges);
+    visit("", &Event_counters::off_polygons);
+    visit("", &Event_counters::covered);
+    visit("subranges", &Event_counters::subranges);
+    visit("cells", &Event_counters::cells);
+    visit("", &Event_counters::confirmed);
+    visit("", &Event_counters::refuted);
+  }
 };
 
 struct Events_options {
