@@ -57,22 +57,16 @@ Found find(const Relation& relation, const Graph_arguments& arguments) {
     found.components = graph.find_components(
         &found.trees, arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
     found.component_seconds = watch.seconds();
-    const Index_counters& c = graph.counters();
-    found.counters = {{"index_nodes", c.nodes},
-                      {"hits", c.hits},
-                      {"misses", c.misses},
-                      {"pairs", c.relation.pairs},
-                      {"predicates", predicates_json(c.relation.predicates)}};
+    found.counters = counters_json(graph.counters());
   }
   if (is_explicit || arguments.arcs || !arguments.dot.empty() || relation.size() <= few) {
     Progress progress("comparing");
     found.arcs.emplace(relation,
                        arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
-    const Relation_counters& c = found.arcs->counters();
     if (is_explicit) {
       found.components = components(*found.arcs);
       found.component_seconds = watch.seconds();
-      found.counters = {{"pairs", c.pairs}, {"predicates", predicates_json(c.predicates)}};
+      found.counters = counters_json(found.arcs->counters());
     }
     found.arc_seconds = watch.seconds() - found.component_seconds;
   }

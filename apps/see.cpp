@@ -223,21 +223,11 @@ static Exit run(const See_arguments& arguments) {
                       {"vertices", std::move(corners)}});
   }
   const Visible_counters& c = seen.counters;
-  Json counters{{"kernel", arguments.kernel},
-                {"pieces", c.pieces},
-                {"edge_on", seen.edge_on},
-                {"boxes_opened", c.opened},
-                {"looked_at", c.looked_at},
-                {"hidden", c.hidden},
-                {"hidden_boxes", c.hidden_boxes},
-                {"regions", c.regions},
-                {"cuts", c.splits},
-                {"crossings", c.crossings},
-                {"merged", c.merged},
-                {"depth", c.depth},
-                {"parts", seen.parts.size()},
-                {"not_finite", seen.not_finite},
-                {"predicates", predicates_json(c.predicates)}};
+  Json counters{{"kernel", arguments.kernel}, {"pieces", c.pieces}, {"edge_on", seen.edge_on}};
+  append_counters(counters, c);
+  counters["parts"] = seen.parts.size();
+  counters["not_finite"] = seen.not_finite;
+  counters["predicates"] = predicates_json(c.predicates);
   Json result{{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}},
       seconds{{"see", seen.seconds}};
   if (arguments.lines) {

@@ -208,33 +208,9 @@ Exit run_weak(const Weak_arguments& arguments) {
   const Exit exit = found.undecided.empty() ? Exit::done : Exit::undecided;
   const Weak_counters& c = found.counters;
   const Event_counters& e = outcome.events;
-  Json counters{{"searches", c.targets},
-                {"away", c.away},
-                {"by_rays", c.by_rays},
-                {"occluders", c.occluders},
-                {"cells", c.cells},
-                {"cuts", c.cuts},
-                {"shaves", c.shaves},
-                {"bisections", c.bisections},
-                {"blocked", c.blocked},
-                {"empty", c.empty},
-                {"learned", c.learned},
-                {"jumps", c.jumps},
-                {"programs", c.programs},
-                {"exact_programs", c.exact_programs},
-                {"confirmed", c.confirmed},
-                {"refuted", c.refuted},
-                {"lines", c.lines},
-                {"open", c.open},
-                {"deepest", c.deepest},
-                {"events",
-                 {{"searches", e.targets},
-                  {"horizon", e.horizon},
-                  {"edge_vertex", e.edge_vertex},
-                  {"triple", e.triple},
-                  {"subranges", e.subranges},
-                  {"cells", e.cells},
-                  {"surfaces", outcome.surfaces.size()}}}};
+  Json counters = counters_json(c);
+  counters["events"] = counters_json(e);
+  counters["events"]["surfaces"] = outcome.surfaces.size();
   Json result{{"visible", found.visible},     {"hidden", found.hidden},
               {"undecided", found.undecided}, {"certificate", arguments.certificate},
               {"unproved", found.unproved},   {"by_events", outcome.by_events},

@@ -6,6 +6,7 @@
 #include <sightline/harness/generate/soups.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 

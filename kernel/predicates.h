@@ -6,6 +6,7 @@
 //   side(meet(p, q, r), p) == 0;  every stage that decides decides the same.
 
 #include <sightline/kernel/arithmetic.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/fixed_integer.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
@@ -35,12 +36,13 @@ inline Sign sign_of(double value) { return value > 0 ? CGAL::POSITIVE : value < 
 /// How many predicates each stage decided.
 struct Predicate_counts {
   std::uint64_t combinatorial = 0, filtered = 0, fixed = 0, gmp = 0;
-  Predicate_counts& operator+=(const Predicate_counts& other) {
-    combinatorial += other.combinatorial;
-    filtered += other.filtered;
-    fixed += other.fixed;
-    gmp += other.gmp;
-    return *this;
+  /// Each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("combinatorial", &Predicate_counts::combinatorial);
+    visit("filtered", &Predicate_counts::filtered);
+    visit("fixed", &Predicate_counts::fixed);
+    visit("gmp", &Predicate_counts::gmp);
   }
   std::uint64_t total() const { return combinatorial + filtered + fixed + gmp; }
 };

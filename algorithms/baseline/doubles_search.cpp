@@ -118,7 +118,8 @@ std::vector<double> Doubles_search::sides(const Polygon& source, const Polygon& 
   double most = 0;
   for (const Triple& p : source)
     for (const Triple& q : target)
-      most = std::max(most, std::fabs(values.emplace_back(dot(pair_numbers(p, q), occluders_->edges(piece)[edge]))));
+      most =
+          std::max(most, std::fabs(values.emplace_back(dot(pluecker_of_pair(p, q), occluders_->edges(piece)[edge]))));
   for (double& v : values) v = most > options_->tolerance * options_->tolerance ? v / most : 0;
   return values;
 }
@@ -180,15 +181,15 @@ Triple Doubles_search::mean(const Polygon& polygon, const std::vector<double>& w
 std::optional<std::uint32_t> Doubles_search::find_blocker(const Polygon& source, const Polygon& target,
                                                           const Line& line, std::vector<Side>& open) const {
   const Triple p = mean(source, line.source), q = mean(target, line.target);
-  const Six numbers = pair_numbers(p, q);
+  const Pluecker pluecker = pluecker_of_pair(p, q);
   std::optional<std::uint32_t> best;
   for (const std::uint32_t piece : pieces_) {
     const std::array<double, 4>& h = occluders_->plane(piece).near;
     const double from = height(h, p), to = height(h, q);
     if (std::min(std::fabs(from), std::fabs(to)) <= options_->tolerance || (from > 0) == (to > 0)) continue;
     const int sign = from > 0 ? 1 : -1;
-    const std::span<const Six> edges = occluders_->edges(piece);
-    if (!std::all_of(edges.begin(), edges.end(), [&](const Six& edge) { return sign * dot(numbers, edge) >= 0; }))
+    const std::span<const Pluecker> edges = occluders_->edges(piece);
+    if (!std::all_of(edges.begin(), edges.end(), [&](const Pluecker& edge) { return sign * dot(pluecker, edge) >= 0; }))
       continue;
     std::vector<Side> of_piece;
     bool passed = false;  // by all of the cell, as doubles have it

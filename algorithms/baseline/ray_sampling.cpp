@@ -1,6 +1,7 @@
 #include <sightline/algorithms/baseline/ray_sampling.h>
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +13,6 @@ std::vector<Face_id> visible_by_sampling(const Occluders& occluders, const std::
                                          const Ray_sampling_options& options) {
   std::mt19937_64 dice(options.seed);
   std::uniform_real_distribution<double> unit(0, 1);
-  const auto minus = [](const Triple& a, const Triple& b) { return Triple{a[0] - b[0], a[1] - b[1], a[2] - b[2]}; };
-  const auto cross = [](const Triple& a, const Triple& b) {
-    return Triple{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
   const auto length = [](const Triple& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); };
   const auto scaled = [](const Triple& a, double by) { return Triple{a[0] * by, a[1] * by, a[2] * by}; };
   std::vector<bool> seen(occluders.scene().counters().faces_read);

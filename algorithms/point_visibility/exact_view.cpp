@@ -1,5 +1,6 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 
+#include <sightline/kernel/vectors.h>
 #include <sightline/kernel/vertex.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 
@@ -154,16 +155,6 @@ double Exact_view::farthest(std::uint32_t piece, const Ray& r) const {
   const double length = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z) + 2 * r.error;
   const double far = length / near * box_units_ * (1 + 0x1p-40);
   return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
-}
-
-template <class Number>
-Exact_view::Vector<Number> Exact_view::cross(const Vector<Number>& a, const Vector<Number>& b) {
-  return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]), Number(a[0] * b[1] - a[1] * b[0])};
-}
-
-template <class Number>
-Number Exact_view::dot(const Vector<Number>& a, const Vector<Number>& b) {
-  return Number(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
 }
 
 template <int L>

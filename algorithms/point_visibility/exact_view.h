@@ -128,10 +128,6 @@ class Exact_view {
   static double magnitude(double x, double y, double z) {
     return (std::fabs(x) + std::fabs(y) + std::fabs(z)) * (1 + 0x1p-50);
   }
-  template <class Number>
-  static Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b);
-  template <class Number>
-  static Number dot(const Vector<Number>& a, const Vector<Number>& b);
   static int signum(const Integer& n) { return sgn(n); }
   template <int L>
   static int signum(const Fixed_integer<L>& n);

@@ -11,6 +11,7 @@
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/traits/point_traits.h>
+#include <sightline/kernel/vectors.h>
 
 #include <array>
 #include <cmath>
@@ -121,10 +122,6 @@ class Number_view {
   };
   static constexpr double slack = std::is_same_v<FT, float> ? 0x1p-20 : 0x1p-49;
 
-  static Vector cross(const Vector& a, const Vector& b) {
-    return {FT(a[1] * b[2] - a[2] * b[1]), FT(a[2] * b[0] - a[0] * b[2]), FT(a[0] * b[1] - a[1] * b[0])};
-  }
-  static FT dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   static Sign sign(const FT& value) {
     if constexpr (std::is_floating_point_v<FT>)
       return value > 0 ? CGAL::POSITIVE : value < 0 ? CGAL::NEGATIVE : CGAL::ZERO;  // no number is zero
@@ -150,7 +147,7 @@ class Number_view {
     // n . x = c for x relative to the eye, through three corners; the eye is in front where c < 0.
     const std::span<const Piece_corner> corners = scene_->corners(piece);
     const Vector &a = direction(corners[0].point), &b = direction(corners[1].point), &c = direction(corners[2].point);
-    const Vector normal = cross({b[0] - a[0], b[1] - a[1], b[2] - a[2]}, {c[0] - a[0], c[1] - a[1], c[2] - a[2]});
+    const Vector normal = cross(minus(b, a), minus(c, a));
     const FT value = dot(normal, a);
     const Sign side = sign(-value);
     return {side == CGAL::ZERO ? Vector{FT(0), FT(0), FT(0)}

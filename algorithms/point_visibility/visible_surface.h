@@ -2,6 +2,7 @@
 // What an eye sees, as a partition of its directions.
 
 #include <sightline/algorithms/point_visibility/view.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -32,7 +33,20 @@ struct Visible_counters {
       merged = 0;  ///< leaves; cuts, of them along a line where two pieces cross; pairs of leaves put together again
   std::uint64_t depth = 0;
   Predicate_counts predicates;
-  Visible_counters& operator+=(const Visible_counters& o);
+  /// Each by its key in reports, in their order, but for what the scene has and predicates.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("boxes_opened", &Visible_counters::opened);
+    visit("looked_at", &Visible_counters::looked_at);
+    visit("hidden", &Visible_counters::hidden);
+    visit("hidden_boxes", &Visible_counters::hidden_boxes);
+    visit("regions", &Visible_counters::regions);
+    visit("cuts", &Visible_counters::splits);
+    visit("crossings", &Visible_counters::crossings);
+    visit("merged", &Visible_counters::merged);
+    visit("depth", &Visible_counters::depth, largest);
+    visit("", &Visible_counters::predicates);
+  }
 };
 
 /// A partition of the directions around an eye (of a field of view) into convex cones, in each of which one piece is

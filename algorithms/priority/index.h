@@ -3,8 +3,10 @@
 // it)?
 
 #include <sightline/algorithms/priority/relation.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/vectors.h>
 #include <sightline/kernel/vertex.h>
 
 #include <algorithm>
@@ -23,7 +25,14 @@ struct Index_counters {
   std::uint64_t nodes = 0;  ///< nodes of the index visited
   std::uint64_t hits = 0, misses = 0;
   Relation_counters relation;
-  Index_counters& operator+=(const Index_counters& other);
+  /// Each by its key in reports, in their order; those of the relation among them.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("index_nodes", &Index_counters::nodes);
+    visit("hits", &Index_counters::hits);
+    visit("misses", &Index_counters::misses);
+    visit("", &Index_counters::relation);
+  }
 };
 
 /// Which arcs of a face to follow.
@@ -371,7 +380,6 @@ class Priority_index {
     for (std::size_t k = 0; k < 3; ++k) least += std::min(S * v[k] * node.low[k], S * v[k] * node.high[k]);
     return least;
   }
-  static double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
   /// The same for the face at one place.
   template <int S>

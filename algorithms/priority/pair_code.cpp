@@ -1,5 +1,7 @@
 #include <sightline/algorithms/priority/pair_code.h>
 
+#include <sightline/kernel/vectors.h>
+
 #include <cstddef>
 #include <utility>
 
@@ -8,7 +10,7 @@ namespace sightline {
 std::optional<bool> Pair_code::first_is_nearer(const Exact_point& eye) const {
   if (precedence == Precedence::first || precedence == Precedence::second) return precedence == Precedence::first;
   if (precedence == Precedence::never) return std::nullopt;
-  const int side = sgn(priority_detail::dot(plane->normal, priority_detail::minus(eye, plane->point)));
+  const int side = sgn(dot(plane->normal, minus(eye, plane->point)));
   return side == 0 ? std::nullopt : std::optional(side > 0);
 }
 

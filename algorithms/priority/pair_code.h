@@ -4,7 +4,7 @@
 // that pierces some faces from the front, no two of which cross, the codes of each two of them are an order, that of
 // the ray (P-38); so a component has codes for every pixel, whatever cycles its graph has.
 
-#include <sightline/algorithms/priority/rational_geometry.h>
+#include <sightline/algorithms/priority/rounded_plane.h>
 #include <sightline/algorithms/priority/relation.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 

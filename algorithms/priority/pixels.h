@@ -3,13 +3,14 @@
 // and how many of them the priorities leave to choose from (S^ of the paper: those of highest priority).
 
 #include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/priority/rational_geometry.h>
 #include <sightline/algorithms/priority/relation.h>
+#include <sightline/algorithms/priority/rounded_plane.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -70,12 +71,6 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   Predicate_counts counts;
   Pixel_sets sets;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // pixel, polygon
-  const auto dot = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  };
-  const auto cross = [](const std::array<double, 3>& a, const std::array<double, 3>& b) {
-    return std::array<double, 3>{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  };
   const std::array<double, 3> forth = cross(view.right, view.up), across = cross(view.up, view.look),
                               upwards = cross(view.look, view.right);
   const double volume = dot(view.look, forth);

@@ -7,6 +7,7 @@
 //   or face to face, have no arc.
 
 #include <sightline/algorithms/priority/bimodal.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/traits/partition_traits.h>
@@ -21,10 +22,11 @@ namespace sightline {
 struct Relation_counters {
   std::uint64_t pairs = 0;  ///< pairs of faces compared corner by corner
   Predicate_counts predicates;
-  Relation_counters& operator+=(const Relation_counters& other) {
-    pairs += other.pairs;
-    predicates += other.predicates;
-    return *this;
+  /// Each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("pairs", &Relation_counters::pairs);
+    visit("predicates", &Relation_counters::predicates);
   }
 };
 

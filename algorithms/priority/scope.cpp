@@ -23,16 +23,6 @@ View_region View_region::box(const Exact_point& low, const Exact_point& high) {
 namespace sightline {
 namespace priority_detail {
 
-Grid_point difference(const Grid_point& a, const Grid_point& b) {
-  return {Integer(a[0] - b[0]), Integer(a[1] - b[1]), Integer(a[2] - b[2])};
-}
-
-Integer dot(const Grid_point& a, const Grid_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Grid_point cross(const Grid_point& a, const Grid_point& b) {
-  return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]), Integer(a[0] * b[1] - a[1] * b[0])};
-}
-
 // The program: are there alpha, beta >= 1 and gamma >= 0 with
 //   sum alpha (a_k, 1) - sum beta (b_l, 1) = sum gamma (p_m, 1),  sum alpha height_b(a_k) >= 1,  sum beta height_a(b_l)
 //   <= -1?
@@ -43,7 +33,7 @@ bool an_eye_may_see_over(const Grid_face& a, const Grid_face& b, const std::vect
   int column = 0;
   const Grid_point& origin = a.corners[0];
   const auto add = [&](const Grid_point& p, int sign) {
-    const Grid_point from = difference(p, origin);
+    const Grid_point from = minus(p, origin);
     for (int k = 0; k < 3; ++k) program.set_a(column, k, number(Integer(sign * from[static_cast<std::size_t>(k)])));
     program.set_a(column, 3, Wide(sign));
   };

@@ -4,11 +4,12 @@
 // a ray's of its eye's.
 
 #include <sightline/algorithms/priority/pair_code.h>
-#include <sightline/algorithms/priority/rational_geometry.h>
 #include <sightline/algorithms/priority/relation.h>
+#include <sightline/algorithms/priority/rounded_plane.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -37,15 +38,11 @@ namespace priority_detail {
 
 using Grid_point = std::array<Integer, 3>;
 
-Grid_point difference(const Grid_point& a, const Grid_point& b);
-Integer dot(const Grid_point& a, const Grid_point& b);
-Grid_point cross(const Grid_point& a, const Grid_point& b);
-
 /// A face in integers.
 struct Grid_face {
   std::vector<Grid_point> corners;
   Grid_point normal;
-  Integer height(const Grid_point& p) const { return dot(normal, difference(p, corners[0])); }
+  Integer height(const Grid_point& p) const { return dot(normal, minus(p, corners[0])); }
 };
 
 /// Faces and further points, times one integer that makes them all integers.
@@ -78,7 +75,7 @@ struct Grid_scene {
       for (const Exact_point& p : corners[i]) face.corners.push_back(scaled(p));
       for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {  // the sum over a fan, as corners may be straight
         const Grid_point part =
-            cross(difference(face.corners[k], face.corners[0]), difference(face.corners[k + 1], face.corners[0]));
+            cross(minus(face.corners[k], face.corners[0]), minus(face.corners[k + 1], face.corners[0]));
         for (std::size_t axis = 0; axis < 3; ++axis) face.normal[axis] += part[axis];
       }
     }
@@ -171,7 +168,7 @@ class Region_relation {
   std::vector<Triple> arms_of(const Grid_face& face) const {
     std::vector<Triple> arms;
     for (const Grid_point& p : face.corners) {
-      const Grid_point arm = priority_detail::difference(p, grid_.points[0]);
+      const Grid_point arm = minus(p, grid_.points[0]);
       arms.push_back(
           {nearest_double(Rational(arm[0])), nearest_double(Rational(arm[1])), nearest_double(Rational(arm[2]))});
     }
@@ -251,10 +248,10 @@ class Region_relation {
   /// Whether the plane through an eye and edge k of a has b on its outer side. Pre: the eye is in front of a.
   static bool apart(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b) {
     using namespace priority_detail;
-    const Grid_point edge = cross(difference(a.corners[k], eye),
-                                  difference(a.corners[(k + 1) % a.corners.size()], eye));  // a is where it is negative
+    const Grid_point edge = cross(minus(a.corners[k], eye),
+                                  minus(a.corners[(k + 1) % a.corners.size()], eye));  // a is where it is negative
     return std::all_of(b.corners.begin(), b.corners.end(),
-                       [&](const Grid_point& p) { return sgn(dot(edge, difference(p, eye))) >= 0; });
+                       [&](const Grid_point& p) { return sgn(dot(edge, minus(p, eye))) >= 0; });
   }
   /// Whether one edge of a does so for all points of the region: then for all eyes in it, as the sign is that of a
   /// linear form in the eye.
@@ -287,11 +284,11 @@ class Region_relation {
   /// Whether the plane through the eye and a corner of each has a on one side and b on the other.
   static bool divides(const Grid_point& eye, const Grid_face& a, std::size_t k, const Grid_face& b, std::size_t l) {
     using namespace priority_detail;
-    const Grid_point normal = cross(difference(a.corners[k], eye), difference(b.corners[l], eye));
+    const Grid_point normal = cross(minus(a.corners[k], eye), minus(b.corners[l], eye));
     if (sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0) return false;
     const auto on_side = [&](const Grid_face& face, int side) {
       return std::all_of(face.corners.begin(), face.corners.end(),
-                         [&](const Grid_point& p) { return side * sgn(dot(normal, difference(p, eye))) >= 0; });
+                         [&](const Grid_point& p) { return side * sgn(dot(normal, minus(p, eye))) >= 0; });
     };
     return (on_side(a, 1) && on_side(b, -1)) || (on_side(a, -1) && on_side(b, 1));
   }
@@ -340,8 +337,7 @@ class Ray_relation {
     const Integer height = face.height(eye), slope = dot(face.normal, direction);
     if (sgn(height) <= 0 || sgn(slope) >= 0) return std::nullopt;  // off-view, or never there
     for (std::size_t k = 0; k < face.corners.size(); ++k) {
-      const Grid_point from = difference(face.corners[k], eye),
-                       to = difference(face.corners[(k + 1) % face.corners.size()], eye);
+      const Grid_point from = minus(face.corners[k], eye), to = minus(face.corners[(k + 1) % face.corners.size()], eye);
       if (sgn(dot(cross(from, to), direction)) >= 0)
         return std::nullopt;  // seen from the front the corners run counterclockwise
     }

@@ -7,6 +7,7 @@
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -146,7 +147,6 @@ class Separation_finder {
     }
   }
 
-  static double dot(const Triple& a, const Triple& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
   /// Three products of a coordinate, off by 2^-53 of the range, with an entry of at most 1, and two sums: each of the
   /// eight roundings is below 2^-53 x 3 range.
   double projection_error() const { return 0x1p-48 * range_ + 0x1p-1000; }

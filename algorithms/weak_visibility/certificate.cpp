@@ -1,7 +1,6 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 
 #include <sightline/algorithms/covering_of_scene.h>
-#include <sightline/algorithms/weak_visibility/weak_answer.h>
 
 #include <algorithm>
 #include <cstddef>

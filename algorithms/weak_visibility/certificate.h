@@ -2,7 +2,7 @@
 // Answers of weak visibility as certificates that a sceptic can check.
 
 #include <sightline/algorithms/verify/weak.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 

@@ -10,21 +10,21 @@ namespace sightline {
 namespace conservative_detail {
 
 bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
-                std::span<const Six> pairs) {
+                std::span<const Pluecker> pairs) {
   const int front = side(occluders.plane(piece), source);
   if (front == 0 || front == both_sides || side(occluders.plane(piece), target) != -front) return false;
   const std::span<const Triple> corners = occluders.corners(piece);
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const double a = size(corners[i]), b = size(corners[(i + 1) % corners.size()]);
-    std::optional<Exact_six> edge;  // once doubles do not tell
+    std::optional<Exact_pluecker> edge;  // once doubles do not tell
     for (std::size_t c = 0; c < pairs.size(); ++c) {
       const Near_point &p = source[c / target.size()], &q = target[c % target.size()];
       const double value = front * dot(pairs[c], occluders.edges(piece)[i]),
                    bound = side_error(size(p.near), size(q.near), a, b);
       if (value < -bound) return false;
       if (value > bound) continue;
-      if (!edge) edge = occluders.exact_edge_of(occluders.edge_points(piece, i));
-      if (front * sgn(dot(exact_pair(p.exact, q.exact), *edge)) < 0) return false;
+      if (!edge) edge = occluders.exact_pluecker_of(occluders.edge_points(piece, i));
+      if (front * sgn(dot(pluecker_of_pair(p.exact, q.exact), *edge)) < 0) return false;
     }
   }
   return true;
@@ -44,9 +44,9 @@ std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders& occlu
   const auto leaf = [&](const Near_polygon& from) -> std::optional<Weak_step> {
     const int towards = side(source.plane, target), back = side(plane, from);
     if (towards <= 0 || (back < 0 && !two_sided)) return Weak_step{Kind::away, 0, {}, {}};
-    std::vector<Six> pairs;
+    std::vector<Pluecker> pairs;
     for (const Near_point& p : from)
-      for (const Near_point& q : target) pairs.push_back(pair_numbers(p.near, q.near));
+      for (const Near_point& q : target) pairs.push_back(pluecker_of_pair(p.near, q.near));
     for (const std::uint32_t near : occluders.near_shaft(from, target))
       if (blocks_all(occluders, near, from, target, pairs)) return Weak_step{Kind::blocked, near, {}, {}};
     return {};

@@ -4,8 +4,8 @@
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
+#include <sightline/algorithms/weak_visibility/weak_source.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,7 +27,7 @@ namespace conservative_detail {
 /// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between
 /// them, and on no pair of corners does a line pass an edge outside. Exact: yes. Proof: P-70
 bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
-                std::span<const Six> pairs);
+                std::span<const Pluecker> pairs);
 
 }  // namespace conservative_detail
 

@@ -16,7 +16,7 @@ const std::vector<Edge_lines::Edge>& Edge_lines::of(std::uint32_t piece) {
 bool Edge_lines::passes(const Line& line, std::uint32_t point) const {
   if (line.points[0] == point || line.points[1] == point) return true;
   const Triple v = occluders_->near_point_of(point);
-  const Six& l = line.near;
+  const Pluecker& l = line.near;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t u = (k + 1) % 3, w = (k + 2) % 3;
     if (std::fabs(v[u] * l[w] - v[w] * l[u] - l[3 + k]) > 1e-9) return false;  // the moment that the line would have
@@ -41,7 +41,7 @@ Edge_lines::Edge Edge_lines::edge(std::uint32_t piece, std::size_t corner) {
                       occluders_->edges(piece)[corner],
                       a + b,
                       a * b,
-                      occluders_->exact_edge_of(points)});
+                      occluders_->exact_pluecker_of(points)});
   }
   return {name, flipped == lines_[name].flipped ? 1 : -1};
 }

@@ -22,9 +22,9 @@ class Edge_lines {
     Weak_line edge;                       ///< the first edge met on it; the line runs as it does
     std::array<std::uint32_t, 2> points;  ///< that edge's ends
     bool flipped;                         ///< runs against the canonical direction
-    Six near;
+    Pluecker near;
     double ends_sum, ends_product;  ///< of the largest coordinates of its two points
-    Exact_six exact;
+    Exact_pluecker exact;
   };
   /// An edge's line: `sense` -1 where it runs the other way.
   struct Edge {

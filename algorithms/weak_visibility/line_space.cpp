@@ -86,7 +86,7 @@ Near_polygon clip(const Near_frame& frame, const Near_polygon& polygon, const Ne
   return part;
 }
 
-Six pair_numbers(const Triple& p, const Triple& q) {
+Pluecker pluecker_of_pair(const Triple& p, const Triple& q) {
   return {p[2] * q[1] - p[1] * q[2],
           p[0] * q[2] - p[2] * q[0],
           p[1] * q[0] - p[0] * q[1],
@@ -95,7 +95,7 @@ Six pair_numbers(const Triple& p, const Triple& q) {
           p[2] - q[2]};
 }
 
-Six edge_numbers(const Triple& a, const Triple& b) {
+Pluecker pluecker_of_edge(const Triple& a, const Triple& b) {
   return {b[0] - a[0],
           b[1] - a[1],
           b[2] - a[2],
@@ -104,7 +104,7 @@ Six edge_numbers(const Triple& a, const Triple& b) {
           a[0] * b[1] - a[1] * b[0]};
 }
 
-Exact_six exact_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b) {
+Exact_pluecker pluecker_of_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b) {
   return {b[0] - a[0],
           b[1] - a[1],
           b[2] - a[2],
@@ -113,7 +113,7 @@ Exact_six exact_edge(const std::array<Integer, 3>& a, const std::array<Integer, 
           a[0] * b[1] - a[1] * b[0]};
 }
 
-Exact_six exact_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q) {
+Exact_pluecker pluecker_of_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q) {
   return {p[2] * q[1] - p[1] * q[2], p[0] * q[2] - p[2] * q[0], p[1] * q[0] - p[0] * q[1],
           p[0] * q[3] - q[0] * p[3], p[1] * q[3] - q[1] * p[3], p[2] * q[3] - q[2] * p[3]};
 }

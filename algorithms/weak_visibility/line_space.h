@@ -49,7 +49,6 @@ class Near_frame {
 };
 
 using Triple = std::array<double, 3>;
-using Six = std::array<double, 6>;
 
 /// A point in homogeneous grid coordinates, the last one positive, reduced; and in doubles, each within a relative
 /// 2^-52.
@@ -87,25 +86,28 @@ inline Integer value(const Near_plane& h, const Near_point& p) {
 /// yes.
 Near_polygon clip(const Near_frame& frame, const Near_polygon& polygon, const Near_plane& h, bool front);
 
-// ---- Lines as six numbers
+// ---- Plücker coordinates
 //
 // side(p, q, e) = det[p, q, a, b] for homogeneous points and the edge from a to b. For p in front of a counterclockwise
 // polygon and q behind it, the segment p q crosses its inside iff the side is positive for all of its edges. Proof:
 // P-70
 
-/// The numbers of the ordered pair (p, q), against which an edge's (direction, moment) are multiplied in order.
-Six pair_numbers(const Triple& p, const Triple& q);
-/// (direction, moment) of the line from a to b.
-Six edge_numbers(const Triple& a, const Triple& b);
-inline double dot(const Six& a, const Six& b) {
+using Pluecker = std::array<double, 6>;
+using Exact_pluecker = std::array<Integer, 6>;
+
+/// Plücker coordinates of the line from q to p, moment first: their product with an edge's, term by term, is the side
+/// of the pair (p, q).
+Pluecker pluecker_of_pair(const Triple& p, const Triple& q);
+/// Plücker coordinates of the line from a to b: (direction, moment).
+Pluecker pluecker_of_edge(const Triple& a, const Triple& b);
+inline double dot(const Pluecker& a, const Pluecker& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
 
-/// The same in integers: direction and moment of the line through two grid points.
-using Exact_six = std::array<Integer, 6>;
-Exact_six exact_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b);
-Exact_six exact_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q);
-inline Integer dot(const Exact_six& a, const Exact_six& b) {
+/// The same in integers: of grid points, and of homogeneous ones.
+Exact_pluecker pluecker_of_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b);
+Exact_pluecker pluecker_of_pair(const std::array<Integer, 4>& p, const std::array<Integer, 4>& q);
+inline Integer dot(const Exact_pluecker& a, const Exact_pluecker& b) {
   Integer sum = a[0] * b[0];
   for (std::size_t k = 1; k < 6; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[k].get_mpz_t());
   return sum;
@@ -113,9 +115,9 @@ inline Integer dot(const Exact_six& a, const Exact_six& b) {
 
 inline double size(const Triple& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
-/// Bounds the error of dot(pair_numbers, edge_numbers): at most 6 products of three coordinates for each of four
-/// choices, each factor within 2^-52 of the truth, and eight roundings: (3 x 2 + 8) x 6 u < 2^7 u. `p`, `q`, `a`, `b`:
-/// largest coordinates. Proof: P-70
+/// Bounds the error of dot(pluecker_of_pair(p, q), pluecker_of_edge(a, b)): at most 6 products of three coordinates for
+/// each of four choices, each factor within 2^-52 of the truth, and eight roundings: (3 x 2 + 8) x 6 u < 2^7 u. `p`,
+/// `q`, `a`, `b`: largest coordinates. Proof: P-70
 inline double side_error(double p, double q, double a, double b) {
   return 0x1p-46 * ((p + q) * a * b + p * q * (a + b)) + 0x1p-1000;
 }

@@ -16,7 +16,7 @@ Occluders::Occluders(const Scene& scene) : scene_(&scene), frame_(scene), boxes_
     for (const Piece_corner& corner : scene.corners(piece)) corners_.push_back(near(corner.point));
     const std::size_t begin = first_.back(), size = piece.size;
     for (std::size_t i = 0; i < size; ++i)
-      edges_.push_back(edge_numbers(corners_[begin + i], corners_[begin + (i + 1) % size]));
+      edges_.push_back(pluecker_of_edge(corners_[begin + i], corners_[begin + (i + 1) % size]));
   }
 }
 
@@ -55,7 +55,7 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
 
 std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple& direction) const {
   const Triple ahead{p[0] + direction[0], p[1] + direction[1], p[2] + direction[2]};
-  const Six numbers = pair_numbers(p, ahead);
+  const Pluecker pluecker = pluecker_of_pair(p, ahead);
   const double to_boxes = frame_.to_boxes();
   double nearest = std::numeric_limits<double>::infinity();
   std::optional<Hit> hit;
@@ -80,8 +80,9 @@ std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple
         const double at = -height / slope;
         if (!(at > 1e-9) || at >= nearest) return;
         const double sense = height > 0 ? 1 : -1;
-        const std::span<const Six> all = edges(piece);
-        if (std::all_of(all.begin(), all.end(), [&](const Six& edge) { return sense * dot(numbers, edge) >= 0; })) {
+        const std::span<const Pluecker> all = edges(piece);
+        if (std::all_of(all.begin(), all.end(),
+                        [&](const Pluecker& edge) { return sense * dot(pluecker, edge) >= 0; })) {
           nearest = at;
           hit = Hit{piece, height > 0};
         }
@@ -91,8 +92,8 @@ std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple
 
 std::optional<std::uint32_t> Occluders::blocker(const Near_point& p, const Near_point& q, const Near_plane& of_p,
                                                 const Near_plane& of_q) const {
-  const Exact_six pair = exact_pair(p.exact, q.exact);
-  const Six numbers = pair_numbers(p.near, q.near);
+  const Exact_pluecker pair = pluecker_of_pair(p.exact, q.exact);
+  const Pluecker near_pair = pluecker_of_pair(p.near, q.near);
   const double to_boxes = frame_.to_boxes();
   Piece_boxes::Box around;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -111,7 +112,7 @@ std::optional<std::uint32_t> Occluders::blocker(const Near_point& p, const Near_
         return !misses(box, p.near, q.near, to_boxes);
       },
       [&](std::uint32_t piece) {
-        if (!found && meets(piece, p, q, of_p, of_q, pair, numbers)) found = piece;
+        if (!found && meets(piece, p, q, of_p, of_q, pair, near_pair)) found = piece;
       });
   return found;
 }
@@ -200,7 +201,7 @@ bool Occluders::same_plane(const Near_plane& g, const Near_plane& h) {
 }
 
 bool Occluders::meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Near_plane& of_p,
-                      const Near_plane& of_q, const Exact_six& pair, const Six& numbers) const {
+                      const Near_plane& of_q, const Exact_pluecker& pair, const Pluecker& near_pair) const {
   const int at_p = side(planes_[piece], p), at_q = side(planes_[piece], q);
   if (at_p == 0 && at_q == 0) return true;  // not looked at further
   if (at_p * at_q > 0) return false;
@@ -209,12 +210,12 @@ bool Occluders::meets(std::uint32_t piece, const Near_point& p, const Near_point
   const double ps = size_of(p), qs = size_of(q);
   const std::span<const Triple> polygon = corners(piece);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const double value = from * sightline::dot(numbers, edges(piece)[i]);
+    const double value = from * sightline::dot(near_pair, edges(piece)[i]);
     const double bound =
         side_error(ps, qs, sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()]));
     if (value < -bound) return false;
     if (value > bound) continue;
-    if (from * sgn(sightline::dot(pair, exact_edge_of(edge_points(piece, i)))) < 0) return false;
+    if (from * sgn(sightline::dot(pair, exact_pluecker_of(edge_points(piece, i)))) < 0) return false;
   }
   return true;
 }

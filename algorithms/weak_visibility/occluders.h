@@ -26,7 +26,7 @@ class Occluders {
   const Near_frame& frame() const { return frame_; }
   const Near_plane& plane(std::uint32_t piece) const { return planes_[piece]; }
   std::size_t size(std::uint32_t piece) const { return scene_->pieces()[piece].size; }
-  std::span<const Six> edges(std::uint32_t piece) const { return {edges_.data() + first_[piece], size(piece)}; }
+  std::span<const Pluecker> edges(std::uint32_t piece) const { return {edges_.data() + first_[piece], size(piece)}; }
   std::span<const Triple> corners(std::uint32_t piece) const { return {corners_.data() + first_[piece], size(piece)}; }
   /// The points of a piece's edge, from corner `corner` to the next.
   std::array<std::uint32_t, 2> edge_points(std::uint32_t piece, std::size_t corner) const {
@@ -38,8 +38,8 @@ class Occluders {
   }
   Triple near_point_of(std::uint32_t point) const { return near(point); }
   Near_polygon polygon(std::uint32_t piece) const;
-  Exact_six exact_edge_of(const std::array<std::uint32_t, 2>& points) const {
-    return exact_edge(grid_point(points[0]), grid_point(points[1]));
+  Exact_pluecker exact_pluecker_of(const std::array<std::uint32_t, 2>& points) const {
+    return pluecker_of_edge(grid_point(points[0]), grid_point(points[1]));
   }
 
   /// The pieces that may meet a segment between the two polygons: those that no plane beside both of them, nor a box,
@@ -80,7 +80,7 @@ class Occluders {
 
   static bool same_plane(const Near_plane& g, const Near_plane& h);
   bool meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Near_plane& of_p,
-             const Near_plane& of_q, const Exact_six& pair, const Six& numbers) const;
+             const Near_plane& of_q, const Exact_pluecker& pair, const Pluecker& near_pair) const;
   static double size_of(const Near_point& p) { return sightline::size(p.near); }
 
   const Scene* scene_;
@@ -89,7 +89,7 @@ class Occluders {
   std::vector<Near_plane> planes_;
   std::vector<std::uint32_t> first_;
   std::vector<Triple> corners_;
-  std::vector<Six> edges_;
+  std::vector<Pluecker> edges_;
 };
 
 }  // namespace sightline

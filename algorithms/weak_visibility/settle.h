@@ -5,8 +5,8 @@
 #include <sightline/algorithms/weak_visibility/events/event_search.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
+#include <sightline/algorithms/weak_visibility/weak_source.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>

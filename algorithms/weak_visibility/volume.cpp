@@ -2,6 +2,7 @@
 
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -45,12 +46,10 @@ Rational Weak_volume::height(const Exact_plane& h, const Exact_point& p) {
 
 Weak_volume::Exact_plane Weak_volume::plane_of(const Polygon& polygon) {  // Newell's normal
   Exact_plane h{0, 0, 0, 0};
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-      h[k] += (polygon[i][u] - polygon[0][u]) * (polygon[i + 1][v] - polygon[0][v]) -
-              (polygon[i][v] - polygon[0][v]) * (polygon[i + 1][u] - polygon[0][u]);
-    }
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
+    for (std::size_t k = 0; k < 3; ++k) h[k] += part[k];
+  }
   for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * polygon[0][k];
   return h;
 }

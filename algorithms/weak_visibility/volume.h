@@ -3,7 +3,7 @@
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/query.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>

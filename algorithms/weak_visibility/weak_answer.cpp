@@ -1,33 +1,29 @@
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 
+#include <sightline/kernel/threads.h>
+
 #include <algorithm>
+#include <atomic>
 
 namespace sightline {
 
-Weak_counters& Weak_counters::operator+=(const Weak_counters& o) {
-  targets += o.targets;
-  away += o.away;
-  by_rays += o.by_rays;
-  occluders += o.occluders;
-  cells += o.cells;
-  cuts += o.cuts;
-  shaves += o.shaves;
-  bisections += o.bisections;
-  blocked += o.blocked;
-  empty += o.empty;
-  corners += o.corners;
-  learned += o.learned;
-  jumps += o.jumps;
-  programs += o.programs;
-  exact_programs += o.exact_programs;
-  form_programs += o.form_programs;
-  by_forms += o.by_forms;
-  confirmed += o.confirmed;
-  refuted += o.refuted;
-  lines += o.lines;
-  open += o.open;
-  deepest = std::max(deepest, o.deepest);
-  return *this;
+std::vector<std::uint32_t> first_pieces(const std::vector<Piece>& pieces) {
+  std::vector<std::uint32_t> first;
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+    if (i == 0 || pieces[i].face != pieces[i - 1].face) first.push_back(i);
+  return first;
+}
+
+void for_each_face(const std::vector<Piece>& pieces, const std::vector<std::uint32_t>& first, int threads,
+                   const std::function<void(std::size_t, std::size_t)>& progress,
+                   const std::function<void(std::size_t f, std::uint32_t begin, std::uint32_t end)>& decide) {
+  std::atomic<std::size_t> done = 0;
+  run_with_threads(threads, [&] {
+    parallel_for(first.size(), [&](std::size_t f) {
+      decide(f, first[f], f + 1 < first.size() ? first[f + 1] : static_cast<std::uint32_t>(pieces.size()));
+      if (progress) progress(++done, first.size());
+    });
+  });
 }
 
 }  // namespace sightline

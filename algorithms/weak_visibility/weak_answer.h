@@ -1,8 +1,12 @@
 #pragma once
-// What a search among lines says, and what it was asked: the answer with its proof, the options, the counters.
+// What is said of faces, and what proves it: the answer to a pair of a source and a piece, the lists of faces; and what
+// a search among lines was asked, and counted.
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/scene.h>
 
 #include <array>
 #include <cstddef>
@@ -27,7 +31,32 @@ struct Weak_counters {
               refuted = 0;  ///< `confirmed`, `refuted`: lines proposed in doubles, by the exact test
   std::size_t lines = 0, open = 0, deepest = 0;
 
-  Weak_counters& operator+=(const Weak_counters& o);
+  /// Each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("searches", &Weak_counters::targets);
+    visit("away", &Weak_counters::away);
+    visit("by_rays", &Weak_counters::by_rays);
+    visit("occluders", &Weak_counters::occluders);
+    visit("cells", &Weak_counters::cells);
+    visit("cuts", &Weak_counters::cuts);
+    visit("shaves", &Weak_counters::shaves);
+    visit("bisections", &Weak_counters::bisections);
+    visit("blocked", &Weak_counters::blocked);
+    visit("empty", &Weak_counters::empty);
+    visit("", &Weak_counters::corners);
+    visit("learned", &Weak_counters::learned);
+    visit("jumps", &Weak_counters::jumps);
+    visit("programs", &Weak_counters::programs);
+    visit("exact_programs", &Weak_counters::exact_programs);
+    visit("", &Weak_counters::form_programs);
+    visit("", &Weak_counters::by_forms);
+    visit("confirmed", &Weak_counters::confirmed);
+    visit("refuted", &Weak_counters::refuted);
+    visit("lines", &Weak_counters::lines);
+    visit("open", &Weak_counters::open);
+    visit("deepest", &Weak_counters::deepest, largest);
+  }
 };
 
 /// One step of a proof that no line is free, in the order of a walk that takes a node before its two parts. P-72 says
@@ -68,5 +97,39 @@ struct Weak_search_options {
   std::uint64_t seed = 1;
   std::function<bool()> out_of_time;  ///< asked now and then
 };
+
+// ---- Of all faces
+
+/// Every kept face is in one of the three lists, which are sorted.
+struct Weak_faces {
+  std::vector<Face_id> visible, hidden, undecided;
+
+  std::vector<Face_id>& of(Weak_status status) {
+    return status == Weak_status::visible ? visible : status == Weak_status::hidden ? hidden : undecided;
+  }
+};
+
+/// What was found, and what proves it.
+struct Weakly_visible : Weak_faces {
+  struct Pair {
+    std::uint32_t piece, source;
+    Weak_answer answer;
+  };
+  std::vector<Pair> pairs;  ///< of a visible face the one pair with a sightline, of a hidden one all pairs; faces in
+                            ///< order, then pieces, then sources
+  std::vector<Pair> open;   ///< of an undecided face the pairs that are so, in the same order
+  std::vector<Face_id> unproved;  ///< faces among the visible and the hidden ones that no pairs prove, sorted: other
+                                  ///< methods leave some, weakly_visible() none
+  Weak_counters counters;
+};
+
+/// The first piece of each face that is kept; pieces of a face are neighbours.
+std::vector<std::uint32_t> first_pieces(const std::vector<Piece>& pieces);
+
+/// Calls decide(f, begin, end) for each kept face, the f-th in order, of the pieces from `begin` to before `end`: on so
+/// many threads, in any order. After each, progress(done, all) by any thread.
+void for_each_face(const std::vector<Piece>& pieces, const std::vector<std::uint32_t>& first, int threads,
+                   const std::function<void(std::size_t, std::size_t)>& progress,
+                   const std::function<void(std::size_t f, std::uint32_t begin, std::uint32_t end)>& decide);
 
 }  // namespace sightline

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/baseline/ray_sampling.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/algorithms/weak_visibility/conservative.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
 

@@ -91,11 +91,9 @@ void Progress::operator()(std::size_t done, std::size_t all) {
 Json point_json(const Exact_point& p) { return {to_string(p[0]), to_string(p[1]), to_string(p[2])}; }
 
 Json predicates_json(const Predicate_counts& counts) {
-  return {{"total", counts.total()},
-          {"combinatorial", counts.combinatorial},
-          {"filtered", counts.filtered},
-          {"fixed", counts.fixed},
-          {"gmp", counts.gmp}};
+  Json json{{"total", counts.total()}};
+  append_counters(json, counts);
+  return json;
 }
 
 Json scene_json(const Scene& scene) {

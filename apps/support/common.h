@@ -108,6 +108,24 @@ class Countdown {
 /// The "scene" object of every command's JSON.
 Json scene_json(const Scene& scene);
 Json predicates_json(const Predicate_counts& counts);
+/// Appends counters under their keys, as they are listed; those of a part among them.
+template <Counters Type>
+void append_counters(Json& to, const Type& counters) {
+  Type::each([&](const std::string& key, auto member, auto...) {
+    const auto& value = counters.*member;
+    if constexpr (!Counters<std::remove_cvref_t<decltype(value)>>) {
+      if (!key.empty()) to[key] = value;
+    } else if constexpr (std::is_same_v<decltype(value), const Predicate_counts&>) {
+      if (!key.empty()) to[key] = predicates_json(value);
+    } else append_counters(to, value);
+  });
+}
+template <Counters Type>
+Json counters_json(const Type& counters) {
+  Json json;
+  append_counters(json, counters);
+  return json;
+}
 Json point_json(const Exact_point& p);
 
 /// Writes the JSON document of a command where --json asks for it. Returns whether standard output is taken by it.

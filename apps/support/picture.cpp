@@ -2,9 +2,6 @@
 
 namespace sightline::app {
 
-static Direction3 cross(const Direction3& a, const Direction3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
 static Direction3 unit(const Direction3& a) {
   const double size = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
   if (!(size > 0)) return {};

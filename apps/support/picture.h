@@ -4,11 +4,11 @@
 #include "../methods/methods.h"
 
 #include <sightline/io/svg.h>
+#include <sightline/kernel/vectors.h>
 
 namespace sightline::app {
 
 using Direction3 = std::array<double, 3>;
-inline double dot(const Direction3& a, const Direction3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// Where one looks from, and where to.
 struct View {

@@ -1,7 +1,7 @@
 #pragma once
 // How wrong an answer of weak visibility is: faces, against the exact answer.
 
-#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/algorithms/weak_visibility/weak_answer.h>
 
 #include <cstddef>
 

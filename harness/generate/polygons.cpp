@@ -3,20 +3,9 @@
 namespace sightline {
 namespace generate {
 
-Exact_point minus(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
-}
-
 Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
   return {Rational(p[0] + t * d[0]), Rational(p[1] + t * d[1]), Rational(p[2] + t * d[2])};
 }
-
-Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
-          Rational(a[0] * b[1] - a[1] * b[0])};
-}
-
-bool is_zero(const Exact_point& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
 
 Exact_point centroid(const Points& points) {
   Exact_point sum{0, 0, 0};

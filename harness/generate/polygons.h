@@ -4,6 +4,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -18,11 +19,8 @@ using Faces = std::vector<Points>;
 
 // ---- Vectors
 
-Exact_point minus(const Exact_point& a, const Exact_point& b);
 /// p + t d
 Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d);
-Exact_point cross(const Exact_point& a, const Exact_point& b);
-bool is_zero(const Exact_point& v);
 Exact_point centroid(const Points& points);
 
 /// Each list is a face of one loop, with points of its own.

@@ -4,6 +4,7 @@
 #include <sightline/harness/generate/weak_draft.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/convex_parts.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -25,9 +26,6 @@ generate::Points convex_corners(const Polygon_soup& soup, Face_id face) {
   for (const Point_id p : soup.loop(face)) corners.push_back(soup.point(p));
   const std::size_t n = corners.size();
   if (n < 3) return {};
-  const auto dot = [](const Exact_point& a, const Exact_point& b) {
-    return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-  };
   const Exact_point normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
   for (std::size_t k = 0; k < n; ++k)
     for (std::size_t j = 0; j < n; ++j) {

@@ -30,7 +30,7 @@
 #include <string>
 
 #include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/priority/rational_geometry.h>
+#include <sightline/algorithms/priority/rounded_plane.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/harness/generate/polygons.h>

@@ -149,7 +149,7 @@ void Reducer::move_all() {
   };
   if (!draft_.faces.empty() && !draft_.faces[0].empty() && !draft_.faces[0][0].empty()) {
     const Exact_point corner = draft_.faces[0][0][0];
-    map_all([&](const Exact_point& p) { return generate::minus(p, corner); });
+    map_all([&](const Exact_point& p) { return minus(p, corner); });
   }
   Integer denominator = 1, factor = 0;
   draft_.for_each_point([&](const Exact_point& p) {

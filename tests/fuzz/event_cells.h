@@ -11,7 +11,7 @@ namespace fuzz {
 /// A chart with the lines that its event line touches, as the visits want them.
 struct Touching {
   Event_chart chart;
-  std::vector<Exact_six> lines;
+  std::vector<Exact_pluecker> lines;
 };
 
 inline Homogeneous combined(const std::array<Homogeneous, 4>& points, const std::array<long, 4>& by) {
@@ -27,7 +27,7 @@ inline Touching touching_in(Bytes& from, bool at_regulus) {
   std::array<Homogeneous, 4> points;
   for (Homogeneous& x : points)
     for (Integer& c : x) c = from.integer(6);
-  const Exact_six first = join(points[0], points[1]), other = join(points[2], points[3]);
+  const Exact_pluecker first = join(points[0], points[1]), other = join(points[2], points[3]);
   if (sgn(side(first, other)) == 0) return {};  // dependent
   Touching touching{{points[0], points[1], points[2], points[3]}, {}};
   const std::size_t count = 3 + from.below(4);
@@ -54,12 +54,12 @@ inline void event_cells(std::string_view bytes) {
   const bool at_regulus = from.below(2) == 0;
   const Touching touching = touching_in(from, at_regulus);
   if (touching.lines.empty()) return;
-  std::vector<const Exact_six*> touched;
-  for (const Exact_six& line : touching.lines) touched.push_back(&line);
+  std::vector<const Exact_pluecker*> touched;
+  for (const Exact_pluecker& line : touching.lines) touched.push_back(&line);
   const auto signs_of = [&](const Event_move& move, const Rational& t) {
-    const Exact_six near = moved(touching.chart, move, t);
+    const Exact_pluecker near = moved(touching.chart, move, t);
     std::vector<int> signs;
-    for (const Exact_six& line : touching.lines) signs.push_back(sgn(side(near, line)));
+    for (const Exact_pluecker& line : touching.lines) signs.push_back(sgn(side(near, line)));
     return signs;
   };
   const Rational t(Integer(1), Integer(1) << 100);  // slopes and quotients have less than 30 bits

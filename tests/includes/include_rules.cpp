@@ -100,6 +100,20 @@ TEST_F(PlantedBreach, the_wrong_room) {
                             "<sightline/kernel/traits/exact.h>"}));
 }
 
+TEST_F(PlantedBreach, one_method_of_weak_visibility_in_another) {
+  const std::string room = "algorithms/weak_visibility/", line = "#pragma once\n#include <sightline/" + room;
+  write(room + "weak_answer.h", line + "search/search.h>\n");
+  write(room + "settle.h", line + "search/search.h>\n#include <sightline/" + room + "events/events.h>\n");
+  write(room + "search/search.h", line + "settle.h>\n");
+  write(room + "events/events.h", line + "weak_answer.h>\n#include <sightline/" + room + "search/search.h>\n");
+  EXPECT_EQ(found(), (Found{"algorithms/weak_visibility/events/events.h:3: algorithms/weak_visibility/events must not "
+                            "include <sightline/algorithms/weak_visibility/search/search.h>",
+                            "algorithms/weak_visibility/search/search.h:2: algorithms/weak_visibility/search must not "
+                            "include <sightline/algorithms/weak_visibility/settle.h>",
+                            "algorithms/weak_visibility/weak_answer.h:2: algorithms/weak_visibility/weak_answer must "
+                            "not include <sightline/algorithms/weak_visibility/search/search.h>"}));
+}
+
 TEST_F(PlantedBreach, quotes_in_the_library) {
   write("kernel/plane.h", "#pragma once\n#include \"number.h\"\n");
   EXPECT_EQ(found(), Found{"kernel/plane.h:2: own includes are spelled <sightline/...>: \"number.h\""});

@@ -57,11 +57,28 @@ inline std::vector<std::string> sources_in(const std::filesystem::path& root, co
   return found;
 }
 
-/// A folder and what may be included there: folders ("io/"), folders without their subfolders ("kernel/."), headers.
+/// A folder, or one header with its source ("x/y."), and what may be included there: folders ("io/"), folders without
+/// their subfolders ("kernel/."), headers.
 struct Room {
   std::string_view folder;
   std::vector<std::string_view> allowed;
 };
+
+/// What the two methods of weak visibility, search/ and events/, both stand on; it knows neither.
+inline const std::vector<std::string_view> weak_ground{"kernel/",
+                                                       "algorithms/point_visibility/boxes.h",
+                                                       "algorithms/weak_visibility/edge_lines.h",
+                                                       "algorithms/weak_visibility/line_space.h",
+                                                       "algorithms/weak_visibility/occluders.h",
+                                                       "algorithms/weak_visibility/weak_answer.h",
+                                                       "algorithms/weak_visibility/weak_source.h"};
+
+/// What is allowed on that ground, and a folder besides.
+inline std::vector<std::string_view> weak_ground_and(std::string_view folder) {
+  std::vector<std::string_view> allowed = weak_ground;
+  allowed.push_back(folder);
+  return allowed;
+}
 
 /// The rooms of the library, and then who stands above it. A file is in the first that its path begins with.
 inline const std::vector<Room>& rooms() {
@@ -73,6 +90,14 @@ inline const std::vector<Room>& rooms() {
       {"algorithms/verify/",
        {"algorithms/verify/", "kernel/number.h", "kernel/coordinates.h", "kernel/quoted.h",
         "kernel/scene/polygon_soup.h"}},
+      // Two methods for one question, each without the other, on common ground.
+      {"algorithms/weak_visibility/search/", weak_ground_and("algorithms/weak_visibility/search/")},
+      {"algorithms/weak_visibility/events/", weak_ground_and("algorithms/weak_visibility/events/")},
+      {"algorithms/weak_visibility/edge_lines.", weak_ground},
+      {"algorithms/weak_visibility/line_space.", weak_ground},
+      {"algorithms/weak_visibility/occluders.", weak_ground},
+      {"algorithms/weak_visibility/weak_answer.", weak_ground},
+      {"algorithms/weak_visibility/weak_source.", weak_ground},
       {"algorithms/", {"kernel/", "algorithms/"}},
       {"io/", {"kernel/", "io/"}},
       {"harness/", {"kernel/", "algorithms/", "io/", "harness/"}},

@@ -113,8 +113,7 @@ TEST(Reduce, moves_what_keeps_its_shape) {
   const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene& posed) {
     if (!is_one_face(posed, 3)) return false;
     const auto corner = [&](std::size_t k) { return posed.soup.point(posed.soup.loop(0)[k]); };
-    return generate::minus(corner(1), corner(0)) == generate::at(3, 0, 0) &&
-           generate::minus(corner(2), corner(0)) == generate::at(0, 7, 0);
+    return minus(corner(1), corner(0)) == generate::at(3, 0, 0) && minus(corner(2), corner(0)) == generate::at(0, 7, 0);
   });
   EXPECT_EQ(reduced.scene.soup.point(reduced.scene.soup.loop(0)[0]), generate::at(0, 0, 0));
 }

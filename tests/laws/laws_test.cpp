@@ -19,9 +19,7 @@ Points corners_of(const Polygon_soup& soup, Face_id face) {
   for (const Point_id p : soup.loop(face)) corners.push_back(soup.point(p));
   return corners;
 }
-Exact_point normal_of(const Points& c) {
-  return generate::cross(generate::minus(c[1], c[0]), generate::minus(c[2], c[0]));
-}
+Exact_point normal_of(const Points& c) { return cross(minus(c[1], c[0]), minus(c[2], c[0])); }
 Rational dot(const Exact_point& a, const Exact_point& b) { return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
 
 /// A label for each face, by a function of the scene and the face's corners.
@@ -36,7 +34,7 @@ std::function<Answer(const Posed_scene&)> labels(Label label) {
 }
 /// Right: 1 where the eye is in front of the face, 2 behind it, 4 in its plane.
 std::uint32_t side_of_eye(const Posed_scene& posed, Face_id, const Points& c) {
-  const int side = sgn(dot(normal_of(c), generate::minus(posed.eye, c[0])));
+  const int side = sgn(dot(normal_of(c), minus(posed.eye, c[0])));
   return side > 0 ? 1 : side < 0 ? 2 : 4;
 }
 
@@ -100,7 +98,7 @@ TEST(Laws, catch_answers_that_depend_on_what_they_must_not) {
 TEST(Laws,
      mirror_catches_a_wrong_sense) {  // right but for the loop's sense, which a mirror turns and the law turns back
   const auto unturned = labels([](const Posed_scene& posed, Face_id, const Points& c) {
-    const Exact_point n = normal_of(c), e = generate::minus(posed.eye, c[0]);
+    const Exact_point n = normal_of(c), e = minus(posed.eye, c[0]);
     return sgn(n[0]) * sgn(e[0]) * sgn(n[1]) > 0 ? 1u : 0u;
   });
   EXPECT_GT(failures("mirror", unturned), 3u);
@@ -111,7 +109,7 @@ TEST(Laws, partitions_are_compared_by_who_is_together) {
       [](const Posed_scene& posed) {  // faces with the same normal are together; names are places, backwards
         Answer answer = labels([](const Posed_scene& p, Face_id f, const Points& c) {
           for (Face_id g = 0; g < f; ++g)
-            if (generate::is_zero(generate::cross(normal_of(c), normal_of(corners_of(p.soup, g))))) return 1000u - g;
+            if (is_zero(cross(normal_of(c), normal_of(corners_of(p.soup, g))))) return 1000u - g;
           return 1000u - f;
         })(posed);
         answer.is_partition = true;
@@ -161,7 +159,7 @@ TEST(Laws, are_not_for_what_depends_on_the_place_or_on_pieces) {
 
 TEST(Laws, move_the_source_with_the_scene) {
   const auto side_of_source = labels([](const Posed_scene& posed, Face_id, const Points& c) {
-    return static_cast<std::uint32_t>(1 + sgn(dot(normal_of(c), generate::minus(posed.source[0], c[0]))));
+    return static_cast<std::uint32_t>(1 + sgn(dot(normal_of(c), minus(posed.source[0], c[0]))));
   });
   for (const char* name : {"translate", "scale", "rotate", "mirror"})
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
@@ -193,8 +191,7 @@ TEST(Laws, a_cut_keeps_a_face_and_a_bystander_is_out_of_sight) {
     ASSERT_EQ(cut->scene.soup.face_count(), posed.soup.face_count() + 1);
     std::vector<Exact_point> area(posed.soup.face_count(), {0, 0, 0});
     const auto add_area = [](Exact_point& sum, const Points& c) {
-      for (std::size_t k = 0; k < c.size(); ++k)
-        sum = generate::along(sum, 1, generate::cross(c[k], c[(k + 1) % c.size()]));
+      for (std::size_t k = 0; k < c.size(); ++k) sum = generate::along(sum, 1, cross(c[k], c[(k + 1) % c.size()]));
     };
     for (Face_id f = 0; f < cut->scene.soup.face_count(); ++f) {
       const Points corners = harness::convex_corners(cut->scene.soup, f);
@@ -204,7 +201,7 @@ TEST(Laws, a_cut_keeps_a_face_and_a_bystander_is_out_of_sight) {
     for (Face_id f = 0; f < posed.soup.face_count(); ++f) {
       Exact_point whole{0, 0, 0};
       add_area(whole, corners_of(posed.soup, f));
-      EXPECT_TRUE(generate::is_zero(generate::minus(whole, area[f]))) << "seed " << seed;
+      EXPECT_TRUE(is_zero(minus(whole, area[f]))) << "seed " << seed;
     }
     const auto more = harness::with_a_bystander(posed, random);
     ASSERT_EQ(more->scene.soup.face_count(), posed.soup.face_count() + 1);

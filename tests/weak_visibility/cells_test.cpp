@@ -45,7 +45,7 @@ class Cell_of_a_line {
   /// How many of the ways say that there is no line on the sides that the line (p, q) is on, among some of the edges
   /// that it does not meet.
   std::size_t wrong_proofs(Random& random) {
-    const Exact_six pair = exact_pair(inner(domain_.source, random), inner(domain_.target, random));
+    const Exact_pluecker pair = pluecker_of_pair(inner(domain_.source, random), inner(domain_.target, random));
     cell_ = {&domain_, &lines_, &occluders_->frame(), {}};
     std::size_t wrong = 0, place = 0;
     for (std::uint32_t line = 0; line < lines_.size(); ++line) {
@@ -118,7 +118,7 @@ TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_
     const Located_point grid = scene.locate(p);
     return std::array<Integer, 4>{grid.x, grid.y, grid.z, grid.w};
   };
-  const Exact_six right = exact_pair(located({Rational(1, 2), 0, 0}), located({Rational(1, 2), 0, 1}));
+  const Exact_pluecker right = pluecker_of_pair(located({Rational(1, 2), 0, 0}), located({Rational(1, 2), 0, 1}));
   Line_cell cell{&domain, &lines, &occluders.frame(), {}};
   for (std::size_t k = 0; k < 2; ++k) {
     const Side_row& row = domain.row(lines, edges[k], occluders.frame());

@@ -4,6 +4,7 @@
 #include "parallel_planes.h"
 
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
 
 #include <gtest/gtest.h>
@@ -215,11 +216,12 @@ TEST(Events, beyond_the_budget_are_undecided) {
 /// The combinations of sides of touched lines that random lines near the event line have; and what the visit says they
 /// can have.
 template <class Visit_cells>
-void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_six*>& touched, Visit_cells visit_cells) {
+void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_pluecker*>& touched,
+                      Visit_cells visit_cells) {
   std::set<std::vector<int>> said, seen;
   visit_cells(chart, touched, [&](const std::vector<int>& signs, const Event_move& move) {
     said.insert(signs);
-    const Exact_six line = moved(chart, move, Rational(1, 1ul << 40));
+    const Exact_pluecker line = moved(chart, move, Rational(1, 1ul << 40));
     for (std::size_t k = 0; k < touched.size(); ++k) EXPECT_EQ(sgn(side(line, *touched[k])), signs[k]);
     return false;
   });
@@ -228,9 +230,9 @@ void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_si
     Event_move move;
     for (Rational& x : move.first)
       x = Rational(static_cast<long>(random.between(-1000000, 1000000))) / (1ul << random.below(20));
-    const Exact_six line = moved(chart, move, Rational(1, 1ul << 40));
+    const Exact_pluecker line = moved(chart, move, Rational(1, 1ul << 40));
     std::vector<int> signs;
-    for (const Exact_six* t : touched) signs.push_back(sgn(side(line, *t)));
+    for (const Exact_pluecker* t : touched) signs.push_back(sgn(side(line, *t)));
     if (std::find(signs.begin(), signs.end(), 0) == signs.end()) seen.insert(signs);
   }
   for (const std::vector<int>& signs : seen) EXPECT_EQ(said.count(signs), 1u);
@@ -240,10 +242,10 @@ void expect_all_cells(const Event_chart& chart, const std::vector<const Exact_si
 TEST(Event_cells, around_three_skew_lines_are_all_eight) {
   const auto x = [](long a, long b, long c) { return Homogeneous{a, b, c, 1}; };
   // Lines x = k, z = k y of a hyperbolic paraboloid; the other ruling: y = c, z = c x. Event line y = 0.
-  const std::vector<Exact_six> lines{join(x(0, 0, 0), x(0, 1, 0)), join(x(1, 0, 0), x(1, 1, 1)),
-                                     join(x(2, 0, 0), x(2, 1, 2)), join(x(3, 0, 0), x(3, 1, 3))};
+  const std::vector<Exact_pluecker> lines{join(x(0, 0, 0), x(0, 1, 0)), join(x(1, 0, 0), x(1, 1, 1)),
+                                          join(x(2, 0, 0), x(2, 1, 2)), join(x(3, 0, 0), x(3, 1, 3))};
   const Event_chart chart{x(0, 0, 0), x(1, 0, 0), x(0, 1, 0), x(1, 1, 1)};
-  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) {
+  const auto visit = [](const Event_chart& c, const std::vector<const Exact_pluecker*>& t, auto v) {
     return visit_cells_at_regulus(c, t, v);
   };
   std::size_t three = 0, four = 0;
@@ -270,15 +272,15 @@ TEST(Event_cells, around_three_skew_lines_are_all_eight) {
 
 TEST(Event_cells, around_a_pencil_reach_between_its_own_lines) {
   const auto x = [](long a, long b, long c) { return Homogeneous{a, b, c, 1}; };
-  const auto visit = [](const Event_chart& c, const std::vector<const Exact_six*>& t, auto v) {
+  const auto visit = [](const Event_chart& c, const std::vector<const Exact_pluecker*>& t, auto v) {
     return visit_cells_at_pencil(c, t, v);
   };
   // Through the origin, in the plane y = 0; the event line is the z axis.
   const Event_chart chart{x(0, 0, 0), x(0, 0, 1), {1, 0, 0, 0}, {0, 1, 0, 0}};
-  const Exact_six star = join(x(0, 0, 0), x(1, 2, 3)), star_2 = join(x(0, 0, 0), x(2, -1, 1)),
-                  flat = join(x(0, 0, 3), x(1, 0, 5)), flat_2 = join(x(0, 0, -2), x(2, 0, -2)),
-                  own = join(x(0, 0, 0), x(1, 0, 1)), own_2 = join(x(0, 0, 0), x(1, 0, 2)),
-                  own_3 = join(x(0, 0, 0), x(-1, 0, 2));
+  const Exact_pluecker star = join(x(0, 0, 0), x(1, 2, 3)), star_2 = join(x(0, 0, 0), x(2, -1, 1)),
+                       flat = join(x(0, 0, 3), x(1, 0, 5)), flat_2 = join(x(0, 0, -2), x(2, 0, -2)),
+                       own = join(x(0, 0, 0), x(1, 0, 1)), own_2 = join(x(0, 0, 0), x(1, 0, 2)),
+                       own_3 = join(x(0, 0, 0), x(-1, 0, 2));
   expect_all_cells(chart, {&star, &flat}, visit);
   expect_all_cells(chart, {&star, &star_2, &flat, &flat_2}, visit);
   expect_all_cells(chart, {&star, &flat, &own, &own_2}, visit);

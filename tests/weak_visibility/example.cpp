@@ -1,6 +1,7 @@
 // The example of algorithms/weak_visibility/README.md, run.
 
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 
 #include <iostream>
 

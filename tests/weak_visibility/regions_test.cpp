@@ -7,6 +7,7 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/conservative.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/algorithms/weak_visibility/volume.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
 

@@ -5,6 +5,7 @@
 #include "scenes.h"
 
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 

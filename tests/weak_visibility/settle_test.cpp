@@ -3,6 +3,7 @@
 #include "scenes.h"
 
 #include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 
 #include <gtest/gtest.h>
 

@@ -6,6 +6,7 @@
 
 #include <sightline/harness/generate/families.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 namespace sightline {
 
-Exact_six moved(const Event_chart& chart, const Event_move& move, const Rational& t) {
+Exact_pluecker moved(const Event_chart& chart, const Event_move& move, const Rational& t) {
   std::array<Rational, 4> by;
   Integer common = 1;
   for (std::size_t k = 0; k < 4; ++k) {
@@ -32,12 +32,6 @@ std::vector<Rational> numbers_between(std::vector<Rational> at) {
   between.push_back(Rational(at.back() + 1));
   return between;
 }
-
-Form cross(const Form& a, const Form& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Integer dot(const Form& a, const Form& b) { return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]); }
 
 Form rounded(const Form& a, long bits) {
   long cut = -bits;

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -30,7 +31,7 @@ struct Event_move {
 };
 
 /// The moved line. Exact: yes
-Exact_six moved(const Event_chart& chart, const Event_move& move, const Rational& t);
+Exact_pluecker moved(const Event_chart& chart, const Event_move& move, const Rational& t);
 
 namespace event_cells_detail {
 
@@ -38,8 +39,6 @@ namespace event_cells_detail {
 std::vector<Rational> numbers_between(std::vector<Rational> at);
 
 using Form = std::array<Integer, 3>;
-Form cross(const Form& a, const Form& b);
-Integer dot(const Form& a, const Form& b);
 
 /// Divided by a power of two and rounded, so that the largest entry has so many bits. Pre: not zero.
 Form rounded(const Form& a, long bits);
@@ -60,7 +59,7 @@ bool visit_cells(const std::vector<Form>& forms, Visit visit) {
   for (std::size_t i = 0; i < forms.size(); ++i)
     for (std::size_t j = i + 1; j < forms.size(); ++j) {
       const Form ray = cross(forms[i], forms[j]);
-      if (sgn(ray[0]) == 0 && sgn(ray[1]) == 0 && sgn(ray[2]) == 0) continue;
+      if (is_zero(ray)) continue;
       std::vector<Form> around;  // half-planes, in the planes that hold the ray
       std::size_t first = forms.size();
       for (std::size_t k = 0; k < forms.size(); ++k) {
@@ -100,12 +99,12 @@ bool visit_cells(const std::vector<Form>& forms, Visit visit) {
 /// returns true. `touched`: lines that the whole ruling meets, three of them independent. Pre: r, n are on another line
 /// of the ruling, so that in this chart sides are linear forms. Exact: yes. Proof: P-73
 template <class Visit>
-bool visit_cells_at_regulus(const Event_chart& chart, const std::vector<const Exact_six*>& touched, Visit visit) {
+bool visit_cells_at_regulus(const Event_chart& chart, const std::vector<const Exact_pluecker*>& touched, Visit visit) {
   using namespace event_cells_detail;
-  const Exact_six rw = join(chart.r, chart.w), vr = join(chart.v, chart.r), nw = join(chart.n, chart.w),
-                  vn = join(chart.v, chart.n);
+  const Exact_pluecker rw = join(chart.r, chart.w), vr = join(chart.v, chart.r), nw = join(chart.n, chart.w),
+                       vn = join(chart.v, chart.n);
   std::vector<std::array<Integer, 4>> slopes;
-  for (const Exact_six* line : touched)
+  for (const Exact_pluecker* line : touched)
     slopes.push_back({side(rw, *line), side(vr, *line), side(nw, *line), side(vn, *line)});
   // Three coordinates, the fourth 0, in which three forms are independent: the forms have rank three.
   for (std::size_t dropped = 0; dropped < 4; ++dropped) {
@@ -128,10 +127,10 @@ bool visit_cells_at_regulus(const Event_chart& chart, const std::vector<const Ex
 /// and r are in the plane, n is not; no touched line is the event line, no two through v have one plane with it unless
 /// it is the pencil's, no two in the plane meet on it but in v. Exact: yes. Proof: P-73
 template <class Visit>
-bool visit_cells_at_pencil(const Event_chart& chart, const std::vector<const Exact_six*>& touched, Visit visit) {
+bool visit_cells_at_pencil(const Event_chart& chart, const std::vector<const Exact_pluecker*>& touched, Visit visit) {
   using namespace event_cells_detail;
-  const Exact_six rw = join(chart.r, chart.w), nw = join(chart.n, chart.w), vn = join(chart.v, chart.n),
-                  rn = join(chart.r, chart.n);
+  const Exact_pluecker rw = join(chart.r, chart.w), nw = join(chart.n, chart.w), vn = join(chart.v, chart.n),
+                       rn = join(chart.r, chart.n);
   // Sides are a_k a + c_k c + d_k d + e_k e, with e = a d - b c, where star lines (through v) have no d, flat ones (in
   // the plane) no a, and lines of the pencil neither.
   struct Slopes {
@@ -139,7 +138,7 @@ bool visit_cells_at_pencil(const Event_chart& chart, const std::vector<const Exa
   };
   std::vector<Slopes> slopes;
   std::vector<Rational> star, flat, pencil;
-  for (const Exact_six* line : touched) {
+  for (const Exact_pluecker* line : touched) {
     const Slopes slope{Rational(side(rw, *line)), Rational(side(nw, *line)), Rational(side(vn, *line)),
                        Rational(side(rn, *line))};
     if (sgn(slope.a) != 0) star.push_back(Rational(-slope.c / slope.a));

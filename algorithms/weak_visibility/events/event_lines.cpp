@@ -4,22 +4,22 @@
 
 namespace sightline {
 
-Exact_six join(const Homogeneous& a, const Homogeneous& b) {
+Exact_pluecker join(const Homogeneous& a, const Homogeneous& b) {
   return {a[3] * b[0] - b[3] * a[0], a[3] * b[1] - b[3] * a[1], a[3] * b[2] - b[3] * a[2],
           a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Homogeneous join(const Homogeneous& x, const Exact_six& e) {
+Homogeneous join(const Homogeneous& x, const Exact_pluecker& e) {
   return {e[1] * x[2] - e[2] * x[1] + x[3] * e[3], e[2] * x[0] - e[0] * x[2] + x[3] * e[4],
           e[0] * x[1] - e[1] * x[0] + x[3] * e[5], -(x[0] * e[3] + x[1] * e[4] + x[2] * e[5])};
 }
 
-Homogeneous meet(const Homogeneous& h, const Exact_six& e) {
+Homogeneous meet(const Homogeneous& h, const Exact_pluecker& e) {
   return {h[1] * e[5] - h[2] * e[4] - h[3] * e[0], h[2] * e[3] - h[0] * e[5] - h[3] * e[1],
           h[0] * e[4] - h[1] * e[3] - h[3] * e[2], h[0] * e[0] + h[1] * e[1] + h[2] * e[2]};
 }
 
-Exact_six meet(const Homogeneous& g, const Homogeneous& h) {
+Exact_pluecker meet(const Homogeneous& g, const Homogeneous& h) {
   return {g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0],
           g[3] * h[0] - h[3] * g[0], g[3] * h[1] - h[3] * g[1], g[3] * h[2] - h[3] * g[2]};
 }
@@ -30,7 +30,7 @@ Integer dot(const Homogeneous& a, const Homogeneous& b) {
   return sum;
 }
 
-Integer side(const Exact_six& a, const Exact_six& b) {
+Integer side(const Exact_pluecker& a, const Exact_pluecker& b) {
   Integer sum = a[0] * b[3];
   for (std::size_t k = 1; k < 6; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[(k + 3) % 6].get_mpz_t());
   return -sum;
@@ -64,7 +64,7 @@ Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source,
 
 bool Event_lines::in_hull(const Line& line, const Homogeneous& x) {
   if (sgn(x[3]) == 0) return false;
-  return before(line.six, line.hull[0], x) >= 0 && before(line.six, x, line.hull[1]) >= 0;
+  return before(line.pluecker, line.hull[0], x) >= 0 && before(line.pluecker, x, line.hull[1]) >= 0;
 }
 
 double Event_lines::area(std::span<const Triple> corners) {
@@ -80,18 +80,18 @@ double Event_lines::area(std::span<const Triple> corners) {
   return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
 }
 
-int Event_lines::before(const Exact_six& six, const Homogeneous& a, const Homogeneous& b) {
+int Event_lines::before(const Exact_pluecker& pluecker, const Homogeneous& a, const Homogeneous& b) {
   Integer sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += six[k] * (b[k] * a[3] - a[k] * b[3]);
+  for (std::size_t k = 0; k < 3; ++k) sum += pluecker[k] * (b[k] * a[3] - a[k] * b[3]);
   return sgn(sum) * sgn(a[3]) * sgn(b[3]);
 }
 
-std::uint32_t Event_lines::line(Exact_six six) {
-  make_canonical(six);
-  const auto [at, is_new] = numbers_.try_emplace(six, static_cast<std::uint32_t>(lines_.size()));
+std::uint32_t Event_lines::line(Exact_pluecker pluecker) {
+  make_canonical(pluecker);
+  const auto [at, is_new] = numbers_.try_emplace(pluecker, static_cast<std::uint32_t>(lines_.size()));
   if (is_new) {
-    lines_.push_back({six, false, false, {}});
-    lines_.back().in_source = all_zero(meet(source_plane(), six));
+    lines_.push_back({pluecker, false, false, {}});
+    lines_.back().in_source = all_zero(meet(source_plane(), pluecker));
   }
   return at->second;
 }
@@ -104,16 +104,16 @@ std::uint32_t Event_lines::edge(const Homogeneous& a, const Homogeneous& b) {
       own.real = true;
       own.hull = {*x, *x};
     }
-    if (before(own.six, *x, own.hull[0]) > 0) own.hull[0] = *x;
-    if (before(own.six, own.hull[1], *x) > 0) own.hull[1] = *x;
+    if (before(own.pluecker, *x, own.hull[0]) > 0) own.hull[0] = *x;
+    if (before(own.pluecker, own.hull[1], *x) > 0) own.hull[1] = *x;
   }
   return number;
 }
 
 int Event_lines::sense_of(const Homogeneous& a, const Homogeneous& b, std::uint32_t number) const {
-  Exact_six six = join(a, b);
-  const int sense = make_canonical(six);
-  return six == lines_[number].six ? sense : 0;
+  Exact_pluecker pluecker = join(a, b);
+  const int sense = make_canonical(pluecker);
+  return pluecker == lines_[number].pluecker ? sense : 0;
 }
 
 bool Event_lines::is_outside(const Homogeneous& a, const Homogeneous& b) const {
@@ -168,13 +168,13 @@ void Event_lines::add_piece(const Occluders& occluders, std::uint32_t piece) {
   Literal p_in_front{0, 0}, q_in_front{0, 0};
   if (source_at == 2) {
     const std::uint32_t number = trace(corners, plane, source_plane());
-    p_in_front = {
-        number, sgn(side(join(in_front(plane, source_, 1), in_front(source_plane(), target_, 1)), lines_[number].six))};
+    p_in_front = {number, sgn(side(join(in_front(plane, source_, 1), in_front(source_plane(), target_, 1)),
+                                   lines_[number].pluecker))};
   }
   if (target_at == 2) {
     const std::uint32_t number = trace(corners, plane, target_plane());
     q_in_front = {number, sgn(side(join(in_front(target_plane(), source_, beside_), in_front(plane, target_, 1)),
-                                   lines_[number].six))};
+                                   lines_[number].pluecker))};
   }
   for (const int sense : {1, -1}) {  // p in front and q behind, then the other way round
     if (source_at == -sense || target_at == sense) continue;

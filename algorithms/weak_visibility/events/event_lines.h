@@ -4,8 +4,6 @@
 
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/search/line_cell.h>
-#include <sightline/kernel/line_table.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
@@ -20,20 +18,20 @@ namespace sightline {
 
 // ---- Points, planes and lines in homogeneous integers
 //
-// A line is (direction, moment), as exact_edge gives it. side(a, b) = det[p, q, r, s] for the points p, q that a is
-// joined from, and r, s of b.
+// A line has Plücker coordinates (direction, moment), as pluecker_of_edge() gives them. side(a, b) = det[p, q, r, s]
+// for the points p, q that a is joined from, and r, s of b.
 
 using Homogeneous = std::array<Integer, 4>;
 
-Exact_six join(const Homogeneous& a, const Homogeneous& b);
+Exact_pluecker join(const Homogeneous& a, const Homogeneous& b);
 /// The plane through a point and a line; zero where the point is on the line. Linear in the point.
-Homogeneous join(const Homogeneous& x, const Exact_six& e);
+Homogeneous join(const Homogeneous& x, const Exact_pluecker& e);
 /// The point in which a line meets a plane; zero where it lies in it.
-Homogeneous meet(const Homogeneous& h, const Exact_six& e);
+Homogeneous meet(const Homogeneous& h, const Exact_pluecker& e);
 /// The line in which two planes meet. Bilinear.
-Exact_six meet(const Homogeneous& g, const Homogeneous& h);
+Exact_pluecker meet(const Homogeneous& g, const Homogeneous& h);
 Integer dot(const Homogeneous& a, const Homogeneous& b);
-Integer side(const Exact_six& a, const Exact_six& b);
+Integer side(const Exact_pluecker& a, const Exact_pluecker& b);
 template <std::size_t n>
 bool all_zero(const std::array<Integer, n>& a) {
   return std::all_of(a.begin(), a.end(), [](const Integer& x) { return sgn(x) == 0; });
@@ -67,7 +65,7 @@ struct Less_entries {
 class Event_lines {
  public:
   struct Line {
-    Exact_six six;
+    Exact_pluecker pluecker;
     bool in_source = false;             ///< in the source's plane
     bool real = false;                  ///< whether some of it is an edge that an event may touch: then all of that is
     std::array<Homogeneous, 2> hull{};  ///< between these points, in the line's direction
@@ -106,10 +104,10 @@ class Event_lines {
   static double area(std::span<const Triple> corners);
 
   /// 1 where b comes after a in a line's direction, 0 where they are one point.
-  static int before(const Exact_six& six, const Homogeneous& a, const Homogeneous& b);
+  static int before(const Exact_pluecker& pluecker, const Homogeneous& a, const Homogeneous& b);
 
   /// The line's number, the same for all edges on it.
-  std::uint32_t line(Exact_six six);
+  std::uint32_t line(Exact_pluecker pluecker);
   std::uint32_t edge(const Homogeneous& a, const Homogeneous& b);
   int sense_of(const Homogeneous& a, const Homogeneous& b, std::uint32_t number) const;
   /// Whether both points are behind the source, or both beyond the target.
@@ -126,7 +124,7 @@ class Event_lines {
   Near_polygon source_, target_;
   Near_plane near_source_plane_, near_target_plane_;
   int beside_;
-  std::map<Exact_six, std::uint32_t, Less_entries> numbers_;
+  std::map<Exact_pluecker, std::uint32_t, Less_entries> numbers_;
   std::vector<Line> lines_;
   std::vector<Literal> from_, to_;
   std::vector<Blocker> blockers_;

@@ -8,26 +8,6 @@
 
 namespace sightline {
 
-Event_counters& Event_counters::operator+=(const Event_counters& o) {
-  targets += o.targets;
-  away += o.away;
-  by_rays += o.by_rays;
-  in_shadow += o.in_shadow;
-  occluders += o.occluders;
-  lines += o.lines;
-  horizon += o.horizon;
-  edge_vertex += o.edge_vertex;
-  triple += o.triple;
-  off_edges += o.off_edges;
-  off_polygons += o.off_polygons;
-  covered += o.covered;
-  subranges += o.subranges;
-  cells += o.cells;
-  confirmed += o.confirmed;
-  refuted += o.refuted;
-  return *this;
-}
-
 Events_answer Event_search::run() {
   counters_->occluders += scene_->blockers().size();
   counters_->lines += scene_->lines().size();
@@ -41,9 +21,9 @@ bool Event_search::in_one_shadow() const {
   return std::any_of(scene_->blockers().begin(), scene_->blockers().end(), [&](const Blocker& blocker) {
     for (const Near_point& p : scene_->source())
       for (const Near_point& q : scene_->target()) {
-        const Exact_six line = join(p.exact, q.exact);
+        const Exact_pluecker line = join(p.exact, q.exact);
         for (const Literal& literal : blocker.literals)
-          if (literal.sense * sgn(side(line, lines()[literal.line].six)) < 0) return false;
+          if (literal.sense * sgn(side(line, lines()[literal.line].pluecker)) < 0) return false;
       }
     return true;
   });
@@ -68,13 +48,13 @@ bool Event_search::pencils() {
   for (std::size_t i = 0; i < lines().size(); ++i)
     for (std::size_t j = i + 1; j < lines().size(); ++j) {
       const Line &a = lines()[i], &b = lines()[j];
-      if (!a.real || !b.real || (a.in_source && b.in_source) || sgn(side(a.six, b.six)) != 0) continue;
-      const Homogeneous& off = all_zero(join(b.hull[0], a.six)) ? b.hull[1] : b.hull[0];
-      const Homogeneous common = join(off, a.six);
+      if (!a.real || !b.real || (a.in_source && b.in_source) || sgn(side(a.pluecker, b.pluecker)) != 0) continue;
+      const Homogeneous& off = all_zero(join(b.hull[0], a.pluecker)) ? b.hull[1] : b.hull[0];
+      const Homogeneous common = join(off, a.pluecker);
       const std::uint32_t plane = planes(common);
       faces.insert(plane);
       if (a.in_source || b.in_source) continue;
-      const Homogeneous at = meet(join(off_plane(common), a.six), b.six);
+      const Homogeneous at = meet(join(off_plane(common), a.pluecker), b.pluecker);
       if (!Event_lines::in_hull(a, at) || !Event_lines::in_hull(b, at)) continue;
       const std::uint32_t point = points(at);
       vertices.insert(point);
@@ -83,13 +63,13 @@ bool Event_search::pencils() {
   for (const std::uint32_t plane : faces)
     for (const Line& line : lines()) {
       if (!line.real || line.in_source) continue;
-      const Homogeneous at = meet(planes.all[plane], line.six);
+      const Homogeneous at = meet(planes.all[plane], line.pluecker);
       if (!all_zero(at) && Event_lines::in_hull(line, at)) add(points(at), plane, Event_kind::horizon);
     }
   for (const std::uint32_t point : vertices)
     for (const Line& line : lines()) {
       if (!line.real) continue;
-      const Homogeneous plane = join(points.all[point], line.six);
+      const Homogeneous plane = join(points.all[point], line.pluecker);
       if (!all_zero(plane)) add(point, planes(plane), Event_kind::edge_vertex);
     }
   for (const auto& [pencil, kind] : found) {
@@ -125,23 +105,23 @@ bool Event_search::search_pencil(const Homogeneous& vertex, const Homogeneous& p
   Curve curve;
   curve.kind = kind;
   const Homogeneous step{last[0] - first[0], last[1] - first[1], last[2] - first[2], last[3] - first[3]};
-  curve.l = {join(vertex, first), join(vertex, step), Exact_six{0, 0, 0, 0, 0, 0}};
+  curve.l = {join(vertex, first), join(vertex, step), Exact_pluecker{0, 0, 0, 0, 0, 0}};
   // Where the event line is a touched line, or in the plane of two of them, or meets them in one point.
   const Homogeneous beyond = off_plane(plane);
   std::vector<const Line*> star, flat;
   for (const Line& line : lines()) {
-    const bool through = all_zero(join(vertex, line.six)), within = all_zero(meet(plane, line.six));
+    const bool through = all_zero(join(vertex, line.pluecker)), within = all_zero(meet(plane, line.pluecker));
     if (through) star.push_back(&line);
     if (within) flat.push_back(&line);
-    if (through && within) curve.ends.push_back(linear(join(beyond, line.six), first, step));
+    if (through && within) curve.ends.push_back(linear(join(beyond, line.pluecker), first, step));
   }
   for (std::size_t i = 0; i < star.size(); ++i)
     for (std::size_t j = i + 1; j < star.size(); ++j)
-      curve.ends.push_back(linear(common_plane(star[i]->six, star[j]->six), first, step));
+      curve.ends.push_back(linear(common_plane(star[i]->pluecker, star[j]->pluecker), first, step));
   for (std::size_t i = 0; i < flat.size(); ++i)
     for (std::size_t j = i + 1; j < flat.size(); ++j) {
-      const Homogeneous at = meet(join(beyond, flat[i]->six), flat[j]->six);
-      const Exact_six up = join(at, beyond);
+      const Homogeneous at = meet(join(beyond, flat[i]->pluecker), flat[j]->pluecker);
+      const Exact_pluecker up = join(at, beyond);
       curve.ends.push_back({{side(curve.l[0], up), side(curve.l[1], up), Integer(0)}});
     }
   curve.chart = [&](const Rational& s) { return Event_chart{vertex, along(first, step, s), last, beyond}; };
@@ -165,7 +145,7 @@ std::array<Homogeneous, 2> Event_search::section(const Homogeneous& plane) const
   return {source[0].exact, source[0].exact};
 }
 
-Homogeneous Event_search::common_plane(const Exact_six& a, const Exact_six& b) {
+Homogeneous Event_search::common_plane(const Exact_pluecker& a, const Exact_pluecker& b) {
   for (std::size_t k = 0; k < 4; ++k) {
     Homogeneous x{0, 0, 0, 0}, h{0, 0, 0, 0};
     x[k] = 1;
@@ -193,18 +173,18 @@ bool Event_search::reguli() {
   for (std::size_t i = 0; i < real.size(); ++i)
     for (std::size_t j = i + 1; j < real.size(); ++j) {
       const Line &a = lines()[real[i]], &b = lines()[real[j]];
-      if (sgn(side(a.six, b.six)) == 0) continue;
-      const std::array<Exact_six, 4> extreme = extreme_lines(a, b);
+      if (sgn(side(a.pluecker, b.pluecker)) == 0) continue;
+      const std::array<Exact_pluecker, 4> extreme = extreme_lines(a, b);
       usable[i][j] = can_pass(extreme, scene_->from()) && can_pass(extreme, scene_->to());
     }
   for (std::size_t i = 0; i < real.size(); ++i)
     for (std::size_t j = i + 1; j < real.size(); ++j) {
       if (!usable[i][j]) continue;
-      const std::array<Exact_six, 4> extreme = extreme_lines(lines()[real[i]], lines()[real[j]]);
+      const std::array<Exact_pluecker, 4> extreme = extreme_lines(lines()[real[i]], lines()[real[j]]);
       for (std::size_t k = j + 1; k < real.size(); ++k) {
         if (!usable[i][k] || !usable[j][k]) continue;
         ++counters_->triple;
-        if (common_sign(extreme, lines()[real[k]].six) != 0) ++counters_->off_edges;
+        if (common_sign(extreme, lines()[real[k]].pluecker) != 0) ++counters_->off_edges;
         else if (search_regulus({real[i], real[j], real[k]})) return true;
         if (out_of_budget()) return true;
       }
@@ -212,14 +192,14 @@ bool Event_search::reguli() {
   return false;
 }
 
-std::array<Exact_six, 4> Event_search::extreme_lines(const Line& a, const Line& b) {
+std::array<Exact_pluecker, 4> Event_search::extreme_lines(const Line& a, const Line& b) {
   return {join(a.hull[0], b.hull[0]), join(a.hull[0], b.hull[1]), join(a.hull[1], b.hull[0]),
           join(a.hull[1], b.hull[1])};
 }
 
-int Event_search::common_sign(const std::array<Exact_six, 4>& extreme, const Exact_six& line) {
+int Event_search::common_sign(const std::array<Exact_pluecker, 4>& extreme, const Exact_pluecker& line) {
   bool positive = false, negative = false;
-  for (const Exact_six& e : extreme) {
+  for (const Exact_pluecker& e : extreme) {
     const int s = sgn(side(e, line));
     positive |= s > 0;
     negative |= s < 0;
@@ -227,10 +207,10 @@ int Event_search::common_sign(const std::array<Exact_six, 4>& extreme, const Exa
   return positive == negative ? 0 : positive ? 1 : -1;
 }
 
-bool Event_search::can_pass(const std::array<Exact_six, 4>& extreme, const std::vector<Literal>& literals) const {
+bool Event_search::can_pass(const std::array<Exact_pluecker, 4>& extreme, const std::vector<Literal>& literals) const {
   bool positive = false, negative = false;
   for (const Literal& literal : literals) {
-    const int s = literal.sense * common_sign(extreme, lines()[literal.line].six);
+    const int s = literal.sense * common_sign(extreme, lines()[literal.line].pluecker);
     positive |= s > 0;
     negative |= s < 0;
   }
@@ -245,7 +225,8 @@ bool Event_search::search_regulus(const std::array<std::uint32_t, 3>& edges) {
   const Homogeneous& first = a.hull[0];
   const Homogeneous step{a.hull[1][0] - first[0], a.hull[1][1] - first[1], a.hull[1][2] - first[2],
                          a.hull[1][3] - first[3]};
-  const Homogeneous b0 = join(first, b.six), b1 = join(step, b.six), c0 = join(first, c.six), c1 = join(step, c.six);
+  const Homogeneous b0 = join(first, b.pluecker), b1 = join(step, b.pluecker), c0 = join(first, c.pluecker),
+                    c1 = join(step, c.pluecker);
   // It touches the second edge where its ends are on both sides of the plane with the third; and so on.
   const std::array<Quadratic, 4> ends{linear_at(c0, c1, b.hull[0]), linear_at(c0, c1, b.hull[1]),
                                       linear_at(b0, b1, c.hull[0]), linear_at(b0, b1, c.hull[1])};
@@ -271,11 +252,11 @@ bool Event_search::search_regulus(const std::array<std::uint32_t, 3>& edges) {
     return false;
   }
   curve.l = {meet(b0, c0), meet(b0, c1), meet(b1, c1)};
-  const Exact_six other = meet(b1, c0);
+  const Exact_pluecker other = meet(b1, c0);
   for (std::size_t k = 0; k < 6; ++k) curve.l[1][k] += other[k];
   curve.edges = edges;
   curve.chart = [&](const Rational& s) {
-    const auto on_second = [&](const Rational& at) { return meet(along(c0, c1, at), b.six); };
+    const auto on_second = [&](const Rational& at) { return meet(along(c0, c1, at), b.pluecker); };
     const Rational beside = s + 1;  // any other line of the ruling
     return Event_chart{along(first, step, s), on_second(s), along(first, step, beside), on_second(beside)};
   };
@@ -286,7 +267,7 @@ bool Event_search::search_regulus(const std::array<std::uint32_t, 3>& edges) {
 
 const Quadratic& Event_search::polynomial(const Curve& curve, std::uint32_t line) {
   if (known_[line] != 1) {
-    for (std::size_t k = 0; k < 3; ++k) polynomials_[line].c[k] = side(curve.l[k], lines()[line].six);
+    for (std::size_t k = 0; k < 3; ++k) polynomials_[line].c[k] = side(curve.l[k], lines()[line].pluecker);
     known_[line] = 1;
   }
   return polynomials_[line];
@@ -409,12 +390,12 @@ bool Event_search::is_past(const Curve& curve, const Blocker& blocker, const Rat
 
 bool Event_search::look_around(const Curve& curve, const Rational& s, int turn,
                                const std::vector<const Blocker*>& grazed) {
-  std::vector<const Exact_six*> touched;
+  std::vector<const Exact_pluecker*> touched;
   std::vector<std::uint32_t> place(lines().size(), none);
   const auto touch = [&](std::uint32_t line) {
     if (place[line] == none && polynomial(curve, line).is_zero()) {
       place[line] = static_cast<std::uint32_t>(touched.size());
-      touched.push_back(&lines()[line].six);
+      touched.push_back(&lines()[line].pluecker);
     }
   };
   if (curve.kind == Event_kind::triple)
@@ -448,7 +429,7 @@ bool Event_search::look_around(const Curve& curve, const Rational& s, int turn,
 }
 
 int Event_search::orientation(const Event_chart& chart, const Curve& curve, const Rational& s) {
-  const Exact_six line = join(chart.v, chart.w);
+  const Exact_pluecker line = join(chart.v, chart.w);
   for (std::size_t k = 0; k < 6; ++k)
     if (sgn(line[k]) != 0) return sgn(line[k]) * Quadratic{{curve.l[0][k], curve.l[1][k], curve.l[2][k]}}.sign(s);
   throw std::logic_error("a chart of no line");
@@ -456,14 +437,14 @@ int Event_search::orientation(const Event_chart& chart, const Curve& curve, cons
 
 void Event_search::confirm(const Event_chart& chart, const Event_move& move) {
   for (unsigned long bits = 1; bits <= 8192; bits *= 2) {
-    const Exact_six line = moved(chart, move, Rational(Integer(1), Integer(Integer(1) << bits)));
+    const Exact_pluecker line = moved(chart, move, Rational(Integer(1), Integer(Integer(1) << bits)));
     Homogeneous p = meet(scene_->source_plane(), line), q = meet(scene_->target_plane(), line);
     if (sgn(p[3]) == 0 || sgn(q[3]) == 0) continue;
     make_canonical(p);
     make_canonical(q);
-    const Exact_six directed = join(p, q);
+    const Exact_pluecker directed = join(p, q);
     const auto holds = [&](const Literal& literal) {
-      return literal.sense * sgn(side(directed, lines()[literal.line].six)) > 0;
+      return literal.sense * sgn(side(directed, lines()[literal.line].pluecker)) > 0;
     };
     if (!std::all_of(scene_->from().begin(), scene_->from().end(), holds) ||
         !std::all_of(scene_->to().begin(), scene_->to().end(), holds))
@@ -487,7 +468,7 @@ void Event_search::keep_surface(const Curve& curve, const Parameter_range& range
   const Rational low(range.low.bits(60) + 2, Integer(1) << 60), high(range.high.bits(60) - 1, Integer(1) << 60);
   for (long k = 0; k <= rows && low < high; ++k) {
     const Event_chart chart = curve.chart(Rational(low + (high - low) * k / rows));
-    const Exact_six line = join(chart.v, chart.w);
+    const Exact_pluecker line = join(chart.v, chart.w);
     Homogeneous p = meet(scene_->source_plane(), line), q = meet(scene_->target_plane(), line);
     if (sgn(p[3]) != 0 && sgn(q[3]) != 0) surface.rulings.push_back({p, q});
   }

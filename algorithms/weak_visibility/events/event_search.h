@@ -7,12 +7,9 @@
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/search/cell_cuts.h>
-#include <sightline/algorithms/weak_visibility/search/line_cell.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
-#include <sightline/kernel/line_table.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/number.h>
-#include <sightline/kernel/scene/convex_parts.h>
 
 #include <array>
 #include <cstddef>
@@ -37,7 +34,26 @@ struct Event_counters {
   std::size_t subranges = 0, cells = 0;    ///< active subranges that were looked at, and cells of lines beside them
   std::size_t confirmed = 0, refuted = 0;  ///< sightlines proposed, by the exact test of all pieces
 
-  Event_counters& operator+=(const Event_counters& o);
+  /// Each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("searches", &Event_counters::targets);
+    visit("", &Event_counters::away);
+    visit("", &Event_counters::by_rays);
+    visit("", &Event_counters::in_shadow);
+    visit("", &Event_counters::occluders);
+    visit("", &Event_counters::lines);
+    visit("horizon", &Event_counters::horizon);
+    visit("edge_vertex", &Event_counters::edge_vertex);
+    visit("triple", &Event_counters::triple);
+    visit("", &Event_counters::off_edges);
+    visit("", &Event_counters::off_polygons);
+    visit("", &Event_counters::covered);
+    visit("subranges", &Event_counters::subranges);
+    visit("cells", &Event_counters::cells);
+    visit("", &Event_counters::confirmed);
+    visit("", &Event_counters::refuted);
+  }
 };
 
 struct Events_options {
@@ -89,7 +105,7 @@ class Event_search {
   /// Lines l[0] + l[1] s + l[2] s^2, 0 < s < 1.
   struct Curve {
     Event_kind kind;
-    std::array<Exact_six, 3> l;
+    std::array<Exact_pluecker, 3> l;
     std::vector<Quadratic> ends;  // parameters where what is touched changes otherwise than by sides
     std::function<Event_chart(const Rational&)> chart;
     std::array<std::uint32_t, 3> edges{};  // of a triple
@@ -119,18 +135,18 @@ class Event_search {
     return {{dot(plane, first), dot(plane, step), Integer(0)}};
   }
   /// The plane of two lines that meet.
-  static Homogeneous common_plane(const Exact_six& a, const Exact_six& b);
+  static Homogeneous common_plane(const Exact_pluecker& a, const Exact_pluecker& b);
   static Homogeneous along(const Homogeneous& first, const Homogeneous& step, const Rational& s);
 
   // ---- Events on ruled quadrics: three skew edges
 
   bool reguli();
 
-  static std::array<Exact_six, 4> extreme_lines(const Line& a, const Line& b);
+  static std::array<Exact_pluecker, 4> extreme_lines(const Line& a, const Line& b);
   /// The side of a line that all lines through two edges have inside both; 0 where they differ or are all 0.
-  static int common_sign(const std::array<Exact_six, 4>& extreme, const Exact_six& line);
+  static int common_sign(const std::array<Exact_pluecker, 4>& extreme, const Exact_pluecker& line);
   /// Whether lines through two edges may have all literals, or all of them reversed.
-  bool can_pass(const std::array<Exact_six, 4>& extreme, const std::vector<Literal>& literals) const;
+  bool can_pass(const std::array<Exact_pluecker, 4>& extreme, const std::vector<Literal>& literals) const;
 
   bool search_regulus(const std::array<std::uint32_t, 3>& edges);
   /// The side of a point of a plane that turns about a line.

@@ -2,7 +2,6 @@
 
 #include <sightline/algorithms/weak_visibility/events/event_cells.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
-#include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <algorithm>

@@ -3,6 +3,7 @@
 #include <sightline/algorithms/weak_visibility/edge_lines.h>
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -18,18 +19,12 @@ std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occ
     Integer product = 0;
     for (std::size_t x = 0; x < 6; ++x) product += a.exact[x] * b.exact[(x + 3) % 6];
     if (sgn(product) != 0) return {};
-    const auto direction = [](const Exact_six& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
-    const auto cross = [](const std::array<Integer, 3>& u, const std::array<Integer, 3>& v) {
-      return std::array<Integer, 3>{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-    };
+    const auto direction = [](const Exact_pluecker& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
     const std::array<Integer, 3> p = occluders.grid_point(a.points[0]), q = occluders.grid_point(b.points[0]);
     std::array<Integer, 3> normal = cross(direction(a.exact), direction(b.exact));
-    const auto is_zero = [&] { return sgn(normal[0]) == 0 && sgn(normal[1]) == 0 && sgn(normal[2]) == 0; };
-    if (is_zero())
-      normal = cross(direction(a.exact), {q[0] - p[0], q[1] - p[1], q[2] - p[2]});  // parallel, and not the same line
-    if (is_zero()) return {};
-    return near_plane(occluders.frame(), {normal[0], normal[1], normal[2],
-                                          Integer(-(normal[0] * p[0] + normal[1] * p[1] + normal[2] * p[2]))});
+    if (is_zero(normal)) normal = cross(direction(a.exact), minus(q, p));  // parallel, and not the same line
+    if (is_zero(normal)) return {};
+    return near_plane(occluders.frame(), {normal[0], normal[1], normal[2], Integer(-dot(normal, p))});
   };
   for (const bool source : {true, false})
     for (std::size_t i = 0; i < cell.rows.size(); ++i)

@@ -200,7 +200,7 @@ bool Cell_proofs::corner_proof(const Line_cell& cell, const std::array<std::size
   std::vector<Multiplier> multipliers;
   int all = 0;  // the sign of all terms
   for (std::size_t k = 0; k < 3; ++k) {
-    const Exact_six &u = line_of(cell, rows[(k + 1) % 3]).exact, &w = line_of(cell, rows[(k + 2) % 3]).exact;
+    const Exact_pluecker &u = line_of(cell, rows[(k + 1) % 3]).exact, &w = line_of(cell, rows[(k + 2) % 3]).exact;
     Weak_step::Form h{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0], 0};
     for (std::size_t i = 0; i < 3; ++i) h[3] -= h[i] * v[i];
     if (sgn(h[0]) == 0 && sgn(h[1]) == 0 && sgn(h[2]) == 0) return false;

@@ -10,18 +10,18 @@ Line_domain::Line_domain(Shared_polygon s, Shared_polygon t)
   for (const Near_point& p : source) source_size = std::max(source_size, size(p.near));
   for (const Near_point& q : target) target_size = std::max(target_size, size(q.near));
   for (const Near_point& p : source)
-    for (const Near_point& q : target) pairs.push_back(pair_numbers(p.near, q.near));
+    for (const Near_point& q : target) pairs.push_back(pluecker_of_pair(p.near, q.near));
 }
 
-const Exact_six& Line_domain::exact_pair_of(std::size_t c) {
+const Exact_pluecker& Line_domain::exact_pluecker_of(std::size_t c) {
   if (exact_pairs.empty())
     for (const Near_point& p : source)
-      for (const Near_point& q : target) exact_pairs.push_back(exact_pair(p.exact, q.exact));
+      for (const Near_point& q : target) exact_pairs.push_back(pluecker_of_pair(p.exact, q.exact));
   return exact_pairs[c];
 }
 
 Rational Line_domain::exact_side(const Edge_lines::Line& line, std::size_t c, const Near_frame& frame) {
-  return frame.near_cubic(dot(exact_pair_of(c), line.exact),
+  return frame.near_cubic(dot(exact_pluecker_of(c), line.exact),
                           Integer(source[c / target.size()].exact[3] * target[c % target.size()].exact[3]));
 }
 
@@ -42,7 +42,7 @@ Side_row Line_domain::row_of(const Edge_lines::Line& line, const Near_frame& fra
   Side_row r;
   r.values.reserve(pairs.size());
   double most = 0;
-  for (const Six& pair : pairs) {
+  for (const Pluecker& pair : pairs) {
     r.values.push_back(dot(pair, line.near));
     most = std::max(most, std::fabs(r.values.back()));
   }
@@ -68,7 +68,7 @@ Side_row Line_domain::row_of(const Edge_lines::Line& line, const Near_frame& fra
   }
   for (std::size_t c = 0; c < r.values.size() && !(positive && negative); ++c) {
     if (std::fabs(r.values[c]) > r.error) continue;
-    const int sign = sgn(dot(exact_pair_of(c), line.exact));
+    const int sign = sgn(dot(exact_pluecker_of(c), line.exact));
     positive |= sign > 0;
     negative |= sign < 0;
     if (sign == 0) r.values[c] = 0;

@@ -38,7 +38,7 @@ struct Line_domain {
 
   Line_domain(Shared_polygon s, Shared_polygon t);
 
-  const Exact_six& exact_pair_of(std::size_t c);
+  const Exact_pluecker& exact_pluecker_of(std::size_t c);
   /// The side of a line on a pair of vertices in near coordinates, for points with last coordinate 1. Exact: yes.
   Rational exact_side(const Edge_lines::Line& line, std::size_t c, const Near_frame& frame);
   /// All of them, made when they are first asked for. Exact: yes.
@@ -51,8 +51,8 @@ struct Line_domain {
   Shared_polygon shared_source, shared_target;
   const Near_polygon &source, &target;
   double source_size = 0, target_size = 0;
-  std::vector<Six> pairs;
-  std::vector<Exact_six> exact_pairs;  ///< once they are asked for
+  std::vector<Pluecker> pairs;
+  std::vector<Exact_pluecker> exact_pairs;  ///< once they are asked for
   std::vector<std::unique_ptr<Side_row>> rows;
   std::vector<Candidate> candidates;  ///< once they are asked for: `settled`
   bool settled = false;

@@ -307,7 +307,7 @@ void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::
     return p;
   };
   const Triple p = mean(domain.source, line.source), q = mean(domain.target, line.target);
-  const Six numbers = pair_numbers(p, q);
+  const Pluecker pluecker = pluecker_of_pair(p, q);
   for (const Candidate& candidate : candidates_of(d)) {
     int sense = candidate.sense;
     if (sense == 0) {
@@ -317,10 +317,10 @@ void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::
       if ((from > 0) == (to > 0)) continue;
       sense = from > 0 ? 1 : -1;
     }
-    const std::span<const Six> edges = occluders_->edges(candidate.piece);
+    const std::span<const Pluecker> edges = occluders_->edges(candidate.piece);
     bool inside = true;
     for (std::size_t e = 0; e < edges.size() && inside; ++e) {
-      double height = dot(numbers, edges[e]);
+      double height = dot(pluecker, edges[e]);
       if (std::fabs(height) < close) {
         const Edge_lines::Edge edge = edge_lines(candidate.piece)[e];
         height = edge.sense * height_of(domain, edge.line, line);

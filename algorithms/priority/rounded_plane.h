@@ -1,7 +1,6 @@
 #pragma once
-// Vectors of rationals, for what is decided rarely, and planes through a viewpoint in doubles, for what comes before.
+// Planes through a viewpoint in doubles, before what is exact; and the points of polygons, for that.
 
-#include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/traits/partition_traits.h>
 
@@ -11,10 +10,6 @@
 namespace sightline {
 
 namespace priority_detail {
-
-Exact_point minus(const Exact_point& a, const Exact_point& b);
-Rational dot(const Exact_point& a, const Exact_point& b);
-Exact_point cross(const Exact_point& a, const Exact_point& b);
 
 /// The corners of a polygon.
 template <class Traits>

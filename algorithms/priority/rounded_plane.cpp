@@ -1,21 +1,10 @@
-#include <sightline/algorithms/priority/rational_geometry.h>
+#include <sightline/algorithms/priority/rounded_plane.h>
 
 #include <cmath>
 #include <cstddef>
 
 namespace sightline {
 namespace priority_detail {
-
-Exact_point minus(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[0] - b[0]), Rational(a[1] - b[1]), Rational(a[2] - b[2])};
-}
-
-Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
-          Rational(a[0] * b[1] - a[1] * b[0])};
-}
 
 Rounded_plane::Rounded_plane(const Triple& a, const Triple& b) {
   for (std::size_t k = 0; k < 3; ++k) {

@@ -1,0 +1,31 @@
+#pragma once
+// Vectors of three coordinates: differences, products of two of them. Of any number; as exact as that is.
+
+#include <array>
+
+namespace sightline {
+
+/// a - b
+template <class Number>
+std::array<Number, 3> minus(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
+}
+
+template <class Number>
+Number dot(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return Number(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+}
+
+/// a x b: a, b and it are positively oriented.
+template <class Number>
+std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]), Number(a[0] * b[1] - a[1] * b[0])};
+}
+
+/// Pre: a number with sgn(), as rationals and integers are.
+template <class Number>
+bool is_zero(const std::array<Number, 3>& a) {
+  return sgn(a[0]) == 0 && sgn(a[1]) == 0 && sgn(a[2]) == 0;
+}
+
+}  // namespace sightline
