@@ -39,7 +39,7 @@ struct Covering {
   };
   std::vector<Piece> pieces;
 
-  /// A face that is not drawn. `why` begins with "zero area", "duplicate of F" (F a face id) or "self-intersecting".
+  /// A face that is not drawn. `why` begins with the text of a Set_aside_reason (kernel/scene/set_aside.h).
   struct Set_aside {
     Face_id face = 0;
     std::string why;
@@ -107,7 +107,8 @@ int side(const Homogeneous& plane, const Homogeneous& p);
 
 // ---- Faces and polygons
 
-/// A face of the soup as points: consecutive repetitions dropped, holes turned so that they run against the outer loop.
+/// A face of the soup as points: consecutive repetitions dropped; if it is planar, holes turned so that they run
+/// against the outer loop, or, if that has no front, clockwise as seen from the side that `plane` has in front.
 struct Face {
   std::vector<Polygon> loops;
   bool planar = true;
@@ -115,6 +116,10 @@ struct Face {
   Plane plane;  // of a planar face; if it has no front, either side of its plane; if all points are collinear, zero
 
   Face(const Polygon_soup& soup, Face_id f);
+
+  /// The loops, each hole turned against the outer one as they look along an axis; there a hole without area stays as
+  /// it is. Nothing if the outer loop has no area there. Pre: not planar, as then holes are turned already.
+  std::vector<Polygon> seen_along(std::size_t axis) const;
 
   std::size_t corner_count() const {
     std::size_t count = 0;
@@ -137,8 +142,8 @@ std::string not_convex(const Polygon& polygon, const Plane& plane);
 class Boundary_chain {
  public:
   void add(const Polygon& loop, long multiplicity);
-  void add(const Face& face, long multiplicity) {
-    for (const Polygon& loop : face.loops) add(loop, multiplicity);
+  void add(const std::vector<Polygon>& loops, long multiplicity) {
+    for (const Polygon& loop : loops) add(loop, multiplicity);
   }
   /// A point where the chain is not zero, if there is one.
   std::optional<Exact_point> nonzero() const;
@@ -162,16 +167,6 @@ struct Cone {
 
 /// Whether an edge plane of a has no ray of b on its inner side: then the cones have no open set in common.
 bool separates(const Cone& a, const Cone& b);
-
-// ---- Faces that are not drawn
-
-/// Whether two edges of a planar face cross in a point inside both, or its winding number is neither 0 nor 1 somewhere.
-/// Where no edges cross so, a sweep between neighbouring abscissae of vertices meets every cell.
-/// Pre: planar, not all points collinear. Cost: quadratic in the corners. Proof: P-21d
-bool self_intersecting(const Face& face);
-
-/// Whether two closed sequences of points are the same up to the place where they begin.
-bool same_cycle(const Polygon& a, const Polygon& b);
 
 // ---- The covering
 
@@ -218,9 +213,6 @@ void check_tiling(const std::string& what, Boundary_chain target, const Plane& p
 
 /// Rejects unless the pieces make a surface on the face's own vertices that its loops bound. Proof: P-22
 void check_pieces(const std::string& what, const Face& face, const std::vector<Tile>& pieces);
-
-/// Rejects unless the reason holds.
-void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry, const std::set<Face_id>& set_aside);
 
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
 /// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Proof: P-21, P-22

@@ -25,6 +25,8 @@ Exact_point cross(const Exact_point& a, const Exact_point& b);
 bool is_zero(const Exact_point& v);
 Exact_point centroid(const Points& points);
 
+/// The ids of points that are added to a soup.
+std::vector<Point_id> added(Polygon_soup& soup, const Points& points);
 /// Each list is a face of one loop, with points of its own.
 Polygon_soup soup_of(const Faces& faces);
 
