@@ -44,6 +44,7 @@ static Exit run(const Common& common) {
   const Json counters{{"zero_area", c.zero_area},
                       {"duplicates", c.duplicates},
                       {"self_intersecting", c.self_intersecting},
+                      {"no_simple_projection", c.no_simple_projection},
                       {"non_planar", c.non_planar},
                       {"concave", c.concave},
                       {"with_holes", c.with_holes},

@@ -30,7 +30,7 @@ struct Covering {
   };
   std::vector<Piece> pieces;
 
-  /// A face that is not drawn. `why` begins with "zero area", "duplicate of F" (F a face id) or "self-intersecting".
+  /// A face that is not drawn. `why` begins with the text of a Set_aside_reason (kernel/scene/set_aside.h).
   struct Set_aside {
     Face_id face = 0;
     std::string why;

@@ -60,14 +60,10 @@ std::string write_failing(const Fuzz_arguments& arguments, const generate::Posed
                           const std::string& check) {
   std::filesystem::create_directories(arguments.out);
   const std::string stem = (std::filesystem::path(arguments.out) / arguments.command).string();
-  Format format = Format::qoff;
-  std::string ending = ".qoff";
   for (Face_id f = 0; f < scene.soup.face_count(); ++f)
-    if (scene.soup.loop_count(f) > 1) {
-      format = Format::ply;
-      ending = ".ply";
-    }  // .qoff has no holes
-  write_scene(scene.soup, stem + ending, format);
+    if (scene.soup.loop_count(f) > 1) return "(not written: no file format holds the holes of its faces)";
+  const std::string ending = ".qoff";
+  write_scene(scene.soup, stem + ending, Format::qoff);
   write_file(stem + ".json", harness::query_json(scene, seed).dump(1) + "\n");
   return fmt::format("sightline fuzz {} --scene {} --query {} --check '{}'", arguments.command, stem + ending,
                      stem + ".json", check);

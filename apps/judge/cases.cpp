@@ -175,7 +175,8 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
 std::vector<Case_group> groups_of_families(const Case_choice& choice, const Case_options& options) {
   std::vector<std::string> names = choice.families;
   if (names.empty())
-    for (const generate::Family& family : generate::families()) names.push_back(family.name);
+    for (const generate::Family& family : generate::families())
+      if (!family.holes) names.push_back(family.name);  // programs get files
   std::vector<Case_group> groups;
   for (const std::string& name : names)
     for (const std::string& distance : choice.ulps) {

@@ -4,6 +4,7 @@
 #include <sightline/harness/generate/projective.h>
 #include <sightline/harness/generate/tangles.h>
 #include <sightline/harness/generate/transform.h>
+#include <sightline/harness/generate/twisted_holes.h>
 #include <sightline/harness/generate/weak_draft.h>
 
 #include <algorithm>
@@ -64,6 +65,25 @@ Posed_scene nudged(view_drafts::Made made, const Family_parameters& parameters, 
   return with_an_eye(std::move(made), parameters, random);
 }
 
+Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& random) {
+  require(parameters.size <= 1000000, "at most 10^6 faces");
+  const Rational gap = ulps_of_size(parameters.ulps, small_bits);
+  std::vector<Holed_face> holed;
+  for (std::size_t count = 1 + random.below(3); count > 0; --count) holed.push_back(twisted_holes(random, gap));
+  Faces faces;
+  add_any(faces, 1 + random.below(3), random);
+  while (faces.size() + holed.size() < parameters.size) faces.push_back(any_face(random));
+  Posed_scene scene;
+  scene.soup = soup_of(faces);
+  for (const Holed_face& face : holed) {
+    scene.soup.add_face(added(scene.soup, face.outer));
+    for (const Points& hole : face.holes) scene.soup.add_hole(added(scene.soup, hole));
+    faces.push_back(face.outer);
+  }
+  scene.eye = view_drafts::some_eye(faces, random);
+  return scene;
+}
+
 Posed_scene with_a_source(const weak_drafts::Drafter& drafter, const Family_parameters& parameters, Random& random) {
   require(parameters.size <= 1000000, "at most 10^6 faces");
   weak_drafts::Draft draft = drafter.draft(random, ulps_of_size(parameters.ulps, small_bits));
@@ -122,13 +142,14 @@ const std::vector<Family>& families() {
     // Each family has random numbers of its own: seed 64 s + number.
     const auto add = [&](const std::string& name, const std::string& what, const std::string& size_means,
                          std::size_t small_size, std::uint64_t number, auto make) {
-      list.push_back({name, what, size_means, small_size, [name, number, make](const Family_parameters& parameters) {
-                        Random random(parameters.seed * 64 + number);
-                        Posed_scene scene = make(parameters, random);
-                        scene.name = name + ' ' + std::to_string(parameters.seed);
-                        if (scene.soup.file.empty()) scene.soup.file = name;
-                        return placed(std::move(scene), parameters);
-                      }});
+      list.push_back(
+          {name, what, size_means, small_size, false, [name, number, make](const Family_parameters& parameters) {
+             Random random(parameters.seed * 64 + number);
+             Posed_scene scene = make(parameters, random);
+             scene.name = name + ' ' + std::to_string(parameters.seed);
+             if (scene.soup.file.empty()) scene.soup.file = name;
+             return placed(std::move(scene), parameters);
+           }});
     };
     const std::string faces = "faces, at least";
     for (std::size_t k = 0; k < weak_drafts::drafters.size(); ++k)
@@ -155,6 +176,11 @@ const std::vector<Family>& families() {
         [](const Family_parameters& parameters, Random& random) {
           return nudged(view_drafts::with_some_eyes(tangle(random), random), parameters, random);
         });
+    add("twisted_holes",
+        "faces with holes, not planar, simple along all axes, some or none; K ulps beside (no file format holds them)",
+        faces, 0, 38,
+        [](const Family_parameters& parameters, Random& random) { return with_twisted_holes(parameters, random); });
+    list.back().holes = true;
     for (std::size_t k = 0; k < kinds().size(); ++k) {
       const Kind& kind = kinds()[k];
       add(std::string(kind.name), std::string(kind.what), std::string(kind.size_means), kind.small_size, 42 + k,

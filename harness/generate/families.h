@@ -53,6 +53,7 @@ struct Family {
   std::string name, what;
   std::string size_means;  ///< what `size` counts
   std::size_t small_size;  ///< what `size` is where many small scenes are wanted
+  bool holes;              ///< whether faces have holes, which no file format can hold
   std::function<Posed_scene(const Family_parameters&)>
       make;  ///< the same parameters give the same scene on every machine
 };
@@ -83,6 +84,10 @@ Posed_scene with_an_eye(view_drafts::Made made, const Family_parameters& paramet
 /// A degenerate scene of faces with some eyes; beside the degeneracy, one to three of them, faces or the eye, are moved
 /// along an axis.
 Posed_scene nudged(view_drafts::Made made, const Family_parameters& parameters, Random& random);
+
+/// Faces with holes that are twisted: simple along all axes, some, or none, and at times beside a hole in their plane.
+/// The eye is anywhere. More faces than there are: any ones on the lattice.
+Posed_scene with_twisted_holes(const Family_parameters& parameters, Random& random);
 
 /// A question of weak visibility; the eye is on the source or before it. More faces than there are: any ones on the
 /// lattice, aside.

@@ -14,13 +14,15 @@ Exact_point centroid(const Points& points) {
   return sum;
 }
 
+std::vector<Point_id> added(Polygon_soup& soup, const Points& points) {
+  std::vector<Point_id> ids;
+  for (const Exact_point& p : points) ids.push_back(soup.add_point(p[0], p[1], p[2]));
+  return ids;
+}
+
 Polygon_soup soup_of(const Faces& faces) {
   Polygon_soup soup;
-  for (const Points& face : faces) {
-    std::vector<Point_id> ids;
-    for (const Exact_point& p : face) ids.push_back(soup.add_point(p[0], p[1], p[2]));
-    soup.add_face(ids);
-  }
+  for (const Points& face : faces) soup.add_face(added(soup, face));
   return soup;
 }
 

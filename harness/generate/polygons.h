@@ -23,6 +23,8 @@ using Faces = std::vector<Points>;
 Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d);
 Exact_point centroid(const Points& points);
 
+/// The ids of points that are added to a soup.
+std::vector<Point_id> added(Polygon_soup& soup, const Points& points);
 /// Each list is a face of one loop, with points of its own.
 Polygon_soup soup_of(const Faces& faces);
 

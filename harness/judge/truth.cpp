@@ -176,6 +176,8 @@ Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options
   if (scene.counters().faces == 0) truth.not_asked = "the scene has no faces";
   else if (scene.counters().self_intersecting > 0)
     truth.not_asked = "faces cross themselves, and bound nothing that all agree on";
+  else if (scene.counters().no_simple_projection > 0)
+    truth.not_asked = "faces with holes are simple in no projection, and bound nothing that all agree on";
   if (!truth.not_asked.empty()) return truth;
   switch (query.question) {
     case Question::order:

@@ -197,16 +197,24 @@ void Scene::add_faces(const Polygon_soup& soup, const std::vector<std::uint32_t>
       return rotated(others) == key;
     });
     if (twin != end) {
-      set_aside_.push_back({f, "duplicate of " + std::to_string(twin->second)});
-      ++counters_.duplicates;
-    } else if (const char* flaw = points_.bits() <= 30   ? add_face<__int128>(f, loops)
-                                  : points_.bits() <= 72 ? add_face<Fixed_integer<4>>(f, loops)
-                                                         : add_face<Integer>(f, loops)) {
-      set_aside_.push_back({f, flaw});
-      ++(flaw[0] == 'z' ? counters_.zero_area : counters_.self_intersecting);
+      set_aside(f, Set_aside_reason::duplicate, std::to_string(twin->second));
+    } else if (const auto reason = points_.bits() <= 30   ? add_face<__int128>(f, loops)
+                                   : points_.bits() <= 72 ? add_face<Fixed_integer<4>>(f, loops)
+                                                          : add_face<Integer>(f, loops)) {
+      set_aside(f, *reason);
     } else {
       seen.emplace(h, f);
     }
+  }
+}
+
+void Scene::set_aside(Face_id f, Set_aside_reason reason, const std::string& of) {
+  set_aside_.push_back({f, reason, std::string(text_of(reason)) + of});
+  switch (reason) {
+    case Set_aside_reason::zero_area: ++counters_.zero_area; break;
+    case Set_aside_reason::duplicate: ++counters_.duplicates; break;
+    case Set_aside_reason::self_intersecting: ++counters_.self_intersecting; break;
+    case Set_aside_reason::no_simple_projection: ++counters_.no_simple_projection; break;
   }
 }
 
@@ -256,16 +264,16 @@ Scene::Vector<Number> Scene::area_vector(const Loop& loop) const {
 }
 
 template <class Number>
-const char* Scene::add_face(Face_id f, const std::vector<Loop>& loops) {
+std::optional<Set_aside_reason> Scene::add_face(Face_id f, const std::vector<Loop>& loops) {
   const Loop& outer = loops[0];
   Vector<Number> normal = area_vector<Number>(outer);
   if (outer.size() == 3 && loops.size() == 1) {
-    if (is_zero(normal)) return "zero area";
+    if (is_zero(normal)) return Set_aside_reason::zero_area;
     add_piece(f, 0, normal, outer);
-    return nullptr;
+    return std::nullopt;
   }
   if (loops.size() > 1) ++counters_.with_holes;
-  if (all_collinear<Number>(outer)) return "zero area";
+  if (all_collinear<Number>(outer)) return Set_aside_reason::zero_area;
   const bool planar = !is_zero(normal) && std::all_of(loops.begin(), loops.end(), [&](const Loop& loop) {
     const Vector<Number> origin = at<Number>(outer[0]);
     return std::all_of(loop.begin(), loop.end(),
@@ -273,43 +281,48 @@ const char* Scene::add_face(Face_id f, const std::vector<Loop>& loops) {
   });
   if (planar) return add_planar_face(f, normal, loops);
   if (is_zero(normal) &&
-      all_coplanar<Number>(outer)) {  // a contour that goes back on all its edges, or one that crosses itself
+      all_coplanar<Number>(loops)) {  // a contour that goes back on all its edges, or one that crosses itself
     Vector<Number> across{};
     for (std::size_t i = 0; is_zero(across); ++i)
       across = area_vector<Number>({outer[i], outer[i + 1], outer[(i + 2) % outer.size()]});
     std::vector<std::uint32_t> ids;
     return project(loops, dominant(across), false, ids, convex_parts).contour == Contour::zero_area
-               ? "zero area"
-               : "self-intersecting";
+               ? Set_aside_reason::zero_area
+               : Set_aside_reason::self_intersecting;
   }
   return add_non_planar_face(f, normal, loops);
 }
 
 template <class Number>
-const char* Scene::add_planar_face(Face_id f, const Vector<Number>& normal, const std::vector<Loop>& loops) {
+std::optional<Set_aside_reason> Scene::add_planar_face(Face_id f, const Vector<Number>& normal,
+                                                       const std::vector<Loop>& loops) {
   const int axis = dominant(normal);
   if (loops.size() == 1) {
     Loop corners;
     if (is_convex<Number>(loops[0], axis, normal[static_cast<std::size_t>(axis)] < 0, corners)) {
       add_piece(f, 0, normal, corners);
-      return nullptr;
+      return std::nullopt;
     }
   }
   std::vector<std::uint32_t> ids;
   const Convex_parts parts = project(loops, axis, normal[static_cast<std::size_t>(axis)] < 0, ids, convex_parts);
-  if (parts.contour == Contour::zero_area) return "zero area";
-  if (parts.contour == Contour::self_intersecting) return "self-intersecting";
+  if (parts.contour == Contour::zero_area) return Set_aside_reason::zero_area;
+  if (parts.contour == Contour::self_intersecting) return Set_aside_reason::self_intersecting;
   ++counters_.concave;
   concave_.push_back(f);
   for (std::uint32_t number = 0; number < parts.pieces.size(); ++number)
     add_piece(f, number, normal, named(parts.pieces[number], ids));
-  return nullptr;
+  return std::nullopt;
 }
 
 template <class Number>
-const char* Scene::add_non_planar_face(Face_id f, const Vector<Number>& normal, const std::vector<Loop>& loops) {
-  ++counters_.non_planar;
-  non_planar_.push_back(f);
+std::optional<Set_aside_reason> Scene::add_non_planar_face(Face_id f, const Vector<Number>& normal,
+                                                           const std::vector<Loop>& loops) {
+  const auto keep = [&] {
+    ++counters_.non_planar;
+    non_planar_.push_back(f);
+    return std::nullopt;
+  };
   // In a projection where the contour is simple, a triangulation of it is one of the face: along the dominant axis,
   // or else another.
   std::array<int, 3> axes{0, 1, 2};
@@ -328,26 +341,19 @@ const char* Scene::add_non_planar_face(Face_id f, const Vector<Number>& normal, 
       const Loop triangle = named(parts.pieces[number], ids);
       add_piece(f, number, area_vector<Number>(triangle), triangle);
     }
-    return nullptr;
+    return keep();
   }
-  if (loops.size() > 1) {
-    --counters_.non_planar;
-    non_planar_.pop_back();
-    return "not planar, with holes, and simple along no axis";
-  }
+  if (loops.size() > 1) return Set_aside_reason::no_simple_projection;
   // No simple projection along an axis: the fan of the first vertex, as most programs draw it.
-  ++counters_.fanned;
   std::uint32_t number = 0;
   for (std::size_t i = 2; i < loops[0].size(); ++i) {
     const Loop triangle{loops[0][0], loops[0][i - 1], loops[0][i]};
     const Vector<Number> n = area_vector<Number>(triangle);
     if (!is_zero(n)) add_piece(f, number++, n, triangle);
   }
-  if (number > 0) return nullptr;
-  --counters_.fanned;
-  --counters_.non_planar;
-  non_planar_.pop_back();  // spikes only
-  return "zero area";
+  if (number == 0) return Set_aside_reason::zero_area;  // spikes only
+  ++counters_.fanned;
+  return keep();
 }
 
 template <class Number>
@@ -362,8 +368,9 @@ bool Scene::has_boundary(const Convex_parts& parts, const std::vector<std::uint3
   };
   for (const auto& piece : parts.pieces) add(named(piece, ids), 1);
   const auto sense = [&](const Loop& loop) {
-    return area_vector<Number>(loop)[static_cast<std::size_t>(axis)] < 0;
-  };  // holes run against the contour
+    const Number area = area_vector<Number>(loop)[static_cast<std::size_t>(axis)];
+    return area < 0 ? -1 : area == 0 ? 0 : 1;
+  };  // holes run against the contour; triangles() leaves one without area here as it is, and the contour has some
   for (const Loop& loop : loops) add(loop, &loop != &loops[0] && sense(loop) == sense(loops[0]) ? 1 : -1);
   return std::all_of(net.begin(), net.end(), [](const auto& entry) { return entry.second == 0; });
 }
@@ -377,12 +384,15 @@ bool Scene::all_collinear(const Loop& loop) const {
 }
 
 template <class Number>
-bool Scene::all_coplanar(const Loop& loop) const {  // Pre: not all collinear
-  const Vector<Number> origin = at<Number>(loop[0]), along = difference(at<Number>(loop[1]), origin);
+bool Scene::all_coplanar(const std::vector<Loop>& loops) const {  // Pre: those of the first loop are not all collinear
+  const Loop& outer = loops[0];
+  const Vector<Number> origin = at<Number>(outer[0]), along = difference(at<Number>(outer[1]), origin);
   Vector<Number> normal{};
-  for (std::size_t i = 2; is_zero(normal); ++i) normal = cross(along, difference(at<Number>(loop[i]), origin));
-  return std::all_of(loop.begin(), loop.end(),
-                     [&](std::uint32_t p) { return dot(normal, difference(at<Number>(p), origin)) == 0; });
+  for (std::size_t i = 2; is_zero(normal); ++i) normal = cross(along, difference(at<Number>(outer[i]), origin));
+  return std::all_of(loops.begin(), loops.end(), [&](const Loop& loop) {
+    return std::all_of(loop.begin(), loop.end(),
+                       [&](std::uint32_t p) { return dot(normal, difference(at<Number>(p), origin)) == 0; });
+  });
 }
 
 template <class Number>

@@ -10,21 +10,24 @@
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/scene/set_aside.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace sightline {
 
-/// A face that is not modelled, and why: "zero area", "duplicate of 7", "self-intersecting".
+/// A face that is not modelled, and why: the reason, and its text, such as "zero area" or "duplicate of 7".
 struct Set_aside {
   Face_id face;
+  Set_aside_reason reason;
   std::string why;
 };
 
@@ -47,15 +50,15 @@ struct Piece_corner {
 /// What the scene was made of and what became of it.
 struct Scene_counters {
   std::size_t points_read = 0, points = 0, faces_read = 0, faces = 0, pieces = 0;
-  std::size_t zero_area = 0, duplicates = 0, self_intersecting = 0;
+  std::size_t zero_area = 0, duplicates = 0, self_intersecting = 0, no_simple_projection = 0;  ///< set aside
   std::size_t non_planar = 0, concave = 0, with_holes = 0, fanned = 0;
 };
 
 /// An exact polygonal scene (design laws in proofs/semantics.md). Input coordinate x is (offset + unit * grid) / scale
 /// for an integer grid coordinate; the grid is the coarsest that holds all points, centred, so that 26-bit detail a
 /// million units from the origin stays 26-bit detail. Non-planar faces are triangulated, concave ones and ones with
-/// holes cut into convex pieces on their own vertices; zero-area faces, exact duplicates and self-intersecting contours
-/// are set aside and listed. Cost: O(n) hashing, O(k log k) for a face of k vertices. Exact: yes. Proof: P-01, P-02
+/// holes cut into convex pieces on their own vertices; what cannot be modelled is set aside for a Set_aside_reason and
+/// listed. Cost: O(n) hashing, O(k log k) for a face of k vertices. Exact: yes. Proof: P-01, P-02
 class Scene {
  public:
   explicit Scene(const Polygon_soup& soup);
@@ -125,6 +128,8 @@ class Scene {
   using Loop = std::vector<std::uint32_t>;
 
   void add_faces(const Polygon_soup& soup, const std::vector<std::uint32_t>& merged);
+  /// `of`: what goes behind the reason's text.
+  void set_aside(Face_id f, Set_aside_reason reason, const std::string& of = {});
 
   // Faces are made in the narrowest of three number types. In g-bit coordinates a normal has 2 g + 2 bits, a normal
   // times a difference 3 g + 6, and the area vector of a loop of up to 2^28 corners 28 more: 30 bits fit 128, 72 bits
@@ -147,15 +152,17 @@ class Scene {
   template <class Number>
   Vector<Number> area_vector(const Loop& loop) const;
 
-  /// Adds the convex pieces of a face; a flaw, by name, where it has none.
+  /// Adds the convex pieces of a face, or says why it has none.
   template <class Number>
-  const char* add_face(Face_id f, const std::vector<Loop>& loops);
+  std::optional<Set_aside_reason> add_face(Face_id f, const std::vector<Loop>& loops);
 
   template <class Number>
-  const char* add_planar_face(Face_id f, const Vector<Number>& normal, const std::vector<Loop>& loops);
+  std::optional<Set_aside_reason> add_planar_face(Face_id f, const Vector<Number>& normal,
+                                                  const std::vector<Loop>& loops);
 
   template <class Number>
-  const char* add_non_planar_face(Face_id f, const Vector<Number>& normal, const std::vector<Loop>& loops);
+  std::optional<Set_aside_reason> add_non_planar_face(Face_id f, const Vector<Number>& normal,
+                                                      const std::vector<Loop>& loops);
 
   /// Whether the pieces' directed edges add up to those of the loops: in a projection an edge-on part of a non-planar
   /// face can get lost.
@@ -166,7 +173,7 @@ class Scene {
   template <class Number>
   bool all_collinear(const Loop& loop) const;
   template <class Number>
-  bool all_coplanar(const Loop& loop) const;
+  bool all_coplanar(const std::vector<Loop>& loops) const;
   template <class Number>
   static int dominant(const Vector<Number>& n);
   /// The two axes of the projection along `axis` in which the front's counterclockwise is the plane's.

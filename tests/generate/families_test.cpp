@@ -32,7 +32,8 @@ std::string text_of(const Posed_scene& scene) {
   };
   for (Point_id p = 0; p < scene.soup.point_count(); ++p) add(scene.soup.point(p));
   for (Face_id f = 0; f < scene.soup.face_count(); ++f)
-    for (const Point_id p : scene.soup.loop(f)) text += ' ' + std::to_string(p);
+    for (std::size_t k = 0; k < scene.soup.loop_count(f); ++k)
+      for (const Point_id p : scene.soup.loop(f, k)) text += ' ' + std::to_string(p);
   add(scene.eye);
   for (const Exact_point& p : scene.source) add(p);
   for (const Face_id f : scene.visible) text += " v" + std::to_string(f);
@@ -121,6 +122,18 @@ TEST(Families, are_exactly_degenerate_at_0_ulps_and_not_beside) {
       EXPECT_LT(in_one_stack, planes(generate::family("leaves").make(with(seed, ulps)))) << seed;
     }
   }
+  std::size_t no_projection = 0, no_projection_beside = 0, crossing = 0, crossing_beside = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Posed_scene exact = generate::family("twisted_holes").make(with(seed)),
+                      beside = generate::family("twisted_holes").make(with(seed, 1));
+    no_projection += set_aside(exact, "not planar, with holes");
+    no_projection_beside += set_aside(beside, "not planar, with holes");
+    crossing += set_aside(exact, "self-intersecting");
+    crossing_beside += set_aside(beside, "self-intersecting");
+  }
+  EXPECT_GT(no_projection, no_projection_beside);
+  EXPECT_GT(no_projection_beside, 50u);
+  EXPECT_GT(crossing, 20 * crossing_beside);
   EXPECT_GT(thin, 40u);
   EXPECT_GT(twice, 10u);
 }

@@ -89,7 +89,7 @@ inline const std::vector<Room>& rooms() {
       // The checkers share nothing with what they check: numbers, and what a file says.
       {"algorithms/verify/",
        {"algorithms/verify/", "kernel/number.h", "kernel/coordinates.h", "kernel/quoted.h",
-        "kernel/scene/polygon_soup.h"}},
+        "kernel/scene/polygon_soup.h", "kernel/scene/set_aside.h"}},
       // Two methods for one question, each without the other, on common ground.
       {"algorithms/weak_visibility/search/", weak_ground_and("algorithms/weak_visibility/search/")},
       {"algorithms/weak_visibility/events/", weak_ground_and("algorithms/weak_visibility/events/")},

@@ -221,6 +221,46 @@ TEST(Scene_policy, a_contour_that_crosses_itself_is_set_aside) {
     for (const Polygon_soup& soup : variants(loops)) expect_aside(soup, "self-intersecting");
 }
 
+TEST(Scene_policy, a_twisted_face_with_holes_that_no_projection_cuts_is_set_aside_and_counted_for_itself) {
+  const std::string reason(text_of(Set_aside_reason::no_simple_projection));
+  const Points saddle{{0, 0, 0}, {4, 0, 1}, {4, 4, 0}, {0, 4, 1}};
+  for (const std::vector<Points>& loops : std::vector<std::vector<Points>>{
+           {{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}, {{9, 9, 5}, {8, 9, 1}, {9, 8, 1}}},  // a hole far outside
+           {{{0, 0, 0}, {4, 4, 0}, {4, 0, 0}, {0, 4, 0}},
+            {{3, 2, 1}, {1, 1, 0}, {2, 1, 0}}},  // a contour of no net area
+           {{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 0, 0}}, {{3, 2, 1}, {1, 1, 0}, {2, 1, 0}}},  // there and back
+           {{{0, 0, 0}, {1, 0, 0}, {0, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 0, 1}}, {{1, 1, 0}, {2, 1, 0}, {1, 2, 0}}}})
+    for (const Polygon_soup& soup : variants(loops)) expect_aside(soup, reason);
+  // Where its own axis is the only one: nothing sheared.
+  for (const Points& hole : std::vector<Points>{{{1, 1, 0}, {2, 1, 0}, {2, 1, 1}, {1, 1, 1}},  // upright
+                                                {{1, 0, 2}, {2, 1, 0}, {1, 1, 0}},             // on the contour's edge
+                                                {{0, 0, 1}, {2, 1, 0}, {1, 2, 0}},     // at its corner, above it
+                                                {{1, 1, 0}, {9, 1, 0}, {1, 2, 0}}}) {  // across it
+    const Scene scene(one_face({saddle, hole}));
+    EXPECT_EQ(why(scene, 0), reason);
+    const Scene_counters& c = scene.counters();
+    EXPECT_EQ(c.no_simple_projection, 1u);
+    EXPECT_EQ(c.self_intersecting + c.zero_area + c.duplicates + c.non_planar + c.fanned, 0u);
+    EXPECT_EQ(c.with_holes, 1u);
+  }
+}
+
+TEST(Scene_policy, a_hole_is_cut_out_whichever_way_it_runs_and_wherever_its_area_points_in_space) {
+  // Seen from above the hole is clockwise or not; in space its area points away from the contour's either way.
+  const Points outer{{0, 0, 0}, {60, 0, 60}, {60, 60, 121}, {0, 60, 60}};
+  const Points hole{{20, 20, 40}, {22, 20, 30}, {22, 21, 46}, {20, 21, 56}};
+  for (const Points& either : {hole, Points(hole.rbegin(), hole.rend())}) {
+    const Polygon_soup soup = one_face({outer, either});
+    const Scene scene(soup);
+    ASSERT_NO_FATAL_FAILURE(expect_sound_pieces(soup, scene));
+    EXPECT_EQ(pieces_of(scene, 0), 8u);
+  }
+  // A hole of no area seen from above is as the file has it, from either side.
+  const Points flat{{0, 0, 0}, {8, 0, 1}, {8, 8, 0}, {0, 8, 1}}, bow{{2, 2, 0}, {4, 4, 1}, {2, 4, 0}, {4, 2, 0}};
+  for (const Points& contour : {flat, Points(flat.rbegin(), flat.rend())})
+    expect_aside(one_face({contour, bow}), std::string(text_of(Set_aside_reason::no_simple_projection)));
+}
+
 TEST(Scene_policy, an_exact_duplicate_is_set_aside_and_says_of_what) {
   Polygon_soup soup = soup_of({{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}, {4, 4, 0}});
   soup.add_face({0, 1, 2, 3});

@@ -1,0 +1,65 @@
+#include <sightline/algorithms/verify/faces.h>
+
+#include <algorithm>
+
+namespace sightline {
+namespace certificate_check {
+
+Face::Face(const Polygon_soup& soup, Face_id f) {
+  for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
+    Polygon loop;
+    for (const Point_id p : soup.loop(f, k))
+      if (Exact_point point = soup.point(p); loop.empty() || point != loop.back()) loop.push_back(std::move(point));
+    while (loop.size() > 1 && loop.front() == loop.back()) loop.pop_back();
+    loops.push_back(std::move(loop));
+  }
+  if (loops[0].empty()) return;
+  plane = {newell_normal(loops[0]), loops[0][0]};
+  has_front = !is_zero(plane.normal);
+  if (!has_front) plane.normal = some_normal();
+  for (const Polygon& loop : loops)
+    for (const Exact_point& p : loop) planar = planar && plane.side(p) == 0;
+  if (!planar) return;
+  for (std::size_t k = 1; k < loops.size(); ++k)
+    if (sgn(dot(plane.normal, newell_normal(loops[k]))) > 0) std::reverse(loops[k].begin(), loops[k].end());
+}
+
+std::vector<Polygon> Face::seen_along(std::size_t axis) const {
+  const int sense = sgn(newell_normal(loops[0])[axis]);
+  if (sense == 0) return {};
+  std::vector<Polygon> seen = loops;
+  for (std::size_t k = 1; k < seen.size(); ++k)
+    if (sgn(newell_normal(seen[k])[axis]) == sense) std::reverse(seen[k].begin(), seen[k].end());
+  return seen;
+}
+
+Integer_vector Face::some_normal() const {  // of the first three points that are not collinear
+  std::vector<Exact_point> arms;
+  for (const Polygon& loop : loops)
+    for (const Exact_point& p : loop) {
+      if (p == loops[0][0]) continue;
+      arms.push_back(minus(p, loops[0][0]));
+      const Integer_vector normal = primitive(cross(arms.front(), arms.back()));
+      if (!is_zero(normal)) return normal;
+    }
+  return {};
+}
+
+void Boundary_chain::add(const Polygon& loop, long multiplicity) {
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Exact_point &from = loop[i], &to = loop[(i + 1) % loop.size()];
+    Integer_vector direction = primitive(minus(to, from));
+    if (direction < Integer_vector{}) direction = negated(direction);
+    arrivals_[{direction, to}] += multiplicity;
+    arrivals_[{direction, from}] -= multiplicity;
+  }
+}
+
+std::optional<Exact_point> Boundary_chain::nonzero() const {
+  for (const auto& [place, count] : arrivals_)
+    if (count != 0) return place.second;
+  return std::nullopt;
+}
+
+}  // namespace certificate_check
+}  // namespace sightline

@@ -1,0 +1,55 @@
+#pragma once
+// Faces of a soup as points, and boundaries as chains. To be read after polygons.h.
+
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sightline::certificate_check {
+
+/// A face of the soup as points: consecutive repetitions dropped; if it is planar, holes turned so that they run
+/// against the outer loop, or, if that has no front, clockwise as seen from the side that `plane` has in front.
+struct Face {
+  std::vector<Polygon> loops;
+  bool planar = true;
+  bool has_front = false;  // the outer loop's Newell normal is not zero
+  Plane plane;  // of a planar face; if it has no front, either side of its plane; if all points are collinear, zero
+
+  Face(const Polygon_soup& soup, Face_id f);
+
+  /// The loops, each hole turned against the outer one as they look along an axis; there a hole without area stays as
+  /// it is. Nothing if the outer loop has no area there. Pre: not planar, as then holes are turned already.
+  std::vector<Polygon> seen_along(std::size_t axis) const;
+
+  std::size_t corner_count() const {
+    std::size_t count = 0;
+    for (const Polygon& loop : loops) count += loop.size();
+    return count;
+  }
+
+ private:
+  Integer_vector some_normal() const;
+};
+
+/// A sum of directed segments as a chain: two sums are the same chain iff on each line, at each point, the net number
+/// of arrivals is the same. A line through a known point is its direction, so the key is (direction up to sign, point).
+/// Proof: P-21b
+class Boundary_chain {
+ public:
+  void add(const Polygon& loop, long multiplicity);
+  void add(const std::vector<Polygon>& loops, long multiplicity) {
+    for (const Polygon& loop : loops) add(loop, multiplicity);
+  }
+  /// A point where the chain is not zero, if there is one.
+  std::optional<Exact_point> nonzero() const;
+
+ private:
+  std::map<std::pair<Integer_vector, Exact_point>, long> arrivals_;
+};
+
+}  // namespace sightline::certificate_check
