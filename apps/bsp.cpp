@@ -46,17 +46,15 @@ static Exit run(const Bsp_arguments& arguments) {
   return Exit::done;
 }
 
-}  // namespace sightline::app
-
-void add_bsp(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("bsp", "Builds the BSP tree of a scene: nodes, splits, depth, fragments");
-  auto arguments = std::make_shared<sightline::app::Bsp_arguments>();
-  arguments->common.add_to(*command);
-  command->add_option("--kernel", arguments->kernel, "arithmetic")
-      ->check(CLI::IsMember(sightline::app::kernel_names))
-      ->capture_default_str();
-  command->add_option("--candidates", arguments->candidates, "face planes tried for each node")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  set_action(*command, [arguments] { return sightline::app::run(*arguments); });
+void add_bsp(Command program) {
+  const Command command = program.add_command("bsp", "Builds the BSP tree of a scene: nodes, splits, depth, fragments");
+  auto arguments = std::make_shared<Bsp_arguments>();
+  arguments->common.add_to(command);
+  command.add_option("--kernel", arguments->kernel, "arithmetic").check(one_of(kernel_names)).show_default();
+  command.add_option("--candidates", arguments->candidates, "face planes tried for each node")
+      .check(range(1, 1000))
+      .show_default();
+  command.set_action([arguments] { return run(*arguments); });
 }
+
+}  // namespace sightline::app

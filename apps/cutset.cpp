@@ -258,28 +258,28 @@ static Exit run(const Cutset_arguments& arguments) {
   return exit;
 }
 
-}  // namespace sightline::app
-
-void add_cutset(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("cutset", "The on-view faces along a path of viewpoints: cut-set, tests, births");
-  auto a = std::make_shared<sightline::app::Cutset_arguments>();
-  a->common.add_to(*command);
-  sightline::app::add_to(*command, a->path);
-  sightline::app::add_to(*command, a->decisions);
-  command->add_flag("--faces", a->faces, "in the JSON, `on_view` is the list of on-view faces, not their number");
-  command->add_flag("--check", a->check, "hold each frame to a test of every face; exit code 1 where one is wrong");
+void add_cutset(Command program) {
+  const Command command =
+      program.add_command("cutset", "The on-view faces along a path of viewpoints: cut-set, tests, births");
+  auto a = std::make_shared<Cutset_arguments>();
+  a->common.add_to(command);
+  add_to(command, a->path);
+  add_to(command, a->decisions);
+  command.add_flag("--faces", a->faces, "in the JSON, `on_view` is the list of on-view faces, not their number");
+  command.add_flag("--check", a->check, "hold each frame to a test of every face; exit code 1 where one is wrong");
   command
-      ->add_option("--method", a->method,
-                   "tracker: right whatever the move; 1977: the published update, which loses faces on some moves; "
-                   "1977-literal: the same to the letter, which loses edges of the cut-set")
-      ->check(CLI::IsMember({"tracker", "1977", "1977-literal"}))
-      ->capture_default_str();
-  command->add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline");
-  command->footer(
+      .add_option("--method", a->method,
+                  "tracker: right whatever the move; 1977: the published update, which loses faces on some moves; "
+                  "1977-literal: the same to the letter, which loses edges of the cut-set")
+      .check(one_of({"tracker", "1977", "1977-literal"}))
+      .show_default();
+  command.add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline");
+  command.footer(
       "Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"
       "         sightline cutset box.off --decision-tree\n"
       "A face counts as on-view where a piece of it is; a viewpoint in a face's plane is off-view. `tests` are on-view "
       "predicates, `births` clusters of changed faces away from the cut-set.");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  command.set_action([a] { return run(*a); });
 }
+
+}  // namespace sightline::app

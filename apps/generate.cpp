@@ -57,7 +57,8 @@ Exit run(const Generate_arguments& arguments) {
     throw Usage_error(error.what());
   }
   write_scene(scene.soup, arguments.out);
-  if (!arguments.query.empty()) write_file(arguments.query, harness::query_json(scene, arguments.seed).dump(1) + "\n");
+  if (!arguments.query.empty())
+    write_file(arguments.query, to_text(harness::query_json(scene, arguments.seed), 1) + "\n");
   return Exit::done;
 }
 
@@ -78,31 +79,27 @@ std::string list_of_families() {
 
 }  // namespace
 
-}  // namespace sightline::app
-
-void add_generate(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_generate(Command program) {
+  const Command command = program.add_command(
       "generate", "Makes a scene from a seed, exactly degenerate or nearly so, and what may be asked of it");
-  auto a = std::make_shared<sightline::app::Generate_arguments>();
-  command->add_option("FAMILY", a->family, "which family or kind, see below")->required();
-  command->add_option("--size", a->size, "how large; 0: the family's own")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command->add_option("--seed", a->seed, "of random choices")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
+  auto a = std::make_shared<Generate_arguments>();
+  command.add_option("FAMILY", a->family, "which family or kind, see below").required();
+  command.add_option("--size", a->size, "how large; 0: the family's own").check(whole_number()).show_default();
+  command.add_option("--seed", a->seed, "of random choices").check(whole_number()).show_default();
   command
-      ->add_option("--ulps", a->ulps,
-                   "how far beside its degeneracy, in units of 2^-52 of the scene's size; far: 2^44 of them")
-      ->capture_default_str();
-  command->add_option("--offset", a->offset, "X,Y,Z added to all points, exact decimals or p/q")->capture_default_str();
-  command->add_option("--scale", a->scale, "multiplies all coordinates, before --offset: a number or 2^K")
-      ->capture_default_str();
-  command->add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff")->required();
-  command->add_option("--query", a->query,
-                      "write the eye, the source polygon and what is known of its answers, as JSON");
-  command->footer(sightline::app::list_of_families() +
-                  "\nExamples: sightline generate rooms --size 4 --out rooms.off\n          sightline generate regulus "
-                  "--seed 7 --ulps 1 --out regulus.qoff --query regulus.json");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+      .add_option("--ulps", a->ulps,
+                  "how far beside its degeneracy, in units of 2^-52 of the scene's size; far: 2^44 of them")
+      .show_default();
+  command.add_option("--offset", a->offset, "X,Y,Z added to all points, exact decimals or p/q").show_default();
+  command.add_option("--scale", a->scale, "multiplies all coordinates, before --offset: a number or 2^K")
+      .show_default();
+  command.add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff").required();
+  command.add_option("--query", a->query,
+                     "write the eye, the source polygon and what is known of its answers, as JSON");
+  command.footer(list_of_families() +
+                 "\nExamples: sightline generate rooms --size 4 --out rooms.off\n          sightline generate regulus "
+                 "--seed 7 --ulps 1 --out regulus.qoff --query regulus.json");
+  command.set_action([a] { return run(*a); });
 }
+
+}  // namespace sightline::app

@@ -2,6 +2,7 @@
 
 #include "support/pixels.h"
 
+#include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/scope.h>
@@ -343,61 +344,61 @@ static Exit run(const Graph_arguments& arguments) {
   return Exit::done;
 }
 
-}  // namespace sightline::app
-
-void add_graph(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_graph(Command program) {
+  const Command command = program.add_command(
       "graph", "Which face may obscure which: the priority graph, its strongly connected components and their order");
-  auto a = std::make_shared<sightline::app::Graph_arguments>();
-  a->common.add_to(*command);
-  command->add_option("--method", a->method, "implicit: no arc is written out; explicit: all are")
-      ->check(CLI::IsMember({"implicit", "explicit"}))
-      ->capture_default_str();
-  auto* box = command->add_option("--box", a->box, "viewpoints in a box only: two corners X,Y,Z X,Y,Z")
-                  ->check(sightline::app::not_empty)
-                  ->expected(1, 2);
-  auto* region =
-      command->add_option("--region", a->region, "viewpoints in the convex hull of these points only: X,Y,Z X,Y,Z ...")
-          ->check(sightline::app::not_empty)
-          ->expected(1, 1 << 20);
-  auto* eye = command->add_option("--eye", a->eye, "one viewpoint only")->check(sightline::app::not_empty);
-  auto* ray = command->add_option("--ray", a->direction, "one ray only, from the eye in direction X,Y,Z")
-                  ->check(sightline::app::not_empty)
-                  ->needs(eye);
-  box->excludes(region)->excludes(eye);
-  region->excludes(eye);
-  static_cast<void>(ray);
-  command->add_flag("--arcs", a->arcs, "write all arcs out, however many, and list them in the JSON");
-  command->add_flag(
+  auto a = std::make_shared<Graph_arguments>();
+  a->common.add_to(command);
+  command.add_option("--method", a->method, "implicit: no arc is written out; explicit: all are")
+      .check(one_of({"implicit", "explicit"}))
+      .show_default();
+  const Option box = command.add_option("--box", a->box, "viewpoints in a box only: two corners X,Y,Z X,Y,Z")
+                         .check(not_empty())
+                         .expected(1, 2);
+  const Option region =
+      command.add_option("--region", a->region, "viewpoints in the convex hull of these points only: X,Y,Z X,Y,Z ...")
+          .check(not_empty())
+          .expected(1, 1 << 20);
+  const Option eye = command.add_option("--eye", a->eye, "one viewpoint only").check(not_empty());
+  command.add_option("--ray", a->direction, "one ray only, from the eye in direction X,Y,Z")
+      .check(not_empty())
+      .needs(eye);
+  box.excludes(region).excludes(eye);
+  region.excludes(eye);
+  command.add_flag("--arcs", a->arcs, "write all arcs out, however many, and list them in the JSON");
+  command.add_flag(
       "--tree", a->tree,
       "separate the faces by planes that cut none, and order what is left by the graph: how many faces each settles");
-  command->add_flag(
+  command.add_flag(
       "--codes", a->codes,
       "codes for the pairs in the cycles that the tree leaves: which face is nearer along any ray; listed in the JSON");
-  command->add_flag("--split", a->split, "cut faces until no cycle is left, and compare with a BSP tree");
-  command->add_flag("--two-sided", a->two_sided, "a tree of both sides of each face");
-  auto* pixels =
+  command.add_flag("--split", a->split, "cut faces until no cycle is left, and compare with a BSP tree");
+  command.add_flag("--two-sided", a->two_sided, "a tree of both sides of each face");
+  const Option pixels =
       command
-          ->add_option("--pixels", a->pixels.size,
-                       "WIDTHxHEIGHT: how many faces the priorities leave to choose from at each pixel of images")
-          ->check(sightline::app::not_empty);
-  auto* eyes =
+          .add_option("--pixels", a->pixels.size,
+                      "WIDTHxHEIGHT: how many faces the priorities leave to choose from at each pixel of images")
+          .check(not_empty());
+  const Option eyes =
       command
-          ->add_option("--eyes", a->pixels.eyes,
-                       "the images' eyes: a file with X,Y,Z a line, or X,Y,Z,DX,DY,DZ with the direction of view")
-          ->check(sightline::app::not_empty);
-  auto* pictures = command->add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")
-                       ->check(CLI::ExistingDirectory);
-  pixels->needs(eyes);
-  eyes->needs(pixels);
-  pictures->needs(pixels);
-  command->add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");
-  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
-  command->footer(
+          .add_option("--eyes", a->pixels.eyes,
+                      "the images' eyes: a file with X,Y,Z a line, or X,Y,Z,DX,DY,DZ with the direction of view")
+          .check(not_empty());
+  const Option pictures =
+      command.add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")
+          .check(folder());
+  pixels.needs(eyes);
+  eyes.needs(pixels);
+  pictures.needs(pixels);
+  command.add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  command.footer(
       "Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed "
       "highest priority first:\n"
       "no face of a later one obscures a face of an earlier one, whatever the viewpoint. Options that take several "
       "points end at the next option.\n"
       "Example: sightline graph object.off --dot object.dot --certificate object.json");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  command.set_action([a] { return run(*a); });
 }
+
+}  // namespace sightline::app

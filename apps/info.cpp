@@ -86,12 +86,12 @@ static Exit run(const Common& common) {
   return Exit::done;
 }
 
-}  // namespace sightline::app
-
-void add_info(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("info", "What is in a scene, what was set aside and why, and the arithmetic that it takes");
-  auto common = std::make_shared<sightline::app::Common>();
-  common->add_to(*command);
-  set_action(*command, [common] { return sightline::app::run(*common); });
+void add_info(Command program) {
+  const Command command =
+      program.add_command("info", "What is in a scene, what was set aside and why, and the arithmetic that it takes");
+  auto common = std::make_shared<Common>();
+  common->add_to(command);
+  command.set_action([common] { return run(*common); });
 }
+
+}  // namespace sightline::app

@@ -1,9 +1,11 @@
 // sightline order: the exact back-to-front order of a scene from an eye, its picture and its certificate.
 
-#include "support/picture.h"
+#include "methods/methods.h"
 
+#include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/order.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
@@ -187,31 +189,29 @@ static Exit run(const Order_arguments& arguments) {
   return Exit::done;
 }
 
-}  // namespace sightline::app
-
-void add_order(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_order(Command program) {
+  const Command command = program.add_command(
       "order", "The exact back-to-front order of a scene from an eye, with a picture and a certificate");
-  auto a = std::make_shared<sightline::app::Order_arguments>();
-  a->common.add_to(*command);
-  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
-      ->check(sightline::app::not_empty);
-  command->add_option("--kernel", a->kernel, "arithmetic")
-      ->check(CLI::IsMember(sightline::app::kernel_names))
-      ->capture_default_str();
+  auto a = std::make_shared<Order_arguments>();
+  a->common.add_to(command);
+  command.add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
+      .check(not_empty());
+  command.add_option("--kernel", a->kernel, "arithmetic").check(one_of(kernel_names)).show_default();
   command
-      ->add_option("--method", a->method,
-                   "bsp: a tree that cuts faces, both sides of each drawn; graph: the on-view faces, whole but where "
-                   "they overlap in a cycle")
-      ->check(CLI::IsMember({"bsp", "graph"}))
-      ->capture_default_str();
-  command->add_flag("--two-sided", a->two_sided, "with --method graph: faces seen from behind too");
-  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
-  command->add_option("--svg", a->svg, "draw the order as a painter would");
-  a->view.add_to(*command);
-  command->footer(
+      .add_option("--method", a->method,
+                  "bsp: a tree that cuts faces, both sides of each drawn; graph: the on-view faces, whole but where "
+                  "they overlap in a cycle")
+      .check(one_of({"bsp", "graph"}))
+      .show_default();
+  command.add_flag("--two-sided", a->two_sided, "with --method graph: faces seen from behind too");
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  command.add_option("--svg", a->svg, "draw the order as a painter would");
+  a->view.add_to(command);
+  command.footer(
       "Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
       "A fragment is [face, piece]; the certificate's `piece` is the convex piece of the face that the fragment is a "
       "part of.");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  command.set_action([a] { return run(*a); });
 }
+
+}  // namespace sightline::app

@@ -267,31 +267,31 @@ static Exit run(const See_arguments& arguments) {
   return Exit::done;
 }
 
-}  // namespace sightline::app
-
-void add_see(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("see", "The exact visible parts of a scene from an eye, with a picture and a certificate");
-  auto a = std::make_shared<sightline::app::See_arguments>();
-  a->common.add_to(*command);
-  command->add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
-      ->check(sightline::app::not_empty);
-  command->add_option("--kernel", a->kernel, "arithmetic")
-      ->check(CLI::IsMember({"exact", "epeck", "gmpq", "double", "float"}))
-      ->capture_default_str();
-  command->add_flag("--two-sided", a->two_sided,
-                    "count faces seen from behind too (they hide what is behind them anyway)");
-  command->add_flag("--frustum", a->frustum,
-                    "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
-  command->add_flag("--lines", a->lines,
-                    "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
-                    "in the picture solid and dashed");
-  command->add_option("--certificate", a->certificate, "write what `sightline verify` reads");
-  command->add_option("--svg", a->svg, "draw the visible parts");
-  a->view.add_to(*command);
-  command->footer(
+void add_see(Command program) {
+  const Command command =
+      program.add_command("see", "The exact visible parts of a scene from an eye, with a picture and a certificate");
+  auto a = std::make_shared<See_arguments>();
+  a->common.add_to(command);
+  command.add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
+      .check(not_empty());
+  command.add_option("--kernel", a->kernel, "arithmetic")
+      .check(one_of({"exact", "epeck", "gmpq", "double", "float"}))
+      .show_default();
+  command.add_flag("--two-sided", a->two_sided,
+                   "count faces seen from behind too (they hide what is behind them anyway)");
+  command.add_flag("--frustum", a->frustum,
+                   "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
+  command.add_flag("--lines", a->lines,
+                   "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
+                   "in the picture solid and dashed");
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  command.add_option("--svg", a->svg, "draw the visible parts");
+  a->view.add_to(command);
+  command.footer(
       "Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"
       "Where faces of one plane overlap, one is shown: seen from its front before from behind, then the lower face id; "
       "`visible` has them all.");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  command.set_action([a] { return run(*a); });
 }
+
+}  // namespace sightline::app

@@ -51,15 +51,15 @@ static Exit run(const Common& common, const std::string& file) {
   return exit;
 }
 
-}  // namespace sightline::app
-
-void add_verify(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_verify(Command program) {
+  const Command command = program.add_command(
       "verify", "Checks a certificate against a scene, by code that shares nothing with what made it");
-  auto common = std::make_shared<sightline::app::Common>();
+  auto common = std::make_shared<Common>();
   auto certificate = std::make_shared<std::string>();
-  common->add_to(*command);
-  command->add_option("CERTIFICATE", *certificate, "a file that --certificate wrote")->required();
-  command->footer("Exit code 0: accepted; 1: rejected; 3: scene or certificate cannot be read.");
-  set_action(*command, [common, certificate] { return sightline::app::run(*common, *certificate); });
+  common->add_to(command);
+  command.add_option("CERTIFICATE", *certificate, "a file that --certificate wrote").required();
+  command.footer("Exit code 0: accepted; 1: rejected; 3: scene or certificate cannot be read.");
+  command.set_action([common, certificate] { return run(*common, *certificate); });
 }
+
+}  // namespace sightline::app

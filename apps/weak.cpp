@@ -1,6 +1,6 @@
 // sightline weak: the faces that are weakly visible from polygons, a picture of them and their certificate.
 
-#include "support/picture.h"
+#include "methods/methods.h"
 #include "methods/weak.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
@@ -257,55 +257,54 @@ Exit run_weak(const Weak_arguments& arguments) {
 
 }  // namespace
 
-}  // namespace sightline::app
-
-void add_weak(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("weak",
-                                         "The faces that are weakly visible from polygons or solids: seen from some "
-                                         "point of them, exactly, with a certificate for both answers");
-  auto a = std::make_shared<sightline::app::Weak_arguments>();
-  a->common.add_to(*command);
-  a->sources.add_to(*command);
-  CLI::Option* method =
+void add_weak(Command program) {
+  const Command command =
+      program.add_command("weak",
+                          "The faces that are weakly visible from polygons or solids: seen from some "
+                          "point of them, exactly, with a certificate for both answers");
+  auto a = std::make_shared<Weak_arguments>();
+  a->common.add_to(command);
+  a->sources.add_to(command);
+  const Option method =
       command
-          ->add_option(
+          .add_option(
               "--method", a->method,
               "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; "
               "doubles: a search without proofs; sample: random rays, as others do")
-          ->check(CLI::IsMember({"lines", "events", "doubles", "sample"}))
-          ->capture_default_str();
+          .check(one_of({"lines", "events", "doubles", "sample"}))
+          .show_default();
   command
-      ->add_flag("--conservative{conservative}", a->method,
-                 "instead of a method: quick, visible is all that no single piece hides, so some faces too many; "
-                 "`sightline compare SCENE weak` says how many")
-      ->disable_flag_override()
-      ->excludes(method);
-  command->add_option("--rays", a->task.rays, "sample: from each source")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command->add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
+      .add_flag("--conservative{conservative}", a->method,
+                "instead of a method: quick, visible is all that no single piece hides, so some faces too many; "
+                "`sightline compare SCENE weak` says how many")
+      .disable_flag_override()
+      .excludes(method);
+  command.add_option("--rays", a->task.rays, "sample: from each source").check(whole_number()).show_default();
+  command.add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")
+      .check(whole_number())
+      .show_default();
   command
-      ->add_option("--event-edges", a->task.event_edges,
-                   "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command->add_option("--certificate", a->certificate,
-                      "write what `sightline verify` reads: of lines all answers, of events what is visible, with "
-                      "--conservative what is hidden");
-  command->add_option("--surfaces", a->surfaces,
-                      "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; "
-                      "then no search ends before it has them all");
-  command->add_option(
+      .add_option("--event-edges", a->task.event_edges,
+                  "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")
+      .check(whole_number())
+      .show_default();
+  command.add_option("--certificate", a->certificate,
+                     "write what `sightline verify` reads: of lines all answers, of events what is visible, with "
+                     "--conservative what is hidden");
+  command.add_option("--surfaces", a->surfaces,
+                     "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; "
+                     "then no search ends before it has them all");
+  command.add_option(
       "--svg", a->svg,
       "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out");
-  command->add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided");
-  command->add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
-      ->check(sightline::app::not_empty);
-  a->view.add_to(*command);
-  command->footer(
+  command.add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided");
+  command.add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
+      .check(not_empty());
+  a->view.add_to(command);
+  command.footer(
       "Example: sightline weak room.off --from \"0,0,1 1,0,1 1,0,2 0,0,2\" --svg room.svg --certificate room.json\n"
       "Exit code 4: some faces are undecided.");
-  set_action(*command, [a] { return sightline::app::run_weak(*a); });
+  command.set_action([a] { return run_weak(*a); });
 }
+
+}  // namespace sightline::app

@@ -45,9 +45,9 @@ static Json judge_apart(const Contestant& contestant, double limit) {
     close(ends[0]);
     std::string text;
     try {
-      text = contestant.judge().dump();
+      text = to_text(contestant.judge());
     } catch (const std::exception& error) {
-      text = Json{{"status", std::string("error: ") + error.what()}}.dump();
+      text = to_text(Json{{"status", std::string("error: ") + error.what()}});
     }
     for (std::size_t written = 0; written < text.size();) {
       const ssize_t n = write(ends[1], text.data() + written, text.size() - written);
@@ -101,63 +101,59 @@ Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
   return disagree ? Exit::disagreement : undecided ? Exit::undecided : Exit::done;
 }
 
-}  // namespace sightline::app
-
-void add_compare(CLI::App& app) {
-  using namespace sightline::app;
-  CLI::App* command = app.add_subcommand(
+void add_compare(Command program) {
+  const Command command = program.add_command(
       "compare", "The same question to several kernels and methods: seconds, memory, and errors against exact");
   auto a = std::make_shared<Compare_arguments>();
-  a->common.add_to(*command);
-  command->add_option("COMMAND", a->command, "the question")
-      ->check(CLI::IsMember({"order", "bsp", "see", "weak"}))
-      ->capture_default_str();
-  command->add_option("--eye", a->eye, "the eye X,Y,Z, for order and see; by default a place outside the scene")
-      ->check(not_empty);
-  CLI::Option* kernels = command
-                             ->add_option("--kernels", a->kernels,
-                                          "which kernels, with commas; see asks all but epick, weak exact and double")
-                             ->delimiter(',')
-                             ->check(CLI::IsMember(kernel_names))
-                             ->capture_default_str();
-  command->add_option("--max-fragments", a->max_fragments, "order: compare all pairs up to this many fragments")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
+  a->common.add_to(command);
+  command.add_option("COMMAND", a->command, "the question")
+      .check(one_of({"order", "bsp", "see", "weak"}))
+      .show_default();
+  command.add_option("--eye", a->eye, "the eye X,Y,Z, for order and see; by default a place outside the scene")
+      .check(not_empty());
+  const Option kernels = command
+                             .add_option("--kernels", a->kernels,
+                                         "which kernels, with commas; see asks all but epick, weak exact and double")
+                             .delimiter(',')
+                             .check(one_of(kernel_names))
+                             .show_default();
+  command.add_option("--max-fragments", a->max_fragments, "order: compare all pairs up to this many fragments")
+      .check(whole_number())
+      .show_default();
+  command.add_option("--sizes", a->sizes, "see: depth buffers of so many pixels along each side of a cube, with commas")
+      .delimiter(',')
+      .check(whole_number())
+      .check(range(1, 16384))
+      .show_default();
+  command.add_option("--bits", a->bits, "see: bits of their depths, with commas; 32: floats")
+      .delimiter(',')
+      .check(whole_number())
+      .check(range(1, 32))
+      .show_default();
   command
-      ->add_option("--sizes", a->sizes, "see: depth buffers of so many pixels along each side of a cube, with commas")
-      ->delimiter(',')
-      ->check(sightline::app::whole_number)
-      ->check(CLI::Range(1, 16384))
-      ->capture_default_str();
-  command->add_option("--bits", a->bits, "see: bits of their depths, with commas; 32: floats")
-      ->delimiter(',')
-      ->check(sightline::app::whole_number)
-      ->check(CLI::Range(1, 32))
-      ->capture_default_str();
+      .add_option("--near", a->near,
+                  "see: their near plane; by default from the scene's box, at least 1/4096 of the far one")
+      .check(finite_number())
+      .check(positive());
+  command.add_option("--far", a->far, "see: their far plane; by default from the scene's box")
+      .check(finite_number())
+      .check(positive());
+  a->sources.add_to(command, "weak: ");
+  command.add_option("--rays", a->rays, "weak: numbers of random rays from each source, with commas")
+      .delimiter(',')
+      .check(whole_number())
+      .show_default();
+  command.add_option("--cells", a->weak.cells, "weak: how many cells a search may take before its face is undecided")
+      .check(whole_number())
+      .show_default();
   command
-      ->add_option("--near", a->near,
-                   "see: their near plane; by default from the scene's box, at least 1/4096 of the far one")
-      ->check(sightline::app::finite_number)
-      ->check(CLI::PositiveNumber);
-  command->add_option("--far", a->far, "see: their far plane; by default from the scene's box")
-      ->check(sightline::app::finite_number)
-      ->check(CLI::PositiveNumber);
-  a->sources.add_to(*command, "weak: ");
-  command->add_option("--rays", a->rays, "weak: numbers of random rays from each source, with commas")
-      ->delimiter(',')
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command->add_option("--cells", a->weak.cells, "weak: how many cells a search may take before its face is undecided")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command
-      ->add_option("--event-edges", a->weak.event_edges,
-                   "weak: faces that lines leave open go to events where so many edges are near at most; events alone "
-                   "are asked where no pair has more")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command->add_option("--svg", a->svg, "weak: plot the seconds and the errors");
-  command->footer(
+      .add_option("--event-edges", a->weak.event_edges,
+                  "weak: faces that lines leave open go to events where so many edges are near at most; events alone "
+                  "are asked where no pair has more")
+      .check(whole_number())
+      .show_default();
+  command.add_option("--svg", a->svg, "weak: plot the seconds and the errors");
+  command.footer(
       "order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of "
       "inexact kernels).\n"
       "pairs wrong: overlapping fragments drawn in the wrong order; beyond rounding: by more than 2^-20 of the "
@@ -173,8 +169,10 @@ void add_compare(CLI::App& app) {
       "Example: sightline compare rooms.off weak --from \"1,1,2 1,2,2 2,2,2 2,1,2\" --rays 100,10000 --svg weak.svg\n"
       "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
       "not.");
-  set_action(*command, [a, kernels] {
-    a->kernels_given = kernels->count() > 0;
+  command.set_action([a, kernels] {
+    a->kernels_given = kernels.given();
     return a->command == "weak" ? compare_weak(*a) : a->command == "see" ? compare_visible(*a) : compare_orders(*a);
   });
 }
+
+}  // namespace sightline::app

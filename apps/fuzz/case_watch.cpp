@@ -2,7 +2,7 @@
 
 #include "case_watch.h"
 
-#include "../support/command.h"
+#include "../support/options.h"
 
 #include <fmt/format.h>
 

@@ -64,7 +64,7 @@ std::string write_failing(const Fuzz_arguments& arguments, const generate::Posed
     if (scene.soup.loop_count(f) > 1) return "(not written: no file format holds the holes of its faces)";
   const std::string ending = ".qoff";
   write_scene(scene.soup, stem + ending, Format::qoff);
-  write_file(stem + ".json", harness::query_json(scene, seed).dump(1) + "\n");
+  write_file(stem + ".json", to_text(harness::query_json(scene, seed), 1) + "\n");
   return fmt::format("sightline fuzz {} --scene {} --query {} --check '{}'", arguments.command, stem + ending,
                      stem + ".json", check);
 }
@@ -146,8 +146,8 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
                           {"checks", tallies_json(summary.by_check)},
                           {"families", tallies_json(summary.by_family)}}},
                         {"seconds", {{"fuzz", seconds}}}};
-    if (arguments.json == "-") std::cout << document.dump(1) << '\n';
-    else write_file(arguments.json, document.dump(1) + "\n");
+    if (arguments.json == "-") std::cout << to_text(document, 1) << '\n';
+    else write_file(arguments.json, to_text(document, 1) + "\n");
   }
   if (arguments.json != "-") {
     print_tallies("check", summary.by_check);
@@ -232,42 +232,38 @@ std::string list_of_checks() {
 
 }  // namespace
 
-}  // namespace sightline::app
-
-void add_fuzz(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("fuzz",
-                                         "Random degenerate scenes, all methods and all laws, until something "
-                                         "disagrees; then the smallest scene that shows it");
-  auto a = std::make_shared<sightline::app::Fuzz_arguments>();
-  command->add_option("COMMAND", a->command, "what to run, see below")
-      ->required()
-      ->check(CLI::IsMember(sightline::app::subject_names()));
-  command->add_option("--seconds", a->seconds, "how long to draw scenes")
-      ->check(CLI::PositiveNumber & sightline::app::finite_number)
-      ->capture_default_str();
+void add_fuzz(Command program) {
+  const Command command = program.add_command("fuzz",
+                                              "Random degenerate scenes, all methods and all laws, until something "
+                                              "disagrees; then the smallest scene that shows it");
+  auto a = std::make_shared<Fuzz_arguments>();
+  command.add_option("COMMAND", a->command, "what to run, see below").required().check(one_of(subject_names()));
+  command.add_option("--seconds", a->seconds, "how long to draw scenes")
+      .check(positive() & finite_number())
+      .show_default();
   command
-      ->add_option("--case-seconds", a->case_seconds,
-                   "of processor time; a case that takes longer ends the run: a finding, named on standard error")
-      ->check(CLI::PositiveNumber & sightline::app::finite_number)
-      ->capture_default_str();
-  command->add_option("--scenes", a->scenes, "draw so many scenes instead, however long that takes")
-      ->check(sightline::app::whole_number);
-  command->add_option("--seed", a->seed, "one seed is one sequence of cases")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command->add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");
-  command->add_option("--max-faces", a->most_faces, "pass over scenes of more faces")
-      ->check(sightline::app::whole_number)
-      ->capture_default_str();
-  command->add_option("--case", a->only, "run one case alone, FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER");
-  command->add_option("--scene", a->scene, "run a scene of a file alone");
-  command->add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them");
-  command->add_option("--check", a->check, "with --case or --scene: this check only");
-  command->add_option("--out", a->out, "the folder for the smallest failing scene")->capture_default_str();
-  command->add_option("--json", a->json, "write the summary as JSON to this file, - for standard output");
-  command->footer("Commands and their checks; each answer is also checked by itself ('certificate'):" +
-                  sightline::app::list_of_checks() +
-                  "\nExit codes: 0 nothing found, 1 something disagrees or a case does not end, 2 usage, 3 bad input."
-                  "\nExample: sightline fuzz see --seconds 600 --seed 7 --out found");
-  set_action(*command, [a] { return sightline::app::run_fuzz(*a); });
+      .add_option("--case-seconds", a->case_seconds,
+                  "of processor time; a case that takes longer ends the run: a finding, named on standard error")
+      .check(positive() & finite_number())
+      .show_default();
+  command.add_option("--scenes", a->scenes, "draw so many scenes instead, however long that takes")
+      .check(whole_number());
+  command.add_option("--seed", a->seed, "one seed is one sequence of cases").check(whole_number()).show_default();
+  command.add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");
+  command.add_option("--max-faces", a->most_faces, "pass over scenes of more faces")
+      .check(whole_number())
+      .show_default();
+  command.add_option("--case", a->only, "run one case alone, FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER");
+  command.add_option("--scene", a->scene, "run a scene of a file alone");
+  command.add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them");
+  command.add_option("--check", a->check, "with --case or --scene: this check only");
+  command.add_option("--out", a->out, "the folder for the smallest failing scene").show_default();
+  command.add_option("--json", a->json, "write the summary as JSON to this file, - for standard output");
+  command.footer(
+      "Commands and their checks; each answer is also checked by itself ('certificate'):" + list_of_checks() +
+      "\nExit codes: 0 nothing found, 1 something disagrees or a case does not end, 2 usage, 3 bad input."
+      "\nExample: sightline fuzz see --seconds 600 --seed 7 --out found");
+  command.set_action([a] { return run_fuzz(*a); });
 }
+
+}  // namespace sightline::app

@@ -67,7 +67,7 @@ Exit run(const Reduce_arguments& arguments) {
     } catch (const Not_representable&) {
       return 0;  // not a scene that can be handed over
     }
-    if (!arguments.query.empty()) write_file(query_file, harness::query_json(smaller, query.seed).dump(1) + "\n");
+    if (!arguments.query.empty()) write_file(query_file, to_text(harness::query_json(smaller, query.seed), 1) + "\n");
     return exit_code_of(words, arguments.limit);
   };
   const auto fails = [&](const generate::Posed_scene& smaller) {
@@ -89,7 +89,7 @@ Exit run(const Reduce_arguments& arguments) {
   write_scene(reduced.scene.soup, arguments.out, *format);
   if (!arguments.query.empty())
     write_file(std::filesystem::path(arguments.out).replace_extension(".json").string(),
-               harness::query_json(reduced.scene, query.seed).dump(1) + "\n");
+               to_text(harness::query_json(reduced.scene, query.seed), 1) + "\n");
   row("faces", fmt::format("{} of {}", reduced.scene.soup.face_count(), scene.soup.face_count()));
   row("points", fmt::format("{} of {}", reduced.scene.soup.point_count(), scene.soup.point_count()));
   row("runs", fmt::format("{}, {} steps kept, {:.1f} seconds{}", reduced.tests, reduced.kept, time.seconds(),
@@ -99,36 +99,34 @@ Exit run(const Reduce_arguments& arguments) {
 
 }  // namespace
 
-}  // namespace sightline::app
-
-void add_reduce(CLI::App& app) {
-  CLI::App* command = app.add_subcommand(
+void add_reduce(Command program) {
+  const Command command = program.add_command(
       "reduce", "The smallest and roundest scene for which a program still fails, whatever program it is");
-  auto a = std::make_shared<sightline::app::Reduce_arguments>();
-  command->add_option("SCENE", a->scene, "a scene for which it fails: .obj .off .ply .stl .qoff")->required();
+  auto a = std::make_shared<Reduce_arguments>();
+  command.add_option("SCENE", a->scene, "a scene for which it fails: .obj .off .ply .stl .qoff").required();
   command
-      ->add_option("PROGRAM", a->program,
-                   "after --: the program and its arguments; {} stands for the scene's file, {query} for the query's")
-      ->required();
-  command->add_option("--out", a->out, "the file to write; the program gets scenes with the same ending")->required();
-  command->add_option("--query", a->query,
-                      "what is asked of the scene, as `generate --query` writes it: reduced with the scene, and "
-                      "written beside --out as .json");
+      .add_option("PROGRAM", a->program,
+                  "after --: the program and its arguments; {} stands for the scene's file, {query} for the query's")
+      .required();
+  command.add_option("--out", a->out, "the file to write; the program gets scenes with the same ending").required();
+  command.add_option("--query", a->query,
+                     "what is asked of the scene, as `generate --query` writes it: reduced with the scene, and "
+                     "written beside --out as .json");
   command
-      ->add_option("--code", a->code,
-                   "the exit code that counts as failing; 128 + S for signal S, 124 for no end in time. By default any "
-                   "but 0 and 124")
-      ->check(CLI::Range(0, 255));
-  command->add_option("--limit", a->limit, "seconds for a run of the program")
-      ->check(CLI::PositiveNumber & sightline::app::finite_number)
-      ->capture_default_str();
-  command->add_option("--seconds", a->seconds, "seconds for all")
-      ->check(CLI::PositiveNumber & sightline::app::finite_number)
-      ->capture_default_str();
-  command->footer(
+      .add_option("--code", a->code,
+                  "the exit code that counts as failing; 128 + S for signal S, 124 for no end in time. By default any "
+                  "but 0 and 124")
+      .check(range(0, 255));
+  command.add_option("--limit", a->limit, "seconds for a run of the program")
+      .check(positive() & finite_number())
+      .show_default();
+  command.add_option("--seconds", a->seconds, "seconds for all").check(positive() & finite_number()).show_default();
+  command.footer(
       "The program and all that it starts end with its limit; it reads nothing, and cannot write a file beyond 256 "
       "MiB.\n"
       "Exit codes: 0 done, 1 the program does not fail on SCENE, 2 usage, 3 bad input.\nExample: sightline reduce "
       "room.off --out small.off -- ./mine --order {}");
-  set_action(*command, [a] { return sightline::app::run(*a); });
+  command.set_action([a] { return run(*a); });
 }
+
+}  // namespace sightline::app

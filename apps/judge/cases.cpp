@@ -137,7 +137,7 @@ judge::Query query_of(const std::string& file, judge::Question question) {
   judge::Query query;
   try {
     std::ifstream in(file);
-    query = judge::query_from_json(nlohmann::json::parse(in));
+    query = judge::query_from_json(parse_json(in));
   } catch (const std::exception& error) {
     throw Usage_error("--ask " + file + ": no query: " + printable(error.what(), 400, true));
   }

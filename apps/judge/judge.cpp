@@ -186,88 +186,83 @@ Exit run(const Judge_arguments& arguments) {
 
 }  // namespace
 
-}  // namespace sightline::app
-
-void add_judge(CLI::App& app) {
-  using namespace sightline::app;
-  CLI::App* command = app.add_subcommand(
+void add_judge(Command program) {
+  const Command command = program.add_command(
       "judge", "Asks somebody else's program many cases, and grades its answers against the exact truth");
   auto a = std::make_shared<Judge_arguments>();
   command
-      ->add_option("--program", a->program,
-                   "its command, with {scene} {query} {answer} where the names of these files belong; quotes hold a "
-                   "word together")
-      ->required();
-  command->add_option("--query", a->query, "what it is asked: order, see (from a point), weak (from a polygon)")
-      ->required()
-      ->check(CLI::IsMember(
+      .add_option("--program", a->program,
+                  "its command, with {scene} {query} {answer} where the names of these files belong; quotes hold a "
+                  "word together")
+      .required();
+  command.add_option("--query", a->query, "what it is asked: order, see (from a point), weak (from a polygon)")
+      .required()
+      .check(one_of(
           std::vector<std::string>(sightline::judge::question_names.begin(), sightline::judge::question_names.end())));
   command
-      ->add_option("--contract", a->contract,
-                   "what it promises: exact (no wrong face), conservative (never hides a visible one), aggressive "
-                   "(never shows a hidden one)")
-      ->required()
-      ->check(CLI::IsMember(
+      .add_option("--contract", a->contract,
+                  "what it promises: exact (no wrong face), conservative (never hides a visible one), aggressive "
+                  "(never shows a hidden one)")
+      .required()
+      .check(one_of(
           std::vector<std::string>(sightline::judge::contract_names.begin(), sightline::judge::contract_names.end())));
   command
-      ->add_option("--families", a->choice.families,
-                   "which families of scenes, with commas (`sightline generate --help` lists them); by default all")
-      ->delimiter(',');
+      .add_option("--families", a->choice.families,
+                  "which families of scenes, with commas (`sightline generate --help` lists them); by default all")
+      .delimiter(',');
   command
-      ->add_option(
+      .add_option(
           "--ulps", a->choice.ulps,
           "how far from their degeneracy, with commas: 0 (exactly there), a number of ulps to either side, or far")
-      ->delimiter(',')
-      ->capture_default_str();
-  command->add_option("--size", a->choice.size, "how large the families' scenes are; 0: small")
-      ->check(whole_number)
-      ->capture_default_str();
-  command->add_option("--scenes", a->choice.scenes, "instead of families: a scene, or a folder of them")
-      ->check(not_empty);
+      .delimiter(',')
+      .show_default();
+  command.add_option("--size", a->choice.size, "how large the families' scenes are; 0: small")
+      .check(whole_number())
+      .show_default();
+  command.add_option("--scenes", a->choice.scenes, "instead of families: a scene, or a folder of them")
+      .check(not_empty());
   command
-      ->add_option(
+      .add_option(
           "--ask", a->choice.ask,
           "with --scenes: a file with the query to ask, as --keep writes it, instead of queries of the judge's own")
-      ->check(not_empty);
-  command->add_option("--cases", a->cases, "of each family at each distance, or of each scene")
-      ->check(whole_number)
-      ->capture_default_str();
-  command->add_option("--seed", a->seed, "of the first case; the next has the next number")
-      ->check(whole_number)
-      ->capture_default_str();
-  command->add_option("--time", a->time, "seconds for a case")
-      ->check(CLI::PositiveNumber & finite_number)
-      ->capture_default_str();
-  command->add_option("--memory", a->memory, "MB for a case")
-      ->check(whole_number)
-      ->check(CLI::Range(1, 1 << 20))
-      ->capture_default_str();
+      .check(not_empty());
+  command.add_option("--cases", a->cases, "of each family at each distance, or of each scene")
+      .check(whole_number())
+      .show_default();
+  command.add_option("--seed", a->seed, "of the first case; the next has the next number")
+      .check(whole_number())
+      .show_default();
+  command.add_option("--time", a->time, "seconds for a case").check(positive() & finite_number()).show_default();
+  command.add_option("--memory", a->memory, "MB for a case")
+      .check(whole_number())
+      .check(range(1, 1 << 20))
+      .show_default();
   command
-      ->add_option("--format", a->format,
-                   "of the scene's file: off, obj, ply, stl with coordinates rounded to doubles, or qoff, exact")
-      ->check(CLI::IsMember({"off", "obj", "ply", "stl", "qoff"}))
-      ->capture_default_str();
-  command->add_flag("--two-sided", a->two_sided, "faces seen from behind count too");
-  command->add_flag("--cycles", a->cycles,
-                    "order: ask also where faces overlap in a cycle, so that some must be drawn in parts");
+      .add_option("--format", a->format,
+                  "of the scene's file: off, obj, ply, stl with coordinates rounded to doubles, or qoff, exact")
+      .check(one_of({"off", "obj", "ply", "stl", "qoff"}))
+      .show_default();
+  command.add_flag("--two-sided", a->two_sided, "faces seen from behind count too");
+  command.add_flag("--cycles", a->cycles,
+                   "order: ask also where faces overlap in a cycle, so that some must be drawn in parts");
   command
-      ->add_option("--budget", a->budget, "seconds for the truth of a weak query; what is undecided then is not judged")
-      ->check(CLI::PositiveNumber & finite_number)
-      ->capture_default_str();
-  command->add_option("--threads", a->threads, "for the truth; 0: one for each processor")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("--json", a->json, "write everything as JSON to this file, - for standard output");
-  command->add_option("--html", a->html, "write a page to look at");
-  command->add_option("--keep", a->keep,
-                      "a folder for the smallest case that breaks the contract: scene, query and answer");
+      .add_option("--budget", a->budget, "seconds for the truth of a weak query; what is undecided then is not judged")
+      .check(positive() & finite_number())
+      .show_default();
+  command.add_option("--threads", a->threads, "for the truth; 0: one for each processor")
+      .check(range(0, 1024))
+      .show_default();
+  command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output");
+  command.add_option("--html", a->html, "write a page to look at");
+  command.add_option("--keep", a->keep,
+                     "a folder for the smallest case that breaks the contract: scene, query and answer");
   command
-      ->add_option("--reduce", a->reduce,
-                   "with --keep: make that case smaller still, for so many seconds, as long as the program breaks the "
-                   "contract in the same way; 0: not at all")
-      ->check(CLI::NonNegativeNumber & finite_number)
-      ->capture_default_str();
-  command->footer(
+      .add_option("--reduce", a->reduce,
+                  "with --keep: make that case smaller still, for so many seconds, as long as the program breaks the "
+                  "contract in the same way; 0: not at all")
+      .check(not_negative() & finite_number())
+      .show_default();
+  command.footer(
       "The program reads the scene and the query, {\"query\": \"see\", \"eye\": [0.5, 2, 1], \"two_sided\": false} or "
       "{\"query\": \"weak\", \"source\": [[0, 0, 1], ...], ...}, and writes the answer:\n"
       "the visible faces, one number a line, faces counted from 0; for order all faces, farthest first. `abstained 7` "
@@ -277,5 +272,7 @@ void add_judge(CLI::App& app) {
       "A wrong face, an answer outside of the protocol and a crash break the contract; to abstain, and to run out of "
       "time or memory, does not. Exit code 1: broken.\n"
       "All of it: harness/judge/README.md.");
-  set_action(*command, [a] { return run(*a); });
+  command.set_action([a] { return run(*a); });
 }
+
+}  // namespace sightline::app

@@ -53,7 +53,7 @@ std::string bar(const Json& row) {
 
 std::string table_row(const Json& row, bool is_total) {
   const auto count = [](const Json& value, bool bad) {
-    return fmt::format("<td{}>{}</td>", bad && value != 0 ? " class=\"bad\"" : "", value == 0 ? "" : value.dump());
+    return fmt::format("<td{}>{}</td>", bad && value != 0 ? " class=\"bad\"" : "", value == 0 ? "" : to_text(value));
   };
   const auto seconds = [&](const char* key) {
     return row["seconds"][key].is_null() ? std::string("<td></td>")

@@ -52,7 +52,7 @@ void print_table(const Json& document) {
                            "max MB");
   const auto print = [&](const Json& r) {
     const Json &cases = r["cases"], &faces = r["faces"];
-    const auto count = [](const Json& value) { return value == 0 ? std::string("-") : value.dump(); };
+    const auto count = [](const Json& value) { return value == 0 ? std::string("-") : to_text(value); };
     const auto seconds = [&](const char* key) {
       return r["seconds"][key].is_null() ? std::string("-") : fmt::format("{:.3f}", r["seconds"][key].get<double>());
     };

@@ -1,22 +1,18 @@
 #pragma once
 // The same tree and the same order by every kernel, behind one interface, so that each kernel is compiled once.
 
-#include "../support/common.h"
+#include "../support/picture.h"
 
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
-#include <sightline/algorithms/verify/order.h>
+
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace sightline::app {
 
 inline const std::vector<std::string> kernel_names{"exact", "epeck", "gmpq", "epick", "double", "float"};
-
-/// A fragment as drawn: where it is, and which part of its face.
-struct Drawn {
-  Order_fragment fragment;   ///< exact vertices; `piece` is the convex piece of the face, as in the certificate
-  std::uint32_t number = 0;  ///< among the fragments of its face
-  Sign side = CGAL::ZERO;    ///< of the eye to the face's front, as the kernel saw it
-};
 
 struct Task {
   Bsp_options bsp;

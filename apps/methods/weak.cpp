@@ -14,22 +14,22 @@ namespace sightline::app {
 
 // ---- What looks
 
-void Source_arguments::add_to(CLI::App& command, const std::string& prefix) {
+void Source_arguments::add_to(Command command, const std::string& prefix) {
   command.add_option("--from-face", faces, prefix + "a face of the scene that looks to its front; may be repeated");
   command
       .add_option("--from", polygons,
                   prefix +
                       "a convex polygon \"X,Y,Z X,Y,Z X,Y,Z ...\", counterclockwise as seen from the side it looks to; "
                       "may be repeated for a region of several")
-      ->check(not_empty);
+      .check(not_empty());
   command
       .add_option("--from-volume", volumes,
                   prefix +
                       "a closed polyhedron, as a file like SCENE: what its surface sees outwards, and the faces that "
                       "it sees from within; may be repeated")
-      ->check(not_empty);
+      .check(not_empty());
   command.add_option("--from-faces", solid, prefix + "the same for faces of the scene that bound a solid, with commas")
-      ->delimiter(',');
+      .delimiter(',');
   command.add_flag("--two-sided", two_sided,
                    prefix + "count faces seen from behind too (they hide what is behind them anyway)");
 }

@@ -18,7 +18,7 @@ struct Source_arguments {
   bool two_sided = false;
 
   /// `prefix`: what the help of each begins with.
-  void add_to(CLI::App& command, const std::string& prefix = "");
+  void add_to(Command command, const std::string& prefix = "");
 };
 
 /// Sources as they were given, and as searches take them; volumes as their surfaces.

@@ -1,34 +1,23 @@
 #pragma once
-// How a command becomes part of the program: each apps/<command>.cpp defines one add_<command>, and main.cpp calls it.
+// How a command becomes part of the program: each apps/<command>.cpp defines one add_<command>, and main.cpp calls it
+// with the program's root.
 
-#include <CLI/CLI.hpp>
+#include "options.h"
 
-#include <functional>
+namespace sightline::app {
 
-/// What the program's exit code says.
-enum class Exit : int {
-  done = 0,
-  disagreement = 1,  ///< a check failed, or methods disagree
-  usage = 2,
-  bad_input = 3,
-  undecided = 4,  ///< the budget ran out
-};
+void add_info(Command program);
+void add_bsp(Command program);
+void add_order(Command program);
+void add_graph(Command program);
+void add_cutset(Command program);
+void add_verify(Command program);
+void add_compare(Command program);
+void add_see(Command program);
+void add_weak(Command program);
+void add_generate(Command program);
+void add_fuzz(Command program);
+void add_reduce(Command program);
+void add_judge(Command program);
 
-/// Lets a command do its work after the whole command line is read; what action returns becomes the program's exit
-/// code. Pre: called once for a command. What action throws is reported and becomes Exit::bad_input, or what main.cpp
-/// says of its kind.
-void set_action(CLI::App& command, std::function<Exit()> action);
-
-void add_info(CLI::App& app);
-void add_bsp(CLI::App& app);
-void add_order(CLI::App& app);
-void add_graph(CLI::App& app);
-void add_cutset(CLI::App& app);
-void add_verify(CLI::App& app);
-void add_compare(CLI::App& app);
-void add_see(CLI::App& app);
-void add_weak(CLI::App& app);
-void add_generate(CLI::App& app);
-void add_fuzz(CLI::App& app);
-void add_reduce(CLI::App& app);
-void add_judge(CLI::App& app);
+}  // namespace sightline::app

@@ -10,21 +10,21 @@
 
 namespace sightline::app {
 
-void Common::add_to(CLI::App& command) {
-  command.add_option("SCENE", scene, "a scene: .obj .off .ply .stl .qoff")->required();
+void Common::add_to(Command command) {
+  command.add_option("SCENE", scene, "a scene: .obj .off .ply .stl .qoff").required();
   command.add_option("--json", json, "write everything as JSON to this file, - for standard output");
   command
       .add_option("--coordinates", coordinates,
                   "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
-      ->check(CLI::IsMember({"exact", "double"}))
-      ->capture_default_str();
+      .check(one_of({"exact", "double"}))
+      .show_default();
   command.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command.add_option("--seed", seed, "of random choices")->check(whole_number)->capture_default_str();
+      .check(range(0, 1024))
+      .show_default();
+  command.add_option("--seed", seed, "of random choices").check(whole_number()).show_default();
   command.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")
-      ->check(CLI::NonNegativeNumber & finite_number)
-      ->capture_default_str();
+      .check(not_negative() & finite_number())
+      .show_default();
 }
 
 std::function<void(std::size_t, std::size_t)> Common::within_budget(
@@ -124,6 +124,9 @@ bool write_json(const Common& common, const std::string& command, const Scene& s
   else write_file(common.json, text);
   return common.json == "-";
 }
+
+std::string to_text(const Json& value, int indent) { return value.dump(indent); }
+nlohmann::json parse_json(std::istream& in) { return nlohmann::json::parse(in); }
 
 void write_file(const std::string& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);

@@ -3,7 +3,6 @@
 
 #include "command.h"
 
-#include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <fmt/format.h>
@@ -25,38 +24,12 @@ struct Common {
   std::uint64_t seed = 1;
   double budget = 0;  ///< seconds; 0: none
 
-  void add_to(CLI::App& command);
+  void add_to(Command command);
   Polygon_soup read() const;
   /// A progress callback that throws Out_of_budget once the seconds are over.
   std::function<void(std::size_t, std::size_t)> within_budget(
       std::function<void(std::size_t, std::size_t)> report) const;
 };
-
-/// The budget ran out: exit code 4.
-struct Out_of_budget : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// A usage error that CLI11 cannot see: exit code 2.
-struct Usage_error : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
-/// Checks that CLI11's own conversions leave out: they wrap -1 to 2^64 - 1, and let nan through every range.
-inline const CLI::Validator whole_number(
-    [](std::string& text) {
-      return !text.empty() && text.size() < 20 && text.find_first_not_of("0123456789") == std::string::npos
-                 ? ""
-                 : '"' + text + "\" is not a whole number below 10^19";
-    },
-    "");
-inline const CLI::Validator finite_number(
-    [](std::string& text) {
-      return text.find_first_of("nN") == std::string::npos ? "" : '"' + text + "\" is not a finite number";
-    },
-    "");
-inline const CLI::Validator not_empty(
-    [](std::string& text) { return text.empty() ? "is empty; leave the option out, or give it a value" : ""; }, "");
 
 /// Numbers with commas between them, exact decimals or p/q. Errors: Usage_error that begins with `wanted`.
 std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted);
@@ -131,6 +104,10 @@ Json point_json(const Exact_point& p);
 /// Writes the JSON document of a command where --json asks for it. Returns whether standard output is taken by it.
 bool write_json(const Common& common, const std::string& command, const Scene& scene, Json result, Json counters,
                 Json seconds);
+/// JSON as text and from text: here, since both take long to compile. `indent` below 0: one line. Errors are the
+/// library's.
+std::string to_text(const Json& value, int indent = -1);
+nlohmann::json parse_json(std::istream& in);
 /// Writes a file, or throws with the reason.
 void write_file(const std::string& path, const std::string& text);
 

@@ -6,7 +6,7 @@
 
 namespace sightline::app {
 
-void add_to(CLI::App& command, Decision_arguments& arguments) {
+void add_to(Command command, Decision_arguments& arguments) {
   command.add_flag(
       "--decision-tree", arguments.wanted,
       "the order of on-view tests that finds all on-view faces with the fewest expected, as a table (up to 24 planes)");
@@ -14,7 +14,7 @@ void add_to(CLI::App& command, Decision_arguments& arguments) {
       .add_option("--likelihood", arguments.likelihood,
                   "with --decision-tree: a file with WEIGHT,FACE,FACE,... a line, the faces that are on-view together; "
                   "without it all views from outside are alike")
-      ->check(not_empty);
+      .check(not_empty());
   command.add_flag("--inside", arguments.inside, "with --decision-tree: no face on-view is possible too, at weight 0");
 }
 

@@ -13,7 +13,7 @@ struct Decision_arguments {
   std::string likelihood;  ///< a file, or empty: all views from open sets of viewpoints alike
 };
 
-void add_to(CLI::App& command, Decision_arguments& arguments);
+void add_to(Command command, Decision_arguments& arguments);
 
 /// The tree of fewest expected tests, and the names of what it tests.
 struct Decisions {

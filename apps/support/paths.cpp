@@ -9,26 +9,26 @@
 
 namespace sightline::app {
 
-void add_to(CLI::App& command, Path_arguments& arguments) {
+void add_to(Command command, Path_arguments& arguments) {
   command
       .add_option("--path", arguments.path,
                   "viewpoints: a file with X,Y,Z a line; X,Y,Z,0 is the direction of a viewpoint at infinity")
-      ->check(not_empty);
+      .check(not_empty());
   command.add_option("--orbit", arguments.orbit, "this many viewpoints on a level circle round the scene")
-      ->check(whole_number & CLI::Range(1, 100'000'000));
+      .check(whole_number() & range(1, 100'000'000));
   command.add_option("--radius", arguments.radius, "of the orbit, in half lengths of the scene's longest side")
-      ->check(CLI::Range(0.0, 1e9) & finite_number)
-      ->capture_default_str();
+      .check(range(0.0, 1e9) & finite_number())
+      .show_default();
   command.add_option("--height", arguments.height, "of the orbit above the scene's centre, in the same unit")
-      ->check(CLI::Range(-1e9, 1e9) & finite_number)
-      ->capture_default_str();
+      .check(range(-1e9, 1e9) & finite_number())
+      .show_default();
   command
       .add_option("--motion", arguments.motion,
                   "the object moves instead: a file with W,X,Y,Z,TX,TY,TZ a line, a quaternion of any length and a "
                   "translation, seen from --eye")
-      ->check(not_empty);
+      .check(not_empty());
   command.add_option("--eye", arguments.eye, "with --motion: the eye X,Y,Z; by default a place outside the scene")
-      ->check(not_empty);
+      .check(not_empty());
 }
 
 void check_usage(const Path_arguments& arguments) {

@@ -16,7 +16,7 @@ struct Path_arguments {
   bool given() const { return !path.empty() || !motion.empty() || orbit > 0; }
 };
 
-void add_to(CLI::App& command, Path_arguments& arguments);
+void add_to(Command command, Path_arguments& arguments);
 /// Errors: Usage_error where there is more than one path.
 void check_usage(const Path_arguments& arguments);
 /// Calls `take` with the numbers of each line; '#' begins a comment, a first line that begins with a letter is a

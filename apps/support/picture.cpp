@@ -22,12 +22,12 @@ static Direction3 parse_direction(const std::string& text, const std::string& op
   return direction;
 }
 
-void View_arguments::add_to(CLI::App& command) {
+void View_arguments::add_to(Command command) {
   command.add_option("--look", look, "direction X,Y,Z of the picture; by default to the centre of the scene");
   command.add_option("--up", up, "up direction X,Y,Z of the picture (0,0,1)");
   command.add_option("--field", field, "width of the picture's view in degrees")
-      ->check(CLI::Range(1.0, 170.0) & finite_number)
-      ->capture_default_str();
+      .check(range(1.0, 170.0) & finite_number())
+      .show_default();
 }
 
 View View_arguments::view(const Exact_point& eye, const Scene& scene) const {

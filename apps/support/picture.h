@@ -1,14 +1,29 @@
 #pragma once
 // A perspective picture of an order, drawn as a painter would.
 
-#include "../methods/methods.h"
+#include "common.h"
 
+#include <sightline/algorithms/verify/covering.h>
 #include <sightline/io/svg.h>
 #include <sightline/kernel/vectors.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
 
 namespace sightline::app {
 
 using Direction3 = std::array<double, 3>;
+
+/// A fragment as drawn: where it is, and which part of its face.
+struct Drawn {
+  Order_fragment fragment;   ///< exact vertices; `piece` is the convex piece of the face, as in the certificate
+  std::uint32_t number = 0;  ///< among the fragments of its face
+  Sign side = CGAL::ZERO;    ///< of the eye to the face's front, as the kernel saw it
+};
 
 /// Where one looks from, and where to.
 struct View {
@@ -24,7 +39,7 @@ struct View_arguments {
   std::string look, up;
   double field = 60;
 
-  void add_to(CLI::App& command);
+  void add_to(Command command);
   /// Aimed, unless the scene is empty. Errors: Usage_error.
   View view(const Exact_point& eye, const Scene& scene) const;
 };

@@ -1,0 +1,127 @@
+#pragma once
+// The command line, over CLI11, which takes seconds to compile: options.cpp alone includes it.
+
+#include <concepts>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace CLI {
+class App;
+class Option;
+class Validator;
+}  // namespace CLI
+
+namespace sightline::app {
+
+/// What the program's exit code says.
+enum class Exit : int {
+  done = 0,
+  disagreement = 1,  ///< a check failed, or methods disagree
+  usage = 2,
+  bad_input = 3,
+  undecided = 4,  ///< the budget ran out
+};
+
+/// The budget ran out: exit code 4.
+struct Out_of_budget : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A usage error that no check of an option can see: exit code 2.
+struct Usage_error : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// What an option asks of each of its values.
+struct Check {
+  std::shared_ptr<const CLI::Validator> validator;
+};
+/// Both are asked, and the message names all that is wrong; of an option's checks one after another, the first.
+Check operator&(const Check& first, const Check& second);
+
+Check one_of(const std::vector<std::string>& names);
+Check range(int least, int most);
+Check range(double least, double most);
+Check positive();
+Check not_negative();
+Check folder();  ///< one that is there
+Check not_empty();
+/// What CLI11's own conversions leave out: they wrap -1 to 2^64 - 1, and let nan through every range.
+Check whole_number();
+Check finite_number();
+
+/// An option of a command, as a handle: copies are the same option. Each change returns the option.
+class Option {
+ public:
+  explicit Option(CLI::Option& option) : option_(&option) {}
+
+  Option required() const;
+  Option check(const Check& check) const;
+  Option show_default() const;  ///< in the help: what its variable holds now
+  Option delimiter(char between) const;
+  Option expected(int least, int most) const;  ///< so many values
+  Option needs(const Option& other) const;
+  Option excludes(const Option& other) const;
+  Option disable_flag_override() const;  ///< of a flag: no --flag=value
+
+  bool given() const;  ///< once the command line is read
+
+ private:
+  CLI::Option* option_;
+};
+
+/// What the variable of an option may be.
+template <class T>
+concept Option_value = std::same_as<T, std::string> || std::same_as<T, int> || std::same_as<T, std::uint32_t> ||
+    std::same_as<T, std::uint64_t> || std::same_as<T, double>;
+
+/// A command, or the program whose commands are added, as a handle: copies are the same command.
+class Command {
+ public:
+  explicit Command(CLI::App& app) : app_(&app) {}
+
+  Command add_command(std::string_view name, std::string_view description) const;
+  /// A name without dashes is that of an argument. Pre: the variable lives until the action is done.
+  template <Option_value T>
+  Option add_option(std::string_view name, T& variable, std::string_view description) const;
+  template <Option_value T>
+  Option add_option(std::string_view name, std::vector<T>& variable, std::string_view description) const;
+  Option add_flag(std::string_view name, bool& variable, std::string_view description) const;
+  /// A name --flag{value} sets the variable to the value.
+  Option add_flag(std::string_view name, std::string& variable, std::string_view description) const;
+  void footer(std::string_view text) const;  ///< of its help
+
+  /// Lets a command do its work after the whole command line is read; what `action` returns becomes the program's exit
+  /// code. Pre: called once for a command.
+  void set_action(std::function<Exit()> action) const;
+
+ private:
+  CLI::App* app_;
+};
+
+/// A program of commands, of which a command line names one.
+class Program {
+ public:
+  Program(std::string_view name, std::string_view description);
+  Program(const Program&) = delete;
+  ~Program();
+
+  Command root() const { return Command(*app_); }
+  void set_version(std::string_view version);  ///< what --version prints after the name
+  /// Reads the command line and does what it asks for. Returns nothing where a command's action was done to its end,
+  /// else the exit code: the action's, or that of what was printed, which is help, the version or a usage error.
+  /// Throws what the action throws.
+  std::optional<Exit> run(int argc, char** argv);
+
+ private:
+  std::string name_;
+  std::unique_ptr<CLI::App> app_;
+};
+
+}  // namespace sightline::app
