@@ -92,7 +92,9 @@ std::vector<Exact_point> vertices(const V& view, const Visible_surface<V>& surfa
 }
 
 // Compiled once, beside what it calls most: in exact_view.cpp. For numbers of CGAL's kernels see kernels.h.
-extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>, const Visible_options&);
-extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, const Visible_options&);
+extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>,
+                                                            const Visible_options&);
+extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&,
+                                                            const Visible_options&);
 
 }  // namespace sightline

@@ -178,6 +178,8 @@ Eye_order<Traits> back_to_front(const Traits& traits, const Priority_tree<Traits
 }
 
 // Compiled once, in eye_order.cpp.
-extern template Eye_order<Exact_traits> back_to_front(const Exact_traits&, const Priority_tree<Exact_traits>&, const Exact_point&, const std::function<void(std::size_t, std::size_t)>&);
+extern template Eye_order<Exact_traits> back_to_front(const Exact_traits&, const Priority_tree<Exact_traits>&,
+                                                      const Exact_point&,
+                                                      const std::function<void(std::size_t, std::size_t)>&);
 
 }  // namespace sightline

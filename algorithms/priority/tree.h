@@ -320,6 +320,8 @@ Priority_tree<Traits> build_priority_tree(const Traits& traits, std::span<const 
 
 // Compiled once, in tree.cpp.
 extern template Priority_tree<Exact_traits> build_priority_tree(const Exact_traits&, const Priority_tree_options&);
-extern template Priority_tree<Exact_traits> build_priority_tree(const Exact_traits&, std::span<const Convex_polygon<Exact_traits>>, std::span<const char>, const Priority_tree_options&);
+extern template Priority_tree<Exact_traits> build_priority_tree(const Exact_traits&,
+                                                                std::span<const Convex_polygon<Exact_traits>>,
+                                                                std::span<const char>, const Priority_tree_options&);
 
 }  // namespace sightline
