@@ -7,9 +7,8 @@ namespace sightline {
 
 /// Marks a counter of which the largest is kept, where others are added.
 struct Largest {};
-inline constexpr Largest largest;
 
-/// A struct with `each(visit)`, which calls visit(key, member), or visit(key, member, largest), for each counter that
+/// A struct with `each(visit)`, which calls visit(key, member), or visit(key, member, Largest{}), for each counter that
 /// several runs have in common. `key`: its name in reports, "" where it is not reported. Members are numbers, or such
 /// structs.
 template <class Type>

@@ -44,7 +44,7 @@ struct Visible_counters {
     visit("cuts", &Visible_counters::splits);
     visit("crossings", &Visible_counters::crossings);
     visit("merged", &Visible_counters::merged);
-    visit("depth", &Visible_counters::depth, largest);
+    visit("depth", &Visible_counters::depth, Largest{});
     visit("", &Visible_counters::predicates);
   }
 };

@@ -4,11 +4,14 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <iterator>
+#include <span>
 #include <utility>
 
 namespace sightline {
-namespace conservative_detail {
+namespace {
 
+/// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between
+/// them, and on no pair of corners does a line pass an edge outside. Exact: yes. Proof: P-70
 bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
                 std::span<const Pluecker> pairs) {
   const int front = side(occluders.plane(piece), source);
@@ -30,13 +33,10 @@ bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_poly
   return true;
 }
 
-}  // namespace conservative_detail
-}  // namespace sightline
-namespace sightline {
+}  // namespace
 
 std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders& occluders, const Weak_source& source,
                                                           std::uint32_t piece, bool two_sided) {
-  using namespace conservative_detail;
   using Kind = Weak_step::Kind;
   const Near_plane& plane = occluders.plane(piece);
   Near_polygon target = occluders.polygon(piece);

@@ -11,7 +11,6 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace sightline {
@@ -21,15 +20,6 @@ struct Conservative_options {
   int threads = 0;                                                  ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
-
-namespace conservative_detail {
-
-/// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between
-/// them, and on no pair of corners does a line pass an edge outside. Exact: yes. Proof: P-70
-bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
-                std::span<const Pluecker> pairs);
-
-}  // namespace conservative_detail
 
 /// The proof that a piece is hidden from a source, where it needs one blocking piece at most: two cuts leave what they
 /// have in front of each other, then that is blocked, or there is nothing. None: it may be visible. Cost: pieces near

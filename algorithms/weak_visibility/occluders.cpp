@@ -1,12 +1,85 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 
 #include <sightline/kernel/predicates.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace sightline {
+namespace {
+
+/// Planes with both polygons on them or in front: through an edge of one and a corner of the other, and around all of
+/// them; less a little.
+std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Near_polygon& t) {
+  std::vector<std::array<double, 4>> planes;
+  constexpr double little = 1e-9;
+  const auto add = [&](Triple n, const Triple& through) {
+    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 1e-150)) return;
+    for (double& x : n) x /= length;
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (const Near_polygon* polygon : {&s, &t})
+      for (const Near_point& p : *polygon) {
+        const double height =
+            n[0] * (p.near[0] - through[0]) + n[1] * (p.near[1] - through[1]) + n[2] * (p.near[2] - through[2]);
+        least = std::min(least, height);
+        most = std::max(most, height);
+      }
+    const double offset = n[0] * through[0] + n[1] * through[1] + n[2] * through[2];
+    if (least > -little) planes.push_back({n[0], n[1], n[2], little - offset});
+    else if (most < little) planes.push_back({-n[0], -n[1], -n[2], little + offset});
+  };
+  for (int turn = 0; turn < 2; ++turn) {
+    const Near_polygon &own = turn == 0 ? s : t, &other = turn == 0 ? t : s;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      const Triple &a = own[i].near, &b = own[(i + 1) % own.size()].near;
+      for (const Near_point& c : other) {
+        add(cross(minus(b, a), minus(c.near, a)), a);
+      }
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) {
+    Triple n{};
+    n[k] = 1;
+    const auto less = [&](const Near_point& a, const Near_point& b) { return a.near[k] < b.near[k]; };
+    add(n,
+        std::min(*std::min_element(s.begin(), s.end(), less), *std::min_element(t.begin(), t.end(), less), less).near);
+    add(n,
+        std::max(*std::max_element(s.begin(), s.end(), less), *std::max_element(t.begin(), t.end(), less), less).near);
+  }
+  // Most of them are given by several corners.
+  std::sort(planes.begin(), planes.end());
+  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
+  return planes;
+}
+
+/// Whether a segment certainly misses a box that its own box meets: a plane along it and an axis has the box on one
+/// side.
+bool misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, double to_boxes) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+    const double nu = q[v] - p[v], nv = p[u] - q[u], pu = p[u] * to_boxes, pv = p[v] * to_boxes;
+    const double middle = nu * ((box.low[u] + box.high[u]) / 2 - pu) + nv * ((box.low[v] + box.high[v]) / 2 - pv);
+    const double reach =
+        std::fabs(nu) * (box.high[u] - box.low[u]) / 2 + std::fabs(nv) * (box.high[v] - box.low[v]) / 2;
+    const double scale = (std::fabs(p[u]) + std::fabs(q[u]) + std::fabs(p[v]) + std::fabs(q[v])) *
+                         (std::fabs(pu) + std::fabs(pv) + std::fabs(box.low[u]) + std::fabs(box.high[u]) +
+                          std::fabs(box.low[v]) + std::fabs(box.high[v]));
+    if (std::fabs(middle) > reach + 0x1p-46 * scale + 0x1p-1000) return true;
+  }
+  return false;
+}
+
+bool same_plane(const Near_plane& g, const Near_plane& h) {
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t k = i + 1; k < 4; ++k)
+      if (g.exact[i] * h.exact[k] != g.exact[k] * h.exact[i]) return false;
+  return true;
+}
+
+}  // namespace
 
 Occluders::Occluders(const Scene& scene) : scene_(&scene), frame_(scene), boxes_(scene) {
   const Predicates predicates = scene.predicates();
@@ -134,72 +207,6 @@ void Occluders::each_box(Open open, Visit visit) const {
   }
 }
 
-std::vector<std::array<double, 4>> Occluders::shaft_planes(const Near_polygon& s, const Near_polygon& t) {
-  std::vector<std::array<double, 4>> planes;
-  constexpr double little = 1e-9;
-  const auto add = [&](Triple n, const Triple& through) {
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    if (!(length > 1e-150)) return;
-    for (double& x : n) x /= length;
-    double least = std::numeric_limits<double>::infinity(), most = -least;
-    for (const Near_polygon* polygon : {&s, &t})
-      for (const Near_point& p : *polygon) {
-        const double height =
-            n[0] * (p.near[0] - through[0]) + n[1] * (p.near[1] - through[1]) + n[2] * (p.near[2] - through[2]);
-        least = std::min(least, height);
-        most = std::max(most, height);
-      }
-    const double offset = n[0] * through[0] + n[1] * through[1] + n[2] * through[2];
-    if (least > -little) planes.push_back({n[0], n[1], n[2], little - offset});
-    else if (most < little) planes.push_back({-n[0], -n[1], -n[2], little + offset});
-  };
-  for (int turn = 0; turn < 2; ++turn) {
-    const Near_polygon &own = turn == 0 ? s : t, &other = turn == 0 ? t : s;
-    for (std::size_t i = 0; i < own.size(); ++i) {
-      const Triple &a = own[i].near, &b = own[(i + 1) % own.size()].near;
-      for (const Near_point& c : other) {
-        const Triple u{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, v{c.near[0] - a[0], c.near[1] - a[1], c.near[2] - a[2]};
-        add({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]}, a);
-      }
-    }
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    Triple n{};
-    n[k] = 1;
-    const auto less = [&](const Near_point& a, const Near_point& b) { return a.near[k] < b.near[k]; };
-    add(n,
-        std::min(*std::min_element(s.begin(), s.end(), less), *std::min_element(t.begin(), t.end(), less), less).near);
-    add(n,
-        std::max(*std::max_element(s.begin(), s.end(), less), *std::max_element(t.begin(), t.end(), less), less).near);
-  }
-  // Most of them are given by several corners.
-  std::sort(planes.begin(), planes.end());
-  planes.erase(std::unique(planes.begin(), planes.end()), planes.end());
-  return planes;
-}
-
-bool Occluders::misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, double to_boxes) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
-    const double nu = q[v] - p[v], nv = p[u] - q[u], pu = p[u] * to_boxes, pv = p[v] * to_boxes;
-    const double middle = nu * ((box.low[u] + box.high[u]) / 2 - pu) + nv * ((box.low[v] + box.high[v]) / 2 - pv);
-    const double reach =
-        std::fabs(nu) * (box.high[u] - box.low[u]) / 2 + std::fabs(nv) * (box.high[v] - box.low[v]) / 2;
-    const double scale = (std::fabs(p[u]) + std::fabs(q[u]) + std::fabs(p[v]) + std::fabs(q[v])) *
-                         (std::fabs(pu) + std::fabs(pv) + std::fabs(box.low[u]) + std::fabs(box.high[u]) +
-                          std::fabs(box.low[v]) + std::fabs(box.high[v]));
-    if (std::fabs(middle) > reach + 0x1p-46 * scale + 0x1p-1000) return true;
-  }
-  return false;
-}
-
-bool Occluders::same_plane(const Near_plane& g, const Near_plane& h) {
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t k = i + 1; k < 4; ++k)
-      if (g.exact[i] * h.exact[k] != g.exact[k] * h.exact[i]) return false;
-  return true;
-}
-
 bool Occluders::meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Near_plane& of_p,
                       const Near_plane& of_q, const Exact_pluecker& pair, const Pluecker& near_pair) const {
   const int at_p = side(planes_[piece], p), at_q = side(planes_[piece], q);
@@ -207,7 +214,7 @@ bool Occluders::meets(std::uint32_t piece, const Near_point& p, const Near_point
   if (at_p * at_q > 0) return false;
   if ((at_p == 0 && same_plane(planes_[piece], of_p)) || (at_q == 0 && same_plane(planes_[piece], of_q))) return false;
   const int from = at_p != 0 ? at_p : -at_q;
-  const double ps = size_of(p), qs = size_of(q);
+  const double ps = sightline::size(p.near), qs = sightline::size(q.near);
   const std::span<const Triple> polygon = corners(piece);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const double value = from * sightline::dot(near_pair, edges(piece)[i]);

@@ -70,18 +70,8 @@ class Occluders {
   template <class Open, class Visit>
   void each_box(Open open, Visit visit) const;
 
-  /// Planes with both polygons on them or in front: through an edge of one and a corner of the other, and around all of
-  /// them; less a little.
-  static std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Near_polygon& t);
-
-  /// Whether a segment certainly misses a box that its own box meets: a plane along it and an axis has the box on one
-  /// side.
-  static bool misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, double to_boxes);
-
-  static bool same_plane(const Near_plane& g, const Near_plane& h);
   bool meets(std::uint32_t piece, const Near_point& p, const Near_point& q, const Near_plane& of_p,
              const Near_plane& of_q, const Exact_pluecker& pair, const Pluecker& near_pair) const;
-  static double size_of(const Near_point& p) { return sightline::size(p.near); }
 
   const Scene* scene_;
   Near_frame frame_;

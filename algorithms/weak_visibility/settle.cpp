@@ -9,10 +9,16 @@
 #include <utility>
 
 namespace sightline {
-namespace settle_detail {
+namespace {
 
-std::vector<Cell> open_cells(const Occluders& occluders, const Weak_source& source, const Weakly_visible::Pair& pair,
-                             std::size_t most) {
+struct Cell {
+  Near_polygon source, target;
+  std::vector<Open_cell::Side> sides;
+};
+
+/// The first open cells of a pair.
+std::vector<Cell> cells_of_proof(const Occluders& occluders, const Weak_source& source,
+                                 const Weakly_visible::Pair& pair, std::size_t most) {
   std::vector<Cell> found;
   std::vector<Cell> waiting{
       {source.polygon, occluders.polygon(pair.piece), {}}};  // the second parts, and the cell at hand on top
@@ -44,9 +50,7 @@ std::vector<Cell> open_cells(const Occluders& occluders, const Weak_source& sour
   return found;
 }
 
-}  // namespace settle_detail
-}  // namespace sightline
-namespace sightline {
+}  // namespace
 
 std::vector<Open_cell> open_cells(const Occluders& occluders, const Weak_source& source,
                                   const Weakly_visible::Pair& pair, std::size_t most) {
@@ -56,7 +60,7 @@ std::vector<Open_cell> open_cells(const Occluders& occluders, const Weak_source&
     return points;
   };
   std::vector<Open_cell> found;
-  for (settle_detail::Cell& cell : settle_detail::open_cells(occluders, source, pair, most))
+  for (Cell& cell : cells_of_proof(occluders, source, pair, most))
     found.push_back({points_of(cell.source), points_of(cell.target), std::move(cell.sides)});
   return found;
 }
@@ -80,7 +84,7 @@ Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source&
                       [](const Near_point& p, const Near_point& q) { return p.exact == q.exact; });
   };
   std::vector<Parts> all;
-  for (settle_detail::Cell& cell : settle_detail::open_cells(occluders, source, pair, pair.answer.proof.size())) {
+  for (Cell& cell : cells_of_proof(occluders, source, pair, pair.answer.proof.size())) {
     if (cell.source.size() < 3 || cell.target.size() < 3) continue;  // no line
     if (std::any_of(all.begin(), all.end(), [&](const Parts& parts) {
           return same(parts.source, cell.source) && same(parts.target, cell.target);

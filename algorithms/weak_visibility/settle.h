@@ -28,18 +28,6 @@ struct Open_cell {
   std::vector<Side> sides;
 };
 
-namespace settle_detail {
-
-struct Cell {
-  Near_polygon source, target;
-  std::vector<Open_cell::Side> sides;
-};
-
-std::vector<Cell> open_cells(const Occluders& occluders, const Weak_source& source, const Weakly_visible::Pair& pair,
-                             std::size_t most);
-
-}  // namespace settle_detail
-
 /// The first open cells of a pair, as many as are asked for, in the order of its search. Degenerate: none where the
 /// pair is decided. Cost: steps of the proof, times its depth. Exact: yes
 std::vector<Open_cell> open_cells(const Occluders& occluders, const Weak_source& source,

@@ -10,6 +10,66 @@
 #include <utility>
 
 namespace sightline {
+namespace {
+
+using Polygon = std::vector<Exact_point>;
+using Exact_plane = std::array<Rational, 4>;
+
+Bsp_options one_thread() {
+  Bsp_options options;
+  options.threads = 1;
+  return options;
+}
+
+Rational height(const Exact_plane& h, const Exact_point& p) {
+  return Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]);
+}
+
+Exact_plane plane_of(const Polygon& polygon) {  // Newell's normal
+  Exact_plane h{0, 0, 0, 0};
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
+    for (std::size_t k = 0; k < 3; ++k) h[k] += part[k];
+  }
+  for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * polygon[0][k];
+  return h;
+}
+
+std::array<Exact_point, 2> box_of(const Polygon& polygon) {
+  std::array<Exact_point, 2> box{polygon[0], polygon[0]};
+  for (const Exact_point& p : polygon)
+    for (std::size_t k = 0; k < 3; ++k) {
+      box[0][k] = std::min(box[0][k], p[k]);
+      box[1][k] = std::max(box[1][k], p[k]);
+    }
+  return box;
+}
+
+bool apart(const std::array<Exact_point, 2>& a, const std::array<Exact_point, 2>& b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) return true;
+  return false;
+}
+
+/// The part of a convex polygon with sign * height >= 0; empty where that has no inside.
+Polygon clipped(const Polygon& polygon, const Exact_plane& h, int sign) {
+  Polygon part;
+  bool beyond = false;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const Rational at = sign * height(h, p), after = sign * height(h, q);
+    beyond |= sgn(at) > 0;
+    if (sgn(at) >= 0) part.push_back(p);
+    if (sgn(at) * sgn(after) >= 0) continue;
+    const Rational share = at / (at - after);
+    Exact_point crossing;
+    for (std::size_t k = 0; k < 3; ++k) crossing[k] = p[k] + share * (q[k] - p[k]);
+    part.push_back(crossing);
+  }
+  return beyond ? part : Polygon{};
+}
+
+}  // namespace
 
 Weak_volume::Weak_volume(const Polygon_soup& soup)
     : scene_(soup), traits_(scene_), tree_(build_bsp(traits_, one_thread())) {
@@ -38,53 +98,6 @@ bool Weak_volume::sees_from_within(const std::vector<Exact_point>& polygon, bool
   const std::vector<Polygon> parts = parts_of(polygon);
   return std::any_of(parts.begin(), parts.end(),
                      [&](const Polygon& part) { return is_inside_beside(part, plane, behind ? -1 : 1); });
-}
-
-Rational Weak_volume::height(const Exact_plane& h, const Exact_point& p) {
-  return Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]);
-}
-
-Weak_volume::Exact_plane Weak_volume::plane_of(const Polygon& polygon) {  // Newell's normal
-  Exact_plane h{0, 0, 0, 0};
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
-    for (std::size_t k = 0; k < 3; ++k) h[k] += part[k];
-  }
-  for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * polygon[0][k];
-  return h;
-}
-
-std::array<Exact_point, 2> Weak_volume::box_of(const Polygon& polygon) {
-  std::array<Exact_point, 2> box{polygon[0], polygon[0]};
-  for (const Exact_point& p : polygon)
-    for (std::size_t k = 0; k < 3; ++k) {
-      box[0][k] = std::min(box[0][k], p[k]);
-      box[1][k] = std::max(box[1][k], p[k]);
-    }
-  return box;
-}
-
-bool Weak_volume::apart(const std::array<Exact_point, 2>& a, const std::array<Exact_point, 2>& b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a[1][k] < b[0][k] || b[1][k] < a[0][k]) return true;
-  return false;
-}
-
-Weak_volume::Polygon Weak_volume::clipped(const Polygon& polygon, const Exact_plane& h, int sign) {
-  Polygon part;
-  bool beyond = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const Rational at = sign * height(h, p), after = sign * height(h, q);
-    beyond |= sgn(at) > 0;
-    if (sgn(at) >= 0) part.push_back(p);
-    if (sgn(at) * sgn(after) >= 0) continue;
-    const Rational share = at / (at - after);
-    Exact_point crossing;
-    for (std::size_t k = 0; k < 3; ++k) crossing[k] = p[k] + share * (q[k] - p[k]);
-    part.push_back(crossing);
-  }
-  return beyond ? part : Polygon{};
 }
 
 std::vector<Weak_volume::Polygon> Weak_volume::parts_of(const Polygon& polygon) const {

@@ -41,18 +41,6 @@ class Weak_volume {
   using Polygon = std::vector<Exact_point>;
   using Exact_plane = std::array<Rational, 4>;
 
-  static Bsp_options one_thread() {
-    Bsp_options options;
-    options.threads = 1;
-    return options;
-  }
-  static Rational height(const Exact_plane& h, const Exact_point& p);
-  static Exact_plane plane_of(const Polygon& polygon);
-  static std::array<Exact_point, 2> box_of(const Polygon& polygon);
-  static bool apart(const std::array<Exact_point, 2>& a, const std::array<Exact_point, 2>& b);
-
-  /// The part of a convex polygon with sign * height >= 0; empty where that has no inside.
-  static Polygon clipped(const Polygon& polygon, const Exact_plane& h, int sign);
   /// A polygon in parts between which the surface may pass, cut by the planes of faces whose boxes meet its own. On
   /// each part, all points right in front are inside, or none; likewise right behind.
   std::vector<Polygon> parts_of(const Polygon& polygon) const;

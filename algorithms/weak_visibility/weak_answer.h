@@ -55,7 +55,7 @@ struct Weak_counters {
     visit("refuted", &Weak_counters::refuted);
     visit("lines", &Weak_counters::lines);
     visit("open", &Weak_counters::open);
-    visit("deepest", &Weak_counters::deepest, largest);
+    visit("deepest", &Weak_counters::deepest, Largest{});
   }
 };
 

@@ -13,21 +13,21 @@
 namespace weak_scenes {
 
 using namespace sightline::generate::weak_drafts;
+using sightline::cross;
 using sightline::Exact_point;
 using sightline::Face_id;
 using sightline::Integer;
+using sightline::minus;
 using sightline::Polygon_soup;
 using sightline::Rational;
 using sightline::generate::along;
 using sightline::generate::at;
 using sightline::generate::centroid;
-using sightline::generate::cross;
 using sightline::generate::either_way;
 using sightline::generate::Faces;
 using sightline::generate::image;
 using sightline::generate::integer;
 using sightline::generate::lattice;
-using sightline::generate::minus;
 using sightline::generate::Points;
 using sightline::generate::project;
 using sightline::generate::Projective_map;

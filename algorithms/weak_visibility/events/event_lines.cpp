@@ -1,6 +1,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 
 #include <utility>
+#include <span>
 
 namespace sightline {
 
@@ -36,6 +37,48 @@ Integer side(const Exact_pluecker& a, const Exact_pluecker& b) {
   return -sum;
 }
 
+namespace {
+
+/// The square of twice a polygon's area. In doubles.
+double area(std::span<const Triple> corners) {
+  Triple sum{};
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    Triple u, v;
+    for (std::size_t k = 0; k < 3; ++k) {
+      u[k] = corners[i][k] - corners[0][k];
+      v[k] = corners[i + 1][k] - corners[0][k];
+    }
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+  }
+  return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
+}
+
+/// 1 where b comes after a in a line's direction, 0 where they are one point.
+int before(const Exact_pluecker& pluecker, const Homogeneous& a, const Homogeneous& b) {
+  Integer sum = 0;
+  for (std::size_t k = 0; k < 3; ++k) sum += pluecker[k] * (b[k] * a[3] - a[k] * b[3]);
+  return sgn(sum) * sgn(a[3]) * sgn(b[3]);
+}
+
+/// The side of a plane on which a polygon is, 0 where it is in the plane, 2 where it is on both sides.
+int position(const Homogeneous& h, const Near_polygon& polygon) {
+  bool front = false, behind = false;
+  for (const Near_point& p : polygon) {
+    const int s = sgn(dot(h, p.exact));
+    front |= s > 0;
+    behind |= s < 0;
+  }
+  return front && behind ? 2 : front ? 1 : behind ? -1 : 0;
+}
+
+/// A corner on that side of a plane. Pre: there is one.
+const Homogeneous& in_front(const Homogeneous& h, const Near_polygon& polygon, int sign) {
+  return std::find_if(polygon.begin(), polygon.end(), [&](const Near_point& p) { return sgn(dot(h, p.exact)) == sign; })
+      ->exact;
+}
+
+}  // namespace
+
 Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
                          const Near_polygon& target, const Near_plane& target_plane, int beside)
     : source_(source),
@@ -65,25 +108,6 @@ Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source,
 bool Event_lines::in_hull(const Line& line, const Homogeneous& x) {
   if (sgn(x[3]) == 0) return false;
   return before(line.pluecker, line.hull[0], x) >= 0 && before(line.pluecker, x, line.hull[1]) >= 0;
-}
-
-double Event_lines::area(std::span<const Triple> corners) {
-  Triple sum{};
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    Triple u, v;
-    for (std::size_t k = 0; k < 3; ++k) {
-      u[k] = corners[i][k] - corners[0][k];
-      v[k] = corners[i + 1][k] - corners[0][k];
-    }
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
-  }
-  return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2];
-}
-
-int Event_lines::before(const Exact_pluecker& pluecker, const Homogeneous& a, const Homogeneous& b) {
-  Integer sum = 0;
-  for (std::size_t k = 0; k < 3; ++k) sum += pluecker[k] * (b[k] * a[3] - a[k] * b[3]);
-  return sgn(sum) * sgn(a[3]) * sgn(b[3]);
 }
 
 std::uint32_t Event_lines::line(Exact_pluecker pluecker) {
@@ -119,21 +143,6 @@ int Event_lines::sense_of(const Homogeneous& a, const Homogeneous& b, std::uint3
 bool Event_lines::is_outside(const Homogeneous& a, const Homogeneous& b) const {
   return (sgn(dot(source_plane(), a)) < 0 && sgn(dot(source_plane(), b)) < 0) ||
          (sgn(dot(target_plane(), a)) * beside_ < 0 && sgn(dot(target_plane(), b)) * beside_ < 0);
-}
-
-int Event_lines::position(const Homogeneous& h, const Near_polygon& polygon) {
-  bool front = false, behind = false;
-  for (const Near_point& p : polygon) {
-    const int s = sgn(dot(h, p.exact));
-    front |= s > 0;
-    behind |= s < 0;
-  }
-  return front && behind ? 2 : front ? 1 : behind ? -1 : 0;
-}
-
-const Homogeneous& Event_lines::in_front(const Homogeneous& h, const Near_polygon& polygon, int sign) {
-  return std::find_if(polygon.begin(), polygon.end(), [&](const Near_point& p) { return sgn(dot(h, p.exact)) == sign; })
-      ->exact;
 }
 
 std::uint32_t Event_lines::trace(const Near_polygon& polygon, const Homogeneous& plane, const Homogeneous& other) {

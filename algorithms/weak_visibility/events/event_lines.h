@@ -11,7 +11,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <span>
 #include <vector>
 
 namespace sightline {
@@ -101,21 +100,12 @@ class Event_lines {
   static bool in_hull(const Line& line, const Homogeneous& x);
 
  private:
-  static double area(std::span<const Triple> corners);
-
-  /// 1 where b comes after a in a line's direction, 0 where they are one point.
-  static int before(const Exact_pluecker& pluecker, const Homogeneous& a, const Homogeneous& b);
-
   /// The line's number, the same for all edges on it.
   std::uint32_t line(Exact_pluecker pluecker);
   std::uint32_t edge(const Homogeneous& a, const Homogeneous& b);
   int sense_of(const Homogeneous& a, const Homogeneous& b, std::uint32_t number) const;
   /// Whether both points are behind the source, or both beyond the target.
   bool is_outside(const Homogeneous& a, const Homogeneous& b) const;
-  /// The side of a plane on which a polygon is, 0 where it is in the plane, 2 where it is on both sides.
-  static int position(const Homogeneous& h, const Near_polygon& polygon);
-  static const Homogeneous& in_front(const Homogeneous& h, const Near_polygon& polygon, int sign);
-
   /// The line in which a piece's plane meets that of the source or the target; where the piece itself crosses, an edge.
   std::uint32_t trace(const Near_polygon& polygon, const Homogeneous& plane, const Homogeneous& other);
 

@@ -7,6 +7,95 @@
 #include <utility>
 
 namespace sightline {
+namespace {
+
+/// Points or planes, each once.
+struct Numbered {
+  std::map<Homogeneous, std::uint32_t, Less_entries> numbers;
+  std::vector<Homogeneous> all;
+  std::uint32_t operator()(Homogeneous h) {
+    make_canonical(h);
+    const auto [at, is_new] = numbers.try_emplace(h, static_cast<std::uint32_t>(all.size()));
+    if (is_new) all.push_back(h);
+    return at->second;
+  }
+};
+
+/// A point that is not in a plane. Pre: the plane is not zero.
+Homogeneous off_plane(const Homogeneous& plane) {
+  Homogeneous x{0, 0, 0, 0};
+  for (std::size_t k = 0; k < 4; ++k)
+    if (sgn(plane[k]) != 0) {
+      x[k] = 1;
+      break;
+    }
+  return x;
+}
+
+/// The plane of two lines that meet; zero where they are one.
+Homogeneous common_plane(const Exact_pluecker& a, const Exact_pluecker& b) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    Homogeneous h{0, 0, 0, 0};
+    h[k] = 1;
+    const Homogeneous at = meet(h, b);
+    if (all_zero(at)) continue;
+    const Homogeneous plane = join(at, a);
+    if (!all_zero(plane)) return plane;
+  }
+  return {0, 0, 0, 0};
+}
+
+/// first + s step
+Homogeneous along(const Homogeneous& first, const Homogeneous& step, const Rational& s) {
+  Homogeneous x;
+  for (std::size_t k = 0; k < 4; ++k) x[k] = first[k] * s.get_den() + step[k] * s.get_num();
+  return x;
+}
+
+/// The side of the point first + s step of a plane.
+Quadratic linear(const Homogeneous& plane, const Homogeneous& first, const Homogeneous& step) {
+  return {{dot(plane, first), dot(plane, step), Integer(0)}};
+}
+
+/// The side of a point of a plane that turns about a line.
+Quadratic linear_at(const Homogeneous& plane, const Homogeneous& turn, const Homogeneous& x) {
+  return {{dot(plane, x), dot(turn, x), Integer(0)}};
+}
+
+/// The lines through ends of two edges.
+std::array<Exact_pluecker, 4> extreme_lines(const Event_lines::Line& a, const Event_lines::Line& b) {
+  return {join(a.hull[0], b.hull[0]), join(a.hull[0], b.hull[1]), join(a.hull[1], b.hull[0]),
+          join(a.hull[1], b.hull[1])};
+}
+
+/// The side of a line that all lines through two edges have inside both; 0 where they differ or are all 0.
+int common_side(const std::array<Exact_pluecker, 4>& extreme, const Exact_pluecker& line) {
+  bool positive = false, negative = false;
+  for (const Exact_pluecker& e : extreme) {
+    const int s = sgn(side(e, line));
+    positive |= s > 0;
+    negative |= s < 0;
+  }
+  return positive == negative ? 0 : positive ? 1 : -1;
+}
+
+/// The parameters in (0, 1) where each of two pairs, ends[0] and ends[1], ends[2] and ends[3], has different signs.
+std::vector<Parameter_range> changing(const std::array<Quadratic, 4>& ends) {
+  std::array<int, 4> sure{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (ends[k].is_zero()) return {};
+    sure[k] = ends[k].certain_sign();
+  }
+  if (sure[0] * sure[1] > 0 || sure[2] * sure[3] > 0) return {};
+  std::vector<Parameter_range> found;
+  for (const Parameter_range& part : divided({Quadratic_root(0), Quadratic_root(1)}, ends)) {
+    const Rational s = inner_rational(part);
+    if (ends[0].sign(s) * ends[1].sign(s) < 0 && ends[2].sign(s) * ends[3].sign(s) < 0) found.push_back(part);
+  }
+  return found;
+}
+
+}  // namespace
 
 Events_answer Event_search::run() {
   counters_->occluders += scene_->blockers().size();
@@ -30,20 +119,12 @@ bool Event_search::in_one_shadow() const {
 }
 
 bool Event_search::pencils() {
-  struct Planes {
-    std::map<Homogeneous, std::uint32_t, Less_entries> numbers;
-    std::vector<Homogeneous> all;
-    std::uint32_t operator()(Homogeneous h) {
-      make_canonical(h);
-      const auto [at, is_new] = numbers.try_emplace(h, static_cast<std::uint32_t>(all.size()));
-      if (is_new) all.push_back(h);
-      return at->second;
-    }
-  } points, planes;
+  Numbered points, planes;
   std::map<std::array<std::uint32_t, 2>, Event_kind> found;
   const auto add = [&](std::uint32_t point, std::uint32_t plane, Event_kind kind) {
     found.try_emplace({point, plane}, kind);
   };
+  // 1. Planes of two edges, and vertices where two edges meet.
   std::set<std::uint32_t> vertices, faces;
   for (std::size_t i = 0; i < lines().size(); ++i)
     for (std::size_t j = i + 1; j < lines().size(); ++j) {
@@ -60,33 +141,26 @@ bool Event_search::pencils() {
       vertices.insert(point);
       add(point, plane, Event_kind::horizon);
     }
+  // 2. Where such a plane meets another edge.
   for (const std::uint32_t plane : faces)
     for (const Line& line : lines()) {
       if (!line.real || line.in_source) continue;
       const Homogeneous at = meet(planes.all[plane], line.pluecker);
       if (!all_zero(at) && Event_lines::in_hull(line, at)) add(points(at), plane, Event_kind::horizon);
     }
+  // 3. Planes through such a vertex and an edge.
   for (const std::uint32_t point : vertices)
     for (const Line& line : lines()) {
       if (!line.real) continue;
       const Homogeneous plane = join(points.all[point], line.pluecker);
       if (!all_zero(plane)) add(point, planes(plane), Event_kind::edge_vertex);
     }
+  // 4. The lines through the point, in the plane.
   for (const auto& [pencil, kind] : found) {
     ++(kind == Event_kind::horizon ? counters_->horizon : counters_->edge_vertex);
     if (search_pencil(points.all[pencil[0]], planes.all[pencil[1]], kind) || out_of_budget()) return true;
   }
   return false;
-}
-
-Homogeneous Event_search::off_plane(const Homogeneous& plane) {
-  Homogeneous x{0, 0, 0, 0};
-  for (std::size_t k = 0; k < 4; ++k)
-    if (sgn(plane[k]) != 0) {
-      x[k] = 1;
-      break;
-    }
-  return x;
 }
 
 bool Event_search::search_pencil(const Homogeneous& vertex, const Homogeneous& plane, Event_kind kind) {
@@ -145,25 +219,6 @@ std::array<Homogeneous, 2> Event_search::section(const Homogeneous& plane) const
   return {source[0].exact, source[0].exact};
 }
 
-Homogeneous Event_search::common_plane(const Exact_pluecker& a, const Exact_pluecker& b) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    Homogeneous x{0, 0, 0, 0}, h{0, 0, 0, 0};
-    x[k] = 1;
-    h[k] = 1;
-    const Homogeneous at = meet(h, b);
-    if (all_zero(at)) continue;
-    const Homogeneous plane = join(at, a);
-    if (!all_zero(plane)) return plane;
-  }
-  return {0, 0, 0, 0};
-}
-
-Homogeneous Event_search::along(const Homogeneous& first, const Homogeneous& step, const Rational& s) {
-  Homogeneous x;
-  for (std::size_t k = 0; k < 4; ++k) x[k] = first[k] * s.get_den() + step[k] * s.get_num();
-  return x;
-}
-
 bool Event_search::reguli() {
   std::vector<std::uint32_t> real;
   for (std::uint32_t k = 0; k < lines().size(); ++k)
@@ -184,7 +239,7 @@ bool Event_search::reguli() {
       for (std::size_t k = j + 1; k < real.size(); ++k) {
         if (!usable[i][k] || !usable[j][k]) continue;
         ++counters_->triple;
-        if (common_sign(extreme, lines()[real[k]].pluecker) != 0) ++counters_->off_edges;
+        if (common_side(extreme, lines()[real[k]].pluecker) != 0) ++counters_->off_edges;
         else if (search_regulus({real[i], real[j], real[k]})) return true;
         if (out_of_budget()) return true;
       }
@@ -192,25 +247,10 @@ bool Event_search::reguli() {
   return false;
 }
 
-std::array<Exact_pluecker, 4> Event_search::extreme_lines(const Line& a, const Line& b) {
-  return {join(a.hull[0], b.hull[0]), join(a.hull[0], b.hull[1]), join(a.hull[1], b.hull[0]),
-          join(a.hull[1], b.hull[1])};
-}
-
-int Event_search::common_sign(const std::array<Exact_pluecker, 4>& extreme, const Exact_pluecker& line) {
-  bool positive = false, negative = false;
-  for (const Exact_pluecker& e : extreme) {
-    const int s = sgn(side(e, line));
-    positive |= s > 0;
-    negative |= s < 0;
-  }
-  return positive == negative ? 0 : positive ? 1 : -1;
-}
-
 bool Event_search::can_pass(const std::array<Exact_pluecker, 4>& extreme, const std::vector<Literal>& literals) const {
   bool positive = false, negative = false;
   for (const Literal& literal : literals) {
-    const int s = literal.sense * common_sign(extreme, lines()[literal.line].pluecker);
+    const int s = literal.sense * common_side(extreme, lines()[literal.line].pluecker);
     positive |= s > 0;
     negative |= s < 0;
   }
@@ -230,23 +270,7 @@ bool Event_search::search_regulus(const std::array<std::uint32_t, 3>& edges) {
   // It touches the second edge where its ends are on both sides of the plane with the third; and so on.
   const std::array<Quadratic, 4> ends{linear_at(c0, c1, b.hull[0]), linear_at(c0, c1, b.hull[1]),
                                       linear_at(b0, b1, c.hull[0]), linear_at(b0, b1, c.hull[1])};
-  std::array<int, 4> sure{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (ends[k].is_zero()) {
-      ++counters_->off_edges;
-      return false;
-    }
-    sure[k] = ends[k].certain_sign();
-  }
-  if (sure[0] * sure[1] > 0 || sure[2] * sure[3] > 0) {
-    ++counters_->off_edges;
-    return false;
-  }
-  std::vector<Parameter_range> touching;
-  for (const Parameter_range& part : divided({Quadratic_root(0), Quadratic_root(1)}, ends)) {
-    const Rational s = inner_rational(part);
-    if (ends[0].sign(s) * ends[1].sign(s) < 0 && ends[2].sign(s) * ends[3].sign(s) < 0) touching.push_back(part);
-  }
+  const std::vector<Parameter_range> touching = changing(ends);
   if (touching.empty()) {
     ++counters_->off_edges;
     return false;
@@ -303,13 +327,7 @@ bool Event_search::never_passes(const Curve& curve, const std::vector<Literal>& 
   return positive && negative;
 }
 
-bool Event_search::search_curve(const Curve& curve, const Parameter_range& range) {
-  std::fill(known_.begin(), known_.end(), char{0});
-  if (never_passes(curve, scene_->from()) || never_passes(curve, scene_->to())) {
-    ++counters_->off_polygons;
-    return false;
-  }
-  // Lines from the source to the target.
+std::vector<Event_search::Active> Event_search::parts_between(const Curve& curve, const Parameter_range& range) {
   std::vector<Quadratic> ends = polynomials(curve, scene_->from());
   const std::vector<Quadratic> at_target = polynomials(curve, scene_->to());
   ends.insert(ends.end(), at_target.begin(), at_target.end());
@@ -319,6 +337,16 @@ bool Event_search::search_curve(const Curve& curve, const Parameter_range& range
     const int turn = common_sign(curve, scene_->from(), s);
     if (turn != 0 && turn == common_sign(curve, scene_->to(), s)) active.push_back({part, turn});
   }
+  return active;
+}
+
+bool Event_search::search_curve(const Curve& curve, const Parameter_range& range) {
+  std::fill(known_.begin(), known_.end(), char{0});
+  if (never_passes(curve, scene_->from()) || never_passes(curve, scene_->to())) {
+    ++counters_->off_polygons;
+    return false;
+  }
+  std::vector<Active> active = parts_between(curve, range);
   if (active.empty()) {
     ++counters_->off_polygons;
     return false;

@@ -125,34 +125,19 @@ class Event_search {
   /// All pencils of lines that touch three edges. Returns whether the search has ended.
   bool pencils();
 
-  static Homogeneous off_plane(const Homogeneous& plane);
-
   bool search_pencil(const Homogeneous& vertex, const Homogeneous& plane, Event_kind kind);
 
   /// The ends of the segment in which a plane meets the source; the same point twice where there is none.
   std::array<Homogeneous, 2> section(const Homogeneous& plane) const;
-  static Quadratic linear(const Homogeneous& plane, const Homogeneous& first, const Homogeneous& step) {
-    return {{dot(plane, first), dot(plane, step), Integer(0)}};
-  }
-  /// The plane of two lines that meet.
-  static Homogeneous common_plane(const Exact_pluecker& a, const Exact_pluecker& b);
-  static Homogeneous along(const Homogeneous& first, const Homogeneous& step, const Rational& s);
 
   // ---- Events on ruled quadrics: three skew edges
 
   bool reguli();
 
-  static std::array<Exact_pluecker, 4> extreme_lines(const Line& a, const Line& b);
-  /// The side of a line that all lines through two edges have inside both; 0 where they differ or are all 0.
-  static int common_sign(const std::array<Exact_pluecker, 4>& extreme, const Exact_pluecker& line);
   /// Whether lines through two edges may have all literals, or all of them reversed.
   bool can_pass(const std::array<Exact_pluecker, 4>& extreme, const std::vector<Literal>& literals) const;
 
   bool search_regulus(const std::array<std::uint32_t, 3>& edges);
-  /// The side of a point of a plane that turns about a line.
-  static Quadratic linear_at(const Homogeneous& plane, const Homogeneous& turn, const Homogeneous& x) {
-    return {{dot(plane, x), dot(turn, x), Integer(0)}};
-  }
 
   // ---- Along an event: active subranges
 
@@ -161,6 +146,9 @@ class Event_search {
   int common_sign(const Curve& curve, const std::vector<Literal>& literals, const Rational& s);
   std::vector<Quadratic> polynomials(const Curve& curve, const std::vector<Literal>& literals);
   bool never_passes(const Curve& curve, const std::vector<Literal>& literals);
+
+  /// The parts of a range with lines from the source to the target.
+  std::vector<Active> parts_between(const Curve& curve, const Parameter_range& range);
 
   /// Looks at a potential event. Returns whether the search has ended.
   bool search_curve(const Curve& curve, const Parameter_range& range);

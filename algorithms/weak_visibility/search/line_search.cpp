@@ -9,6 +9,24 @@
 #include <utility>
 
 namespace sightline {
+namespace {
+
+constexpr std::size_t deepest = 1000;
+// Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many
+// nothing.
+constexpr int forms_after = 2, special_after = 3, smallest = 80;
+constexpr double close = 1e-9;      // to an edge, where its own row of the domain tells more
+constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
+constexpr double thin = 1e-8;       // what doubles leave to exact programs
+
+/// Dear proofs are tried again only once the polygons have become much smaller: after 2, 3, 5, 8, ... steps.
+bool is_worth_it(int narrowed) {
+  int last = 1, next = forms_after;
+  while (next < narrowed) last = std::exchange(next, next + last);
+  return next == narrowed;
+}
+
+}  // namespace
 
 Line_search::Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane,
                          Near_polygon target, std::uint32_t target_piece, const Weak_search_options& options)
@@ -243,6 +261,7 @@ Line_search::Refutation Line_search::bisect(std::uint32_t d, std::size_t depth) 
 
 Line_search::Refutation Line_search::branch(std::uint32_t d, const Candidate& blocker,
                                             const std::vector<Edge_sign>& unknown, std::size_t depth) {
+  // 1. Outside of each edge, then inside of it for those that follow.
   const std::size_t base = path_.size();
   std::vector<Refutation> outside;
   for (const Edge_sign& edge : unknown) {
@@ -259,6 +278,7 @@ Line_search::Refutation Line_search::branch(std::uint32_t d, const Candidate& bl
     if (needless) break;  // it refutes the cell without that edge
     push({edge.line, edge.inside});
   }
+  // 2. Inside of all of them: blocked. Or what an edge did not need.
   Refutation rest;
   if (path_.size() == base + unknown.size() && outside.size() == unknown.size()) {
     ++counters_->blocked;
@@ -273,16 +293,21 @@ Line_search::Refutation Line_search::branch(std::uint32_t d, const Candidate& bl
     outside.pop_back();
   }
   while (path_.size() > base) pop();
-  // Put together from the end; an edge that the rest does without is left out.
+  return put_together(unknown, outside, rest);
+}
+
+Line_search::Refutation Line_search::put_together(const std::vector<Edge_sign>& edges,
+                                                  const std::vector<Refutation>& outside, Refutation rest) {
+  // From the end; an edge that the rest does without is left out.
   for (std::size_t k = outside.size(); k-- > 0;) {
-    const std::size_t place = base + k;
+    const std::size_t place = path_.size() + k;
     if (rest.status == Weak_status::hidden && place < Used().size() && !rest.used[place]) {
       ++counters_->jumps;
       continue;
     }
     const std::array<std::uint32_t, 2> parts =
-        unknown[k].inside > 0 ? std::array{rest.node, outside[k].node} : std::array{outside[k].node, rest.node};
-    nodes_.push_back({{Weak_step::Kind::line, unknown[k].line, {}, {}}, parts});
+        edges[k].inside > 0 ? std::array{rest.node, outside[k].node} : std::array{outside[k].node, rest.node};
+    nodes_.push_back({{Weak_step::Kind::line, edges[k].line, {}, {}}, parts});
     rest.node = static_cast<std::uint32_t>(nodes_.size() - 1);
     rest.used |= outside[k].used;
     if (place < Used().size()) rest.used.reset(place);
@@ -451,12 +476,6 @@ std::vector<Line_weights> Line_search::starts_of(const Line_domain& domain) {
     start.target[heaviest[k].second % n] += 0.8;
   }
   return starts;
-}
-
-bool Line_search::is_worth_it(int narrowed) {
-  int last = 1, next = forms_after;
-  while (next < narrowed) last = std::exchange(next, next + last);
-  return next == narrowed;
 }
 
 bool Line_search::by_lemma(std::uint32_t d, Refutation& ended) {

@@ -81,11 +81,6 @@ class Line_search {
 
   // ---- A cell
 
-  static constexpr std::size_t deepest = 1000;
-  // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many
-  // nothing.
-  static constexpr int forms_after = 2, special_after = 3, smallest = 80;
-
   Refutation refute(std::uint32_t d, std::size_t depth);
 
   Refutation open();
@@ -104,6 +99,8 @@ class Line_search {
   /// The lines that pass the piece outside an edge, edge by edge; what is left is blocked.
   Refutation branch(std::uint32_t d, const Candidate& blocker, const std::vector<Edge_sign>& unknown,
                     std::size_t depth);
+  /// A branching as a node, from what its edges' outsides and the rest came to.
+  Refutation put_together(const std::vector<Edge_sign>& edges, const std::vector<Refutation>& outside, Refutation rest);
 
   void push(const Literal& literal) {
     path_.push_back(literal);
@@ -124,25 +121,20 @@ class Line_search {
   /// The pieces that a line meets, by doubles; only one where that is enough. Close to an edge, its own row of the
   /// domain tells more. Senses are those that the domain has.
   void find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one);
-  static constexpr double close = 1e-9;
   double height_of(Line_domain& domain, std::uint32_t line, const Line_weights& weights) const;
 
   /// The blocker with the fewest edges that are not known to have the line inside; some more are worth it for one that
   /// blocks much. One that is cut first comes last.
   const Candidate* choose(Line_domain& domain, const std::vector<Candidate>& blockers, std::vector<Edge_sign>& unknown);
-  static constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
   std::vector<Edge_sign> signs_of(const Candidate& blocker);
 
   // ---- A line of the cell, or none
 
   enum class Look { found, ended, unclear };
-  static constexpr double thin = 1e-8;  // what doubles leave to exact programs
 
   Look look_for_line(std::uint32_t d, Line_weights& line, Refutation& ended);
   /// From the relaxation's weights, from the middle, and from pairs of vertices that have much weight.
   std::vector<Line_weights> starts_of(const Line_domain& domain);
-  /// Dear proofs are tried again only once the polygons have become much smaller: after 2, 3, 5, 8, ... steps.
-  static bool is_worth_it(int narrowed);
 
   // ---- What is learned
 
