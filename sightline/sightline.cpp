@@ -14,6 +14,9 @@
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/vectors.h>
+
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -45,12 +48,6 @@ class Once {
 };
 
 // ---- Measures: exact vectors, one root at the end
-
-Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// The root of a rational in doubles, where that is within their range, to three units in the last place.
 double root(const Rational& square) { return std::sqrt(nearest_double(square)); }

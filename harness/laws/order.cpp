@@ -6,7 +6,7 @@
 #include <sightline/algorithms/bsp/tree.h>
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/priority/rational_geometry.h>
+
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/algorithms/verify/covering.h>
