@@ -1,6 +1,5 @@
 #include <sightline/algorithms/covering_of_scene.h>
 
-#include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <vector>

@@ -1,21 +1,21 @@
 #include <sightline/kernel/scene/convex_parts.h>
 
+#include <sightline/kernel/scene/planar_pieces.h>
+#include <sightline/kernel/scene/planar_sites.h>
+
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
-#include <CGAL/Interval_nt.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
-#include <CGAL/mpz_class.h>
-#include <CGAL/predicates/kernel_ftC2.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -23,155 +23,24 @@
 
 namespace sightline {
 
-namespace planar {
+namespace {
 
-// A point as the triangulation sees it: bounds of its coordinates after a common translation and scaling, and the exact
-// ones.
-struct Site {
-  CGAL::Interval_nt<false> x = 0.0, y = 0.0;
-  const Planar_point* exact = nullptr;
-};
+using planar::none;
+using planar::Pieces;
+using planar::Site;
+using planar::Traits;
+using Loop = std::vector<std::uint32_t>;
 
-// A model of CGAL's ConstrainedDelaunayTriangulationTraits_2 without constructions: interval first, then GMP. Exact:
-// filtered.
-struct Traits {
-  using Point_2 = Site;
-  struct Segment_2 {};
-  struct Triangle_2 {};
-  struct Construct_segment_2 {};
-  struct Construct_triangle_2 {};
-  struct Construct_point_2 {
-    const Site& operator()(const Site& a) const { return a; }
-  };
-  struct Compare_x_2 {
-    CGAL::Comparison_result operator()(const Site& a, const Site& b) const {
-      return CGAL::sign(cmp(a.exact->x, b.exact->x));
-    }
-  };
-  struct Compare_y_2 {
-    CGAL::Comparison_result operator()(const Site& a, const Site& b) const {
-      return CGAL::sign(cmp(a.exact->y, b.exact->y));
-    }
-  };
-  struct Orientation_2 {
-    CGAL::Orientation operator()(const Site& a, const Site& b, const Site& c) const;
-  };
-  struct Side_of_oriented_circle_2 {
-    CGAL::Oriented_side operator()(const Site& a, const Site& b, const Site& c, const Site& d) const;
-  };
-  Construct_point_2 construct_point_2_object() const { return {}; }
-  Compare_x_2 compare_x_2_object() const { return {}; }
-  Compare_y_2 compare_y_2_object() const { return {}; }
-  Orientation_2 orientation_2_object() const { return {}; }
-  Side_of_oriented_circle_2 side_of_oriented_circle_2_object() const { return {}; }
-};
+// ---- Loops
 
-inline constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
-struct Vertex_number {
-  std::uint32_t value = none;  // place in the list of used points
-};
-struct Face_number {
-  std::uint32_t value = none;
-};
-using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
-    Traits,
-    CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<Vertex_number, Traits>,
-                                         CGAL::Triangulation_face_base_with_info_2<
-                                             Face_number, Traits, CGAL::Constrained_triangulation_face_base_2<Traits>>>,
-    CGAL::No_constraint_intersection_requiring_constructions_tag>;
-
-inline bool same(const Planar_point& a, const Planar_point& b) { return a.x == b.x && a.y == b.y; }
+bool same(const Planar_point& a, const Planar_point& b) { return a.x == b.x && a.y == b.y; }
 
 /// The sign of the turn a, b, c: +1 left, 0 straight or back, -1 right. Exact: yes
-inline int turn(const Planar_point& a, const Planar_point& b, const Planar_point& c) {
+int turn(const Planar_point& a, const Planar_point& b, const Planar_point& c) {
   return sgn(Integer((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)));
 }
 
-/// An interval that holds n / 2^shift. Post: a point where n has at most 53 significant bits and nothing underflows.
-CGAL::Interval_nt<false> interval(const Integer& n, long shift);
-
-using Loop = std::vector<std::uint32_t>;
-
 /// The loop without points that repeat their predecessor (the first follows the last).
-Loop without_repetitions(std::span<const Planar_point> points, const Loop& loop);
-
-/// Whether the loop turns left or goes straight ahead at every point, and round exactly once: the contour of a convex
-/// polygon. Pre: no repetitions. Degenerate: false for fewer than three points and where it turns back. Exact: yes
-bool is_convex_contour(std::span<const Planar_point> points, const Loop& loop);
-
-/// Twice the signed area, positive for counterclockwise. Exact: yes
-Integer twice_area(std::span<const Planar_point> points, const Loop& loop);
-
-/// Turns a piece so that it begins with its least index.
-inline Loop from_least(Loop piece) {
-  std::rotate(piece.begin(), std::min_element(piece.begin(), piece.end()), piece.end());
-  return piece;
-}
-
-/// Convex pieces as rings of half-edges, at first one ring for each triangle.
-struct Pieces {
-  std::vector<std::uint32_t> origin, next, previous, twin;  // twin is none on the polygon's boundary
-  std::vector<bool> alive;
-  const std::vector<Site>& sites;
-
-  std::uint32_t destination(std::uint32_t h) const { return origin[next[h]]; }
-  CGAL::Orientation turn_at(std::uint32_t before, std::uint32_t after) const {
-    return Traits::Orientation_2{}(sites[origin[before]], sites[origin[after]], sites[destination(after)]);
-  }
-
-  /// Removes diagonals until no removal leaves a convex piece (Hertel and Mehlhorn).
-  /// Two convex pieces that touch along a chain of collinear edges are merged across all of it or not at all.
-  /// Post: at most four times as many pieces as an optimal partition of a simple polygon has. Exact: yes
-  void merge();
-
-  /// The rings as loops of places in `sites`; straight corners only where asked for.
-  std::vector<Loop> loops(bool with_straight_corners) const;
-
-  void link(std::uint32_t a, std::uint32_t b) {
-    next[a] = b;
-    previous[b] = a;
-  }
-};
-
-/// convex_parts() and triangles().
-Convex_parts cut(std::span<const Planar_point> points, std::span<const Loop> loops, bool merge);
-
-CGAL::Orientation Traits::Orientation_2::operator()(const Site& a, const Site& b, const Site& c) const {
-  {
-    const CGAL::Protect_FPU_rounding<true> upward;
-    const auto filtered = CGAL::orientationC2(a.x, a.y, b.x, b.y, c.x, c.y);
-    if (CGAL::is_certain(filtered)) return CGAL::get_certain(filtered);
-  }
-  return CGAL::orientationC2(a.exact->x, a.exact->y, b.exact->x, b.exact->y, c.exact->x, c.exact->y);
-}
-
-CGAL::Oriented_side Traits::Side_of_oriented_circle_2::operator()(const Site& a, const Site& b, const Site& c,
-                                                                  const Site& d) const {
-  {
-    const CGAL::Protect_FPU_rounding<true> upward;
-    const auto filtered = CGAL::side_of_oriented_circleC2(a.x, a.y, b.x, b.y, c.x, c.y, d.x, d.y);
-    if (CGAL::is_certain(filtered)) return CGAL::get_certain(filtered);
-  }
-  return CGAL::side_of_oriented_circleC2(a.exact->x, a.exact->y, b.exact->x, b.exact->y, c.exact->x, c.exact->y,
-                                         d.exact->x, d.exact->y);
-}
-
-CGAL::Interval_nt<false> interval(const Integer& n, long shift) {
-  long exponent = 0;
-  const double mantissa = mpz_get_d_2exp(&exponent, n.get_mpz_t());  // truncated; 1/2 <= |mantissa| < 1, or n = 0
-  if (mantissa == 0) return 0.0;
-  exponent -= shift;
-  // Far below the others a number is only "tiny, of this sign": ldexp would lose bits under 2^-1022.
-  constexpr double tiny = 0x1p-900;
-  if (exponent <= -900)
-    return mantissa > 0 ? CGAL::Interval_nt<false>(0.0, tiny) : CGAL::Interval_nt<false>(-tiny, 0.0);
-  const double toward_zero = std::ldexp(mantissa, static_cast<int>(exponent));
-  const long bits = static_cast<long>(bit_length(n));
-  if (bits <= 53 || static_cast<long>(mpz_scan1(n.get_mpz_t(), 0)) >= bits - 53) return toward_zero;
-  const double away = std::nextafter(toward_zero, mantissa > 0 ? HUGE_VAL : -HUGE_VAL);
-  return mantissa > 0 ? CGAL::Interval_nt<false>(toward_zero, away) : CGAL::Interval_nt<false>(away, toward_zero);
-}
-
 Loop without_repetitions(std::span<const Planar_point> points, const Loop& loop) {
   Loop kept;
   for (const std::uint32_t p : loop)
@@ -180,6 +49,8 @@ Loop without_repetitions(std::span<const Planar_point> points, const Loop& loop)
   return kept;
 }
 
+/// Whether the loop turns left or goes straight ahead at every point, and round exactly once: the contour of a convex
+/// polygon. Pre: no repetitions. Degenerate: false for fewer than three points and where it turns back. Exact: yes
 bool is_convex_contour(std::span<const Planar_point> points, const Loop& loop) {
   const std::size_t n = loop.size();
   if (n < 3) return false;
@@ -202,6 +73,7 @@ bool is_convex_contour(std::span<const Planar_point> points, const Loop& loop) {
   return full_turns == 1;
 }
 
+/// Twice the signed area that a loop goes around.
 Integer twice_area(std::span<const Planar_point> points, const Loop& loop) {
   Integer area = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -211,155 +83,142 @@ Integer twice_area(std::span<const Planar_point> points, const Loop& loop) {
   return area;
 }
 
-void Pieces::merge() {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::uint32_t first = 0; first < origin.size(); ++first) {
-      if (!alive[first] || twin[first] == none) continue;
-      if (twin[previous[first]] == next[twin[first]]) continue;  // the chain begins earlier
-      std::uint32_t last = first;
-      while (twin[next[last]] != none && twin[next[last]] == previous[twin[last]]) last = next[last];
-      const std::uint32_t before = previous[first], after = next[last];
-      const std::uint32_t other_before = previous[twin[last]], other_after = next[twin[first]];
-      // Neither angle can reach a full turn, or the chain would be longer: a left turn or straight means at most pi.
-      if (turn_at(before, other_after) == CGAL::RIGHT_TURN || turn_at(other_before, after) == CGAL::RIGHT_TURN)
-        continue;
-      for (std::uint32_t h = first;; h = next[h]) {
-        alive[h] = alive[twin[h]] = false;
-        if (h == last) break;
-      }
-      link(before, other_after);
-      link(other_before, after);
-      changed = true;
-    }
-  }
+/// Turns a piece so that it begins with its least index.
+Loop from_least(Loop piece) {
+  std::rotate(piece.begin(), std::min_element(piece.begin(), piece.end()), piece.end());
+  return piece;
 }
 
-std::vector<Loop> Pieces::loops(bool with_straight_corners) const {
-  std::vector<Loop> result;
-  std::vector<bool> seen(origin.size(), false);
-  for (std::uint32_t start = 0; start < origin.size(); ++start) {
-    if (!alive[start] || seen[start]) continue;
-    Loop& piece = result.emplace_back();
-    for (std::uint32_t h = start; !seen[h]; h = next[h]) {
-      seen[h] = true;
-      if (with_straight_corners || turn_at(previous[h], h) != CGAL::COLLINEAR) piece.push_back(origin[h]);
-    }
-  }
-  return result;
-}
-
-Convex_parts cut(std::span<const Planar_point> points, std::span<const Loop> loops, bool merge) {
-  Convex_parts result;
-
-  // Clean the loops, turn the holes clockwise.
+/// The loops without repetitions, holes clockwise. Errors: std::out_of_range where one uses a point that is not there.
+std::vector<Loop> cleaned(std::span<const Planar_point> points, std::span<const Loop> loops) {
   std::vector<Loop> contour;
-  std::vector<std::uint32_t> used;
   for (std::size_t k = 0; k < loops.size(); ++k) {
     for (const std::uint32_t p : loops[k])
       if (p >= points.size())
         throw std::out_of_range("loop " + std::to_string(k) + " uses point " + std::to_string(p) + " of " +
                                 std::to_string(points.size()));
-    Loop loop = without_repetitions(points, loops[k]);
-    if (k == 0 && loops.size() == 1) {
-      // Quick exits.
-      if (loop.size() < 3) return result;
-      if ((merge || loop.size() == 3) && is_convex_contour(points, loop)) {
-        // As everywhere, the least of the indices with equal coordinates stands for all: here they can only be
-        // neighbours.
-        Loop least = loop;
-        for (std::size_t i = 0, j = 0; i < loops[0].size(); ++i) {
-          if (!same(points[loops[0][i]], points[loop[j]])) j = j + 1 == loop.size() ? 0 : j + 1;
-          least[j] = std::min(least[j], loops[0][i]);
-        }
-        Loop piece;
-        for (std::size_t i = 0, n = loop.size(); i < n; ++i)
-          if (turn(points[loop[i == 0 ? n - 1 : i - 1]], points[loop[i]], points[loop[i + 1 == n ? 0 : i + 1]]) != 0)
-            piece.push_back(least[i]);
-        result.contour = Contour::simple;
-        result.pieces.push_back(from_least(std::move(piece)));
-        return result;
-      }
-      if (loop.size() == 3) {
-        if (turn(points[loop[0]], points[loop[1]], points[loop[2]]) != 0)
-          result.contour = Contour::self_intersecting;  // clockwise
-        return result;
-      }
-    }
+    Loop& loop = contour.emplace_back(without_repetitions(points, loops[k]));
     if (k > 0 && sgn(twice_area(points, loop)) > 0) std::reverse(loop.begin(), loop.end());
-    used.insert(used.end(), loops[k].begin(), loops[k].end());
-    contour.push_back(std::move(loop));
   }
+  return contour;
+}
+
+/// The points that loops use, each once, in ascending order.
+std::vector<std::uint32_t> used_by(std::span<const Loop> loops) {
+  std::vector<std::uint32_t> used;
+  for (const Loop& loop : loops) used.insert(used.end(), loop.begin(), loop.end());
   std::sort(used.begin(), used.end());
   used.erase(std::unique(used.begin(), used.end()), used.end());
-  if (used.size() < 3) return result;
+  return used;
+}
 
-  // Bound the coordinates: relative to the first point, scaled so that all lie in [-1, 1].
-  std::vector<Site> sites(used.size());
-  {
-    const Planar_point& base = points[used[0]];
-    std::size_t bits = 0;
-    Integer x, y;
-    for (const std::uint32_t p : used) {
-      x = points[p].x - base.x;
-      y = points[p].y - base.y;
-      bits = std::max({bits, bit_length(x), bit_length(y)});
-    }
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      x = points[used[i]].x - base.x;
-      y = points[used[i]].y - base.y;
-      sites[i] = {interval(x, static_cast<long>(bits)), interval(y, static_cast<long>(bits)), &points[used[i]]};
-    }
-  }
+// ---- What takes no triangulation
 
-  // Insert the points along a space-filling curve (the order matters for speed only, so rounded coordinates will do).
-  Triangulation triangulation;
-  std::vector<Triangulation::Vertex_handle> vertex(used.size());
-  {
-    using Rounded = CGAL::Simple_cartesian<double>;
-    std::vector<Rounded::Point_2> rounded(used.size());
-    std::vector<std::size_t> order(used.size());
-    for (std::size_t i = 0; i < used.size(); ++i) {
-      order[i] = i;
-      rounded[i] = Rounded::Point_2(sites[i].x.inf(), sites[i].y.inf());
-    }
-    CGAL::spatial_sort(order.begin(), order.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Rounded, CGAL::Pointer_property_map<Rounded::Point_2>::type>(
-                           CGAL::make_property_map(rounded)));
-    Triangulation::Face_handle near;
-    for (const std::size_t i : order) {
-      vertex[i] = triangulation.insert(sites[i], near);
-      vertex[i]->info().value = std::min(vertex[i]->info().value, static_cast<std::uint32_t>(i));
-      near = vertex[i]->face();
-    }
+/// A convex contour as one piece. `given`: as it was before repetitions were dropped from `loop`.
+Convex_parts one_piece(std::span<const Planar_point> points, const Loop& given, const Loop& loop) {
+  // As everywhere, the least of the indices with equal coordinates stands for all: here they can only be neighbours.
+  Loop least = loop;
+  for (std::size_t i = 0, j = 0; i < given.size(); ++i) {
+    if (!same(points[given[i]], points[loop[j]])) j = j + 1 == loop.size() ? 0 : j + 1;
+    least[j] = std::min(least[j], given[i]);
   }
-  if (triangulation.dimension() < 2) return result;  // all points on a line
+  Loop piece;
+  for (std::size_t i = 0, n = loop.size(); i < n; ++i)
+    if (turn(points[loop[i == 0 ? n - 1 : i - 1]], points[loop[i]], points[loop[i + 1 == n ? 0 : i + 1]]) != 0)
+      piece.push_back(least[i]);
+  return {Contour::simple, {from_least(std::move(piece))}};
+}
+
+/// The parts of a polygon without holes, where it is convex or has at most three corners.
+std::optional<Convex_parts> at_a_glance(std::span<const Planar_point> points, const Loop& given, const Loop& loop,
+                                        bool merge) {
+  if (loop.size() < 3) return Convex_parts{};
+  if ((merge || loop.size() == 3) && is_convex_contour(points, loop)) return one_piece(points, given, loop);
+  if (loop.size() > 3) return std::nullopt;
+  const bool clockwise = turn(points[loop[0]], points[loop[1]], points[loop[2]]) != 0;
+  return Convex_parts{clockwise ? Contour::self_intersecting : Contour::zero_area, {}};
+}
+
+// ---- The contour in a triangulation of its points
+
+struct Vertex_number {
+  std::uint32_t value = none;  // place in the list of sites
+};
+struct Face_number {
+  std::uint32_t value = none;
+};
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<
+    Traits,
+    CGAL::Triangulation_data_structure_2<CGAL::Triangulation_vertex_base_with_info_2<Vertex_number, Traits>,
+                                         CGAL::Triangulation_face_base_with_info_2<
+                                             Face_number, Traits, CGAL::Constrained_triangulation_face_base_2<Traits>>>,
+    CGAL::No_constraint_intersection_requiring_constructions_tag>;
+
+/// Inserts the sites along a space-filling curve: the order matters for speed only, so rounded coordinates will do.
+/// Returns the vertex of each; sites in one place have one, which knows the first of them.
+std::vector<Triangulation::Vertex_handle> insert_points(Triangulation& triangulation, const std::vector<Site>& sites) {
+  using Rounded = CGAL::Simple_cartesian<double>;
+  std::vector<Rounded::Point_2> rounded(sites.size());
+  std::vector<std::size_t> order(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    order[i] = i;
+    rounded[i] = Rounded::Point_2(sites[i].x.inf(), sites[i].y.inf());
+  }
+  CGAL::spatial_sort(order.begin(), order.end(),
+                     CGAL::Spatial_sort_traits_adapter_2<Rounded, CGAL::Pointer_property_map<Rounded::Point_2>::type>(
+                         CGAL::make_property_map(rounded)));
+  std::vector<Triangulation::Vertex_handle> vertex(sites.size());
+  Triangulation::Face_handle near;
+  for (const std::size_t i : order) {
+    vertex[i] = triangulation.insert(sites[i], near);
+    vertex[i]->info().value = std::min(vertex[i]->info().value, static_cast<std::uint32_t>(i));
+    near = vertex[i]->face();
+  }
+  return vertex;
+}
+
+using Edges = std::vector<std::array<Triangulation::Vertex_handle, 2>>;
+
+/// The contour's edges as pairs of vertices: those that close a loop come last.
+Edges edges_of(const std::vector<Loop>& contour, const std::vector<std::uint32_t>& used,
+               const std::vector<Triangulation::Vertex_handle>& vertex) {
   const auto vertex_of = [&](std::uint32_t p) {
-    return vertex[static_cast<std::size_t>(std::lower_bound(used.begin(), used.end(), p) - used.begin())];
+    const auto place = std::lower_bound(used.begin(), used.end(), p);
+    return vertex[static_cast<std::size_t>(place - used.begin())];
   };
-  const auto for_each_edge = [&](auto&& visit) {
-    for (const Loop& loop : contour)
-      for (std::size_t i = 0; i + 1 < loop.size(); ++i) visit(vertex_of(loop[i]), vertex_of(loop[i + 1]));
-    for (const Loop& loop : contour)
-      if (loop.size() > 1) visit(vertex_of(loop.back()), vertex_of(loop.front()));
-  };
+  Edges edges;
+  for (const Loop& loop : contour)
+    for (std::size_t i = 0; i + 1 < loop.size(); ++i) edges.push_back({vertex_of(loop[i]), vertex_of(loop[i + 1])});
+  for (const Loop& loop : contour)
+    if (loop.size() > 1) edges.push_back({vertex_of(loop.back()), vertex_of(loop.front())});
+  return edges;
+}
 
-  // Force the contour's edges. All points are there already, so only a crossing elsewhere can stop it.
+/// Forces the edges into the triangulation. All points are there already, so only a crossing elsewhere can stop it:
+/// then false.
+bool force(Triangulation& triangulation, const Edges& edges) {
   try {
-    for_each_edge([&](auto a, auto b) { triangulation.insert_constraint(a, b); });
+    for (const auto& [a, b] : edges) triangulation.insert_constraint(a, b);
   } catch (const Triangulation::Intersection_of_constraints_exception&) {
-    result.contour = Contour::self_intersecting;
-    return result;
+    return false;
   }
+  return true;
+}
 
-  // Count how often the contour has each triangle on its left, along each side: +1 forth, -1 back.
+/// Numbers the triangles, the infinite ones too.
+std::vector<Triangulation::Face_handle> numbered_faces(Triangulation& triangulation) {
   std::vector<Triangulation::Face_handle> faces;
   for (auto f = triangulation.all_faces_begin(); f != triangulation.all_faces_end(); ++f) {
     f->info().value = static_cast<std::uint32_t>(faces.size());
     faces.push_back(f);
   }
-  std::vector<std::array<int, 3>> runs(faces.size(), {0, 0, 0});
-  for_each_edge([&](auto a, auto b) {
+  return faces;
+}
+
+/// How often the contour has each triangle on its left, along each side: +1 forth, -1 back.
+std::vector<std::array<int, 3>> count_runs(const Triangulation& triangulation, const Edges& edges, std::size_t faces) {
+  std::vector<std::array<int, 3>> runs(faces, {0, 0, 0});
+  for (auto [a, b] : edges)
     while (a != b) {
       Triangulation::Vertex_handle stop;
       Triangulation::Face_handle f;
@@ -372,9 +231,14 @@ Convex_parts cut(std::span<const Planar_point> points, std::span<const Loop> loo
       runs[g->info().value][static_cast<std::size_t>(triangulation.mirror_index(f, i))] -= sense;
       a = stop;
     }
-  });
+  return runs;
+}
 
-  // Spread the winding numbers from the outside: one more on the left of each run than on its right.
+/// Spreads the winding numbers from the outside: one more on the left of each run than on its right. Returns which
+/// triangles have 1, or nothing where one has neither 0 nor 1.
+std::optional<std::vector<bool>> wound_once(const Triangulation& triangulation,
+                                            const std::vector<Triangulation::Face_handle>& faces,
+                                            const std::vector<std::array<int, 3>>& runs) {
   constexpr int unknown = std::numeric_limits<int>::min();
   std::vector<int> winding(faces.size(), unknown);
   std::vector<std::uint32_t> to_visit{triangulation.infinite_face()->info().value};
@@ -386,21 +250,25 @@ Convex_parts cut(std::span<const Planar_point> points, std::span<const Loop> loo
       const std::uint32_t g = faces[f]->neighbor(i)->info().value;
       if (winding[g] != unknown) continue;
       winding[g] = winding[f] - runs[f][static_cast<std::size_t>(i)];
-      if (winding[g] != 0 && winding[g] != 1) {
-        result.contour = Contour::self_intersecting;
-        return result;
-      }
+      if (winding[g] != 0 && winding[g] != 1) return std::nullopt;
       to_visit.push_back(g);
     }
   }
+  std::vector<bool> once(faces.size());
+  for (std::size_t f = 0; f < faces.size(); ++f) once[f] = winding[f] == 1;
+  return once;
+}
 
-  // Take the triangles inside, merge them, name their corners.
+// ---- Pieces
+
+/// The chosen triangles, a ring each.
+Pieces rings_of(const Triangulation& triangulation, const std::vector<Triangulation::Face_handle>& faces,
+                const std::vector<bool>& chosen, const std::vector<Site>& sites) {
   std::vector<std::uint32_t> place(faces.size(), none);
-  std::uint32_t inside = 0;
+  std::uint32_t count = 0;
   for (std::size_t f = 0; f < faces.size(); ++f)
-    if (winding[f] == 1) place[f] = inside++;
-  if (inside == 0) return result;
-  const std::size_t sides = 3 * std::size_t{inside};
+    if (chosen[f]) place[f] = count++;
+  const std::size_t sides = 3 * std::size_t{count};
   Pieces pieces{std::vector<std::uint32_t>(sides), std::vector<std::uint32_t>(sides),
                 std::vector<std::uint32_t>(sides), std::vector<std::uint32_t>(sides, none),
                 std::vector<bool>(sides, true),    sites};
@@ -414,25 +282,54 @@ Convex_parts cut(std::span<const Planar_point> points, std::span<const Loop> loo
       if (g != none) pieces.twin[h] = 3 * g + static_cast<std::uint32_t>(triangulation.mirror_index(faces[f], i));
     }
   }
-  if (merge) pieces.merge();
-  result.contour = Contour::simple;
-  result.pieces = pieces.loops(!merge);
-  for (Loop& piece : result.pieces) {
-    for (std::uint32_t& corner : piece) corner = used[corner];
-    piece = from_least(std::move(piece));
-  }
-  std::sort(result.pieces.begin(), result.pieces.end());
-  return result;
+  return pieces;
 }
 
-}  // namespace planar
+/// The rings in lexicographic order, by indices of points.
+std::vector<Loop> named(std::vector<Loop> rings, const std::vector<std::uint32_t>& used) {
+  for (Loop& ring : rings) {
+    for (std::uint32_t& corner : ring) corner = used[corner];
+    ring = from_least(std::move(ring));
+  }
+  std::sort(rings.begin(), rings.end());
+  return rings;
+}
+
+/// convex_parts() and triangles().
+Convex_parts cut(std::span<const Planar_point> points, std::span<const Loop> loops, bool merge) {
+  const std::vector<Loop> contour = cleaned(points, loops);
+  if (loops.size() == 1)
+    if (std::optional<Convex_parts> parts = at_a_glance(points, loops[0], contour[0], merge)) return *std::move(parts);
+  const std::vector<std::uint32_t> used = used_by(loops);
+  if (used.size() < 3) return {};
+
+  const std::vector<Site> sites = planar::sites_of(points, used);
+  Triangulation triangulation;
+  const std::vector<Triangulation::Vertex_handle> vertex = insert_points(triangulation, sites);
+  if (triangulation.dimension() < 2) return {};  // all points on a line
+
+  const Convex_parts crossed{Contour::self_intersecting, {}};
+  const Edges edges = edges_of(contour, used, vertex);
+  if (!force(triangulation, edges)) return crossed;
+  const std::vector<Triangulation::Face_handle> faces = numbered_faces(triangulation);
+  const std::optional<std::vector<bool>> inside =
+      wound_once(triangulation, faces, count_runs(triangulation, edges, faces.size()));
+  if (!inside) return crossed;
+  if (std::find(inside->begin(), inside->end(), true) == inside->end()) return {};
+
+  Pieces pieces = rings_of(triangulation, faces, *inside, sites);
+  if (merge) pieces.merge();
+  return {Contour::simple, named(pieces.loops(!merge), used)};
+}
+
+}  // namespace
 
 Convex_parts convex_parts(std::span<const Planar_point> points, std::span<const std::vector<std::uint32_t>> loops) {
-  return planar::cut(points, loops, true);
+  return cut(points, loops, true);
 }
 
 Convex_parts triangles(std::span<const Planar_point> points, std::span<const std::vector<std::uint32_t>> loops) {
-  return planar::cut(points, loops, false);
+  return cut(points, loops, false);
 }
 
 }  // namespace sightline

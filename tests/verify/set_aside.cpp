@@ -88,6 +88,10 @@ TEST(Set_aside, as_self_intersecting) {
   expect_rejected(alone({at(0, 0, 0), at(1, 0, 0), at(3, 0, 0), at(2, 0, 0)}, why), "but is not");
   expect_rejected(alone({}, why), "but is not");
   expect_rejected(alone({at(0, 0, 0), at(2, 2, 0), at(2, 0, 1), at(0, 2, 0)}, why), "is not planar");
+  // Two edges cross in a corner of the contour, which goes back from there on half of each: a keyhole in an L.
+  const Points spikes = {at(0, -2, 0), at(0, 2, 0),  at(0, 0, 0),   at(-2, 0, 0), at(2, 0, 0),
+                         at(2, 3, 0),  at(-3, 3, 0), at(-3, -3, 0), at(0, -3, 0)};
+  expect_rejected(alone(spikes, why), "but is not");
   // A fold that runs along edges: no proper crossing, winding number -1 beside the plot.
   expect_accepted(alone(
       {at(0, 0, 0), at(4, 0, 0), at(6, 0, 0), at(6, -1, 0), at(4, -1, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)}, why));

@@ -1,0 +1,355 @@
+#include <sightline/kernel/scene/face_cutter.h>
+
+#include <sightline/kernel/fixed_integer.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/scene/convex_parts.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <type_traits>
+#include <utility>
+
+namespace sightline {
+
+namespace {
+
+// ---- Vectors of grid coordinates
+
+template <class Number>
+using Vector = std::array<Number, 3>;
+
+template <class Number>
+Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
+  return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
+}
+
+template <class Number>
+Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+template <class Number>
+Number dot(const Vector<Number>& a, const Vector<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class Number>
+bool is_zero(const Vector<Number>& a) {
+  return a[0] == 0 && a[1] == 0 && a[2] == 0;
+}
+
+/// The axes by the size of the vector along them, largest first; of equal ones, the first.
+template <class Number>
+std::array<std::size_t, 3> axes_by_size(const Vector<Number>& n) {
+  const auto size = [&](std::size_t k) { return n[k] < 0 ? Number(-n[k]) : n[k]; };
+  std::array<std::size_t, 3> axes{0, 1, 2};
+  std::stable_sort(axes.begin(), axes.end(), [&](std::size_t a, std::size_t b) { return size(b) < size(a); });
+  return axes;
+}
+
+template <class Number>
+std::size_t dominant(const Vector<Number>& n) {
+  const auto size = [&](std::size_t k) { return n[k] < 0 ? Number(-n[k]) : n[k]; };
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (size(axis) < size(k)) axis = k;
+  return axis;
+}
+
+/// A projection along an axis: the two axes that are left, in which the front's counterclockwise is the plane's.
+struct Projection {
+  std::size_t axis;
+  bool mirrored;
+  int i() const { return static_cast<int>((axis + (mirrored ? 2 : 1)) % 3); }
+  int j() const { return static_cast<int>((axis + (mirrored ? 1 : 2)) % 3); }
+};
+
+template <class Number>
+Projection along(std::size_t axis, const Vector<Number>& normal) {
+  return {axis, normal[axis] < 0};
+}
+
+/// Convex parts of a face in a projection, as loops of its points.
+struct Parts {
+  Contour contour;
+  std::vector<Point_loop> pieces;
+};
+
+Plane interned(Plane_table& planes, const Vector<__int128>& n, __int128 d) {
+  const auto fits = [](__int128 x) { return x < (__int128{1} << 62) + 1 && x > -(__int128{1} << 62) - 1; };
+  if (fits(n[0]) && fits(n[1]) && fits(n[2]))
+    return planes.intern(static_cast<std::int64_t>(n[0]), static_cast<std::int64_t>(n[1]),
+                         static_cast<std::int64_t>(n[2]), d);
+  const auto wide = [](__int128 x) {
+    const Limb limbs[2] = {static_cast<Limb>(x), static_cast<Limb>(x >> 64)};
+    return from_limbs(limbs, 2);
+  };
+  return planes.intern(wide(n[0]), wide(n[1]), wide(n[2]), wide(d));
+}
+
+Plane interned(Plane_table& planes, const Vector<Fixed_integer<4>>& n, const Fixed_integer<4>& d) {
+  const auto wide = [](const Fixed_integer<4>& x) { return from_limbs(x.limbs(), 4); };
+  return planes.intern(wide(n[0]), wide(n[1]), wide(n[2]), wide(d));
+}
+
+Plane interned(Plane_table& planes, const Vector<Integer>& n, const Integer& d) {
+  return planes.intern(n[0], n[1], n[2], d);
+}
+
+// ---- One face
+
+/// Cuts a face in the given number type.
+template <class Number>
+class Cutter {
+ public:
+  Cutter(const Grid_points& points, Face_id face, const std::vector<Point_loop>& loops, Scene_faces& faces)
+      : points_(points), face_(face), loops_(loops), outer_(loops[0]), faces_(faces) {}
+
+  std::optional<Set_aside_reason> cut() {
+    const Vector<Number> normal = area_vector(outer_);
+    if (outer_.size() == 3 && loops_.size() == 1) {
+      if (is_zero(normal)) return Set_aside_reason::zero_area;
+      add_piece(normal, outer_);
+      return std::nullopt;
+    }
+    if (loops_.size() > 1) ++faces_.counters.with_holes;
+    if (all_collinear()) return Set_aside_reason::zero_area;
+    if (!is_zero(normal)) return all_in_plane(normal) ? cut_planar(normal) : cut_non_planar(normal);
+    const Vector<Number> across = any_normal();
+    return all_in_plane(across) ? flaw_of_flat(across) : cut_non_planar(normal);
+  }
+
+ private:
+  // ---- The three kinds of faces
+
+  /// Of a contour in a plane that goes back on all its edges, or of one that crosses itself.
+  Set_aside_reason flaw_of_flat(const Vector<Number>& normal) const {
+    const Parts parts = parts_in({dominant(normal), false}, convex_parts);
+    return parts.contour == Contour::zero_area ? Set_aside_reason::zero_area : Set_aside_reason::self_intersecting;
+  }
+
+  std::optional<Set_aside_reason> cut_planar(const Vector<Number>& normal) {
+    const Projection projection = along(dominant(normal), normal);
+    if (Point_loop corners; loops_.size() == 1 && is_convex(projection, corners)) {
+      add_piece(normal, corners);
+      return std::nullopt;
+    }
+    const Parts parts = parts_in(projection, convex_parts);
+    if (parts.contour == Contour::zero_area) return Set_aside_reason::zero_area;
+    if (parts.contour == Contour::self_intersecting) return Set_aside_reason::self_intersecting;
+    ++faces_.counters.concave;
+    faces_.concave.push_back(face_);
+    for (const Point_loop& piece : parts.pieces) add_piece(normal, piece);
+    return std::nullopt;
+  }
+
+  /// In a projection where the contour is simple, a triangulation of it is one of the face: along the dominant axis, or
+  /// else another. Else the fan of the first vertex, as most programs draw it; but that knows no holes.
+  std::optional<Set_aside_reason> cut_non_planar(const Vector<Number>& normal) {
+    if (!cut_along_an_axis(normal)) {
+      if (loops_.size() > 1) return Set_aside_reason::no_simple_projection;
+      if (!cut_as_fan()) return Set_aside_reason::zero_area;  // spikes only
+      ++faces_.counters.fanned;
+    }
+    ++faces_.counters.non_planar;
+    faces_.non_planar.push_back(face_);
+    return std::nullopt;
+  }
+
+  bool cut_along_an_axis(const Vector<Number>& normal) {
+    for (const std::size_t axis : axes_by_size(normal)) {
+      const Projection projection = along(axis, normal);
+      if (normal[axis] == 0 || hides_a_point(projection)) continue;
+      const Parts parts = parts_in(projection, triangles);
+      if (parts.contour != Contour::simple || !has_boundary(parts, axis)) continue;
+      for (const Point_loop& triangle : parts.pieces) add_piece(area_vector(triangle), triangle);
+      return true;
+    }
+    return false;
+  }
+
+  bool cut_as_fan() {
+    for (std::size_t i = 2; i < outer_.size(); ++i) {
+      const Point_loop triangle{outer_[0], outer_[i - 1], outer_[i]};
+      const Vector<Number> n = area_vector(triangle);
+      if (!is_zero(n)) add_piece(n, triangle);
+    }
+    return number_ > 0;
+  }
+
+  // ---- In space
+
+  Vector<Number> at(std::uint32_t p) const {
+    const auto coordinate = [&](int k) -> Number {
+      if constexpr (std::is_same_v<Number, Integer>) return points_.integer(p, k);
+      else if constexpr (std::is_same_v<Number, __int128>) return points_.small(p, k);
+      else return Number(points_.coordinate(p, k), points_.limbs());
+    };
+    return {coordinate(0), coordinate(1), coordinate(2)};
+  }
+  Vector<Number> edge(std::uint32_t p, std::uint32_t q) const { return difference(at(q), at(p)); }
+
+  /// Twice the area vector of a loop.
+  Vector<Number> area_vector(const Point_loop& loop) const {
+    Vector<Number> sum{};
+    if (loop.size() < 3) return sum;
+    const Vector<Number> origin = at(loop[0]);
+    Vector<Number> before = difference(at(loop[1]), origin);
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+      const Vector<Number> next = difference(at(loop[i]), origin);
+      const Vector<Number> part = cross(before, next);
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+      before = next;
+    }
+    return sum;
+  }
+
+  /// Whether the contour has no points off a line.
+  bool all_collinear() const {
+    if (outer_.size() < 3) return true;
+    const Vector<Number> first = edge(outer_[0], outer_[1]);
+    return std::all_of(outer_.begin(), outer_.end(),
+                       [&](std::uint32_t p) { return is_zero(cross(first, edge(outer_[0], p))); });
+  }
+
+  /// Of a plane that holds the contour, if one does. Pre: !all_collinear().
+  Vector<Number> any_normal() const {
+    const Vector<Number> first = edge(outer_[0], outer_[1]);
+    Vector<Number> normal{};
+    for (std::size_t i = 2; is_zero(normal); ++i) normal = cross(first, edge(outer_[0], outer_[i]));
+    return normal;
+  }
+
+  bool all_in_plane(const Vector<Number>& normal) const {
+    const Vector<Number> origin = at(outer_[0]);
+    return std::all_of(loops_.begin(), loops_.end(), [&](const Point_loop& loop) {
+      return std::all_of(loop.begin(), loop.end(),
+                         [&](std::uint32_t p) { return dot(normal, difference(at(p), origin)) == 0; });
+    });
+  }
+
+  // ---- In a projection
+
+  /// Whether the contour is a convex polygon walked once counterclockwise; `corners` then are its vertices that are not
+  /// straight.
+  bool is_convex(const Projection& projection, Point_loop& corners) const {
+    struct Step {
+      Number x, y;
+    };
+    const auto i = static_cast<std::size_t>(projection.i()), j = static_cast<std::size_t>(projection.j());
+    const auto step = [&](std::uint32_t p, std::uint32_t q) {
+      const Vector<Number> e = edge(p, q);
+      return Step{e[i], e[j]};
+    };
+    const auto upward = [](const Step& e) { return e.y > 0 || (e.y == 0 && e.x > 0); };
+    int turns_of_direction = 0;  // between the upper and the lower half plane of directions: 2 for one round
+    corners.clear();
+    Step before = step(outer_.back(), outer_.front());
+    for (std::size_t k = 0; k < outer_.size(); ++k) {
+      const Step after = step(outer_[k], outer_[k + 1 == outer_.size() ? 0 : k + 1]);
+      const Number turn = before.x * after.y - before.y * after.x;
+      if (turn < 0) return false;
+      if (turn == 0 && before.x * after.x + before.y * after.y < 0) return false;  // a spike
+      if (turn > 0) corners.push_back(outer_[k]);
+      turns_of_direction += upward(before) != upward(after);
+      before = after;
+    }
+    return turns_of_direction == 2 && corners.size() >= 3;
+  }
+
+  /// Whether two different points of the loops have one projection.
+  bool hides_a_point(const Projection& projection) const {
+    std::map<std::array<Integer, 2>, std::uint32_t> seen;
+    for (const Point_loop& loop : loops_)
+      for (const std::uint32_t p : loop) {
+        const std::array<Integer, 2> place{points_.integer(p, projection.i()), points_.integer(p, projection.j())};
+        if (seen.try_emplace(place, p).first->second != p) return true;
+      }
+    return false;
+  }
+
+  /// `cut_plane`: convex_parts() or triangles().
+  template <class Cut>
+  Parts parts_in(const Projection& projection, Cut cut_plane) const {
+    std::vector<Planar_point> planar;
+    std::vector<std::uint32_t> ids;
+    std::vector<Point_loop> indices;
+    for (const Point_loop& loop : loops_) {
+      Point_loop& index = indices.emplace_back();
+      for (const std::uint32_t p : loop) {
+        index.push_back(static_cast<std::uint32_t>(planar.size()));
+        planar.push_back({points_.integer(p, projection.i()), points_.integer(p, projection.j())});
+        ids.push_back(p);
+      }
+    }
+    Convex_parts parts = cut_plane(planar, indices);
+    for (Point_loop& piece : parts.pieces)
+      for (std::uint32_t& corner : piece) corner = ids[corner];
+    return {parts.contour, std::move(parts.pieces)};
+  }
+
+  /// Whether the pieces' directed edges add up to those of the loops: in a projection an edge-on part of a non-planar
+  /// face can get lost.
+  bool has_boundary(const Parts& parts, std::size_t axis) const {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> net;
+    const auto add = [&](const Point_loop& loop, int sign) {
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        const std::uint32_t p = loop[i], q = loop[i + 1 == loop.size() ? 0 : i + 1];
+        net[std::minmax(p, q)] += p < q ? sign : -sign;
+      }
+    };
+    for (const Point_loop& piece : parts.pieces) add(piece, 1);
+    const auto sense = [&](const Point_loop& loop) {
+      const Number area = area_vector(loop)[axis];
+      return area < 0 ? -1 : area == 0 ? 0 : 1;
+    };  // holes run against the contour; triangles() leaves one without area here as it is, and the contour has some
+    for (const Point_loop& loop : loops_) add(loop, &loop != &outer_ && sense(loop) == sense(outer_) ? 1 : -1);
+    return std::all_of(net.begin(), net.end(), [](const auto& entry) { return entry.second == 0; });
+  }
+
+  // ---- Pieces
+
+  /// Adds a convex piece. Each edge is bounded by the plane through it parallel to the dominant axis of the normal:
+  /// half as many bits as a face plane, and one plane for edges that project to one line. With s the sign of
+  /// normal[axis], (s unit x edge) points inward, since (s unit x edge) . (normal x edge) = s normal[axis] |edge|^2 >
+  /// 0. Proof: P-05
+  void add_piece(const Vector<Number>& normal, const Point_loop& loop) {
+    const Vector<Number> origin = at(loop[0]);
+    const Plane support = interned(faces_.planes, normal, Number(-dot(normal, origin)));
+    const std::size_t axis = dominant(normal);
+    Vector<Number> unit{};
+    unit[axis] = normal[axis] < 0 ? -1 : 1;
+    faces_.pieces.push_back({face_, number_++, support, static_cast<std::uint32_t>(faces_.corners.size()),
+                             static_cast<std::uint32_t>(loop.size())});
+    Vector<Number> from = origin;
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Vector<Number> to = at(loop[k + 1 == loop.size() ? 0 : k + 1]);
+      const Vector<Number> inward = cross(unit, difference(to, from));
+      faces_.corners.push_back({loop[k], interned(faces_.planes, inward, Number(-dot(inward, from)))});
+      from = to;
+    }
+  }
+
+  const Grid_points& points_;
+  const Face_id face_;
+  const std::vector<Point_loop>& loops_;
+  const Point_loop& outer_;
+  Scene_faces& faces_;
+  std::uint32_t number_ = 0;  // of the next piece
+};
+
+}  // namespace
+
+std::optional<Set_aside_reason> cut_face(const Grid_points& points, Face_id f, const std::vector<Point_loop>& loops,
+                                         Scene_faces& faces) {
+  // The narrowest of three number types. In g-bit coordinates a normal has 2 g + 2 bits, a normal times a difference
+  // 3 g + 6, and the area vector of a loop of up to 2^28 corners 28 more: 30 bits fit 128, 72 bits fit 256.
+  if (points.bits() <= 30) return Cutter<__int128>(points, f, loops, faces).cut();
+  if (points.bits() <= 72) return Cutter<Fixed_integer<4>>(points, f, loops, faces).cut();
+  return Cutter<Integer>(points, f, loops, faces).cut();
+}
+
+}  // namespace sightline
