@@ -120,7 +120,7 @@ Answer answer(const Posed_scene& posed) {
   tracker.move_to({posed.eye});
   Answer answer;
   answer.labels.assign(posed.soup.face_count(), Answer::none);
-  answer.planar = scene.non_planar().empty();
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
     std::uint32_t& label = answer.labels[scene.pieces()[i].face];
     label = (label == Answer::none ? 0u : label) | (tracker.on_view(graph.node(i)) ? 1u : 0u);

@@ -57,7 +57,7 @@ Answer answer_of(const Polygon_soup& soup, const Scene& scene, const Priority_co
   Answer answer;
   answer.labels.assign(soup.face_count(), Answer::none);
   answer.is_partition = true;
-  answer.planar = scene.non_planar().empty();
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
     answer.whole = answer.whole && scene.pieces()[i].number == 0;
     answer.labels[scene.pieces()[i].face] = found.h(i);

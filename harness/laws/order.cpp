@@ -82,7 +82,7 @@ Answer by_tree(const Posed_scene& posed, const Scene& scene, const Traits& trait
   if (counters != nullptr) *counters = tree.counters;
   Answer answer;
   answer.labels.assign(posed.soup.face_count(), Answer::none);
-  answer.planar = scene.non_planar().empty();
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
   Order order(scene, posed.eye);
   traverse(
       traits, tree, traits.eye(posed.eye), Direction::back_to_front,

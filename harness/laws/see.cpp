@@ -44,7 +44,7 @@ template <class Surface>
 Answer labels_of(const Posed_scene& posed, const Scene& scene, const Surface& surface) {
   Answer answer;
   answer.labels.assign(posed.soup.face_count(), Answer::none);
-  answer.planar = scene.non_planar().empty();
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
   for (const Piece& piece : scene.pieces()) answer.labels[piece.face] = 0;
   for (const Face_id face : surface.visible) answer.labels[face] |= 1;
   for (const Face_id face : surface.from_behind) answer.labels[face] |= 2;

@@ -26,8 +26,8 @@ struct Answer {
 
   std::vector<std::uint32_t> labels;  ///< by face, or `none`
   bool is_partition = false;          ///< labels only say which faces are together
-  bool planar = true;         ///< whether no face had to be triangulated, so that the scene is the same wherever it is
-  bool whole = true;          ///< whether each kept face is one convex piece
+  bool planar = true;  ///< whether no face had to be cut along an axis, so that the scene is the same wherever it is
+  bool whole = true;   ///< whether each kept face is one convex piece
   std::size_t undecided = 0;  ///< faces
   std::string flaw;           ///< what is wrong with the answer by itself: its certificate was rejected; empty: nothing
 };

@@ -43,7 +43,7 @@ template <class Found>
 Answer labels_of(const Polygon_soup& soup, const Scene& scene, const Found& found) {
   Answer answer;
   answer.labels.assign(soup.face_count(), Answer::none);
-  answer.planar = scene.non_planar().empty();
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
   for (const Face_id face : found.visible) answer.labels[face] = 1;
   for (const Face_id face : found.hidden) answer.labels[face] = 0;
   answer.undecided = found.undecided.size();
