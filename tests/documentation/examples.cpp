@@ -99,6 +99,8 @@ void judge_views(const sightline::Scene& scene, const sightline::Exact_point& ey
 
 #include <sightline/algorithms/verify/certificate_json.h>  // or order.h, without JSON
 
+#include <nlohmann/json.hpp>
+
 #include <fstream>
 #include <iostream>
 
