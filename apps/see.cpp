@@ -7,6 +7,7 @@
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/kernels.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

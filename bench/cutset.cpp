@@ -88,13 +88,13 @@ Run run(const Polygon_soup& soup, std::uint64_t circle) {
   constexpr std::size_t thirds = 3, third = 360;  // the fastest third counts: others may have been interrupted
   const std::vector<Viewpoint> path = orbit(scene, 1 + thirds * third, circle);
   Run r{};
-  const std::uint64_t before = bench::process_memory("VmRSS");
+  const std::uint64_t before = process_memory("self", "VmRSS");
   const double start = bench::now();
   const Face_graph graph(scene);
   Cut_set_tracker tracker(traits, graph);
   r.build = bench::now() - start;
   r.nodes = graph.size();
-  r.peak = bench::process_memory("VmRSS") - before;
+  r.peak = process_memory("self", "VmRSS") - before;
   tracker.move_to(path[0]);
   r.first_tests = tracker.last().tests;
   std::vector<std::size_t> counts{tracker.on_view_count()};

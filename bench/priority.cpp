@@ -34,16 +34,16 @@ Run run_implicit(const Scene& scene) {
   const Exact_traits traits(scene);
   Run best{};
   for (int repeat = 0; repeat < 3; ++repeat) {
-    const std::uint64_t before = bench::process_memory("VmRSS");
+    const Peak_memory memory;
     const double start = bench::now();
     const Faces faces(traits);
     Implicit_priority_graph<Faces> graph(faces);
     const double prepared = bench::now();
     const Priority_components found = components(graph);
     const double end = bench::now();
-    const std::uint64_t peak = bench::process_memory("VmHWM");
+    const std::uint64_t peak = memory.bytes();
     if (repeat > 0 && end - start >= best.prepare + best.search) continue;
-    const std::uint64_t added = repeat == 0 ? (peak > before ? peak - before : 0) : best.peak;
+    const std::uint64_t added = repeat == 0 ? peak : best.peak;
     best = {prepared - start,
             end - prepared,
             faces.size(),
@@ -59,24 +59,22 @@ Run run_implicit(const Scene& scene) {
 
 Run run_explicit(const Scene& scene) {
   const Exact_traits traits(scene);
-  const std::uint64_t before = bench::process_memory("VmRSS");
+  const Peak_memory memory;
   const double start = bench::now();
   const Faces faces(traits);
   const Explicit_priority_graph graph(faces);
   const double prepared = bench::now();
   const Priority_components found = components(graph);
   const double end = bench::now();
-  return {prepared - start,       end - prepared,
-          faces.size(),           found.size(),
-          found.largest(),        0,
-          graph.counters().pairs, bench::process_memory("VmHWM") - before};
+  return {prepared - start,       end - prepared, faces.size(), found.size(), found.largest(), 0,
+          graph.counters().pairs, memory.bytes()};
 }
 
 /// A tree that cuts nothing (or cuts until no cycle is left), and an order of what is on-view from an eye in the middle
 /// of the scene. `components`: planes; `largest`: faces left in cycles, or cuts.
 Run run_tree(const Scene& scene, bool split) {
   const Exact_traits traits(scene);
-  const std::uint64_t before = bench::process_memory("VmRSS");
+  const Peak_memory memory;
   const double start = bench::now();
   const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {false, split, {}});
   const double built = bench::now();
@@ -87,14 +85,9 @@ Run run_tree(const Scene& scene, bool split) {
   back_to_front(traits, tree, eye);
   const double end = bench::now();
   const Priority_tree_counters& c = tree.counters;
-  return {built - start,
-          end - built,
-          traits.piece_count(),
-          c.planes,
-          split ? c.splits : c.left,
-          c.search.nodes,
-          c.search.relation.pairs,
-          bench::process_memory("VmHWM") - before};
+  return {
+      built - start,           end - built,   traits.piece_count(), c.planes, split ? c.splits : c.left, c.search.nodes,
+      c.search.relation.pairs, memory.bytes()};
 }
 
 /// Disjoint convex bodies of about 100 faces in the cells of a cubic lattice, in random order.

@@ -39,11 +39,11 @@ static Run run(const Scene& scene, const Traits& traits, int threads) {
   for (int repeat = 0; repeat < 3; ++repeat) {
     Bsp_options options;
     options.threads = threads;
-    const std::uint64_t before = bench::process_memory("VmRSS");
+    const Peak_memory memory;
     const double start = bench::now();
     const auto tree = build_bsp(traits, options);
     const double build = bench::now() - start;
-    const std::uint64_t peak = bench::process_memory("VmHWM");
+    const std::uint64_t peak = memory.bytes();
     const auto box = scene.box();
     const double order_start = bench::now();
     std::uint64_t visited = 0;
@@ -51,14 +51,8 @@ static Run run(const Scene& scene, const Traits& traits, int threads) {
     const double order = bench::now() - order_start;
     const Bsp_counters& c = tree.counters;
     if (repeat == 0)
-      best = {build,
-              order,
-              c.pieces,
-              c.fragments,
-              c.splits,
-              c.depth,
-              peak > before ? peak - before : 0,
-              c.predicates.fixed + c.predicates.gmp,
+      best = {build,          order,   c.pieces, c.fragments,
+              c.splits,       c.depth, peak,     c.predicates.fixed + c.predicates.gmp,
               c.polygon_tests};
     best.build = std::min(best.build, build);
     best.order = std::min(best.order, order);

@@ -102,7 +102,7 @@ struct Scaling {
 Scaling measure_scaling(const Scene& scene, const Exact_point& eye) {
   Scaling r{};
   r.same = true;
-  const std::uint64_t before = bench::process_memory("VmRSS");
+  const Peak_memory memory;
   const double start = bench::now();
   const double processor_start = processor_seconds();
   const Piece_boxes boxes(scene);
@@ -120,8 +120,8 @@ Scaling measure_scaling(const Scene& scene, const Exact_point& eye) {
     const auto surface = timed(r.exact, [&] { return look(1); });
     best(r.one_thread, bench::now() - one);
     if (turn == 0) {
-      const std::uint64_t peak = bench::process_memory("VmHWM");
-      r.bytes = peak > before ? peak - before : 0;
+      const std::uint64_t peak = memory.bytes();
+      r.bytes = peak;
       r.visible = seen_by(surface).size();
       r.parts = surface.parts.size();
       const Predicate_counts& c = surface.counters.predicates;

@@ -26,8 +26,6 @@ Rational value_of(const Number& number) {
   return std::get<Rational>(number);
 }
 
-}  // namespace sightline
-namespace sightline {
 namespace detail {
 
 Number wide_decimal(bool negative, const std::string& digits, int exponent) {
@@ -57,9 +55,6 @@ std::string not_a_decimal(std::string_view token) {
 }
 
 }  // namespace detail
-}  // namespace sightline
-namespace sightline {
-
 Number parse_decimal(const Text_reader& text, std::string_view token) {
   const char* p = token.data();
   const char* const end = p + token.size();
@@ -157,8 +152,6 @@ Number parse_rational(const Text_reader& text, std::string_view token) {
   }
 }
 
-}  // namespace sightline
-namespace sightline {
 namespace detail {
 
 std::optional<double> nearest_double_of_short(Decimal decimal) {
@@ -186,9 +179,6 @@ std::optional<double> nearest_double_of_short(Decimal decimal) {
 }
 
 }  // namespace detail
-}  // namespace sightline
-namespace sightline {
-
 double nearest_double(const Number& number) {
   if (const auto* decimal = std::get_if<Decimal>(&number))
     if (const std::optional<double> rounded = detail::nearest_double_of_short(*decimal)) return *rounded;

@@ -33,8 +33,6 @@ std::vector<Rational> numbers_in(std::string_view text, const std::string& wante
   return numbers;
 }
 
-}  // namespace sightline
-namespace sightline {
 namespace detail {
 
 bool is_header(std::string_view line) {
@@ -44,9 +42,6 @@ bool is_header(std::string_view line) {
 }
 
 }  // namespace detail
-}  // namespace sightline
-namespace sightline {
-
 void read_number_lines(const Input& input, const std::string& wanted,
                        const std::function<bool(const std::vector<Rational>&)>& take) {
   Text_reader reader(input, Text_reader::Comments::hash);

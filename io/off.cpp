@@ -7,8 +7,7 @@
 #include <utility>
 #include <variant>
 
-namespace sightline {
-namespace detail {
+namespace sightline::detail {
 
 bool Common_denominator::include(const Integer& denominator) {
   if (bit_length(denominator) > largest_common_denominator_bits) return false;  // at once, however long it is
@@ -132,5 +131,4 @@ void write_off(const Polygon_soup& soup, std::ostream& out, bool rational) {
   }
 }
 
-}  // namespace detail
-}  // namespace sightline
+}  // namespace sightline::detail

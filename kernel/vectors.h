@@ -22,10 +22,9 @@ std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Num
   return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]), Number(a[0] * b[1] - a[1] * b[0])};
 }
 
-/// Pre: a number with sgn(), as rationals and integers are.
 template <class Number>
 bool is_zero(const std::array<Number, 3>& a) {
-  return sgn(a[0]) == 0 && sgn(a[1]) == 0 && sgn(a[2]) == 0;
+  return a[0] == 0 && a[1] == 0 && a[2] == 0;
 }
 
 }  // namespace sightline

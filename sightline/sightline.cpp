@@ -323,8 +323,8 @@ Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector
   const auto found = std::make_shared<Weakly_visible>(weakly_visible(occluders, polygons, options));
   Events_options events;
   events.threads = asking.threads;
-  constexpr std::size_t most_edges = 300;  // more take events longer than anybody waits; they stay undecided
-  settle_by_events(occluders, polygons, most_edges, events, *found);
+  events.progress = asking.progress;
+  settle_by_events(occluders, polygons, usual_event_edges, events, *found);
   Weak_visibility answer;
   answer.visible = found->visible;
   answer.hidden = found->hidden;

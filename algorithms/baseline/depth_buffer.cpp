@@ -8,14 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <sightline/kernel/number.h>
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <stdexcept>
-#include <utility>
-
 namespace sightline {
 
 namespace depth_buffer_detail {
@@ -65,13 +57,6 @@ class Rasterizer {
   std::size_t side_;
   float scale_, shift_;  // depth of w: scale + shift / w
 };
-
-}  // namespace depth_buffer_detail
-
-}  // namespace sightline
-
-namespace sightline {
-namespace depth_buffer_detail {
 
 void Rasterizer::draw(std::uint32_t piece, std::vector<Corner> polygon) {
   const auto all = [&](auto outside) { return std::all_of(polygon.begin(), polygon.end(), outside); };
@@ -153,9 +138,6 @@ std::uint32_t Rasterizer::stored(float z) const {
 }
 
 }  // namespace depth_buffer_detail
-}  // namespace sightline
-namespace sightline {
-
 Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Depth_buffer_options& options) {
   if (options.size < 1 || options.size > 16384 || options.bits < 1 || options.bits > 32)
     throw std::invalid_argument("a depth buffer has 1 to 16384 pixels a side and 1 to 32 bits");

@@ -13,4 +13,6 @@ Cut_set_counters& Cut_set_counters::operator+=(const Cut_set_counters& other) {
   return *this;
 }
 
+template class Cut_set_tracker<Exact_traits>;
+
 }  // namespace sightline

@@ -8,6 +8,7 @@
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/face_graph.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <algorithm>
 #include <cmath>
@@ -315,5 +316,7 @@ class Cut_set_tracker {
   Cut_set_counters last_, counters_;
   Predicate_counts predicates_;
 };
+
+extern template class Cut_set_tracker<Exact_traits>;  // compiled once
 
 }  // namespace sightline

@@ -29,4 +29,7 @@ bool Explicit_priority_graph::has_arc(std::uint32_t i, std::uint32_t j) const {
   return std::binary_search(begin, end, j);
 }
 
+template Explicit_priority_graph::Explicit_priority_graph(const Priority_relation<Exact_traits>&,
+                                                          const std::function<void(std::size_t, std::size_t)>&);
+
 }  // namespace sightline

@@ -64,4 +64,7 @@ class Explicit_priority_graph {
 
 static_assert(Priority_graph<Explicit_priority_graph>);
 
+extern template Explicit_priority_graph::Explicit_priority_graph(
+    const Priority_relation<Exact_traits>&, const std::function<void(std::size_t, std::size_t)>&);  // compiled once
+
 }  // namespace sightline

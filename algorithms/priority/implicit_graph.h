@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/priority/components.h>
 #include <sightline/algorithms/priority/index.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -139,5 +140,7 @@ template <class Relation>
 Priority_components components(Implicit_priority_graph<Relation>& graph) {
   return graph.find_components();
 }
+
+extern template class Implicit_priority_graph<Priority_relation<Exact_traits>>;  // compiled once
 
 }  // namespace sightline

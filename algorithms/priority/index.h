@@ -8,6 +8,7 @@
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/vectors.h>
 #include <sightline/kernel/vertex.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <algorithm>
 #include <array>
@@ -403,5 +404,7 @@ class Priority_index {
   std::vector<char> dead_;
   std::vector<Node> nodes_;
 };
+
+extern template class Priority_index<Exact_traits>;  // compiled once
 
 }  // namespace sightline

@@ -14,8 +14,6 @@ std::optional<bool> Pair_code::first_is_nearer(const Exact_point& eye) const {
   return side == 0 ? std::nullopt : std::optional(side > 0);
 }
 
-}  // namespace sightline
-namespace sightline {
 namespace priority_detail {
 
 std::optional<Normal_and_point> plane_between(const std::vector<Exact_point>& p, const std::vector<Exact_point>& q) {

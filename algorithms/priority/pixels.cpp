@@ -9,8 +9,6 @@ std::array<double, 3> Pixel_view::ray(std::uint32_t x, std::uint32_t y) const {
   return d;
 }
 
-}  // namespace sightline
-namespace sightline {
 namespace priority_detail {
 
 Pixel_cone::Pixel_cone(const std::vector<Exact_point>& corners, const Exact_point& eye) {
@@ -34,9 +32,6 @@ bool Pixel_cone::holds(const std::array<double, 3>& d, Pixel_sets& counts) const
 }
 
 }  // namespace priority_detail
-}  // namespace sightline
-namespace sightline {
-
 Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority) {
   Pixel_statistics found;
   found.image.reserve(sets.size());
@@ -59,5 +54,9 @@ Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::u
   }
   return found;
 }
+
+template Pixel_sets pixel_sets(const Priority_relation<Exact_traits>&, const Pixel_view&);
+template std::vector<std::uint32_t> priorities(const Exact_traits&, const Priority_tree<Exact_traits>&,
+                                               const Exact_point&);
 
 }  // namespace sightline

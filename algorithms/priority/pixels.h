@@ -149,4 +149,9 @@ struct Pixel_statistics {
 /// Cost: linear in the sets. Pre: a number for each polygon of the sets.
 Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority);
 
+// Compiled once.
+extern template Pixel_sets pixel_sets(const Priority_relation<Exact_traits>&, const Pixel_view&);
+extern template std::vector<std::uint32_t> priorities(const Exact_traits&, const Priority_tree<Exact_traits>&,
+                                                      const Exact_point&);
+
 }  // namespace sightline

@@ -11,6 +11,7 @@
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <cstdint>
 #include <span>
@@ -125,5 +126,7 @@ class Priority_relation {
   std::vector<typename Traits::Cutter> cutters_;
   Polygon_store<Traits> store_;
 };
+
+extern template class Priority_relation<Exact_traits>;  // compiled once, in relation.cpp
 
 }  // namespace sightline

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace sightline {
-namespace priority_detail {
+namespace sightline::priority_detail {
 
 Rounded_plane::Rounded_plane(const Triple& a, const Triple& b) {
   for (std::size_t k = 0; k < 3; ++k) {
@@ -21,5 +20,4 @@ int Rounded_plane::side(const Triple& d) const {
   return value > bound ? 1 : value < -bound ? -1 : 0;
 }
 
-}  // namespace priority_detail
-}  // namespace sightline
+}  // namespace sightline::priority_detail

@@ -7,9 +7,7 @@
 #include <array>
 #include <vector>
 
-namespace sightline {
-
-namespace priority_detail {
+namespace sightline::priority_detail {
 
 /// The corners of a polygon.
 template <class Traits>
@@ -33,6 +31,4 @@ struct Rounded_plane {
   int side(const Triple& d) const;
 };
 
-}  // namespace priority_detail
-
-}  // namespace sightline
+}  // namespace sightline::priority_detail

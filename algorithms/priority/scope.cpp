@@ -19,8 +19,6 @@ View_region View_region::box(const Exact_point& low, const Exact_point& high) {
   return region;
 }
 
-}  // namespace sightline
-namespace sightline {
 namespace priority_detail {
 
 // The program: are there alpha, beta >= 1 and gamma >= 0 with

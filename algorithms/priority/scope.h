@@ -10,6 +10,7 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/vectors.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
 
 #include <algorithm>
 #include <array>
@@ -349,5 +350,13 @@ class Ray_relation {
   const Priority_relation<Traits>* faces_;
   std::vector<std::optional<Rational>> pierced_;
 };
+
+// Compiled once, in scope_exact.cpp.
+extern template priority_detail::Grid_scene::Grid_scene(const Priority_relation<Exact_traits>&,
+                                                        const std::vector<Exact_point>&);
+extern template class Region_relation<Exact_traits>;
+extern template class Ray_relation<Exact_traits>;
+extern template class Implicit_priority_graph<Region_relation<Exact_traits>>;
+extern template class Implicit_priority_graph<Ray_relation<Exact_traits>>;
 
 }  // namespace sightline

@@ -16,8 +16,7 @@
 #include <set>
 #include <utility>
 
-namespace sightline {
-namespace certificate_check {
+namespace sightline::certificate_check {
 namespace {
 
 // ---- Tilings
@@ -185,5 +184,4 @@ void check_covering(const Polygon_soup& soup, const Covering& covering, const Ex
   }
 }
 
-}  // namespace certificate_check
-}  // namespace sightline
+}  // namespace sightline::certificate_check

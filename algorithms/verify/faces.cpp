@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-namespace sightline {
-namespace certificate_check {
+namespace sightline::certificate_check {
 
 Face::Face(const Polygon_soup& soup, Face_id f) {
   for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
@@ -61,5 +60,4 @@ std::optional<Exact_point> Boundary_chain::nonzero() const {
   return std::nullopt;
 }
 
-}  // namespace certificate_check
-}  // namespace sightline
+}  // namespace sightline::certificate_check

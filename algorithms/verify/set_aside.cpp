@@ -14,8 +14,7 @@
 #include <string_view>
 #include <utility>
 
-namespace sightline {
-namespace certificate_check {
+namespace sightline::certificate_check {
 
 namespace {
 
@@ -192,5 +191,4 @@ void check_set_aside(const Polygon_soup& soup, const Covering::Set_aside& entry,
   }
 }
 
-}  // namespace certificate_check
-}  // namespace sightline
+}  // namespace sightline::certificate_check

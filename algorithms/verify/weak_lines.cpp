@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace sightline {
-namespace weak_check {
+namespace sightline::weak_check {
 
 Line line_through(const Homogeneous& a, const Homogeneous& b) {
   const auto minor = [&](std::size_t i, std::size_t j) { return Integer(a[i] * b[j] - a[j] * b[i]); };
@@ -106,5 +105,4 @@ Matrix times(const Homogeneous& form, const Corners& corners, const Matrix& h) {
   return result;
 }
 
-}  // namespace weak_check
-}  // namespace sightline
+}  // namespace sightline::weak_check

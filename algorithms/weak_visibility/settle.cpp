@@ -5,6 +5,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
+#include <atomic>
 #include <iterator>
 #include <utility>
 
@@ -128,9 +129,11 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
   }
 
   // 2. Events.
+  std::atomic<std::size_t> done{0};
   const auto settle = [&](Settled& face) {
     std::vector<Weakly_visible::Pair> open;
     for (Weakly_visible::Pair& pair : face.pairs) {
+      if (options.progress) options.progress(done.load(), faces.size());
       const Events_answer answer =
           open_pair_by_events(occluders, sources[pair.source], pair, most_edges, options, face.counters);
       if (answer.status == Weak_status::hidden) continue;
@@ -144,6 +147,7 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
       open.push_back(std::move(pair));
     }
     face.pairs = std::move(open);
+    ++done;
   };
   run_with_threads(options.threads, [&] { parallel_for(faces.size(), [&](std::size_t f) { settle(faces[f]); }); });
 

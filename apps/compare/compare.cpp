@@ -8,26 +8,8 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <fstream>
 
 namespace sightline::app {
-
-/// A value of /proc/self/status in bytes.
-static std::uint64_t process_memory(const std::string& key) {
-  std::ifstream in("/proc/self/status");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(key + ":")) return std::stoull(line.substr(key.size() + 1)) * 1024;
-  return 0;
-}
-
-Peak_memory::Peak_memory() {
-  std::ofstream("/proc/self/clear_refs") << 5;
-  before_ = process_memory("VmRSS");
-}
-std::uint64_t Peak_memory::bytes() const {
-  const std::uint64_t peak = process_memory("VmHWM");
-  return peak > before_ ? peak - before_ : 0;
-}
 
 /// Asks a contestant in a child process, since an inexact kernel may do anything, for at most the budget; what became
 /// of it otherwise is the row's status.

@@ -5,6 +5,8 @@
 #include "../methods/methods.h"
 #include "../methods/weak.h"
 
+#include <sightline/harness/compare/process_memory.h>
+
 namespace sightline::app {
 
 struct Compare_arguments {
@@ -26,16 +28,6 @@ struct Compare_arguments {
 struct Contestant {
   Json name;  ///< "kernel", "method", and what else tells it from others
   std::function<Json()> judge;
-};
-
-/// The peak of a process in bytes, above what it begins with.
-class Peak_memory {
- public:
-  Peak_memory();  ///< forgets the parent's peak
-  std::uint64_t bytes() const;
-
- private:
-  std::uint64_t before_ = 0;
 };
 
 /// Asks all of them, each for at most the budget in seconds (0: none). What claims to be exact must be, as far as

@@ -3,6 +3,7 @@
 #include "compare.h"
 
 #include <sightline/harness/compare/visible_errors.h>
+#include <sightline/algorithms/point_visibility/kernels.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

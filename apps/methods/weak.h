@@ -36,10 +36,10 @@ struct Weak_task {
   int threads = 0;
   std::uint64_t seed = 1;
   std::size_t cells = Weak_search_options{}.cells;
-  std::size_t event_edges = 300;      ///< lines: what stays undecided goes to events where no more edges are near
-  std::size_t rays = 100000;          ///< sample
-  bool surfaces = false;              ///< events: whether to keep them
-  std::function<bool()> out_of_time;  ///< lines, events: what they have no time for stays open
+  std::size_t event_edges = usual_event_edges;  ///< lines: what stays undecided goes to events where no more are near
+  std::size_t rays = 100000;                    ///< sample
+  bool surfaces = false;                        ///< events: whether to keep them
+  std::function<bool()> out_of_time;            ///< lines, events: what they have no time for stays open
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 

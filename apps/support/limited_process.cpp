@@ -2,6 +2,8 @@
 
 #include "limited_process.h"
 
+#include <sightline/harness/compare/process_memory.h>
+
 #include <fcntl.h>
 #include <signal.h>
 #include <sys/prctl.h>
@@ -21,14 +23,6 @@ namespace sightline::app {
 
 namespace {
 
-/// A line of /proc/PID/status, in bytes; 0 where there is none.
-std::uint64_t status_bytes(const std::string& process, const std::string& key) {
-  std::ifstream in("/proc/" + process + "/status");
-  for (std::string line; std::getline(in, line);)
-    if (line.starts_with(key + ":")) return std::stoull(line.substr(key.size() + 1)) * 1024;
-  return 0;
-}
-
 /// Memory that a process and all that it started hold now; the peak of the first one alone where that is more.
 std::uint64_t memory_of(pid_t process) {
   std::uint64_t sum = 0;
@@ -36,11 +30,11 @@ std::uint64_t memory_of(pid_t process) {
   while (!open.empty()) {
     const std::string name = std::to_string(open.back());
     open.pop_back();
-    sum += status_bytes(name, "VmRSS");
+    sum += process_memory(name, "VmRSS");
     std::ifstream children("/proc/" + name + "/task/" + name + "/children");
     for (pid_t child = 0; children >> child;) open.push_back(child);
   }
-  return std::max(sum, status_bytes(std::to_string(process), "VmHWM"));
+  return std::max(sum, process_memory(std::to_string(process), "VmHWM"));
 }
 
 void set_limit(int what, rlim_t most) {
@@ -138,7 +132,7 @@ Process_end run_limited(const std::vector<std::string>& words, const Process_lim
   Descriptor from(ends[0]), to(ends[1]);
 
   // 1. Start it. The pipe closes by itself once the program runs, so that nothing of this process is measured.
-  const std::uint64_t own = status_bytes("self", "VmHWM");
+  const std::uint64_t own = process_memory("self", "VmHWM");
   const auto processor_seconds =
       static_cast<rlim_t>(std::min(1e9, limits.seconds * std::max(1u, std::thread::hardware_concurrency()))) +
       2;  // ends what escapes from the group

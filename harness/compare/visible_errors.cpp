@@ -183,9 +183,6 @@ void Image::each_cell(const Part& part, Function function) {
 }
 
 }  // namespace visible_errors_detail
-}  // namespace sightline
-namespace sightline {
-
 Visible_errors Visible_reference::errors(const Depth_buffer& buffer) {
   using namespace visible_errors_detail;
   Visible_errors e;

@@ -3,8 +3,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/kernel/number.h>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 void Lattice_points::add_wall(std::array<std::size_t, 3> p, std::size_t axis, bool positive, std::size_t width,
                               std::size_t height) {
@@ -258,5 +257,4 @@ Polygon_soup rooms(std::size_t nx, std::size_t ny, std::uint64_t seed) {
   return soup;
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -11,8 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 Posed_scene placed(Posed_scene scene, const Family_parameters& parameters) {
   require(sgn(parameters.scale) > 0, "the scale must be positive");
@@ -200,5 +199,4 @@ const Family& family(std::string_view name) {
   throw std::invalid_argument("no family '" + std::string(name) + "': choose one of " + names);
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 namespace view_drafts {
 
 std::array<Exact_point, 3> axes(Random& random) {
@@ -133,5 +132,4 @@ const std::array<Gap_drafter, 6> gap_drafters{
      Gap_drafter{"collinear_edges", "pages with an edge each on one line, moved off it by K ulps", collinear_edges}}};
 
 }  // namespace view_drafts
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

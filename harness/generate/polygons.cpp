@@ -1,7 +1,6 @@
 #include <sightline/harness/generate/polygons.h>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
   return {Rational(p[0] + t * d[0]), Rational(p[1] + t * d[1]), Rational(p[2] + t * d[2])};
@@ -97,5 +96,4 @@ Points any_face(Random& random, std::int64_t reach) {
   }
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 Rational determinant(const std::vector<std::vector<Rational>>& m) {
   if (m.empty()) return 1;
@@ -101,5 +100,4 @@ Projective_map random_projection(const Weak_scene& scene, Random& random) {
   return sgn(determinant(rows)) == 0 ? random_rotation(random) : map;
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -1,7 +1,6 @@
 #include <sightline/harness/generate/random.h>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 std::uint64_t Random::below(std::uint64_t n) {
   const std::uint64_t rejected = (0 - n) % n;  // 2^64 mod n: the numbers below it would favour small results
@@ -10,5 +9,4 @@ std::uint64_t Random::below(std::uint64_t n) {
   return drawn % n;
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

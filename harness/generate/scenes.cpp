@@ -8,8 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 std::span<const Kind> kinds() {
   static constexpr std::array<Kind, 15> all{{
@@ -56,5 +55,4 @@ Polygon_soup make(std::string_view kind, std::size_t size, std::uint64_t seed) {
   throw std::invalid_argument("no kind of scene '" + std::string(kind) + "': choose one of " + names);
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -7,8 +7,7 @@
 #include <cmath>
 #include <vector>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 Lattice_point circle_point(std::uint64_t k, std::uint64_t n, std::int64_t radius) {
   const std::uint64_t quadrant = 4 * k / n, rest = 4 * k % n;
@@ -149,5 +148,4 @@ Polygon_soup stacked(std::size_t n) {
   return soup;
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -8,8 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 std::uint64_t cube_root(std::uint64_t n) {
   std::uint64_t root = 0;
@@ -147,5 +146,4 @@ Polygon_soup terrain(std::size_t n, std::uint64_t seed) {
   return soup;
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

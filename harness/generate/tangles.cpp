@@ -8,8 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 Faces tangle(Random& random, std::size_t most_faces) {
   static const std::vector<std::vector<std::array<int, 2>>> outlines{
@@ -100,5 +99,4 @@ Faces touching_faces(Random& random) {
   return faces;
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -7,8 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 Polygon_soup translated(const Polygon_soup& soup, const Exact_point& offset) {
   return mapped(soup, [&](Point_id, Exact_point p) {
@@ -95,5 +94,4 @@ Polygon_soup one_ulp_perturbed(const Polygon_soup& soup, std::uint64_t seed) {
   });
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 
 namespace {
 
@@ -86,5 +85,4 @@ Holed_face twisted_holes(Random& random, const Rational& gap) {
   return face;
 }
 
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

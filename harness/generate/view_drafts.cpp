@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 namespace view_drafts {
 
 Exact_point some_eye(const Faces& faces, Random& random) {
@@ -305,5 +304,4 @@ const std::array<Drafter, 11> drafters{
      Drafter{"concurrent", "corners, edges and faces on one line of sight", concurrent}}};
 
 }  // namespace view_drafts
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <set>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 namespace weak_drafts {
 
 Draft shaft(const Rational& height) {
@@ -46,5 +45,4 @@ std::vector<Rational> subdivided(const Rational& low, const Rational& high, std:
 }
 
 }  // namespace weak_drafts
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

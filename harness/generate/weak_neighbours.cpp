@@ -4,8 +4,7 @@
 
 #include <cstdint>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 namespace weak_drafts {
 
 Draft hinged(Random& random, const Rational& gap) {
@@ -186,5 +185,4 @@ Draft triangles(Random& random, const Rational& gap) {
 }
 
 }  // namespace weak_drafts
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 namespace weak_drafts {
 
 Weak_scene finished(Draft draft, Random& random) {
@@ -79,5 +78,4 @@ const std::array<Drafter, 18> drafters{
      Drafter{"triangles", "triangles between two squares, one of them moved by K ulps", triangles}}};
 
 }  // namespace weak_drafts
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

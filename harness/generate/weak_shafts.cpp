@@ -11,8 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace sightline {
-namespace generate {
+namespace sightline::generate {
 namespace weak_drafts {
 
 Draft shared_edges(Random& random, const Rational& gap) {
@@ -262,5 +261,4 @@ Draft apertures(Random& random, const Rational& gap) {
 }
 
 }  // namespace weak_drafts
-}  // namespace generate
-}  // namespace sightline
+}  // namespace sightline::generate

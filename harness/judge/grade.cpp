@@ -1,7 +1,6 @@
 #include <sightline/harness/judge/grade.h>
 
-namespace sightline {
-namespace judge {
+namespace sightline::judge {
 
 bool keeps(Contract contract, const Grade& grade) {
   return (contract == Contract::aggressive || grade.wrong_hidden.empty()) &&
@@ -12,5 +11,4 @@ bool breaks(Contract contract, Mark mark, const Grade& grade) {
   return mark == Mark::crashed || mark == Mark::invalid || (mark == Mark::wrong && !keeps(contract, grade));
 }
 
-}  // namespace judge
-}  // namespace sightline
+}  // namespace sightline::judge

@@ -8,8 +8,7 @@
 #include <numeric>
 #include <utility>
 
-namespace sightline {
-namespace judge {
+namespace sightline::judge {
 
 Order_truth::Order_truth(const Scene& scene, const Exact_point& eye, bool two_sided)
     : eye_(eye), faces_(scene.counters().faces_read) {
@@ -176,5 +175,4 @@ std::vector<Flat_polygon> Order_truth::without(const std::vector<Flat_polygon>& 
   return rest;
 }
 
-}  // namespace judge
-}  // namespace sightline
+}  // namespace sightline::judge

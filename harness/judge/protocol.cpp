@@ -12,15 +12,6 @@
 #include <system_error>
 #include <utility>
 
-#include <sightline/kernel/quoted.h>
-
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <numeric>
-#include <system_error>
-#include <utility>
-
 namespace sightline::judge {
 
 namespace protocol_detail {
@@ -30,10 +21,6 @@ namespace protocol_detail {
 Json number_json(const Rational& value);
 
 inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number_json(p[1]), number_json(p[2])}; }
-
-}  // namespace protocol_detail
-
-namespace protocol_detail {
 
 /// Collects an answer and says what is wrong with it.
 class Answer_reader {
@@ -59,14 +46,6 @@ class Answer_reader {
   std::set<Face_id> whole_, in_parts_;
 };
 
-}  // namespace protocol_detail
-
-}  // namespace sightline::judge
-
-namespace sightline {
-namespace judge {
-namespace protocol_detail {
-
 Json number_json(const Rational& value) {
   const double near = nearest_double(value);
   if (std::isfinite(near) && exact(near) == value) return near;
@@ -74,11 +53,6 @@ Json number_json(const Rational& value) {
 }
 
 }  // namespace protocol_detail
-}  // namespace judge
-}  // namespace sightline
-namespace sightline {
-namespace judge {
-
 Rational number_from_json(const nlohmann::json& value, const std::string& at) {
   if (value.is_number_unsigned()) return Rational(value.get<std::uint64_t>());
   if (value.is_number_integer()) return Rational(value.get<std::int64_t>());
@@ -103,10 +77,6 @@ std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std
   return all;
 }
 
-}  // namespace judge
-}  // namespace sightline
-namespace sightline {
-namespace judge {
 namespace protocol_detail {
 
 Answer Answer_reader::from_json(const std::string& text) {
@@ -213,11 +183,6 @@ Answer Answer_reader::finished() {
 }
 
 }  // namespace protocol_detail
-}  // namespace judge
-}  // namespace sightline
-namespace sightline {
-namespace judge {
-
 Json to_json(const Query& query) {
   Json value{{"query", question_names[static_cast<std::size_t>(query.question)]}};
   if (query.question == Question::weak) {
@@ -256,5 +221,4 @@ Answer read_answer(const std::string& text, Question question, std::size_t faces
   return first != std::string::npos && text[first] == '{' ? reader.from_json(text) : reader.from_lines(text);
 }
 
-}  // namespace judge
-}  // namespace sightline
+}  // namespace sightline::judge

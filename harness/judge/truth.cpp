@@ -4,14 +4,17 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
+#include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/verify/weak.h>
+#include <sightline/algorithms/verify/weak_lines.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
+#include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <algorithm>
@@ -22,43 +25,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <sightline/algorithms/point_visibility/boxes.h>
-#include <sightline/algorithms/point_visibility/exact_view.h>
-#include <sightline/algorithms/point_visibility/visible.h>
-#include <sightline/algorithms/point_visibility/visible_surface.h>
-#include <sightline/algorithms/verify/covering.h>
-#include <sightline/algorithms/verify/weak.h>
-#include <sightline/algorithms/verify/weak_lines.h>
-#include <sightline/algorithms/weak_visibility/certificate.h>
-#include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
-#include <sightline/kernel/number.h>
-#include <sightline/kernel/plane.h>
-#include <sightline/kernel/scene/convex_parts.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cstddef>
-#include <iterator>
-#include <map>
-#include <stdexcept>
-#include <utility>
-
 namespace sightline::judge {
-
-namespace truth_detail {
-
-void find_seen(const Scene& scene, const Query& query, const Truth_options& options, Truth& truth);
-
-void find_lit(const Polygon_soup& soup, const Scene& scene, const Query& query, const Truth_options& options,
-              Truth& truth);
-
-}  // namespace truth_detail
-
-}  // namespace sightline::judge
-
-namespace sightline {
-namespace judge {
 
 Polygon_soup with_planar_faces(const Polygon_soup& soup) {
   const Scene scene(soup);
@@ -118,10 +85,6 @@ Query rounded_to_doubles(Query query) {
   return query;
 }
 
-}  // namespace judge
-}  // namespace sightline
-namespace sightline {
-namespace judge {
 namespace truth_detail {
 
 void find_seen(const Scene& scene, const Query& query, const Truth_options& options, Truth& truth) {
@@ -165,11 +128,6 @@ void find_lit(const Polygon_soup& soup, const Scene& scene, const Query& query, 
 }
 
 }  // namespace truth_detail
-}  // namespace judge
-}  // namespace sightline
-namespace sightline {
-namespace judge {
-
 Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options& options) {
   Truth truth;
   const Scene scene(soup);
@@ -211,5 +169,4 @@ Grade grade(const Truth& truth, const Answer& answer) {
   return grade;
 }
 
-}  // namespace judge
-}  // namespace sightline
+}  // namespace sightline::judge

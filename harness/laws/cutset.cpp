@@ -20,13 +20,6 @@
 #include <string>
 #include <vector>
 
-#include <sightline/harness/laws/laws.h>
-#include <sightline/kernel/scene/polygon_soup.h>
-#include <sightline/kernel/traits/exact_traits.h>
-#include <sightline/kernel/traits/point_traits.h>
-
-#include <CGAL/Cartesian.h>
-
 namespace sightline::harness {
 
 namespace cutset_subject {
@@ -63,23 +56,12 @@ std::string flaw_along(const Scene& scene, const Traits& traits, const std::vect
   return {};
 }
 
-/// From nowhere straight to the eye. Labels: 1 where a node of the face is on-view.
-Answer answer(const Posed_scene& posed);
-
 template <class Make_traits>
 Outcome along_a_path(const Posed_scene& posed, Random& random, Make_traits make_traits) {
   const Scene scene(posed.soup);
   const std::string flaw = flaw_along(scene, make_traits(scene), path_to_the_eye(posed, random));
   return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
 }
-
-}  // namespace cutset_subject
-
-}  // namespace sightline::harness
-
-namespace sightline {
-namespace harness {
-namespace cutset_subject {
 
 std::vector<Viewpoint> path_to_the_eye(const Posed_scene& posed, Random& random) {
   using namespace generate;
@@ -112,6 +94,7 @@ bool is_on_view(const generate::Points& corners, const Viewpoint& view) {
   return sgn(Rational(normal[0] * d[0] + normal[1] * d[1] + normal[2] * d[2])) > 0;
 }
 
+/// From nowhere straight to the eye. Labels: 1 where a node of the face is on-view.
 Answer answer(const Posed_scene& posed) {
   const Scene scene(posed.soup);
   const Exact_traits traits(scene);
@@ -129,11 +112,6 @@ Answer answer(const Posed_scene& posed) {
 }
 
 }  // namespace cutset_subject
-}  // namespace harness
-}  // namespace sightline
-namespace sightline {
-namespace harness {
-
 Subject cutset() {
   using namespace cutset_subject;
   Subject subject;
@@ -153,5 +131,4 @@ Subject cutset() {
   return subject;
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

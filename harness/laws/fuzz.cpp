@@ -12,8 +12,7 @@
 #include <system_error>
 #include <vector>
 
-namespace sightline {
-namespace harness {
+namespace sightline::harness {
 
 std::string to_string(const Fuzz_case& c) {
   const auto& p = c.parameters;
@@ -133,5 +132,4 @@ std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& options,
   return std::nullopt;
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

@@ -7,27 +7,14 @@
 #include <sightline/algorithms/priority/relation.h>
 #include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/graph.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
-#include <sightline/kernel/traits/exact_traits.h>
-
-#include <cstdint>
-#include <string>
-
-#include <sightline/algorithms/priority/certificate.h>
-#include <sightline/algorithms/priority/explicit_graph.h>
-#include <sightline/algorithms/priority/implicit_graph.h>
-#include <sightline/algorithms/priority/relation.h>
-#include <sightline/algorithms/verify/graph.h>
-#include <sightline/algorithms/verify/verdict.h>
-#include <sightline/harness/generate/random.h>
-#include <sightline/harness/laws/laws.h>
-#include <sightline/kernel/number.h>
-#include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <cstdint>
@@ -38,21 +25,6 @@ namespace sightline::harness {
 namespace graph_subject {
 
 /// Labels: the component of a face's last piece. Faces of one piece are the rule.
-Answer answer_of(const Polygon_soup& soup, const Scene& scene, const Priority_components& found);
-
-Answer by_implicit(const Posed_scene& posed, bool verify);
-
-/// All arcs, written out.
-Outcome by_explicit(const Posed_scene& posed, const Answer& answer);
-
-}  // namespace graph_subject
-
-}  // namespace sightline::harness
-
-namespace sightline {
-namespace harness {
-namespace graph_subject {
-
 Answer answer_of(const Polygon_soup& soup, const Scene& scene, const Priority_components& found) {
   Answer answer;
   answer.labels.assign(soup.face_count(), Answer::none);
@@ -79,6 +51,7 @@ Answer by_implicit(const Posed_scene& posed, bool verify) {
   return answer;
 }
 
+/// All arcs, written out.
 Outcome by_explicit(const Posed_scene& posed, const Answer& answer) {
   const Scene scene(posed.soup);
   const Exact_traits traits(scene);
@@ -94,11 +67,6 @@ Outcome by_explicit(const Posed_scene& posed, const Answer& answer) {
 }
 
 }  // namespace graph_subject
-}  // namespace harness
-}  // namespace sightline
-namespace sightline {
-namespace harness {
-
 Subject graph() {
   using namespace graph_subject;
   Subject subject;
@@ -113,5 +81,4 @@ Subject graph() {
   return subject;
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

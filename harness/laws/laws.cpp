@@ -10,8 +10,7 @@
 #include <cstdint>
 #include <utility>
 
-namespace sightline {
-namespace harness {
+namespace sightline::harness {
 
 std::vector<std::optional<Face_id>> same_faces(const Polygon_soup& soup) {
   std::vector<std::optional<Face_id>> faces(soup.face_count());
@@ -186,5 +185,4 @@ void add_laws(Subject& subject, const std::vector<std::string>& names) {
       subject.checks.push_back(check_of(law, subject.answer, subject.verified));
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

@@ -6,7 +6,7 @@
 #include <sightline/algorithms/bsp/tree.h>
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/priority/eye_order.h>
-
+#include <sightline/algorithms/priority/rounded_plane.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/algorithms/verify/covering.h>
@@ -28,16 +28,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-
-#include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/priority/rounded_plane.h>
-#include <sightline/algorithms/priority/scope.h>
-#include <sightline/algorithms/priority/tree.h>
-#include <sightline/harness/generate/polygons.h>
-#include <sightline/harness/generate/random.h>
-#include <sightline/harness/laws/laws.h>
-
-#include <cstddef>
 
 namespace sightline::harness {
 
@@ -112,26 +102,13 @@ Outcome by_kernel(const Posed_scene& posed, const Answer& answer, const std::str
   return compared(answer, other, "exact", name);
 }
 
-/// The order by the priority graph: of what is on-view, or of both sides of everything.
-Outcome by_graph(const Posed_scene& posed, bool two_sided);
-
-/// Labels from corners alone: the eye against the plane of each face's pieces, by Newell's normal in rationals.
-Outcome by_definition(const Posed_scene& posed, const Answer& answer);
-
-}  // namespace order_subject
-
-}  // namespace sightline::harness
-
-namespace sightline {
-namespace harness {
-namespace order_subject {
-
 std::string Order::flaw(const Polygon_soup& soup, bool on_view) {
   certificate_.on_view = on_view;
   const Verdict verdict = verify_order(soup, certificate_);
   return verdict.accepted ? std::string() : "the certificate is rejected: " + verdict.why;
 }
 
+/// The order by the priority graph: of what is on-view, or of both sides of everything.
 Outcome by_graph(const Posed_scene& posed, bool two_sided) {
   const Scene scene(posed.soup);
   const Exact_traits traits(scene);
@@ -143,6 +120,7 @@ Outcome by_graph(const Posed_scene& posed, bool two_sided) {
   return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
 }
 
+/// Labels from corners alone: the eye against the plane of each face's pieces, by Newell's normal in rationals.
 Outcome by_definition(const Posed_scene& posed, const Answer& answer) {
   using namespace generate;
   const Scene scene(posed.soup);
@@ -163,11 +141,6 @@ Outcome by_definition(const Posed_scene& posed, const Answer& answer) {
 }
 
 }  // namespace order_subject
-}  // namespace harness
-}  // namespace sightline
-namespace sightline {
-namespace harness {
-
 Subject order() {
   using namespace order_subject;
   Subject subject;
@@ -193,5 +166,4 @@ Subject order() {
   return subject;
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace sightline {
-namespace harness {
+namespace sightline::harness {
 
 nlohmann::ordered_json query_json(const generate::Posed_scene& scene, std::uint64_t seed) {
   const auto point_json = [](const Exact_point& p) -> nlohmann::ordered_json {
@@ -75,5 +74,4 @@ Posed_query query_from_json(const nlohmann::json& value, std::size_t faces) {
   return query;
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

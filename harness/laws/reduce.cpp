@@ -7,8 +7,7 @@
 #include <set>
 #include <utility>
 
-namespace sightline {
-namespace harness {
+namespace sightline::harness {
 namespace reduce_detail {
 
 Draft::Draft(const Posed_scene& scene) : eye(scene.eye), source(scene.source) {
@@ -210,5 +209,4 @@ void Reducer::round_points() {
 }
 
 }  // namespace reduce_detail
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

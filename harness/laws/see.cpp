@@ -7,6 +7,7 @@
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
@@ -19,15 +20,6 @@
 #include <CGAL/Gmpq.h>
 
 #include <string>
-
-#include <sightline/algorithms/point_visibility/certificate.h>
-#include <sightline/algorithms/point_visibility/exact_view.h>
-#include <sightline/algorithms/verify/verdict.h>
-#include <sightline/algorithms/verify/visible.h>
-#include <sightline/harness/generate/random.h>
-#include <sightline/harness/laws/laws.h>
-
-#include <CGAL/Gmpq.h>
 
 namespace sightline::harness {
 
@@ -51,8 +43,6 @@ Answer labels_of(const Posed_scene& posed, const Scene& scene, const Surface& su
   return answer;
 }
 
-Answer exactly(const Posed_scene& posed, bool verify);
-
 /// The same by another number type, which is exact too.
 template <class FT>
 Outcome by_numbers(const Posed_scene& posed, const Answer& answer, const std::string& name) {
@@ -61,14 +51,6 @@ Outcome by_numbers(const Posed_scene& posed, const Answer& answer, const std::st
   const Number_view<FT> view(scene, posed.eye);
   return compared(answer, labels_of(posed, scene, visible_surface(view, boxes, serial())), "exact", name);
 }
-
-}  // namespace see_subject
-
-}  // namespace sightline::harness
-
-namespace sightline {
-namespace harness {
-namespace see_subject {
 
 Answer exactly(const Posed_scene& posed, bool verify) {
   const Scene scene(posed.soup);
@@ -83,11 +65,6 @@ Answer exactly(const Posed_scene& posed, bool verify) {
 }
 
 }  // namespace see_subject
-}  // namespace harness
-}  // namespace sightline
-namespace sightline {
-namespace harness {
-
 Subject see() {
   using namespace see_subject;
   Subject subject;
@@ -102,5 +79,4 @@ Subject see() {
   return subject;
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

@@ -2,8 +2,7 @@
 
 #include <map>
 
-namespace sightline {
-namespace harness {
+namespace sightline::harness {
 
 std::vector<std::uint32_t> first_of_its_kind(const std::vector<std::uint32_t>& labels) {
   std::map<std::uint32_t, std::uint32_t> first;
@@ -38,5 +37,4 @@ Outcome compared(const Answer& a, const Answer& b, const std::string& one, const
   return {};
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

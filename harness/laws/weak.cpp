@@ -1,5 +1,6 @@
 #include <sightline/harness/laws/weak.h>
 
+#include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/algorithms/verify/weak.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -15,19 +16,6 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <cstddef>
-#include <string>
-#include <vector>
-
-#include <sightline/algorithms/verify/covering.h>
-#include <sightline/algorithms/verify/weak.h>
-#include <sightline/algorithms/weak_visibility/certificate.h>
-#include <sightline/algorithms/weak_visibility/events/event_search.h>
-#include <sightline/algorithms/weak_visibility/events/events.h>
-#include <sightline/algorithms/weak_visibility/occluders.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
-#include <sightline/harness/generate/polygons.h>
-#include <sightline/harness/laws/laws.h>
-
 #include <string>
 #include <vector>
 
@@ -49,26 +37,6 @@ Answer labels_of(const Polygon_soup& soup, const Scene& scene, const Found& foun
   answer.undecided = found.undecided.size();
   return answer;
 }
-
-Answer by_lines(const Posed_scene& posed, bool verify);
-
-Outcome by_events(const Posed_scene& posed, const Answer& answer);
-
-Outcome as_constructed(const Posed_scene& posed, const Answer& answer);
-
-/// The source about its centroid, three halves as large: visible faces only grow.
-Outcome grown(const Posed_scene& posed, const Answer& answer);
-
-/// A face sees the source, put in as a face, if the source sees it.
-Outcome reversed(const Posed_scene& posed, const Answer& answer, Random& random);
-
-}  // namespace weak_subject
-
-}  // namespace sightline::harness
-
-namespace sightline {
-namespace harness {
-namespace weak_subject {
 
 Answer by_lines(const Posed_scene& posed, bool verify) {
   const Scene scene(posed.soup);
@@ -109,6 +77,7 @@ Outcome as_constructed(const Posed_scene& posed, const Answer& answer) {
   return compared(truth, answer, "the construction", "lines");
 }
 
+/// The source about its centroid, three halves as large: visible faces only grow.
 Outcome grown(const Posed_scene& posed, const Answer& answer) {
   using namespace generate;
   Posed_scene larger = posed;
@@ -122,6 +91,7 @@ Outcome grown(const Posed_scene& posed, const Answer& answer) {
   return answer.undecided + more.undecided > 0 ? Outcome::undecided() : Outcome{};
 }
 
+/// A face sees the source, put in as a face, if the source sees it.
 Outcome reversed(const Posed_scene& posed, const Answer& answer, Random& random) {
   std::vector<Face_id> convex;
   for (Face_id f = 0; f < posed.soup.face_count(); ++f)
@@ -145,11 +115,6 @@ Outcome reversed(const Posed_scene& posed, const Answer& answer, Random& random)
 }
 
 }  // namespace weak_subject
-}  // namespace harness
-}  // namespace sightline
-namespace sightline {
-namespace harness {
-
 Subject weak() {
   using namespace weak_subject;
   Subject subject;
@@ -170,5 +135,4 @@ Subject weak() {
   return subject;
 }
 
-}  // namespace harness
-}  // namespace sightline
+}  // namespace sightline::harness

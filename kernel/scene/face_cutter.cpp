@@ -4,6 +4,7 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/scene/convex_parts.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -20,26 +21,6 @@ namespace {
 
 template <class Number>
 using Vector = std::array<Number, 3>;
-
-template <class Number>
-Vector<Number> difference(const Vector<Number>& a, const Vector<Number>& b) {
-  return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
-}
-
-template <class Number>
-Vector<Number> cross(const Vector<Number>& a, const Vector<Number>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-template <class Number>
-Number dot(const Vector<Number>& a, const Vector<Number>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-template <class Number>
-bool is_zero(const Vector<Number>& a) {
-  return a[0] == 0 && a[1] == 0 && a[2] == 0;
-}
 
 /// The axes by the size of the vector along them, largest first; of equal ones, the first.
 template <class Number>
@@ -190,16 +171,16 @@ class Cutter {
     };
     return {coordinate(0), coordinate(1), coordinate(2)};
   }
-  Vector<Number> edge(std::uint32_t p, std::uint32_t q) const { return difference(at(q), at(p)); }
+  Vector<Number> edge(std::uint32_t p, std::uint32_t q) const { return minus(at(q), at(p)); }
 
   /// Twice the area vector of a loop.
   Vector<Number> area_vector(const Point_loop& loop) const {
     Vector<Number> sum{};
     if (loop.size() < 3) return sum;
     const Vector<Number> origin = at(loop[0]);
-    Vector<Number> before = difference(at(loop[1]), origin);
+    Vector<Number> before = minus(at(loop[1]), origin);
     for (std::size_t i = 2; i < loop.size(); ++i) {
-      const Vector<Number> next = difference(at(loop[i]), origin);
+      const Vector<Number> next = minus(at(loop[i]), origin);
       const Vector<Number> part = cross(before, next);
       for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
       before = next;
@@ -227,7 +208,7 @@ class Cutter {
     const Vector<Number> origin = at(outer_[0]);
     return std::all_of(loops_.begin(), loops_.end(), [&](const Point_loop& loop) {
       return std::all_of(loop.begin(), loop.end(),
-                         [&](std::uint32_t p) { return dot(normal, difference(at(p), origin)) == 0; });
+                         [&](std::uint32_t p) { return dot(normal, minus(at(p), origin)) == 0; });
     });
   }
 
@@ -327,7 +308,7 @@ class Cutter {
     Vector<Number> from = origin;
     for (std::size_t k = 0; k < loop.size(); ++k) {
       const Vector<Number> to = at(loop[k + 1 == loop.size() ? 0 : k + 1]);
-      const Vector<Number> inward = cross(unit, difference(to, from));
+      const Vector<Number> inward = cross(unit, minus(to, from));
       faces_.corners.push_back({loop[k], interned(faces_.planes, inward, Number(-dot(inward, from)))});
       from = to;
     }

@@ -1,7 +1,6 @@
 #include <sightline/kernel/scene/planar_pieces.h>
 
-namespace sightline {
-namespace planar {
+namespace sightline::planar {
 
 void Pieces::merge() {
   for (bool changed = true; changed;) {
@@ -41,5 +40,4 @@ std::vector<std::vector<std::uint32_t>> Pieces::loops(bool with_straight_corners
   return result;
 }
 
-}  // namespace planar
-}  // namespace sightline
+}  // namespace sightline::planar

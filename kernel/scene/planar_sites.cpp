@@ -6,8 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace sightline {
-namespace planar {
+namespace sightline::planar {
 
 CGAL::Orientation Traits::Orientation_2::operator()(const Site& a, const Site& b, const Site& c) const {
   {
@@ -63,5 +62,4 @@ std::vector<Site> sites_of(std::span<const Planar_point> points, const std::vect
   return sites;
 }
 
-}  // namespace planar
-}  // namespace sightline
+}  // namespace sightline::planar

@@ -1,5 +1,6 @@
 // Plane-defined polygons under the knife, and what does not model Partition_traits.
 
+#include "../sample.h"
 #include "cutting.h"
 
 #include <sightline/kernel/traits/exact_traits.h>
@@ -9,6 +10,8 @@
 using namespace kernel_test;
 
 namespace {
+
+using test_scenes::sample;
 
 /// One square in z = 0 and planes to cut it by, added to the scene in grid coordinates by their file coefficients.
 struct Square_and_planes {
@@ -369,7 +372,7 @@ void expect_groups_agree(const Scene& scene, Random& random) {
 
 TEST(Plane_group, finds_the_positions_that_corners_have_one_by_one) {
   Random random(3);
-  for (int i = 0; i < 200; ++i) {
+  for (int i = 0; i < sample(200); ++i) {
     SCOPED_TRACE(i);
     const int bits =
         std::array{2, 3, 20, 40, 52}[static_cast<std::size_t>(i % 5)];  // few bits: most corners are on many planes

@@ -1,5 +1,6 @@
 // The highest corner of a convex polygon over a plane, by bisection, against looking at all corners.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/algorithms/priority/bimodal.h>
@@ -10,6 +11,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 static_assert(Slope_traits<Exact_traits>);
 
@@ -99,9 +102,9 @@ TEST(Bimodal, takes_logarithmically_many_predicates) {
 TEST(Bimodal, decides_the_relation_of_polygons_of_many_corners) {
   // Discs above each other, one across both, and triangles.
   std::mt19937 random(3);
-  Polygon_soup soup =
-      soup_of({lattice_polygon(300, {1, 0, 0}, {0, 1, 0}, random), lattice_polygon(600, {1, 0, 1}, {0, 1, 2}, random),
-               reversed(lattice_polygon(300, {0, 1, 1}, {1, 0, 0}, random))});
+  Polygon_soup soup = soup_of({lattice_polygon(sample(300), {1, 0, 0}, {0, 1, 0}, random),
+                               lattice_polygon(sample(600), {1, 0, 1}, {0, 1, 2}, random),
+                               reversed(lattice_polygon(sample(300), {0, 1, 1}, {1, 0, 0}, random))});
   for (int k = 0; k < 40; ++k) {
     const auto any = [&] { return ratio(static_cast<long>(random() % 200001) - 100000, 1); };
     add_face(soup, {at(any(), any(), any()), at(any(), any(), any()), at(any(), any(), any())});

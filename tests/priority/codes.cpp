@@ -1,6 +1,7 @@
 // The codes of pairs of faces against plain rationals: the Lemma, insides that meet, planes between, and what rays
 // pierce first.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/algorithms/priority/pair_code.h>
@@ -13,6 +14,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 using Codes = std::vector<std::vector<Pair_code>>;
 
@@ -119,7 +122,7 @@ Exact_point eye_towards(const Flats& flats, const Exact_point& target, std::uint
 TEST(Pair_code, is_that_of_the_definitions_on_2000_degenerate_scenes_and_its_planes_are_between) {
   std::map<Precedence, std::size_t> met;
   std::size_t touching_planes = 0;
-  for (std::uint64_t k = 0; k < 2000; ++k) {
+  for (std::uint64_t k = 0; k < sample(2000u); ++k) {
     const Related scene(degenerate_soup(k));
     const Matrix arcs = arcs_of(scene.flats);
     const Codes codes = codes_of(scene.relation);
@@ -139,17 +142,17 @@ TEST(Pair_code, is_that_of_the_definitions_on_2000_degenerate_scenes_and_its_pla
       }
   }
   for (const Precedence p : {Precedence::never, Precedence::first, Precedence::second, Precedence::crossing})
-    EXPECT_GT(met[p], 5000u) << static_cast<int>(p);
-  EXPECT_GT(met[Precedence::by_plane], 500u);
+    EXPECT_GT(met[p], sample(5000u)) << static_cast<int>(p);
+  EXPECT_GT(met[Precedence::by_plane], sample(500u));
   EXPECT_EQ(met[Precedence::first], met[Precedence::second]);
-  EXPECT_GT(touching_planes, 10u);
+  EXPECT_GT(touching_planes, sample(10u));
 }
 
 TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_cross) {
   std::size_t two = 0, three = 0, four = 0, crossing = 0, in_one_plane = 0;
   std::map<Precedence, std::size_t> decided;
   Relation_counters counters;
-  for (std::uint64_t k = 0; k < 2400; ++k) {
+  for (std::uint64_t k = 0; k < sample(2400u); ++k) {
     Random random(k);
     const Related scene(degenerate_soup(k));
     if (scene.flats.empty()) continue;
@@ -179,14 +182,14 @@ TEST(Pair_code, tells_the_order_of_all_faces_that_a_ray_pierces_and_that_do_not_
         }
     }
   }
-  EXPECT_GT(two, 4000u);
-  EXPECT_GT(three, 400u);
-  EXPECT_GT(four, 50u);
-  EXPECT_GT(crossing, 1000u);
-  EXPECT_GT(in_one_plane, 50u);
-  EXPECT_GT(decided[Precedence::first], 2000u);
+  EXPECT_GT(two, sample(4000u));
+  EXPECT_GT(three, sample(400u));
+  EXPECT_GT(four, sample(50u));
+  EXPECT_GT(crossing, sample(1000u));
+  EXPECT_GT(in_one_plane, sample(50u));
+  EXPECT_GT(decided[Precedence::first], sample(2000u));
   EXPECT_EQ(decided[Precedence::first], decided[Precedence::second]);
-  EXPECT_GT(decided[Precedence::by_plane], 200u);
+  EXPECT_GT(decided[Precedence::by_plane], sample(200u));
 }
 
 // ---- The paper's components
@@ -285,7 +288,7 @@ Polygon_soup mirrored(const Flats& flats) {
 
 TEST(Pair_code, mirrors_with_the_scene_exchanges_with_the_arguments_and_reverses_with_the_fronts) {
   std::size_t ordered = 0, by_plane = 0;
-  for (std::uint64_t k = 0; k < 500; ++k) {
+  for (std::uint64_t k = 0; k < sample(500u); ++k) {
     Random random(k);
     const Related scene(moved(touching_soup(random), k % 3 == 2 ? Move::far : Move::none, k));
     const Related mirror(mirrored(scene.flats)), back(generate::faces_reversed(scene.soup)),
@@ -313,8 +316,8 @@ TEST(Pair_code, mirrors_with_the_scene_exchanges_with_the_arguments_and_reverses
             << "scene " << k << ": " << i << ", " << j;
       }
   }
-  EXPECT_GT(ordered, 3000u);
-  EXPECT_GT(by_plane, 100u);
+  EXPECT_GT(ordered, sample(3000u));
+  EXPECT_GT(by_plane, sample(100u));
 }
 
 TEST(Pair_code, is_the_same_under_other_exact_kernels) {

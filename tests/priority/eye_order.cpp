@@ -1,6 +1,7 @@
 // Orders by the priority graph: accepted by the checker, whole where they can be, for eyes in general places and in bad
 // ones.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/harness/generate/scenes.h>
@@ -12,6 +13,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye,
                                  const Eye_order<Exact_traits>& order, bool on_view) {
@@ -112,7 +115,7 @@ TEST(Eye_order, of_faces_that_cross_cuts_them) {
 
 TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
   std::size_t cycles = 0, edge_on = 0, cut = 0, whole = 0;
-  for (std::uint64_t k = 0; k < 300; ++k) {
+  for (std::uint64_t k = 0; k < sample(300u); ++k) {
     const Ordered given(degenerate_soup(k));
     if (given.scene.pieces().empty()) continue;
     // In a face's plane, at a corner, in general place.
@@ -128,10 +131,10 @@ TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
       cycles += c.cycles, edge_on += c.edge_on, cut += c.splits, whole += given.whole(c);
     }
   }
-  EXPECT_GT(cycles, 50u);
-  EXPECT_GT(edge_on, 500u);
-  EXPECT_GT(cut, 50u);
-  EXPECT_GT(whole, 300u);
+  EXPECT_GT(cycles, sample(50u));
+  EXPECT_GT(edge_on, sample(500u));
+  EXPECT_GT(cut, sample(50u));
+  EXPECT_GT(whole, sample(300u));
 }
 
 TEST(Eye_order, of_generated_scenes_never_cuts_more_than_a_bsp_tree_does) {
@@ -215,8 +218,9 @@ TEST(Eye_order, from_a_hundred_random_eyes_is_accepted) {
                                    {"convex_sphere", 60},
                                    {"stacked", 20}}) {
     SCOPED_TRACE(kind);
-    EXPECT_EQ(accepted_from_random_eyes(Ordered(generate::make(kind, static_cast<std::size_t>(size), 3)), 100, 1),
-              100u);
+    EXPECT_EQ(
+        accepted_from_random_eyes(Ordered(generate::make(kind, static_cast<std::size_t>(size), 3)), sample(100u), 1),
+        sample(100u));
   }
 }
 

@@ -1,5 +1,6 @@
 // Explicit and implicit graphs against arcs by the Lemma and components by transitive closure.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/algorithms/priority/implicit_graph.h>
@@ -7,6 +8,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 using Relation = Priority_relation<Exact_traits>;
 using Implicit = Implicit_priority_graph<Relation>;
@@ -131,7 +134,7 @@ TEST(Graph, of_stacked_squares_has_one_enumeration_from_the_top_down) {
 
 TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_on_2500_degenerate_scenes) {
   std::size_t cyclic = 0, acyclic = 0, several = 0;
-  for (std::uint64_t k = 0; k < 2500; ++k) {
+  for (std::uint64_t k = 0; k < sample(2500u); ++k) {
     SCOPED_TRACE(k);
     const Related scene(degenerate_soup(k + 100000));
     const Matrix arcs = arcs_of(scene.flats);
@@ -141,9 +144,9 @@ TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_on_2500_deg
     for (const auto& set : components_by_closure(arcs)) large += set.size() > 1;
     cyclic += large > 0, acyclic += large == 0, several += large > 1;
   }
-  EXPECT_GT(cyclic, 400u);
-  EXPECT_GT(acyclic, 400u);
-  EXPECT_GT(several, 20u);
+  EXPECT_GT(cyclic, sample(400u));
+  EXPECT_GT(acyclic, sample(400u));
+  EXPECT_GT(several, sample(20u));
 }
 
 TEST(Graph, explicit_and_implicit_have_the_components_of_the_closure_where_a_dozen_scenes_are_one) {

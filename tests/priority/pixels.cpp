@@ -1,6 +1,7 @@
 // Sets of faces at pixels against rays in plain rationals, their statistics recounted, and priorities from an eye
 // against distances.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/algorithms/priority/pixels.h>
@@ -13,6 +14,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 using Triple = std::array<double, 3>;
 using Pixels = std::vector<std::vector<std::uint32_t>>;
@@ -392,7 +395,7 @@ void check_priorities(const Related& scene, const Priority_tree_options& options
 
 TEST(Priorities, ascend_with_the_distance_along_every_ray_but_within_a_cycle_of_the_tree) {
   Ranked whole, cut;
-  for (std::uint64_t k = 0; k < 250; ++k) {
+  for (std::uint64_t k = 0; k < sample(250u); ++k) {
     Random random(k);
     const Related scene(degenerate_soup(k));
     if (scene.flats.empty()) continue;
@@ -400,10 +403,10 @@ TEST(Priorities, ascend_with_the_distance_along_every_ray_but_within_a_cycle_of_
     ASSERT_NO_FATAL_FAILURE(check_priorities(scene, {k % 2 == 0, false, {}}, view, whole)) << "scene " << k;
     ASSERT_NO_FATAL_FAILURE(check_priorities(scene, {k % 2 == 1, true, {}}, view, cut)) << "scene " << k << ", cut";
   }
-  EXPECT_GT(whole.ahead, 150u);
-  EXPECT_GT(whole.in_cycles, 200u);
-  EXPECT_GT(whole.from_planes, 50u);
-  EXPECT_GT(cut.ahead, 500u);
+  EXPECT_GT(whole.ahead, sample(150u));
+  EXPECT_GT(whole.in_cycles, sample(200u));
+  EXPECT_GT(whole.from_planes, sample(50u));
+  EXPECT_GT(cut.ahead, sample(500u));
   EXPECT_EQ(cut.in_cycles, 0u);
 }
 

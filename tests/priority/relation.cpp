@@ -1,5 +1,6 @@
 // The relation against the Lemma in rational arithmetic, and the Lemma against eyes and rays.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/kernel/traits/point_traits.h>
@@ -10,6 +11,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 /// may_obscure and arcs of every ordered pair, and under the default traits find_corner's witnesses.
 template <class Traits>
@@ -110,7 +113,7 @@ void count_kinds(const Flats& flats, const Matrix& arcs, Kinds& kinds) {
 
 TEST(Relation, is_the_lemma_on_10000_degenerate_scenes_each_under_two_of_three_exact_kernels) {
   Kinds kinds, moved_arcs;
-  for (std::uint64_t k = 0; k < 10000; ++k) {
+  for (std::uint64_t k = 0; k < sample(10000u); ++k) {
     const Related scene(degenerate_soup(k));
     const Sides sides = sides_of(scene.flats);
     const Matrix expected = arcs_of(sides);
@@ -133,8 +136,8 @@ TEST(Relation, is_the_lemma_on_10000_degenerate_scenes_each_under_two_of_three_e
        {"arcs: none", "arcs: one", "arcs: both", "coplanar: same sense", "coplanar: opposite sense",
         "parallel: same sense", "parallel: face to face", "parallel: back to back", "interpenetrating", "shared edge",
         "shared corner", "touching elsewhere", "apart", "apart, a corner in the other's plane"})
-    EXPECT_GT(kinds[kind], 400u) << kind;
-  for (const char* move : {"far", "tiny", "one ulp off", "turned"}) EXPECT_GT(moved_arcs[move], 5000u) << move;
+    EXPECT_GT(kinds[kind], sample(400u)) << kind;
+  for (const char* move : {"far", "tiny", "one ulp off", "turned"}) EXPECT_GT(moved_arcs[move], sample(5000u)) << move;
 }
 
 // ---- The definition: eyes and rays
@@ -165,7 +168,7 @@ Exact_point inner_witness(const Flat& of, const Flat& plane, int side) {
 
 TEST(Relation, every_arc_has_an_eye_whose_ray_goes_through_the_insides_of_both_faces_in_that_order) {
   std::size_t arcs = 0;
-  for (std::uint64_t k = 0; k < 1000; ++k) {
+  for (std::uint64_t k = 0; k < sample(1000u); ++k) {
     const Related scene(degenerate_soup(k + 20000));
     const Matrix found = asked(scene.relation);
     for (std::size_t i = 0; i < found.size(); ++i)
@@ -179,7 +182,7 @@ TEST(Relation, every_arc_has_an_eye_whose_ray_goes_through_the_insides_of_both_f
               << "scene " << k << ": " << i << " < " << j << ", t = " << to_string(t);
       }
   }
-  EXPECT_GT(arcs, 5000u);
+  EXPECT_GT(arcs, sample(5000u));
 }
 
 /// Whether from an eye strictly in front of both the ray towards a point of b meets a, closed, strictly before b.
@@ -191,7 +194,7 @@ bool meets_before(const Flat& a, const Flat& b, const Exact_point& eye, const Ex
 
 TEST(Relation, where_there_is_no_arc_no_eye_and_no_ray_shows_one_face_before_the_other) {
   std::size_t none = 0, in_front = 0, met = 0;
-  for (std::uint64_t k = 0; k < 1000; ++k) {
+  for (std::uint64_t k = 0; k < sample(1000u); ++k) {
     Random random(k);
     const Related scene(degenerate_soup(k + 20000));
     const Matrix found = asked(scene.relation);
@@ -217,16 +220,16 @@ TEST(Relation, where_there_is_no_arc_no_eye_and_no_ray_shows_one_face_before_the
         none += !found[i][j];
       }
   }
-  EXPECT_GT(none, 5000u);
-  EXPECT_GT(in_front, 5000u) << "eyes in front of both";
-  EXPECT_GT(met, 5000u) << "the samples do find arcs where there are any";
+  EXPECT_GT(none, sample(5000u));
+  EXPECT_GT(in_front, sample(5000u)) << "eyes in front of both";
+  EXPECT_GT(met, sample(5000u)) << "the samples do find arcs where there are any";
 }
 
 // ---- Laws
 
 TEST(Relation, turning_all_faces_round_reverses_all_arcs) {
   std::size_t arcs = 0, one_way = 0;
-  for (std::uint64_t k = 0; k < 2000; ++k) {
+  for (std::uint64_t k = 0; k < sample(2000u); ++k) {
     Random random(k);
     const Polygon_soup soup = moved(touching_soup(random),
                                     k % 2 == 0   ? Move::none
@@ -244,8 +247,8 @@ TEST(Relation, turning_all_faces_round_reverses_all_arcs) {
       }
     }
   }
-  EXPECT_GT(arcs, 10000u);
-  EXPECT_GT(one_way, 5000u) << "a symmetric relation would keep the law too";
+  EXPECT_GT(arcs, sample(10000u));
+  EXPECT_GT(one_way, sample(5000u)) << "a symmetric relation would keep the law too";
 }
 
 TEST(Relation, has_no_arc_from_a_face_to_itself_or_between_coplanar_ones) {
@@ -324,7 +327,7 @@ TEST(Relation, one_corner_a_hair_out_of_the_other_plane_decides) {
 
 TEST(Relation, holds_for_the_fragments_of_a_tree_whose_corners_are_meets_of_planes) {
   std::size_t fragments = 0, cut = 0, arcs = 0;
-  for (std::uint64_t k = 0; k < 400; ++k) {
+  for (std::uint64_t k = 0; k < sample(400u); ++k) {
     const Built built(degenerate_soup(k + 40000));
     Priority_relation<Exact_traits> relation(built.traits);
     Flats flats;
@@ -338,9 +341,9 @@ TEST(Relation, holds_for_the_fragments_of_a_tree_whose_corners_are_meets_of_plan
     ASSERT_TRUE(same_arcs(asked(relation), expected)) << "scene " << k;
     arcs += count_arcs(expected);
   }
-  EXPECT_GT(fragments, 2000u);
-  EXPECT_GT(cut, 500u);
-  EXPECT_GT(arcs, 10000u);
+  EXPECT_GT(fragments, sample(2000u));
+  EXPECT_GT(cut, sample(500u));
+  EXPECT_GT(arcs, sample(10000u));
 }
 
 }  // namespace

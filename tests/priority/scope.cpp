@@ -1,5 +1,6 @@
 // Scopes against eyes: a region's arcs by separating planes, witnesses by sampling, and answers by hand.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/algorithms/priority/implicit_graph.h>
@@ -10,6 +11,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 using Region = Region_relation<Exact_traits>;
 using Ray = Ray_relation<Exact_traits>;
@@ -156,7 +159,7 @@ Related random_scene(std::uint64_t k) {
 
 TEST(Scope, of_a_region_has_the_arcs_whose_eyes_no_plane_separates_from_it) {
   std::size_t present = 0, absent = 0;
-  for (std::uint64_t k = 0; k < 160; ++k) {
+  for (std::uint64_t k = 0; k < sample(160u); ++k) {
     Random random(k);
     const Related scene = random_scene(k);
     if (scene.flats.empty()) continue;
@@ -178,13 +181,13 @@ TEST(Scope, of_a_region_has_the_arcs_whose_eyes_no_plane_separates_from_it) {
       present += count_arcs(found), absent += whole - count_arcs(found);
     }
   }
-  EXPECT_GT(present, 1000u);
-  EXPECT_GT(absent, 1000u) << "arcs of the whole relation that the region has not";
+  EXPECT_GT(present, sample(1000u));
+  EXPECT_GT(absent, sample(1000u)) << "arcs of the whole relation that the region has not";
 }
 
 TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
   std::size_t witnesses = 0, proven = 0, arcs = 0;
-  for (std::uint64_t k = 0; k < 200; ++k) {
+  for (std::uint64_t k = 0; k < sample(200u); ++k) {
     Random random(k);
     const Related scene = random_scene(k + 1000);
     if (scene.flats.size() < 2) continue;
@@ -207,7 +210,7 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
     }
     proven += count_arcs(met), arcs += count_arcs(found);
   }
-  EXPECT_GT(witnesses, 1000u);
+  EXPECT_GT(witnesses, sample(1000u));
   EXPECT_GT(2 * proven, arcs) << "most arcs are met";
 }
 
@@ -215,7 +218,7 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
 
 TEST(Scope, smaller_regions_have_fewer_arcs_down_to_eyes_and_rays) {
   std::array<std::size_t, 5> arcs{};
-  for (std::uint64_t k = 0; k < 200; ++k) {
+  for (std::uint64_t k = 0; k < sample(200u); ++k) {
     Random random(k);
     const Related scene = random_scene(k + 2000);
     if (scene.flats.empty()) continue;
@@ -244,7 +247,7 @@ TEST(Scope, smaller_regions_have_fewer_arcs_down_to_eyes_and_rays) {
   }
   for (std::size_t s = 1; s < 5; ++s) {
     EXPECT_LT(arcs[s], arcs[s - 1]);
-    EXPECT_GT(arcs[s], 30u) << s;
+    EXPECT_GT(arcs[s], sample(30u)) << s;
   }
 }
 
@@ -252,7 +255,7 @@ TEST(Scope, of_a_box_three_times_as_far_as_the_scene_is_the_whole_relation) {
   // If a point p of one face may hide a point q of another, then it does from p + (p - q), which is at most three times
   // as far from the centre.
   std::size_t arcs = 0;
-  for (std::uint64_t k = 0; k < 150; ++k) {
+  for (std::uint64_t k = 0; k < sample(150u); ++k) {
     Random random(k + 7000);
     const Related scene(touching_soup(random));
     Rational reach = 1;
@@ -265,12 +268,12 @@ TEST(Scope, of_a_box_three_times_as_far_as_the_scene_is_the_whole_relation) {
     ASSERT_TRUE(same_arcs(box, whole)) << "scene " << k;
     arcs += count_arcs(whole);
   }
-  EXPECT_GT(arcs, 1000u);
+  EXPECT_GT(arcs, sample(1000u));
 }
 
 TEST(Scope, repeated_points_and_points_inside_change_no_region) {
   std::size_t arcs = 0;
-  for (std::uint64_t k = 0; k < 100; ++k) {
+  for (std::uint64_t k = 0; k < sample(100u); ++k) {
     Random random(k);
     const Related scene = random_scene(k + 3000);
     if (scene.flats.empty()) continue;
@@ -283,12 +286,12 @@ TEST(Scope, repeated_points_and_points_inside_change_no_region) {
     ASSERT_TRUE(same_arcs(from(scene, more), arcs_of_it)) << "scene " << k;
     arcs += count_arcs(arcs_of_it);
   }
-  EXPECT_GT(arcs, 100u);
+  EXPECT_GT(arcs, sample(100u));
 }
 
 TEST(Scope, graphs_of_regions_and_rays_have_the_components_of_the_closure) {
   std::size_t cyclic = 0, arcs = 0;
-  for (std::uint64_t k = 0; k < 150; ++k) {
+  for (std::uint64_t k = 0; k < sample(150u); ++k) {
     Random random(k);
     const Related scene = random_scene(k + 4000);
     if (scene.flats.empty()) continue;
@@ -312,15 +315,15 @@ TEST(Scope, graphs_of_regions_and_rays_have_the_components_of_the_closure) {
     if (direction != Exact_point{0, 0, 0}) check(Ray(scene.relation, eye, direction));
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(arcs, 500u);
-  EXPECT_GT(cyclic, 10u);
+  EXPECT_GT(arcs, sample(500u));
+  EXPECT_GT(cyclic, sample(10u));
 }
 
 // ---- Rays
 
 TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
   std::size_t pierced = 0, missed = 0, arcs = 0;
-  for (std::uint64_t k = 0; k < 1000; ++k) {
+  for (std::uint64_t k = 0; k < sample(1000u); ++k) {
     Random random(k);
     const Related scene(degenerate_soup(k + 300000));
     if (scene.flats.empty()) continue;
@@ -353,9 +356,9 @@ TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
       }
     }
   }
-  EXPECT_GT(pierced, 2000u);
-  EXPECT_GT(missed, 2000u);
-  EXPECT_GT(arcs, 500u);
+  EXPECT_GT(pierced, sample(2000u));
+  EXPECT_GT(missed, sample(2000u));
+  EXPECT_GT(arcs, sample(500u));
 }
 
 /// Unit squares at heights 1 and 0, fronts up: the upper one, 0, may obscure the lower one, 1.
@@ -421,7 +424,7 @@ TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corne
   // either keeps them apart, but one through a corner of each does.
   Random random(11);
   std::size_t arcs = 0, whole = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < sample(3000); ++trial) {
     const auto face = [&](const std::array<std::array<long, 2>, 3>& corners, int sign) {
       Points points;
       for (const auto& [x, y] : corners) {
@@ -439,7 +442,7 @@ TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corne
     ASSERT_TRUE(same_arcs(found, arcs_from(scene.flats, {at(0, 0, 0)}))) << trial;
     arcs += count_arcs(found), whole += count_arcs(arcs_of(scene.flats));
   }
-  EXPECT_GT(arcs, 100u);
+  EXPECT_GT(arcs, sample(100u));
   EXPECT_GT(whole, arcs + 100);
 }
 

@@ -1,6 +1,7 @@
 // Priority trees and separating planes against the Lemma and plain rationals: what every tree must be, whatever it was
 // made of.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/algorithms/priority/tree.h>
@@ -12,6 +13,8 @@
 using namespace priority_test;
 
 namespace {
+
+using test_scenes::sample;
 
 template <class Traits>
 Points corners_of(const Traits& traits, const Convex_polygon<Traits>& polygon) {
@@ -304,23 +307,23 @@ std::string in_words(const Traits& traits, const Priority_tree<Traits>& tree) {
 
 TEST(Priority_tree, keeps_all_laws_on_1200_degenerate_scenes_with_one_or_both_sides_cut_or_whole) {
   Exact_laws laws;
-  for (std::uint64_t k = 0; k < 1200; ++k) {
+  for (std::uint64_t k = 0; k < sample(1200u); ++k) {
     const Related scene(degenerate_soup(k));
     for (const std::size_t kind : {k / 32 % 2, 3 - k / 32 % 2})  // two of the four
       ASSERT_TRUE(
           laws.hold(scene, scene.traits, all_options[kind], build_priority_tree(scene.traits, all_options[kind])))
           << "scene " << k;
   }
-  EXPECT_GT(laws.sum.sequences, 1000u);
-  EXPECT_GT(laws.sum.planes, 1000u);
-  EXPECT_GT(laws.sum.cycles, 500u);
-  EXPECT_GT(laws.sum.free_planes, 100u);
-  EXPECT_GT(laws.sum.cutting_planes, 500u);
-  EXPECT_GT(laws.sum.by_plane, 1000u);
-  EXPECT_GT(laws.sum.by_number, 1000u);
-  EXPECT_GT(laws.cut_pieces, 500u);
-  EXPECT_GT(laws.touching, 1000u) << "polygons that touch the plane they are beside";
-  EXPECT_GT(laws.nested, 100u);
+  EXPECT_GT(laws.sum.sequences, sample(1000u));
+  EXPECT_GT(laws.sum.planes, sample(1000u));
+  EXPECT_GT(laws.sum.cycles, sample(500u));
+  EXPECT_GT(laws.sum.free_planes, sample(100u));
+  EXPECT_GT(laws.sum.cutting_planes, sample(500u));
+  EXPECT_GT(laws.sum.by_plane, sample(1000u));
+  EXPECT_GT(laws.sum.by_number, sample(1000u));
+  EXPECT_GT(laws.cut_pieces, sample(500u));
+  EXPECT_GT(laws.touching, sample(1000u)) << "polygons that touch the plane they are beside";
+  EXPECT_GT(laws.nested, sample(100u));
 }
 
 TEST(Priority_tree, keeps_all_laws_on_scenes_of_each_kind_and_cities_are_settled_without_a_cut) {

@@ -1,10 +1,13 @@
 // Certificates that are wrong in every way: an answer in one line, never a crash.
 
+#include "../sample.h"
 #include "scenes.h"
 
 #include <random>
 
 namespace {
+
+using test_scenes::sample;
 
 using namespace verify_test;
 
@@ -102,7 +105,7 @@ TEST(Hostile, the_eye_anywhere) {
 TEST(Hostile, random_damage_is_survived_and_hardly_ever_right) {
   std::mt19937 random(20261121);
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
-  for (int trial = 0; trial < 3000; ++trial) {
+  for (int trial = 0; trial < sample(3000); ++trial) {
     SCOPED_TRACE(trial);
     Scene scene = good();
     auto& c = scene.certificate;

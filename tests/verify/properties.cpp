@@ -1,5 +1,6 @@
 // Orders known by construction, and the test of pairs against a clipping of polygons in space.
 
+#include "../sample.h"
 #include "scenes.h"
 
 #include <sightline/algorithms/verify/pairs.h>
@@ -8,6 +9,8 @@
 #include <rapidcheck.h>
 
 namespace {
+
+using test_scenes::sample;
 
 using namespace verify_test;
 
@@ -38,7 +41,7 @@ struct Affine {
 };
 
 TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged) {
-  for (unsigned seed = 0; seed < 1000; ++seed) {
+  for (unsigned seed = 0; seed < sample(1000u); ++seed) {
     SCOPED_TRACE(seed);
     Dice dice(seed);
     const bool tilted = roll(dice, 0, 1) == 1;
@@ -156,7 +159,7 @@ TEST(Pair_check, agrees_with_clipping_in_space) {
   rc::check("nearer_somewhere() is nearer_by_clipping()", [&] {
     const auto seed = *rc::gen::arbitrary<unsigned>();
     Dice dice(seed);
-    for (int trial = 0; trial < 50; ++trial) {
+    for (int trial = 0; trial < sample(50); ++trial) {
       const long size = trial % 3 + 1;
       const Points a = random_polygon(dice, size, false), b = random_polygon(dice, size, false);
       const order_check::Cone cone_a(a, at(0, 0, 0)), cone_b(b, at(0, 0, 0));
@@ -179,14 +182,14 @@ TEST(Pair_check, agrees_with_clipping_in_space) {
 TEST(Pair_check, separation_in_a_plane_agrees_with_clipping) {
   Dice dice(7);
   std::size_t overlapping = 0;
-  for (int trial = 0; trial < 10000; ++trial) {
+  for (int trial = 0; trial < sample(10000); ++trial) {
     const Points a = random_polygon(dice, trial % 4 + 1, true), b = random_polygon(dice, trial % 4 + 1, true);
     const order_check::Cone cone_a(a, at(0, 0, 0)), cone_b(b, at(0, 0, 0));
     const bool expected = has_area(clipped(a, b));
     ASSERT_EQ(!separates(cone_a, cone_b) && !separates(cone_b, cone_a), expected) << trial;
     overlapping += expected;
   }
-  EXPECT_GT(overlapping, 1000u);
+  EXPECT_GT(overlapping, sample(1000u));
 }
 
 TEST(Pairs, hand_on_all_that_overlap_and_few_others) {

@@ -1,5 +1,6 @@
 // Faces that are not drawn: each reason true and false.
 
+#include "../sample.h"
 #include "scenes.h"
 
 #include <sightline/algorithms/bsp/build.h>
@@ -10,6 +11,8 @@
 #include <sightline/kernel/traits/exact_traits.h>
 
 namespace {
+
+using test_scenes::sample;
 
 using namespace verify_test;
 using verify_test::Scene;  // made by hand, unlike sightline::Scene
@@ -185,7 +188,7 @@ Order_certificate back_to_front(const sightline::Scene& scene, const Exact_point
 TEST(Set_aside, as_scenes_do_it_with_twisted_holes) {
   std::size_t aside = 0, kept = 0;
   for (const std::int64_t ulps : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, generate::far_ulps})
-    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    for (std::uint64_t seed = 0; seed < sample(100u); ++seed) {
       generate::Family_parameters parameters;
       parameters.seed = seed, parameters.ulps = ulps;
       const generate::Posed_scene posed = generate::family("twisted_holes").make(parameters);
@@ -206,8 +209,8 @@ TEST(Set_aside, as_scenes_do_it_with_twisted_holes) {
               << posed.name << ": face " << forged.set_aside[k].face << " as " << text;
         }
     }
-  EXPECT_GT(aside, 150u);
-  EXPECT_GT(kept, 150u);
+  EXPECT_GT(aside, sample(150u));
+  EXPECT_GT(kept, sample(150u));
 }
 
 TEST(Set_aside, as_a_duplicate) {

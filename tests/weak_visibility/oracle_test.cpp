@@ -1,6 +1,7 @@
 // The oracles of weak visibility: by answers worked out by hand, and against each other.
 // SIGHTLINE_LONG: so many times the scenes, for a long run.
 
+#include "../sample.h"
 #include "parallel_planes.h"
 #include "z3.h"
 
@@ -314,7 +315,7 @@ TEST(Weak_oracle_z3, says_of_single_pairs_what_exact_segments_say) {
 // ---- Against each other
 
 TEST(Weak_oracle_parallel_planes, decides_pairs_that_touch_and_are_2_to_the_minus_40_apart) {
-  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(60); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::sample(60u)); ++seed) {
     const Closed_and_reopened pair = closed_and_reopened(seed);
     EXPECT_FALSE(decide(pair.closed)) << seed;
     const std::optional<Sightline> line = decide(pair.reopened);
@@ -357,7 +358,7 @@ TEST(Weak_oracle_parallel_planes, splits_what_is_free_into_disjoint_cells_of_fre
 
 TEST(Weak_oracles, agree_on_parallel_planes) {
   Tally level, projected;
-  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(300); ++seed) {
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::sample(300u)); ++seed) {
     const Weak_scene scene = parallel_planes_scene(seed);
     const bool is_level =
         std::all_of(scene.source.begin(), scene.source.end(), [](const Exact_point& p) { return sgn(p[2]) == 0; });

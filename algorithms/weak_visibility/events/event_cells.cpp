@@ -19,8 +19,6 @@ Exact_pluecker moved(const Event_chart& chart, const Event_move& move, const Rat
   return join(point(chart.v, by[0], by[2]), point(chart.w, by[1], by[3]));
 }
 
-}  // namespace sightline
-namespace sightline {
 namespace event_cells_detail {
 
 std::vector<Rational> numbers_between(std::vector<Rational> at) {

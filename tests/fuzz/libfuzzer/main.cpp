@@ -1,7 +1,6 @@
-// One target for libFuzzer, which the build names: SIGHTLINE_FUZZ_TARGET in SIGHTLINE_FUZZ_HEADER.
+// One target for libFuzzer, which the build names: SIGHTLINE_FUZZ_TARGET.
 
-#include SIGHTLINE_FUZZ_HEADER
-#include "../mutate.h"
+#include "../targets.h"
 
 #include <cstdio>
 

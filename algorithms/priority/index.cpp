@@ -1,0 +1,7 @@
+#include <sightline/algorithms/priority/index.h>
+
+namespace sightline {
+
+template class Priority_index<Exact_traits>;
+
+}  // namespace sightline
