@@ -7,7 +7,7 @@ cmake|cmake|the build
 ninja-build|ninja|the build
 libcgal-dev|CGAL/version.h|kernels to compare with, interval arithmetic
 libgmp-dev|gmpxx.h|exact integers and rationals
-libmpfr-dev|mpfr.h|CGAL needs it
+libmpfr-dev|mpfr.h|rationals rounded to doubles; CGAL needs it
 libboost-dev|boost/version.hpp|CGAL needs it
 libtbb-dev|oneapi/tbb/version.h|threads
 libopenmesh-dev|OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh|the face graph

@@ -3,12 +3,12 @@
 #include <sightline/kernel/quoted.h>
 
 #include <algorithm>
-#include <bit>
+#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
-#include <tuple>
+#include <system_error>
 
 namespace sightline {
 
@@ -152,48 +152,18 @@ Number parse_rational(const Text_reader& text, std::string_view token) {
   }
 }
 
-namespace detail {
-
-std::optional<double> nearest_double_of_short(Decimal decimal) {
-  __extension__ using Wide = unsigned __int128;
-  if (decimal.mantissa == 0) return 0.0;
-  if (decimal.exponent < -19) return std::nullopt;
-  const bool negative = decimal.mantissa < 0;
-  const std::uint64_t numerator =
-      negative ? 0 - static_cast<std::uint64_t>(decimal.mantissa) : static_cast<std::uint64_t>(decimal.mantissa);
-  const std::uint64_t denominator = powers_of_ten[static_cast<std::size_t>(-decimal.exponent)];
-
-  const int shift = 64 + std::countl_zero(numerator);
-  const Wide scaled = Wide{numerator << (shift - 64)}
-                      << 64;  // numerator x 2^shift, at least 2^127; the denominator is below 2^64
-  const Wide quotient = scaled / denominator;
-  const bool inexact = scaled % denominator != 0;
-
-  const auto high = static_cast<std::uint64_t>(quotient >> 64);
-  const int drop = (high != 0 ? 128 - std::countl_zero(high) : 64) - 53;
-  const Wide half = Wide{1} << (drop - 1);
-  const Wide dropped = quotient & (2 * half - 1);
-  auto kept = static_cast<std::uint64_t>(quotient >> drop);
-  if (dropped > half || (dropped == half && (inexact || (kept & 1) != 0))) ++kept;
-  return std::ldexp(negative ? -static_cast<double>(kept) : static_cast<double>(kept), drop - shift);
-}
-
-}  // namespace detail
-double nearest_double(const Number& number) {
-  if (const auto* decimal = std::get_if<Decimal>(&number))
-    if (const std::optional<double> rounded = detail::nearest_double_of_short(*decimal)) return *rounded;
-  return nearest_double(value_of(number));
-}
-
 Number read_coordinate(const Text_reader& text, std::string_view token, Number_syntax syntax,
                        const Read_options& options) {
   if (token.empty()) text.fail(token, "a coordinate is missing; a point has three");
   Number number = syntax == Number_syntax::decimal ? parse_decimal(text, token) : parse_rational(text, token);
   if (!options.round_to_double) return number;
-  const double rounded = nearest_double(number);
+  double rounded = 0;
+  const char *const begin = token.data() + (token.front() == '+' ? 1 : 0), *const end = token.data() + token.size();
+  const auto [last, error] = std::from_chars(begin, end, rounded);
+  if (last != end || error != std::errc()) rounded = nearest_double(value_of(number));  // p/q, or out of range
   if (!std::isfinite(rounded))
     text.fail(token, quoted(token) + " is beyond the range of a double; scale the scene, or read exact coordinates");
-  return rounded;
+  return rounded == 0 ? 0.0 : rounded;  // -0 is 0
 }
 
 void skip_number(const Text_reader& text, std::string_view token) {

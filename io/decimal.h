@@ -61,23 +61,11 @@ Number parse_decimal(const Text_reader& text, std::string_view token);
 /// Exact: yes. Cost: beyond 18 digits GMP's conversion and gcd.
 Number parse_rational(const Text_reader& text, std::string_view token);
 
-namespace detail {
-
-/// The double nearest to a decimal, ties to even, where 128 bits suffice; nothing where its exponent is below -19.
-/// Exact: yes. The quotient has at least 64 bits, 53 are kept, the rest and `inexact` (whether the division leaves a
-/// remainder) decide the rounding; and nothing is subnormal or overflows, since 10^-19 <= |value| < 2^63, or it is 0.
-std::optional<double> nearest_double_of_short(Decimal decimal);
-
-}  // namespace detail
-
-/// The double nearest to a number, ties to even; +-infinity beyond the range. Exact: yes.
-double nearest_double(const Number& number);
-
 /// What a coordinate in text may look like.
 enum class Number_syntax { decimal, rational };
 
-/// A coordinate of a text file, as `options` wish it. Throws where it is missing, no number, or too large to be rounded
-/// to a double.
+/// A coordinate of a text file, exact or, as `options` wish, rounded to the nearest double, ties to even. Throws where
+/// it is missing, no number, or too large to be rounded to a double.
 Number read_coordinate(const Text_reader& text, std::string_view token, Number_syntax syntax,
                        const Read_options& options);
 

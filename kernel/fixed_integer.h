@@ -1,5 +1,5 @@
 #pragma once
-// Integers of a fixed width for exact signs: no allocation, no branches, as many bits as the scene's budget asks for.
+// Integers of a fixed width for exact signs: no allocation, as many bits as the scene's budget asks for.
 
 #include <sightline/kernel/number.h>
 
@@ -12,7 +12,7 @@ using Limb = std::uint64_t;
 
 /// A two's complement integer of 64 x Limbs bits. Arithmetic is modulo 2^(64 Limbs), so a sum of products is exact
 /// whenever its final value fits, whatever its intermediate values do. Nothing checks the range at run time: the bit
-/// budget (P-02) is the proof. Cost: Limbs^2/2 multiplications a product. Exact: yes, within the budget.
+/// budget (P-02) is the proof. Cost: at most Limbs^2/2 multiplications a product. Exact: yes, within the budget.
 template <int Limbs>
 class Fixed_integer {
   static_assert(Limbs >= 1);
@@ -33,6 +33,7 @@ class Fixed_integer {
   }
 
   friend Fixed_integer operator+(const Fixed_integer& a, const Fixed_integer& b) {
+    if constexpr (Limbs == 2) return of_whole(a.whole() + b.whole());
     Fixed_integer sum;
     Wide carry = 0;
     for (int i = 0; i < Limbs; ++i) {
@@ -43,6 +44,7 @@ class Fixed_integer {
     return sum;
   }
   friend Fixed_integer operator-(const Fixed_integer& a, const Fixed_integer& b) {
+    if constexpr (Limbs == 2) return of_whole(a.whole() - b.whole());
     Fixed_integer difference;
     Wide carry = 1;
     for (int i = 0; i < Limbs; ++i) {
@@ -53,16 +55,18 @@ class Fixed_integer {
     return difference;
   }
   friend Fixed_integer operator*(const Fixed_integer& a, const Fixed_integer& b) {
-    Fixed_integer product{};
-    for (int i = 0; i < Limbs; ++i) {
-      Wide carry = 0;
-      for (int j = 0; i + j < Limbs; ++j) {
-        carry += Wide{a.limb_[i]} * b.limb_[j] + product.limb_[i + j];
-        product.limb_[i + j] = static_cast<Limb>(carry);
-        carry >>= 64;
+    if constexpr (Limbs == 2) return of_whole(a.whole() * b.whole());
+    if constexpr (Limbs > 4) {  // of a scene's width, much is often a sign
+      int rows = Limbs;
+      while (rows > 1 && a.limb_[rows - 1] == extension(a.limb_[Limbs - 1])) --rows;
+      switch (rows) {
+        case 1: return product<1>(a, b);
+        case 2: return product<2>(a, b);
+        case 3: return product<3>(a, b);
+        case 4: return product<4>(a, b);
       }
     }
-    return product;
+    return product<Limbs>(a, b);
   }
 
   Fixed_integer operator-() const { return Fixed_integer(0) - *this; }
@@ -82,6 +86,34 @@ class Fixed_integer {
 
  private:
   using Wide = unsigned __int128;
+  // Pre: the limbs of a from `rows` on only extend its sign. They are one subtraction of b, all together.
+  template <int rows>
+  static Fixed_integer product(const Fixed_integer& a, const Fixed_integer& b) {
+    Fixed_integer product{};
+    for (int i = 0; i < rows; ++i) {
+      Wide carry = 0;
+      for (int j = 0; i + j < Limbs; ++j) {
+        carry += Wide{a.limb_[i]} * b.limb_[j] + product.limb_[i + j];
+        product.limb_[i + j] = static_cast<Limb>(carry);
+        carry >>= 64;
+      }
+    }
+    const Limb sign = extension(a.limb_[Limbs - 1]);
+    Wide carry = 1;
+    for (int j = 0; rows + j < Limbs; ++j) {
+      carry += Wide{product.limb_[rows + j]} + static_cast<Limb>(~(b.limb_[j] & sign));
+      product.limb_[rows + j] = static_cast<Limb>(carry);
+      carry >>= 64;
+    }
+    return product;
+  }
+  // Of two limbs it is the compiler's own integer.
+  Wide whole() const { return Wide{limb_[1]} << 64 | limb_[0]; }
+  static Fixed_integer of_whole(Wide value) {
+    Fixed_integer n;
+    n.limb_ = {static_cast<Limb>(value), static_cast<Limb>(value >> 64)};
+    return n;
+  }
   static constexpr Limb extension(Limb top) { return static_cast<Limb>(static_cast<std::int64_t>(top) >> 63); }
   std::array<Limb, Limbs> limb_;
 };

@@ -2,6 +2,8 @@
 
 #include <sightline/kernel/quoted.h>
 
+#include <mpfr.h>
+
 #include <cstdlib>
 
 namespace sightline {
@@ -16,34 +18,14 @@ Rational exact_decimal(const Integer& mantissa, long exponent) {
 }
 
 double nearest_double(const Rational& value) {
-  const int sign = sgn(value);
-  if (sign == 0) return 0.0;
-  const Integer numerator = abs(value.get_num());
-  const Integer& denominator = value.get_den();
-  // Scale so that the integer quotient has at least 54 bits, or fewer where the result is subnormal.
-  long shift = 55 - (static_cast<long>(bit_length(numerator)) - static_cast<long>(bit_length(denominator)));
-  long precision_floor = 1074 + 1;  // one bit below the last subnormal bit
-  if (shift > precision_floor) shift = precision_floor;
-  Integer n = numerator, d = denominator, quotient, remainder;
-  if (shift >= 0) n <<= static_cast<unsigned long>(shift);
-  else d <<= static_cast<unsigned long>(-shift);
-  mpz_tdiv_qr(quotient.get_mpz_t(), remainder.get_mpz_t(), n.get_mpz_t(), d.get_mpz_t());
-  // Keep 53 bits (fewer for subnormals, where the lowest bit of the quotient is the rounding bit).
-  const long bits = static_cast<long>(bit_length(quotient));
-  long drop = bits - 53;
-  if (const long least = 1 - (1075 - shift); shift == precision_floor && drop < least) drop = least;
-  if (drop > 0) {
-    Integer low, half;
-    mpz_fdiv_r_2exp(low.get_mpz_t(), quotient.get_mpz_t(), static_cast<unsigned long>(drop));
-    mpz_setbit(half.get_mpz_t(), static_cast<unsigned long>(drop - 1));
-    quotient >>= static_cast<unsigned long>(drop);
-    const int order = cmp(low, half);
-    const bool sticky = sgn(remainder) != 0;
-    if (order > 0 || (order == 0 && (sticky || mpz_odd_p(quotient.get_mpz_t())))) ++quotient;
-  } else {
-    drop = 0;
-  }
-  return sign * std::ldexp(quotient.get_d(), static_cast<int>(drop - shift));
+  // As MPFR's manual has it for IEEE doubles: 53 bits, or as many as a subnormal has, rounded once.
+  MPFR_DECL_INIT(rounded, 53);
+  const mpfr_exp_t least = mpfr_get_emin();
+  mpfr_set_emin(-1073);
+  const int order = mpfr_set_q(rounded, value.get_mpq_t(), MPFR_RNDN);
+  mpfr_subnormalize(rounded, order, MPFR_RNDN);
+  mpfr_set_emin(least);
+  return mpfr_get_d(rounded, MPFR_RNDN);
 }
 
 Rational rational_from_string(std::string_view text) {

@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace sightline::generate {
-namespace view_drafts {
+namespace sightline::generate::view_drafts {
 
 std::array<Exact_point, 3> axes(Random& random) {
   while (true) {
@@ -131,5 +130,4 @@ const std::array<Gap_drafter, 6> gap_drafters{
                  equal_depth},
      Gap_drafter{"collinear_edges", "pages with an edge each on one line, moved off it by K ulps", collinear_edges}}};
 
-}  // namespace view_drafts
-}  // namespace sightline::generate
+}  // namespace sightline::generate::view_drafts

@@ -4,8 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace sightline::generate {
-namespace view_drafts {
+namespace sightline::generate::view_drafts {
 
 Exact_point some_eye(const Faces& faces, Random& random) {
   const Points &f = faces[random.below(faces.size())], &g = faces[random.below(faces.size())];
@@ -303,5 +302,4 @@ const std::array<Drafter, 11> drafters{
              aligned},
      Drafter{"concurrent", "corners, edges and faces on one line of sight", concurrent}}};
 
-}  // namespace view_drafts
-}  // namespace sightline::generate
+}  // namespace sightline::generate::view_drafts

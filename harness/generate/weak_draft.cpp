@@ -3,8 +3,7 @@
 #include <cstdint>
 #include <set>
 
-namespace sightline::generate {
-namespace weak_drafts {
+namespace sightline::generate::weak_drafts {
 
 Draft shaft(const Rational& height) {
   return {{reversed(rectangle(-1, 1, -1, 1, height))}, rectangle(-1, 1, -1, 1, 0), std::nullopt};
@@ -44,5 +43,4 @@ std::vector<Rational> subdivided(const Rational& low, const Rational& high, std:
   return {cuts.begin(), cuts.end()};
 }
 
-}  // namespace weak_drafts
-}  // namespace sightline::generate
+}  // namespace sightline::generate::weak_drafts

@@ -4,8 +4,7 @@
 
 #include <cstdint>
 
-namespace sightline::generate {
-namespace weak_drafts {
+namespace sightline::generate::weak_drafts {
 
 Draft hinged(Random& random, const Rational& gap) {
   Draft draft;
@@ -184,5 +183,4 @@ Draft triangles(Random& random, const Rational& gap) {
   return draft;
 }
 
-}  // namespace weak_drafts
-}  // namespace sightline::generate
+}  // namespace sightline::generate::weak_drafts

@@ -11,8 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace sightline::generate {
-namespace weak_drafts {
+namespace sightline::generate::weak_drafts {
 
 Weak_scene finished(Draft draft, Random& random) {
   // What changes nothing: source and target in each other's place, occluders turned, more of them before what is hidden
@@ -77,5 +76,4 @@ const std::array<Drafter, 18> drafters{
              lattice_faces},
      Drafter{"triangles", "triangles between two squares, one of them moved by K ulps", triangles}}};
 
-}  // namespace weak_drafts
-}  // namespace sightline::generate
+}  // namespace sightline::generate::weak_drafts

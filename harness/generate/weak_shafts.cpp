@@ -11,8 +11,7 @@
 #include <set>
 #include <vector>
 
-namespace sightline::generate {
-namespace weak_drafts {
+namespace sightline::generate::weak_drafts {
 
 Draft shared_edges(Random& random, const Rational& gap) {
   Draft draft = shaft(4);
@@ -260,5 +259,4 @@ Draft apertures(Random& random, const Rational& gap) {
   return draft;
 }
 
-}  // namespace weak_drafts
-}  // namespace sightline::generate
+}  // namespace sightline::generate::weak_drafts

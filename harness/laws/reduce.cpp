@@ -7,8 +7,7 @@
 #include <set>
 #include <utility>
 
-namespace sightline::harness {
-namespace reduce_detail {
+namespace sightline::harness::reduce_detail {
 
 Draft::Draft(const Posed_scene& scene) : eye(scene.eye), source(scene.source) {
   for (Face_id f = 0; f < scene.soup.face_count(); ++f) {
@@ -208,5 +207,4 @@ void Reducer::round_points() {
       }
 }
 
-}  // namespace reduce_detail
-}  // namespace sightline::harness
+}  // namespace sightline::harness::reduce_detail

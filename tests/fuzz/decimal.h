@@ -112,7 +112,7 @@ inline void check_number(const Number& number, const Rational& truth) {
   if (decimal)
     require(decimal->exponent <= 0 && (decimal->exponent == 0 || decimal->mantissa % 10 != 0),
             "a Decimal is canonical");
-  require(is_nearest_double(nearest_double(number), truth), "the nearest double is the nearest");
+  require(is_nearest_double(nearest_double(truth), truth), "the nearest double is the nearest");
   Coordinates coordinates;
   for (int copies = 0; copies < 2; ++copies) push(coordinates, number);
   coordinates.push(Rational(1, 3));
@@ -123,6 +123,16 @@ inline void check_number(const Number& number, const Rational& truth) {
   };
   coordinates.for_each_scaled(
       common, [&](std::size_t i, std::int64_t n) { check(i, Integer(static_cast<long>(n))); }, check);
+}
+
+/// What a coordinate that is to be rounded owes.
+inline void check_rounding(std::string_view word, Number_syntax syntax, const Rational& truth) {
+  Read_options options;
+  options.round_to_double = true;
+  const std::optional<Number> rounded = number_in(
+      word, [&](const Text_reader& of, std::string_view token) { return read_coordinate(of, token, syntax, options); });
+  if (rounded) require(is_nearest_double(std::get<double>(*rounded), truth), "what is rounded is nearest");
+  else require(is_nearest_double(std::numeric_limits<double>::infinity(), abs(truth)), "doubles are read");
 }
 
 inline void decimal(std::string_view bytes) {
@@ -137,6 +147,7 @@ inline void decimal(std::string_view bytes) {
       require(plain.has_value(), "what is read is a decimal");
       const Rational truth = plain->digits == 0 ? Rational(0) : value_of(*plain);
       check_number(*number, truth);
+      check_rounding(word, Number_syntax::decimal, truth);
       if (before) require((before->first == *number) == (before->second == truth), "numbers are == iff they are equal");
       before = {*number, truth};
       const std::optional<std::string> again = decimal_text(truth);
@@ -156,7 +167,10 @@ inline void decimal(std::string_view bytes) {
     const std::optional<Number> as_ratio =
         number_in(word, [](const Text_reader& of, std::string_view token) { return parse_rational(of, token); });
     require(ratio.has_value() == as_ratio.has_value(), "p/q is read, and nothing else");
-    if (ratio) check_number(*as_ratio, *ratio);
+    if (ratio) {
+      check_number(*as_ratio, *ratio);
+      check_rounding(word, Number_syntax::rational, *ratio);
+    }
   }
 }
 

@@ -5,7 +5,10 @@
 
 #include <sightline/kernel/coordinates.h>
 
+#include <mpfr.h>
+
 #include <bit>
+#include <cfenv>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -116,6 +119,21 @@ TEST(Number, nearest_double_overflows_to_infinity_from_half_a_unit_beyond_the_la
   EXPECT_EQ(nearest_double(exact(largest) + half - Rational(1, 1000)), largest);
   EXPECT_EQ(nearest_double(exact_decimal(1, 400)), HUGE_VAL);
   EXPECT_EQ(nearest_double(exact_decimal(1, -400)), 0.0);
+}
+
+TEST(Number, nearest_double_rounds_alike_in_all_modes_and_leaves_mpfr_as_it_was) {
+  EXPECT_NE(mpfr_buildopt_tls_p(), 0);  // or threads would share the range of exponents
+  const mpfr_exp_t least = mpfr_get_emin();
+  for (const Rational& x : {Rational(1, 3), Rational(-2, 3), Rational(exact(4.9406564584124654e-324) * 5 / 3)}) {
+    const double nearest = nearest_double(x);
+    for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+      ASSERT_EQ(std::fesetround(mode), 0);
+      const double again = nearest_double(x);
+      ASSERT_EQ(std::fesetround(FE_TONEAREST), 0);
+      EXPECT_EQ(again, nearest) << mode;
+    }
+  }
+  EXPECT_EQ(mpfr_get_emin(), least);
 }
 
 RC_GTEST_PROP(Number, nearest_double_of_a_fraction_is_not_beaten_by_a_neighbour,

@@ -1,0 +1,267 @@
+// What is written by hand beside a library that has it, each asked what the engine asks: Google Benchmark.
+// bench_handmade [--benchmark_filter=...] A row is timed once its answers are known to be right.
+
+#include <sightline/algorithms/weak_visibility/events/event_lines.h>
+#include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/algorithms/weak_visibility/search/line_cell.h>
+#include <sightline/algorithms/weak_visibility/search/matrix_game.h>
+#include <sightline/harness/generate/soups.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <CGAL/Gmpq.h>
+#include <CGAL/Gmpz.h>
+#include <CGAL/Gmpzf.h>
+#include <CGAL/QP_functions.h>
+#include <CGAL/QP_models.h>
+#include <CGAL/Root_of_traits.h>
+#include <boost/multiprecision/cpp_int.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <numeric>
+#include <random>
+
+using namespace sightline;
+
+namespace {
+
+/// Times ask(i) for all i < count in turn, once is_right(i, ask(i)) held for each.
+template <class Ask, class Is_right>
+void measure(benchmark::State& state, std::size_t count, Ask ask, Is_right is_right) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (!is_right(i, ask(i))) return state.SkipWithError("a wrong answer");
+  std::size_t i = 0;
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(ask(i));
+    if (++i == count) i = 0;
+  }
+}
+
+// ---- Signs of determinants, beside Boost.Multiprecision and GMP
+
+template <unsigned bits>
+using Boost_integer = boost::multiprecision::number<
+    boost::multiprecision::cpp_int_backend<bits, bits, boost::multiprecision::signed_magnitude,
+                                           boost::multiprecision::unchecked, void>,
+    boost::multiprecision::et_off>;
+
+/// As Predicates::side_exact() has it.
+template <class Number>
+Number value_of_determinant(const std::array<Number, 4>& p, const std::array<Number, 4>& q,
+                            const std::array<Number, 4>& r, const std::array<Number, 4>& s) {
+  const auto minor = [](const auto& f, const auto& g, std::size_t i, std::size_t j) -> Number {
+    return f[i] * g[j] - f[j] * g[i];
+  };
+  return minor(p, q, 0, 1) * minor(r, s, 2, 3) - minor(p, q, 0, 2) * minor(r, s, 1, 3) +
+         minor(p, q, 0, 3) * minor(r, s, 1, 2) + minor(p, q, 1, 2) * minor(r, s, 0, 3) -
+         minor(p, q, 1, 3) * minor(r, s, 0, 2) + minor(p, q, 2, 3) * minor(r, s, 0, 1);
+}
+
+/// The planes of a soup on a grid of `bits` bits.
+template <class Number>
+std::vector<std::array<Number, 4>> planes(int bits) {
+  const Scene scene(generate::soup(1024, 0.5, 1, bits));
+  const Exact_traits traits(scene);
+  std::vector<std::array<Number, 4>> rows(traits.piece_count());
+  for (std::uint32_t piece = 0; piece < rows.size(); ++piece) {
+    const std::array<Integer, 4> h = traits.predicates().coefficients(traits.supporting_plane(piece));
+    for (std::size_t k = 0; k < 4; ++k)
+      if constexpr (std::is_constructible_v<Number, std::string>) {
+        rows[piece][k] = Number(h[k].get_str());
+      } else {
+        std::array<Limb, Number::bits / 64> limbs;
+        to_limbs(h[k], limbs.data(), Number::bits / 64);
+        rows[piece][k] = {limbs.data(), Number::bits / 64};
+      }
+  }
+  return rows;
+}
+
+template <class Number>
+void determinant(benchmark::State& state) {
+  const int bits = static_cast<int>(state.range(0));
+  const std::vector<std::array<Number, 4>> rows = planes<Number>(bits);
+  const std::vector<std::array<Integer, 4>> exact = planes<Integer>(bits);
+  const auto sign = [n = rows.size()](const auto& of, std::size_t i) {
+    const auto value = value_of_determinant(of[i], of[5 * i % n], of[(7 * i + 1) % n], of[(11 * i + 3) % n]);
+    if constexpr (requires { value.sign(); }) return value.sign();
+    else return sgn(value);
+  };
+  measure(
+      state, rows.size(), [&](std::size_t i) { return sign(rows, i); },
+      [&](std::size_t i, int found) { return found == sign(exact, i); });
+}
+BENCHMARK(determinant<Fixed_integer<2>>)->Arg(12);
+BENCHMARK(determinant<Boost_integer<128>>)->Arg(12);
+BENCHMARK(determinant<Integer>)->Arg(12);
+BENCHMARK(determinant<Fixed_integer<4>>)->Arg(26);
+BENCHMARK(determinant<Boost_integer<256>>)->Arg(26);
+BENCHMARK(determinant<Integer>)->Arg(26);
+BENCHMARK(determinant<Fixed_integer<8>>)->Arg(30);
+BENCHMARK(determinant<Boost_integer<512>>)->Arg(30);
+BENCHMARK(determinant<Integer>)->Arg(30);
+
+// ---- Matrix games, beside CGAL's solver of linear programs
+
+struct Game {
+  std::size_t rows, columns;
+  std::vector<double> values;
+};
+
+/// Games as cells of lines between two squares past 200 triangles have them: 5 to 20 rows, one for each line; a column
+/// for each pair of vertices (16) or, with the end on one square fixed, for each vertex of the other (4).
+std::vector<Game> games(std::size_t columns) {
+  const Scene scene(generate::triangles_between_squares(200, 1));
+  const Occluders occluders(scene);
+  Edge_lines lines(occluders);
+  Line_domain domain(std::make_shared<Near_polygon>(occluders.polygon(0)),
+                     std::make_shared<Near_polygon>(occluders.polygon(1)));
+  std::vector<std::uint32_t> undecided;
+  for (std::uint32_t piece = 2; piece < 202; ++piece)
+    for (const Edge_lines::Edge& edge : lines.of(piece))
+      if (domain.row(lines, edge.line, occluders.frame()).decided == 0) undecided.push_back(edge.line);
+  std::mt19937 dice(1);
+  std::vector<Game> all(64);
+  for (Game& game : all) {
+    game = {5 + dice() % 16, columns, {}};
+    const bool wrong = dice() % 2 != 0;  // some lines on the wrong side
+    std::shuffle(undecided.begin(), undecided.end(), dice);
+    for (std::size_t k = 0; k < game.rows; ++k) {
+      const Side_row& row = domain.row(lines, undecided[k], occluders.frame());
+      const double middle = std::accumulate(row.values.begin(), row.values.end(), 0.0);
+      const double sign = (middle > 0) == (wrong && dice() % 3 == 0) ? -1 : 1;
+      for (std::size_t c = 0; c < columns; ++c) {
+        double value = 0;
+        for (std::size_t i = c; i < 16; i += columns) value += row.values[i] / static_cast<double>(16 / columns);
+        game.values.push_back(sign * value);
+      }
+    }
+  }
+  return all;
+}
+
+template <class Number>
+void set_up(Matrix_game<Number>& solver, const Game& game) {
+  solver.restart(game.columns);
+  for (auto from = game.values.begin(); from != game.values.end(); from += static_cast<std::ptrdiff_t>(game.columns))
+    std::copy_n(from, game.columns, solver.add_row().begin());
+}
+int sign_in_rationals(const Game& game) {
+  Matrix_game<Rational> solver;
+  set_up(solver, game);
+  return sgn(solver.solve());
+}
+/// The sign of a game's value by weights in doubles that prove it; 2 where they do not. Each sum is within 2^-46 of
+/// what is added up: fewer than 2^6 terms, two roundings each.
+int proven_sign(const Game& game) {
+  static Matrix_game<double> solver;
+  set_up(solver, game);
+  const bool positive = solver.solve() > 0;
+  const std::span<const double> weights = positive ? solver.column_weights() : solver.row_weights();
+  for (std::size_t s = 0; s < (positive ? game.rows : game.columns); ++s) {
+    double sum = 0, size = 0;
+    for (std::size_t t = 0; t < weights.size(); ++t) {
+      const double v = weights[t] * (positive ? solver.row(s)[t] : -solver.row(t)[s]);
+      sum += v;
+      size += std::fabs(v);
+    }
+    if (!(sum > 0x1p-46 * size)) return 2;
+  }
+  return positive ? 1 : -1;
+}
+/// The same by CGAL, exactly: the least w + 1 >= 0 such that some mixture of rows is at most w in all columns.
+int sign_by_cgal(const Game& game) {
+  const int n = static_cast<int>(game.rows), m = static_cast<int>(game.columns);
+  CGAL::Quadratic_program<double> program(CGAL::SMALLER, true, 0, false, 0);
+  program.set_r(m, CGAL::EQUAL);  // the weights' sum
+  program.set_b(m, 1);
+  program.set_c(n, 1);
+  for (int k = 0; k < n; ++k) {
+    for (int c = 0; c < m; ++c) program.set_a(k, c, game.values[static_cast<std::size_t>(k * m + c)]);
+    program.set_a(k, m, 1);
+  }
+  for (int c = 0; c < m; ++c) {
+    program.set_a(n, c, -1);
+    program.set_b(c, -1);
+  }
+  const auto value = CGAL::solve_nonnegative_linear_program(program, CGAL::Gmpzf()).objective_value();
+  return CGAL::compare(value.numerator(), value.denominator());
+}
+
+void game(benchmark::State& state, int (*sign)(const Game&)) {
+  const std::vector<Game> all = games(static_cast<std::size_t>(state.range(0)));
+  measure(
+      state, all.size(), [&](std::size_t i) { return sign(all[i]); },
+      [&](std::size_t i, int found) { return found == sign_in_rationals(all[i]); });
+}
+BENCHMARK_CAPTURE(game, Matrix_game_of_doubles_and_proof, proven_sign)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(game, Matrix_game_of_rationals, sign_in_rationals)->Arg(4)->Arg(16);
+BENCHMARK_CAPTURE(game, CGAL_linear_program, sign_by_cgal)->Arg(4)->Arg(16);
+
+// ---- Roots of quadratics, beside CGAL's
+
+/// Sides of eight lines along a ruled quadric, as searches by events ask for them; 100 to 160 bits.
+std::vector<std::vector<Quadratic>> quadratics() {
+  const Scene scene(generate::triangles_between_squares(12, 1));
+  const Occluders occluders(scene);
+  const Event_lines events(occluders, occluders.polygon(0), occluders.plane(0), occluders.polygon(1),
+                           occluders.plane(1), 1);
+  std::vector<Event_lines::Line> edges = events.lines();
+  std::erase_if(edges, [](const Event_lines::Line& line) { return !line.real; });
+  std::mt19937 dice(1);
+  const auto edge = [&]() -> const Event_lines::Line& { return edges[dice() % edges.size()]; };
+  std::vector<std::vector<Quadratic>> all;
+  while (all.size() < 256) {
+    // As Event_search::search_regulus() has it.
+    const auto [first, last] = edge().hull;
+    const Homogeneous step{last[0] - first[0], last[1] - first[1], last[2] - first[2], last[3] - first[3]};
+    const Exact_pluecker &b = edge().pluecker, &c = edge().pluecker;
+    const Homogeneous b0 = join(first, b), b1 = join(step, b), c0 = join(first, c), c1 = join(step, c);
+    const Exact_pluecker l0 = meet(b0, c0), l1 = meet(b0, c1), other = meet(b1, c0), l2 = meet(b1, c1);
+    std::vector<Quadratic> set(8);
+    bool has_roots = false;
+    for (Quadratic& f : set) {
+      const Exact_pluecker& line = edge().pluecker;
+      f = {{side(l0, line), side(l1, line) + side(other, line), side(l2, line)}};
+      has_roots |= !f.is_zero() && f.certain_sign() == 0;
+    }
+    if (has_roots) all.push_back(std::move(set));
+  }
+  return all;
+}
+
+std::vector<Parameter_range> by_divided(const std::vector<Quadratic>& set) {
+  return divided({Quadratic_root(0), Quadratic_root(1)}, set);
+}
+using Roots = std::vector<CGAL::Root_of_traits<CGAL::Gmpz>::Root_of_2>;
+Roots by_root_of_2(const std::vector<Quadratic>& set) {
+  Roots roots;
+  for (const Quadratic& f : set) {
+    if (f.is_zero() || f.certain_sign() != 0) continue;
+    const auto c = [&](std::size_t k) { return CGAL::Gmpz(f.c[k].get_mpz_t()); };
+    CGAL::compute_roots_of_2(c(2), c(1), c(0), std::back_inserter(roots));
+  }
+  std::erase_if(roots, [](const auto& root) { return !(CGAL::is_positive(root) && root < CGAL::Gmpq(1)); });
+  std::sort(roots.begin(), roots.end());
+  roots.erase(std::unique(roots.begin(), roots.end()), roots.end());
+  return roots;
+}
+void roots(benchmark::State& state, auto method) {
+  const auto all = quadratics();
+  const auto are_same = [&](std::size_t i, const auto&) {
+    const Roots roots = by_root_of_2(all[i]);
+    const std::vector<Parameter_range> parts = by_divided(all[i]);
+    const auto inner = [&](std::size_t k) { return CGAL::Gmpq(inner_rational(parts[k]).get_mpq_t()); };
+    bool same = parts.size() == roots.size() + 1;
+    for (std::size_t k = 0; k < roots.size() && same; ++k) same = inner(k) < roots[k] && roots[k] < inner(k + 1);
+    return same;
+  };
+  const auto ask = [&](std::size_t i) { return method(all[i]); };
+  measure(state, all.size(), ask, are_same);
+}
+BENCHMARK_CAPTURE(roots, Quadratic_root, by_divided);
+BENCHMARK_CAPTURE(roots, CGAL_Root_of_2, by_root_of_2);
+
+}  // namespace
+
+BENCHMARK_MAIN();
