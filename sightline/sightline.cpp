@@ -29,8 +29,6 @@
 
 namespace sightline {
 
-namespace {
-
 // ---- What is made when it is first asked for
 
 template <class T>
@@ -46,6 +44,8 @@ class Once {
   mutable std::once_flag flag_;
   mutable std::unique_ptr<T> value_;
 };
+
+namespace {
 
 // ---- Measures: exact vectors, one root at the end
 

@@ -48,7 +48,7 @@ Cone cone_of(const std::string& what, const Visible_certificate::Directions& dir
                           // behind, of all rays
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (is_zero(rays[i])) reject(what + " has a direction that is zero");
-    const Integer_vector plane = cross(rays[i], rays[(i + 1) % rays.size()]);
+    const Integer_vector plane = certificate_check::cross(rays[i], rays[(i + 1) % rays.size()]);
     for (std::size_t k = 0; k < 3; ++k) middle[k] += plane[k];
   }
   if (sign_of_dot(middle, rays[0]) < 0) middle = negated(middle);
@@ -94,7 +94,7 @@ void Arc_chain::add(const Cone& cone, long multiplicity) {
       count = -count;
     }
     const auto left = [&](const Integer_vector& a, const Integer_vector& b) {
-      return sign_of_dot(cross(a, b), axis) > 0;
+      return sign_of_dot(certificate_check::cross(a, b), axis) > 0;
     };
     if (!left(from, to)) std::swap(from, to);
     const auto [place, is_new] = circles_.try_emplace(axis);
