@@ -27,7 +27,7 @@ struct See_arguments {
 };
 
 /// A line of the drawing: an edge of the scene, or where two faces cross.
-struct Line {
+struct Drawn_line {
   std::array<Exact_point, 2> ends;
   const char* kind;
   std::vector<Face_id> faces;
@@ -36,7 +36,7 @@ struct Line {
 
 /// What a kernel saw, in exact numbers.
 struct Seen {
-  std::vector<Line> lines;
+  std::vector<Drawn_line> lines;
   std::vector<Drawn> parts;  ///< fragment.piece: the convex piece; no vertices where nobody asks for them
   std::vector<Face_id> visible;
   std::optional<Visible_certificate> certificate;  ///< where it is asked for; exact only
@@ -77,16 +77,16 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, const Wanted& wan
 }
 
 /// Edges of the scene that are in the view, and where faces cross in it.
-std::vector<Line> lines_of(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads) {
+std::vector<Drawn_line> lines_of(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads) {
   static constexpr const char* names[] = {"boundary", "silhouette", "smooth", "crease"};
   const Scene& scene = view.scene();
-  std::vector<Line> lines;
+  std::vector<Drawn_line> lines;
   for (Drawn_edge& drawn : hidden_lines(view, surface, threads)) {
     if (drawn.parts.empty()) continue;
-    Line& line = lines.emplace_back(Line{{scene.position(drawn.edge.p), scene.position(drawn.edge.q)},
-                                         names[static_cast<std::size_t>(drawn.kind)],
-                                         {},
-                                         std::move(drawn.parts)});
+    Drawn_line& line = lines.emplace_back(Drawn_line{{scene.position(drawn.edge.p), scene.position(drawn.edge.q)},
+                                                     names[static_cast<std::size_t>(drawn.kind)],
+                                                     {},
+                                                     std::move(drawn.parts)});
     for (const std::uint32_t piece : drawn.edge.pieces) line.faces.push_back(scene.pieces()[piece].face);
   }
   for (const auto& crossing : surface.crossings) {
@@ -98,14 +98,14 @@ std::vector<Line> lines_of(const Exact_view& view, const Visible_surface<Exact_v
   }
   return lines;
 }
-Exact_point point_on(const Line& line, const Rational& at) {
+Exact_point point_on(const Drawn_line& line, const Rational& at) {
   Exact_point p;
   for (std::size_t k = 0; k < 3; ++k) p[k] = line.ends[0][k] + at * (line.ends[1][k] - line.ends[0][k]);
   return p;
 }
-Json lines_json(const Scene& scene, const std::vector<Line>& lines) {
+Json lines_json(const Scene& scene, const std::vector<Drawn_line>& lines) {
   Json all = Json::array();
-  for (const Line& line : lines) {
+  for (const Drawn_line& line : lines) {
     Json parts = Json::array();
     for (const Line_part& part : line.parts) {
       Json& entry = parts.emplace_back(Json{{"from", to_string(part.from)},
@@ -123,9 +123,9 @@ Json lines_json(const Scene& scene, const std::vector<Line>& lines) {
   return all;
 }
 /// Hidden parts dashed, then visible ones: outlines heavier, edges between faces of one plane not at all.
-void draw(Svg& svg, const View& view, const std::vector<Line>& lines) {
+void draw(Svg& svg, const View& view, const std::vector<Drawn_line>& lines) {
   for (const bool visible : {false, true})
-    for (const Line& line : lines) {
+    for (const Drawn_line& line : lines) {
       const std::string_view kind = line.kind;
       if (kind == "smooth") continue;
       for (const Line_part& part : line.parts) {
@@ -250,7 +250,7 @@ static Exit run(const See_arguments& arguments) {
                              c.splits, c.crossings, c.merged));
   if (arguments.lines) {
     std::size_t whole = 0, hidden = 0, crossing = 0;
-    for (const Line& line : seen.lines) {
+    for (const Drawn_line& line : seen.lines) {
       const auto is_hidden = [](const Line_part& part) { return part.hidden_by != Line_part::nothing; };
       const std::string_view kind = line.kind;
       crossing += kind == "intersection";

@@ -10,7 +10,7 @@ steps=("$@")
 if [ ${#steps[@]} = 0 ]; then steps=(demo units headers touch check again); fi
 if [ ! -d "$folder" ]; then git clone -q "$here" "$folder"; fi
 cd "$folder"
-if [ -d "$here/../shared" ] && [ ! -e ../shared ]; then export SIGHTLINE_SCENES_DIR="$here/../shared/scenes"; fi
+if [ -d "$here/../shared" ] && [ ! -e ../shared ]; then ln -s "$here/../shared" ../shared; fi  # scenes for the tests
 export CCACHE_DISABLE=1
 
 # timed WHAT COMMAND...: one line of the table.

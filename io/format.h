@@ -15,8 +15,8 @@ inline constexpr const char* supported_formats =
     "OBJ (.obj), OFF (.off), OFF with rational coordinates (.qoff), PLY (.ply) and STL (.stl)";
 
 struct Read_options {
-  bool round_to_double =
-      false;  ///< `--coordinates double`: a number in text is first rounded to the nearest double, ties to even
+  /// `--coordinates double`: a number in text is first rounded to the nearest double, ties to even.
+  bool round_to_double = false;
 };
 
 /// The format that a file name's ending names, upper or lower case (.ply: text, when written); nothing for any other

@@ -6,15 +6,15 @@
 //   side(meet(p, q, r), p) == 0;  every stage that decides decides the same.
 
 #include <sightline/kernel/arithmetic.h>
-#include <sightline/kernel/counters.h>
 #include <sightline/kernel/fixed_integer.h>
+#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/vertex.h>
 
 #include <CGAL/Uncertain.h>
-#include <CGAL/enum.h>
 
 #include <algorithm>
 #include <array>
@@ -28,25 +28,6 @@
 
 namespace sightline {
 
-using Sign = CGAL::Sign;  ///< NEGATIVE: behind, ZERO: on, POSITIVE: in front
-
-/// The sign of a double. Pre: a number.
-inline Sign sign_of(double value) { return value > 0 ? CGAL::POSITIVE : value < 0 ? CGAL::NEGATIVE : CGAL::ZERO; }
-
-/// How many predicates each stage decided.
-struct Predicate_counts {
-  std::uint64_t combinatorial = 0, filtered = 0, fixed = 0, gmp = 0;
-  /// Each by its key in reports, in their order.
-  template <class Visit>
-  static void each(Visit visit) {
-    visit("combinatorial", &Predicate_counts::combinatorial);
-    visit("filtered", &Predicate_counts::filtered);
-    visit("fixed", &Predicate_counts::fixed);
-    visit("gmp", &Predicate_counts::gmp);
-  }
-  std::uint64_t total() const { return combinatorial + filtered + fixed + gmp; }
-};
-
 /// A plane made ready for many sides: its oriented doubles and the bound below which they decide nothing.
 struct Prepared_plane {
   Plane plane;
@@ -54,13 +35,6 @@ struct Prepared_plane {
   double a, b, c, d;  ///< oriented
   double norm;        ///< >= |a| + |b| + |c| of the true plane
   double bound;       ///< rounding error of the double value at any vertex, not counting the vertex's own error
-};
-
-/// A point that is not of the scene (an eye, a query), in homogeneous grid coordinates.
-struct Located_point {
-  Integer x, y, z, w;  ///< w > 0
-  double ax, ay, az;   ///< approximations of x/w, ... times 2^-shift
-  double error;        ///< their absolute error; infinity where doubles say nothing
 };
 
 /// The predicates over one scene's points and planes, and what is known of incidences. Cheap to copy: three references

@@ -22,8 +22,8 @@ struct Vertex {
   double error;    ///< 0: x, y, z are exact integers; infinity: they say nothing
   std::uint32_t
       plane[3];  ///< ids of planes that meet here; for a meet, their normals in this order are positively oriented
-  std::uint32_t
-      point;  ///< an input point; or no_point; or with_plane(id), a fourth plane that is known to pass through the meet
+  /// An input point; or no_point; or with_plane(id), a fourth plane that is known to pass through the meet.
+  std::uint32_t point;
 
   static constexpr std::uint32_t no_point = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint32_t no_plane = no_point;

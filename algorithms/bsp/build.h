@@ -128,8 +128,8 @@ class Builder {
 
   static constexpr std::size_t worth_a_task = 1024;  // polygons; below, starting a task costs more than it gives
   static constexpr std::size_t ahead = 4;            // polygons whose memory is asked for before they are tested
-  static constexpr std::size_t worth_balance =
-      24;  // polygons; below, a chain of face planes is no deeper than free planes would be
+  // Polygons; below, a chain of face planes is no deeper than free planes would be.
+  static constexpr std::size_t worth_balance = 24;
 
   Polygons input() {
     Polygons polygons;

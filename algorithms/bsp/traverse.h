@@ -2,7 +2,7 @@
 // Visibility orders from a BSP tree: near -> on -> far, or far -> on -> near.
 
 #include <sightline/algorithms/bsp/tree.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/partition_traits.h>
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // Binary space partitioning trees: nodes, the fragments that lie on their planes, and what building one took.
 
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/partition_traits.h>
 
 #include <cstdint>

@@ -137,8 +137,8 @@ requires(Traits::is_exact) class On_view {
   const Traits* traits_;
   const Face_graph* graph_;
   Predicates predicates_;
-  double
-      reach_;  // every |d|: a plane passes through points of the scene, which are within the range in each coordinate
+  // Every |d|: a plane passes through points of the scene, which are within the range in each coordinate.
+  double reach_;
 };
 
 }  // namespace sightline

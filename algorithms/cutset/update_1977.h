@@ -3,9 +3,9 @@
 // for answers.
 
 #include <sightline/algorithms/cutset/on_view.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/face_graph.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/partition_traits.h>
 
 #include <algorithm>

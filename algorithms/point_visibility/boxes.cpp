@@ -1,5 +1,7 @@
 #include <sightline/algorithms/point_visibility/boxes.h>
 
+#include <sightline/kernel/predicates.h>
+
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/threads.h>
 

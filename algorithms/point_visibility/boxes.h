@@ -2,7 +2,7 @@
 // A tree of boxes around the pieces of a scene: what lies wholly behind something, or outside of a field of view, is
 // never looked at piece by piece.
 
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <array>
@@ -11,6 +11,8 @@
 #include <vector>
 
 namespace sightline {
+
+struct Prepared_plane;
 
 /// Boxes in the grid's approximate coordinates, rounded outwards, halved at the median of their longest side. It serves
 /// any number of eyes. Cost: O(n log n), in parallel. Exact: no, conservative; nothing is decided by a box but that all

@@ -3,9 +3,9 @@
 // linear forms of the ray.
 
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/sign.h>
 
 #include <array>
 #include <concepts>

@@ -3,13 +3,13 @@
 // scene edges until one piece covers each region.
 
 #include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/algorithms/point_visibility/visible_solver.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/threads.h>
-#include <sightline/algorithms/point_visibility/exact_view.h>
 
 #include <algorithm>
 #include <array>

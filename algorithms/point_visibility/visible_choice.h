@@ -6,7 +6,7 @@
 #include <sightline/algorithms/point_visibility/visible_region.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 
 #include <bit>
 #include <cmath>

@@ -7,9 +7,10 @@
 #include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/algorithms/point_visibility/visible_region.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
+#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/sign.h>
 
 #include <algorithm>
 #include <bit>

@@ -4,7 +4,7 @@
 #include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 
 #include <algorithm>
 #include <array>

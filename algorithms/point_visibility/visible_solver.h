@@ -17,8 +17,8 @@
 #include <sightline/algorithms/point_visibility/visible_region.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include <sightline/algorithms/point_visibility/view.h>
 #include <sightline/kernel/counters.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/sign.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -57,8 +57,8 @@ struct Visible_surface {
   struct Part {
     std::uint32_t piece;  ///< what is seen, from its front or from behind, or `nothing`
     std::uint32_t size;
-    std::size_t
-        first;  ///< rays [first, first + size): each positive determinant of two consecutive ones and one inside
+    /// Rays [first, first + size): each positive determinant of two consecutive ones and one inside.
+    std::size_t first;
   };
   /// A cut of a cone, as in a BSP tree: a child is a node, or ~part where it is negative, or `no_child` (of inexact
   /// kernels only).
@@ -83,8 +83,8 @@ struct Visible_surface {
   std::vector<Cone> cones;          ///< that one began with
   std::vector<std::int32_t> roots;  ///< of their trees
   std::vector<Crossing> crossings;
-  std::vector<Face_id>
-      visible;  ///< sorted: faces of which the eye sees an open part from the front by the law, ties included
+  /// Sorted: faces of which the eye sees an open part from the front by the law, ties included.
+  std::vector<Face_id> visible;
   std::vector<Face_id> from_behind;  ///< the same from behind
   Visible_counters counters;
 

@@ -2,7 +2,7 @@
 // The corner of a convex polygon farthest in front of a plane, in O(log n): distances to a plane are bimodal around a
 // convex polygon.
 
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/partition_traits.h>
 
 #include <concepts>

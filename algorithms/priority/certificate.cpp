@@ -1,7 +1,7 @@
 #include <sightline/algorithms/priority/certificate.h>
 
 #include <sightline/algorithms/covering_of_scene.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 
 #include <cstddef>
 #include <cstdint>

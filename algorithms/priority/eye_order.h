@@ -8,10 +8,10 @@
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/separation.h>
 #include <sightline/algorithms/priority/tree.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
-#include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
 #include <cstddef>
 #include <cstdint>

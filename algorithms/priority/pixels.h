@@ -8,8 +8,8 @@
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/kernel/number.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>

@@ -56,4 +56,12 @@ bool an_eye_may_see_over(const Grid_face& a, const Grid_face& b, const std::vect
 }
 
 }  // namespace priority_detail
+
+template priority_detail::Grid_scene::Grid_scene(const Priority_relation<Exact_traits>&,
+                                                 const std::vector<Exact_point>&);
+template class Region_relation<Exact_traits>;
+template class Ray_relation<Exact_traits>;
+template class Implicit_priority_graph<Region_relation<Exact_traits>>;
+template class Implicit_priority_graph<Ray_relation<Exact_traits>>;
+
 }  // namespace sightline

@@ -351,7 +351,7 @@ class Ray_relation {
   std::vector<std::optional<Rational>> pierced_;
 };
 
-// Compiled once, in scope_exact.cpp.
+// Compiled once.
 extern template priority_detail::Grid_scene::Grid_scene(const Priority_relation<Exact_traits>&,
                                                         const std::vector<Exact_point>&);
 extern template class Region_relation<Exact_traits>;

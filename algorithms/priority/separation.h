@@ -4,8 +4,8 @@
 
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/vectors.h>
 

@@ -9,9 +9,9 @@
 #include <sightline/algorithms/priority/relation.h>
 #include <sightline/algorithms/priority/separation.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
-#include <sightline/kernel/traits/partition_traits.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
 #include <algorithm>
 #include <array>
@@ -61,8 +61,8 @@ struct Priority_tree {
   struct Node {
     Kind kind;
     Separating_plane plane;  ///< of a plane node
-    std::uint32_t first,
-        count;  ///< its slots; of a plane node the one behind, the one in front, then the polygons on it
+    /// Its slots; of a plane node the one behind, the one in front, then the polygons on it.
+    std::uint32_t first, count;
   };
 
   std::vector<Node> nodes;
@@ -277,8 +277,8 @@ class Tree_builder {
   }
 
   static constexpr std::size_t few = 24;  // members; up to here comparing all pairs is faster than an index
-  static constexpr std::size_t many =
-      128;  // members; above, a plane that divides well is looked for before the graph is searched
+  // Members; above, a plane that divides well is looked for before the graph is searched.
+  static constexpr std::size_t many = 128;
   static constexpr std::size_t some_directions = 16;  // to look along for planes that divide well
   static constexpr std::size_t effort = 1 << 20;      // projections or tests for one plane, about, where any will do
   static constexpr std::size_t split_cost = 4;        // a cut costs as much as an imbalance of this many polygons

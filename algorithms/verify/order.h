@@ -12,8 +12,8 @@ namespace sightline {
 /// scene". Fragments are farthest first.
 struct Order_certificate : Covering {
   Exact_point eye;
-  bool on_view =
-      false;  ///< of the on-view pieces only: the others, which the eye is not strictly in front of, may be left out
+  /// Of the on-view pieces only: the others, which the eye is not strictly in front of, may be left out.
+  bool on_view = false;
 };
 
 /// Whether the certificate proves a back-to-front order of the scene: (1) for each two fragments whose cones from the

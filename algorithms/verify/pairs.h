@@ -25,8 +25,8 @@ class Pair_check {
   /// How the rays of cone b lie about the edge planes of cone a.
   struct Sides {
     std::vector<char> inside;  ///< whether ray j of b is in the closed cone a
-    std::vector<std::pair<std::size_t, std::size_t>>
-        crossings;  ///< (i, j): rays j and j + 1 of b are strictly on different sides of a's edge plane i
+    /// (i, j): rays j and j + 1 of b are strictly on different sides of a's edge plane i.
+    std::vector<std::pair<std::size_t, std::size_t>> crossings;
 
     void find(const Cone& a, const Cone& b);
   };

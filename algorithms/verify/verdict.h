@@ -22,8 +22,8 @@ struct Verdict {
 };
 
 struct Verify_options {
-  std::function<void(std::size_t done, std::size_t total)>
-      progress;  ///< the share of pairs that are done with, of all fragments; may be empty
+  /// The share of pairs that are done with, of all fragments; may be empty.
+  std::function<void(std::size_t done, std::size_t total)> progress;
 };
 
 namespace certificate_check {

@@ -82,7 +82,7 @@ void Sightlines::check(std::size_t k) const {
   if (front == 0) refuse("begins in the plane of its fragment");
   if (front < 0 && !certificate_.two_sided) refuse("begins behind its fragment");
 
-  const Line line = line_through(p, q);
+  const Pluecker_line line = line_through(p, q);
   const Box segment(0, {from, to});
   for (const Box& box : boxes_) {
     if (box.low[0] > segment.high[0]) break;
@@ -188,7 +188,7 @@ class Trees {
   Summand summand_of(const Term& term, const Cell& cell) const;
 
   /// A line's values at the pairs of corners.
-  static Matrix values_of(const Line& line, const Cell& cell);
+  static Matrix values_of(const Pluecker_line& line, const Cell& cell);
 
   const Weak_certificate& certificate_;
   const std::vector<Outline>&fragments_, &sources_;
@@ -400,7 +400,7 @@ Trees::Summand Trees::summand_of(const Term& term, const Cell& cell) const {
   return summand;
 }
 
-Matrix Trees::values_of(const Line& line, const Cell& cell) {
+Matrix Trees::values_of(const Pluecker_line& line, const Cell& cell) {
   Matrix values;
   for (const Homogeneous& p : *cell.source) {
     const Homogeneous plane = plane_through(line, p);

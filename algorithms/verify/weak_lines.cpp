@@ -7,12 +7,12 @@
 
 namespace sightline::weak_check {
 
-Line line_through(const Homogeneous& a, const Homogeneous& b) {
+Pluecker_line line_through(const Homogeneous& a, const Homogeneous& b) {
   const auto minor = [&](std::size_t i, std::size_t j) { return Integer(a[i] * b[j] - a[j] * b[i]); };
   return {minor(2, 3), minor(3, 1), minor(1, 2), minor(0, 3), minor(2, 0), minor(0, 1)};
 }
 
-Homogeneous plane_through(const Line& line, const Homogeneous& p) {
+Homogeneous plane_through(const Pluecker_line& line, const Homogeneous& p) {
   Homogeneous plane;
   std::size_t entry = 0;
   for (std::size_t i = 0; i < 4; ++i)
@@ -31,7 +31,7 @@ bool reaches(const Homogeneous& plane, const Corners& corners, int sign) {
   return std::any_of(corners.begin(), corners.end(), [&](const Homogeneous& p) { return side(plane, p) == sign; });
 }
 
-int crossing(const Line& line, const Corners& corners, int front) {
+int crossing(const Pluecker_line& line, const Corners& corners, int front) {
   int least = 1;
   for (std::size_t i = 0; i < corners.size() && least >= 0; ++i)
     least = std::min(least, front * side(plane_through(line, corners[i]),
@@ -59,10 +59,10 @@ bool Outline::meets_in_plane(const Homogeneous& p, const Homogeneous& q) const {
 }
 
 Lines::Named Lines::through(const Homogeneous& a, const Homogeneous& b) {
-  Line line = line_through(a, b);
+  Pluecker_line line = line_through(a, b);
   Integer divisor = 0;
   for (const Integer& entry : line) divisor = gcd(divisor, entry);
-  if (line < Line{}) divisor = -divisor;
+  if (line < Pluecker_line{}) divisor = -divisor;
   for (Integer& entry : line) entry /= divisor;
   const auto [place, is_new] = numbers_.try_emplace(std::move(line), lines_.size());
   if (is_new) lines_.push_back(&place->first);

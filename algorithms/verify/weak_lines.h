@@ -22,12 +22,12 @@ using Corners = std::vector<Homogeneous>;
 
 /// The oriented line from a to b, as the form det[p, q, a, b] in p and q: its entries 01, 02, 03, 12, 13, 23.
 /// Of an edge of a polygon that p is in front of and q behind: positive if the segment passes inside.
-using Line = std::array<Integer, 6>;
+using Pluecker_line = std::array<Integer, 6>;
 
-Line line_through(const Homogeneous& a, const Homogeneous& b);
+Pluecker_line line_through(const Homogeneous& a, const Homogeneous& b);
 
 /// The plane through a line and p. Its value at q is the line's side, det[p, q, a, b].
-Homogeneous plane_through(const Line& line, const Homogeneous& p);
+Homogeneous plane_through(const Pluecker_line& line, const Homogeneous& p);
 
 Integer value(const Homogeneous& plane, const Homogeneous& p);
 
@@ -40,7 +40,7 @@ inline int position(const Homogeneous& plane, const Corners& corners) {
 
 /// Where the line from p to q, p in front of a convex polygon's plane or q behind it, meets that plane: 1 inside the
 /// polygon, 0 on its boundary, -1 outside. With p and q exchanged, front = -1.
-int crossing(const Line& line, const Corners& corners, int front = 1);
+int crossing(const Pluecker_line& line, const Corners& corners, int front = 1);
 
 /// A convex polygon without straight corners, and its plane. Pre: not_convex() is empty for it.
 struct Outline {
@@ -72,12 +72,12 @@ class Lines {
     Rational scale;
   };
   Named through(const Homogeneous& a, const Homogeneous& b);
-  const Line& operator[](std::size_t number) const { return *lines_[number]; }
+  const Pluecker_line& operator[](std::size_t number) const { return *lines_[number]; }
   std::size_t size() const { return lines_.size(); }
 
  private:
-  std::map<Line, std::size_t> numbers_;
-  std::vector<const Line*> lines_;
+  std::map<Pluecker_line, std::size_t> numbers_;
+  std::vector<const Pluecker_line*> lines_;
 };
 
 /// The lines from a convex part of a source to one of a fragment; the path says which of them are meant. A part without

@@ -1,7 +1,11 @@
 #include <sightline/algorithms/weak_visibility/volume.h>
 
-#include <sightline/kernel/predicates.h>
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/query.h>
 #include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/sign.h>
+#include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -71,17 +75,26 @@ Polygon clipped(const Polygon& polygon, const Exact_plane& h, int sign) {
 
 }  // namespace
 
-Weak_volume::Weak_volume(const Polygon_soup& soup)
-    : scene_(soup), traits_(scene_), tree_(build_bsp(traits_, one_thread())) {
-  if (scene_.pieces().empty()) throw std::invalid_argument("a volume has no faces; give those of a closed polyhedron");
-  if (!closure(scene_).closed)
+struct Weak_volume::Space {
+  explicit Space(const Polygon_soup& soup) : scene(soup), traits(scene), tree(build_bsp(traits, one_thread())) {}
+  Scene scene;
+  Exact_traits traits;
+  Exact_tree tree;
+};
+
+Weak_volume::~Weak_volume() = default;
+
+Weak_volume::Weak_volume(const Polygon_soup& soup) : space_(std::make_unique<const Space>(soup)) {
+  const Scene& scene = space_->scene;
+  if (scene.pieces().empty()) throw std::invalid_argument("a volume has no faces; give those of a closed polyhedron");
+  if (!closure(scene).closed)
     throw std::invalid_argument(
         "the faces of a volume do not close up; add those that are missing, and turn the others so that all fronts "
         "look outwards, or all inwards");
-  for (const Piece& piece : scene_.pieces()) {
+  for (const Piece& piece : scene.pieces()) {
     Polygon& polygon = polygons_.emplace_back();
-    for (const Piece_corner& corner : scene_.corners(piece)) polygon.push_back(scene_.position(corner.point));
-    planes_.push_back(scene_.file_coefficients(piece.support));
+    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+    planes_.push_back(scene.file_coefficients(piece.support));
     boxes_.push_back(box_of(polygon));
   }
   Polygon corners;
@@ -133,7 +146,7 @@ bool Weak_volume::is_inside_beside(const Polygon& part, const Exact_plane& plane
   for (Predicate_counts counts;; step /= 2) {
     Exact_point beside_it;
     for (std::size_t k = 0; k < 3; ++k) beside_it[k] = mean[k] + step * direction[k];
-    const Location location = locate_point(traits_, tree_, beside_it, true, counts).location;
+    const Location location = locate_point(space_->traits, space_->tree, beside_it, true, counts).location;
     if (location != Location::on)
       return location == Location::inside;  // on: in a face upright on the part, that the surface passes twice
   }

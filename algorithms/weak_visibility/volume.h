@@ -1,15 +1,13 @@
 #pragma once
 // Solids that look: what is seen from some point of their inside.
 
-#include <sightline/algorithms/bsp/build.h>
-#include <sightline/algorithms/bsp/query.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
-#include <sightline/kernel/traits/exact_traits.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace sightline {
@@ -25,7 +23,7 @@ class Weak_volume {
   /// Errors: std::invalid_argument where the faces do not close up, or enclose nothing.
   explicit Weak_volume(const Polygon_soup& soup);
 
-  Weak_volume(const Weak_volume&) = delete;  // its tree refers to its scene
+  ~Weak_volume();
 
   /// The parts of its faces that have the inside on one side only, convex, counterclockwise as seen from outside. A
   /// face is in parts only where these look to different sides.
@@ -50,9 +48,8 @@ class Weak_volume {
 
   void add_surface(const Polygon& polygon, const Exact_plane& plane);
 
-  Scene scene_;
-  Exact_traits traits_;
-  Exact_tree tree_;
+  struct Space;
+  std::unique_ptr<const Space> space_;  // which points are inside
   std::vector<Polygon> polygons_;
   std::vector<Exact_plane> planes_;
   std::vector<std::array<Exact_point, 2>> boxes_;

@@ -90,8 +90,8 @@ struct Weak_answer {
 struct Weak_search_options {
   bool two_sided = false;
   std::size_t cells = 200000;  ///< that a search may take; then `undecided`
-  std::size_t open =
-      8;  ///< cells that may stay open; then it ends: only a line could decide any more, and events find that sooner
+  /// Cells that may stay open; then it ends: only a line could decide any more, and events find that sooner.
+  std::size_t open = 8;
   int bisections = 12;  ///< how often, one in another, a cell is halved that has neither a line nor a proof
   int rays = 24;        ///< lines that are tried before the search
   std::uint64_t seed = 1;

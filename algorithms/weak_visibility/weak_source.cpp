@@ -1,7 +1,7 @@
 #include <sightline/algorithms/weak_visibility/weak_source.h>
 
+#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/number.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/vectors.h>
 
 #include <cstddef>

@@ -17,8 +17,8 @@ inline const std::vector<std::string> kernel_names{"exact", "epeck", "gmpq", "ep
 struct Task {
   Bsp_options bsp;
   std::optional<Exact_point> eye;  ///< none: only build the tree
-  std::optional<std::array<Integer, 4>>
-      near;  ///< only what is in front of this plane (grid coordinates), by making it the root
+  /// Only what is in front of this plane (grid coordinates), by making it the root.
+  std::optional<std::array<Integer, 4>> near;
   bool keep_fragments = true;
 };
 
@@ -27,8 +27,8 @@ struct Outcome {
   Traversal_counters walk;
   double build_seconds = 0, order_seconds = 0;
   std::vector<Drawn> drawn;  ///< back to front
-  std::uint64_t not_finite =
-      0;  ///< fragments of an inexact kernel with coordinates that are no numbers; they are left out
+  /// Fragments of an inexact kernel with coordinates that are no numbers; they are left out.
+  std::uint64_t not_finite = 0;
 };
 
 /// Builds the tree of a scene by the named kernel and walks it. The scene takes the near plane. Errors: Usage_error for

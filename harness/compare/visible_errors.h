@@ -37,8 +37,8 @@ struct Visible_errors {
   double largest_missing = 0;         ///< the largest area of one of them
   double gaps = 0;      ///< directions that no part holds; where there is something to see they are wrong too
   double overlaps = 0;  ///< directions that two parts hold, counted for each two; where one is wrong they are wrong too
-  std::uint64_t not_finite =
-      0;  ///< parts or pieces whose numbers say nothing; they are left out, and their area is missing
+  /// Parts or pieces whose numbers say nothing; they are left out, and their area is missing.
+  std::uint64_t not_finite = 0;
 };
 
 namespace visible_errors_detail {

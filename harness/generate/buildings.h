@@ -40,8 +40,8 @@ class Lattice_points {
   /// along the other. Post: closed as point sets are: rectangles meet in T-junctions.
   template <class Is_solid>
   void add_merged_boundary(Is_solid is_solid) {
-    std::map<std::tuple<std::size_t, std::size_t, bool>, std::set<std::pair<std::size_t, std::size_t>>>
-        walls;  // by axis, plane, sense: (c, b)
+    // By axis, plane, sense: (c, b).
+    std::map<std::tuple<std::size_t, std::size_t, bool>, std::set<std::pair<std::size_t, std::size_t>>> walls;
     for_each_wall(is_solid, [&](const std::array<std::size_t, 3>& p, std::size_t axis, bool positive) {
       walls[{axis, p[axis], positive}].emplace(p[(axis + 2) % 3], p[(axis + 1) % 3]);
     });

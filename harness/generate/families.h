@@ -33,8 +33,8 @@ inline constexpr std::int64_t far_ulps = std::int64_t{1} << 44;
 struct Family_parameters {
   std::uint64_t seed = 1;
   std::size_t size = 0;  ///< what it means is the family's; 0: the family's own
-  std::int64_t ulps =
-      0;  ///< 0: exactly degenerate; else the gap (or, negative, the overlap) in units of 2^-52 of the scene's size
+  /// 0: exactly degenerate; else the gap (or, negative, the overlap) in units of 2^-52 of the scene's size.
+  std::int64_t ulps = 0;
   Exact_point offset{0, 0, 0};  ///< added to all points, after scaling
   Rational scale = 1;           ///< > 0; of all points, about the origin
 };
@@ -54,8 +54,8 @@ struct Family {
   std::string size_means;  ///< what `size` counts
   std::size_t small_size;  ///< what `size` is where many small scenes are wanted
   bool holes;              ///< whether faces have holes, which no file format can hold
-  std::function<Posed_scene(const Family_parameters&)>
-      make;  ///< the same parameters give the same scene on every machine
+  /// The same parameters give the same scene on every machine.
+  std::function<Posed_scene(const Family_parameters&)> make;
 };
 
 // ---- What all of them do

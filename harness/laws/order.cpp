@@ -16,9 +16,9 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/number.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/traits/point_traits.h>

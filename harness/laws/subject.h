@@ -53,8 +53,8 @@ struct Subject {
   std::string name, what;
   bool wants_source = false;                         ///< only scenes with a source polygon
   std::function<Answer(const Posed_scene&)> answer;  ///< by the method that the command uses unless told otherwise
-  std::function<Answer(const Posed_scene&)>
-      verified;  ///< the same, its certificate checked, which takes longer; empty: there is none
+  /// The same, its certificate checked, which takes longer; empty: there is none.
+  std::function<Answer(const Posed_scene&)> verified;
   std::vector<Check> checks;
 };
 

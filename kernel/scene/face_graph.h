@@ -35,8 +35,8 @@ class Face_graph {
     std::uint32_t node;  ///< one of them
     std::uint32_t nodes = 0, pieces = 0;
     bool closed = true;  ///< no piece has an edge without a neighbour
-    std::optional<Exact_point>
-        inside;  ///< where the nodes are the faces of one convex body: a point inside. Proof: P-50
+    /// Where the nodes are the faces of one convex body: a point inside. Proof: P-50.
+    std::optional<Exact_point> inside;
   };
 
   /// Pre: the scene outlives the graph.

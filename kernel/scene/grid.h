@@ -3,9 +3,9 @@
 
 #include <sightline/kernel/coordinates.h>
 #include <sightline/kernel/fixed_integer.h>
+#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane_table.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <array>

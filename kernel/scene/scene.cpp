@@ -1,5 +1,6 @@
 #include <sightline/kernel/scene/scene.h>
 
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/face_cutter.h>
 
 #include <algorithm>
@@ -112,6 +113,12 @@ Scene::Scene(const Polygon_soup& soup) : file_(soup.file) {
   c.faces_read = soup.face_count();
   c.faces = c.faces_read - set_aside().size();
   c.pieces = pieces().size();
+}
+
+Predicates Scene::predicates() const { return {points(), planes(), incidences_}; }
+
+std::array<Rational, 4> Scene::file_coefficients(Plane plane) const {
+  return file_coefficients(predicates().coefficients(plane));
 }
 
 }  // namespace sightline

@@ -5,7 +5,6 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/grid.h>
 #include <sightline/kernel/scene/pieces.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -17,6 +16,8 @@
 #include <vector>
 
 namespace sightline {
+
+class Predicates;
 
 /// An exact polygonal scene (design laws in proofs/semantics.md). Points lie on the coarsest integer grid that holds
 /// them all, centred (Scene_grid). Non-planar faces are triangulated, concave ones and ones with holes cut into convex
@@ -39,7 +40,7 @@ class Scene {
   const std::vector<Face_id>& concave() const { return faces_.concave; }
   const Scene_counters& counters() const { return faces_.counters; }
   const Point_planes& incidences() const { return incidences_; }
-  Predicates predicates() const { return {points(), planes(), incidences_}; }
+  Predicates predicates() const;  ///< of `kernel/predicates.h`
 
   /// Bit length of the largest coordinate once the whole scene is scaled to integers, and of that scale.
   int bits() const { return grid_.bits(); }
@@ -50,9 +51,7 @@ class Scene {
   Plane add_plane(const std::array<Integer, 4>& h) { return faces_.planes.intern(h[0], h[1], h[2], h[3]); }
 
   /// An oriented plane in the file's coordinates, up to a positive factor. Exact: yes.
-  std::array<Rational, 4> file_coefficients(Plane plane) const {
-    return file_coefficients(predicates().coefficients(plane));
-  }
+  std::array<Rational, 4> file_coefficients(Plane plane) const;
   /// The same for coefficients in grid coordinates.
   std::array<Rational, 4> file_coefficients(const std::array<Integer, 4>& h) const {
     return grid_.file_coefficients(h);

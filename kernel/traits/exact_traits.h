@@ -28,8 +28,8 @@ class Exact_traits {
   using Vertex = sightline::Vertex;
   struct Edge {
     Plane bound;  ///< the bounding plane, interior in its front
-    std::uint32_t
-        beyond;  ///< another plane that is known to hold the edge (the neighbouring face's), or Vertex::no_plane
+    /// Another plane that is known to hold the edge (the neighbouring face's), or Vertex::no_plane.
+    std::uint32_t beyond;
   };
   using Cutter = Prepared_plane;
   using Eye = Located_point;

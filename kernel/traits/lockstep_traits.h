@@ -3,8 +3,8 @@
 // counted.
 
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/vertex.h>
 

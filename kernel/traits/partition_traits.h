@@ -4,7 +4,7 @@
 
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/vertex.h>
 
 #include <algorithm>

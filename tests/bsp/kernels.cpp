@@ -2,10 +2,11 @@
 
 #include "support.h"
 
-#include <sightline/kernel/traits/point_traits.h>
+#include <sightline/algorithms/bsp/kernels.h>
 #include <sightline/harness/generate/buildings.h>
 #include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/soups.h>
+#include <sightline/kernel/traits/point_traits.h>
 
 #include <CGAL/Cartesian.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

@@ -1,5 +1,6 @@
 // Every order is one that the independent checker accepts, and it does reject wrong ones.
 
+#include "../sample.h"
 #include "support.h"
 
 #include <sightline/algorithms/verify/pairs.h>
@@ -20,11 +21,7 @@ Bsp_options random_options(Random& random) {
 }
 
 TEST(Verified, orders_of_2400_small_degenerate_scenes_or_600_where_sanitizers_make_them_slow) {
-#if defined(__SANITIZE_ADDRESS__)
-  constexpr std::uint64_t scenes = 600;
-#else
-  constexpr std::uint64_t scenes = 2400;
-#endif
+  const std::uint64_t scenes = test_scenes::is_sanitized() ? 600 : 2400;
   std::size_t splits = 0, on_planes = 0, shared = 0, set_aside = 0, concave = 0, non_planar = 0;
   for (std::uint64_t seed = 0; seed < scenes; ++seed) {
     Random random(seed);

@@ -4,14 +4,15 @@
 
 #include "../soup.h"
 
-#include <sightline/harness/compare/visible_errors.h>
-#include <sightline/harness/generate/scenes.h>
-#include <sightline/harness/generate/transform.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/kernels.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/harness/compare/visible_errors.h>
 #include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/scenes.h>
 #include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/soups.h>
+#include <sightline/harness/generate/transform.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 

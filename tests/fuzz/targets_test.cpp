@@ -1,6 +1,7 @@
 // Every target on every file of the corpus that it begins with, and on inputs near those.
 // SIGHTLINE_LONG: so many times the inputs, for a long run. (Longer ones: README.md in this folder.)
 
+#include "../sample.h"
 #include "targets.h"
 
 #include <gtest/gtest.h>
@@ -11,11 +12,7 @@ namespace {
 
 using fuzz::Target;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr std::size_t share = 8;  // one in so many inputs under sanitizers
-#else
-constexpr std::size_t share = 1;
-#endif
+const std::size_t share = test_scenes::is_sanitized() ? 8 : 1;  // one in so many inputs under sanitizers
 
 std::size_t times() {
   const char* const more = std::getenv("SIGHTLINE_LONG");

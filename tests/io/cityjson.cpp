@@ -1,5 +1,7 @@
 // bench/cityjson.py, which makes the scenes of the benches of cities.
 
+#include "../sample.h"
+
 #include <sightline/io/read.h>
 
 #include <gtest/gtest.h>

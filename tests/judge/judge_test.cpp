@@ -1,5 +1,7 @@
 // Judging: the protocol, the truth, grades and contracts.
 
+#include "../sample.h"
+
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/harness/generate/shapes.h>
@@ -34,11 +36,7 @@ namespace {
 using namespace sightline;
 using namespace sightline::judge;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t rounds = 10;
-#else
-constexpr std::uint64_t rounds = 40;
-#endif
+const std::uint64_t rounds = test_scenes::is_sanitized() ? 10 : 40;
 
 /// A square of side 2 around the axis of z that looks up.
 void add_square(Polygon_soup& soup, const Rational& x, const Rational& z, const Rational& half = 1) {

@@ -2,6 +2,7 @@
 
 #include "cutting.h"
 
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/traits/lockstep_traits.h>
 #include <sightline/kernel/traits/point_traits.h>

@@ -1,6 +1,7 @@
 // The oracle itself: by scenes whose answer is worked out by hand, and its parts against each other, each by another
 // way to the same thing.
 
+#include "../sample.h"
 #include "scenes.h"
 
 #include <gtest/gtest.h>
@@ -19,10 +20,8 @@ namespace {
 
 #if defined(ORACLE_SEEDS)  // by hand: more, or fewer
 constexpr std::uint64_t seeds_each = ORACLE_SEEDS;
-#elif defined(__SANITIZE_ADDRESS__)
-constexpr std::uint64_t seeds_each = 2;
 #else
-constexpr std::uint64_t seeds_each = 3;
+const std::uint64_t seeds_each = test_scenes::is_sanitized() ? 2 : 3;
 #endif
 
 using Intervals = std::vector<Interval>;

@@ -3,6 +3,7 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/point_visibility/kernels.h>
 #include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>

@@ -2,6 +2,8 @@
 // The program as a user meets it: a command line, files in a folder of its own, what it prints, its exit code. Limits
 // on time and memory.
 
+#include "../sample.h"
+
 #include <stdexcept>
 #include <string>
 
@@ -44,11 +46,12 @@ namespace fs = std::filesystem;
 /// Exit codes (design.md, section 7).
 inline constexpr int done = 0, disagreement = 1, usage = 2, bad_input = 3, undecided = 4;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool sanitized = true;  // shadow memory: no limit on addresses, and all takes longer
-#else
-inline constexpr bool sanitized = false;
-#endif
+/// Shadow memory: no limit on addresses, and all takes longer.
+inline const bool sanitized = test_scenes::is_sanitized();
+
+/// The program: what was built beside the tests, or what the environment variable names.
+inline const std::string executable =
+    std::getenv("SIGHTLINE_PROGRAM") != nullptr ? std::getenv("SIGHTLINE_PROGRAM") : SIGHTLINE_PROGRAM;
 
 struct Limits {
   double seconds = 60;
@@ -85,7 +88,7 @@ inline const fs::path corpus = fs::path(SIGHTLINE_SOURCE_DIR) / "tests" / "corpu
 class Program : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::string_view(SIGHTLINE_PROGRAM).empty()) GTEST_SKIP() << "the program is not built here";
+    if (executable.empty()) GTEST_SKIP() << "the program is not built here";
     std::string pattern = (fs::temp_directory_path() / "sightline-XXXXXX").string();
     ASSERT_NE(mkdtemp(pattern.data()), nullptr);
     folder_ = pattern;
@@ -116,7 +119,7 @@ class Program : public testing::Test {
         "/bin/sh", "-c",
         sanitized ? "exec \"$@\""
                   : "ulimit -v " + std::to_string(limits.mebibytes * 1024) + " && ulimit -c 0 && exec \"$@\"",
-        "sh", SIGHTLINE_PROGRAM};
+        "sh", executable};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());

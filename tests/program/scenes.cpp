@@ -155,7 +155,7 @@ INSTANTIATE_TEST_SUITE_P(, Corpus, testing::ValuesIn(good_scenes_of_the_corpus()
 
 class Collected : public Scenes {};
 TEST_P(Collected, is_ordered_from_three_eyes_and_verified) {
-  constexpr std::uintmax_t most_bytes = sanitized ? 20'000 : 400'000;
+  const std::uintmax_t most_bytes = sanitized ? 20'000 : 400'000;
   if (!all_scenes() && fs::file_size(scene) > most_bytes)
     GTEST_SKIP() << "left out: " << fs::file_size(scene) << " bytes are more than " << most_bytes
                  << "; SIGHTLINE_ALL_SCENES=1 leaves no scene out";

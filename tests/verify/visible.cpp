@@ -1,6 +1,7 @@
 // What the eye sees (P-63): right certificates accepted, and each clause broken alone rejected for its reason.
 // Certificates are made here by cutting cones, piece by piece.
 
+#include "../sample.h"
 #include "scenes.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
@@ -752,11 +753,7 @@ TEST(Visible_by_cutting, damage_is_rejected) {
                                                "do not cancel",
                                                "",
                                                "clockwise"};
-#if defined(__SANITIZE_ADDRESS__)
-  constexpr unsigned rounds = 300;
-#else
-  constexpr unsigned rounds = 2000;
-#endif
+  const unsigned rounds = test_scenes::is_sanitized() ? 300 : 2000;
   for (unsigned seed = 0; seed < rounds; ++seed) {
     SCOPED_TRACE(seed);
     Dice dice(seed);

@@ -2,6 +2,7 @@
 // Hand-made scenes with hand-written certificates of weak visibility, and a judge of them that shares nothing with the
 // checker: it shoots at pairs of points.
 
+#include "../sample.h"
 #include "scenes.h"
 
 #include <sightline/algorithms/verify/weak.h>
@@ -15,11 +16,7 @@ using Kind = Node::Kind;
 using Term = Weak_certificate::Term;
 using Proof = std::vector<Node>;
 
-#if defined(__SANITIZE_ADDRESS__)
-inline constexpr unsigned share = 30;  // each number costs a hundred times as much
-#else
-inline constexpr unsigned share = 1;
-#endif
+inline const unsigned share = test_scenes::is_sanitized() ? 30 : 1;  // each number costs a hundred times as much there
 
 inline Form form(const Rational& a, const Rational& b, const Rational& c, const Rational& d) { return {a, b, c, d}; }
 inline Node node(Kind kind, std::size_t index = 0) {

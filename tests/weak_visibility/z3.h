@@ -2,6 +2,7 @@
 // Weak visibility as a sentence of nonlinear real arithmetic in four unknowns, and what z3 says to it. For small
 // scenes.
 
+#include "../sample.h"
 #include "rays.h"
 
 #include <cstdio>
