@@ -2,6 +2,7 @@
 
 #include "support/common.h"
 
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/closed.h>
 
 #include <iostream>

@@ -2,6 +2,8 @@
 
 #include <sightline/io/number_lines.h>
 #include <sightline/io/read.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 
 #include <unistd.h>
 

@@ -3,7 +3,9 @@
 
 #include "command.h"
 
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/sign.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,6 +2,8 @@
 
 #include "soup.h"
 
+#include <sightline/kernel/predicates.h>
+
 #include <CGAL/int.h>
 #include <CGAL/number_utils.h>
 
