@@ -14,6 +14,7 @@ using namespace priority_test;
 
 namespace {
 
+using test_scenes::least;
 using test_scenes::sample;
 
 Order_certificate certificate_of(const Scene& scene, const Exact_traits& traits, const Exact_point& eye,
@@ -131,10 +132,10 @@ TEST(Eye_order, is_accepted_for_degenerate_scenes_from_any_eye) {
       cycles += c.cycles, edge_on += c.edge_on, cut += c.splits, whole += given.whole(c);
     }
   }
-  EXPECT_GT(cycles, sample(50u));
-  EXPECT_GT(edge_on, sample(500u));
-  EXPECT_GT(cut, sample(50u));
-  EXPECT_GT(whole, sample(300u));
+  EXPECT_GT(cycles, least(50u));
+  EXPECT_GT(edge_on, least(500u));
+  EXPECT_GT(cut, least(50u));
+  EXPECT_GT(whole, least(300u));
 }
 
 TEST(Eye_order, of_generated_scenes_never_cuts_more_than_a_bsp_tree_does) {

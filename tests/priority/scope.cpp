@@ -12,6 +12,7 @@ using namespace priority_test;
 
 namespace {
 
+using test_scenes::least;
 using test_scenes::sample;
 
 using Region = Region_relation<Exact_traits>;
@@ -181,8 +182,8 @@ TEST(Scope, of_a_region_has_the_arcs_whose_eyes_no_plane_separates_from_it) {
       present += count_arcs(found), absent += whole - count_arcs(found);
     }
   }
-  EXPECT_GT(present, sample(1000u));
-  EXPECT_GT(absent, sample(1000u)) << "arcs of the whole relation that the region has not";
+  EXPECT_GT(present, least(1000u));
+  EXPECT_GT(absent, least(1000u)) << "arcs of the whole relation that the region has not";
 }
 
 TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
@@ -210,7 +211,7 @@ TEST(Scope, of_a_region_has_every_arc_of_which_a_random_eye_and_ray_are_found) {
     }
     proven += count_arcs(met), arcs += count_arcs(found);
   }
-  EXPECT_GT(witnesses, sample(1000u));
+  EXPECT_GT(witnesses, least(1000u));
   EXPECT_GT(2 * proven, arcs) << "most arcs are met";
 }
 
@@ -247,7 +248,7 @@ TEST(Scope, smaller_regions_have_fewer_arcs_down_to_eyes_and_rays) {
   }
   for (std::size_t s = 1; s < 5; ++s) {
     EXPECT_LT(arcs[s], arcs[s - 1]);
-    EXPECT_GT(arcs[s], sample(30u)) << s;
+    EXPECT_GT(arcs[s], least(30u)) << s;
   }
 }
 
@@ -268,7 +269,7 @@ TEST(Scope, of_a_box_three_times_as_far_as_the_scene_is_the_whole_relation) {
     ASSERT_TRUE(same_arcs(box, whole)) << "scene " << k;
     arcs += count_arcs(whole);
   }
-  EXPECT_GT(arcs, sample(1000u));
+  EXPECT_GT(arcs, least(1000u));
 }
 
 TEST(Scope, repeated_points_and_points_inside_change_no_region) {
@@ -286,7 +287,7 @@ TEST(Scope, repeated_points_and_points_inside_change_no_region) {
     ASSERT_TRUE(same_arcs(from(scene, more), arcs_of_it)) << "scene " << k;
     arcs += count_arcs(arcs_of_it);
   }
-  EXPECT_GT(arcs, sample(100u));
+  EXPECT_GT(arcs, least(100u));
 }
 
 TEST(Scope, graphs_of_regions_and_rays_have_the_components_of_the_closure) {
@@ -315,8 +316,8 @@ TEST(Scope, graphs_of_regions_and_rays_have_the_components_of_the_closure) {
     if (direction != Exact_point{0, 0, 0}) check(Ray(scene.relation, eye, direction));
     if (HasFatalFailure()) return;
   }
-  EXPECT_GT(arcs, sample(500u));
-  EXPECT_GT(cyclic, sample(10u));
+  EXPECT_GT(arcs, least(500u));
+  EXPECT_GT(cyclic, least(10u));
 }
 
 // ---- Rays
@@ -356,9 +357,9 @@ TEST(Scope, of_a_ray_has_the_faces_that_it_goes_through_in_their_order) {
       }
     }
   }
-  EXPECT_GT(pierced, sample(2000u));
-  EXPECT_GT(missed, sample(2000u));
-  EXPECT_GT(arcs, sample(500u));
+  EXPECT_GT(pierced, least(2000u));
+  EXPECT_GT(missed, least(2000u));
+  EXPECT_GT(arcs, least(500u));
 }
 
 /// Unit squares at heights 1 and 0, fronts up: the upper one, 0, may obscure the lower one, 1.
@@ -442,7 +443,7 @@ TEST(Scope, of_a_viewpoint_close_to_two_large_faces_needs_planes_through_a_corne
     ASSERT_TRUE(same_arcs(found, arcs_from(scene.flats, {at(0, 0, 0)}))) << trial;
     arcs += count_arcs(found), whole += count_arcs(arcs_of(scene.flats));
   }
-  EXPECT_GT(arcs, sample(100u));
+  EXPECT_GT(arcs, least(100u));
   EXPECT_GT(whole, arcs + 100);
 }
 
