@@ -21,20 +21,20 @@ timed() {
   printf '%-60s %s%s\n' "$what" "$(tail -n 1 times.txt)" "$([ "$status" = 0 ] || echo " (exit code $status)")"
 }
 
-compile=(g++ -std=c++20 -O2 -frounding-math -ffp-contract=off "-I$folder/build/dev/include" "-I$here/build/demo/include" "-I$PWD/build/demo/include")
+compile=(g++ -std=c++20 -O2 -frounding-math -ffp-contract=off "-I$PWD/build/demo/include")
 
 demo() {
   rm -rf build/demo
   timed "./demo" ./demo
 }
-units() {
+units() {  # and headers: after demo
   cat >unit.cpp <<'END'
 #include <sightline/sightline.h>
 int main(int, char** arguments) {
   const sightline::Model model = sightline::Model::read(arguments[1]);
-  const auto order = model.order({0, 0, 9});
-  const auto seen = model.weakly_visible({0});
-  return order.fragments.empty() || seen.visible.empty();
+  const auto painted = sightline::order(model, {0, 0, 9});
+  const auto seen = sightline::weakly_visible(model, 0);
+  return painted.parts.empty() || seen.visible.empty();
 }
 END
   timed "a unit with sightline.h: a scene, an order, weak visibility" "${compile[@]}" -c unit.cpp -o unit.o
@@ -55,7 +55,6 @@ touch_predicates() {
   timed "kernel/predicates.h touched, then sightline built (preset dev)" cmake --build --preset dev --target sightline
 }
 check_again() {
-  touch tests/io/off.cpp
   echo "// touched" >>tests/io/off.cpp
   timed "./check again, one test file touched" ./check
   git checkout -q tests/io/off.cpp
