@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What building costs: clones the repository into a new folder and times there what a user and a developer wait for.
 # Usage: bench/build_times.sh FOLDER [demo|units|headers|touch|check|again]...   (all of them; each takes up to minutes, nothing else
-# should run). Times are elapsed seconds, without a compiler cache; memory is the largest of one compiler, in MB.
+# should run). Times are elapsed seconds, without a compiler cache; memory is the largest of one process, in KB.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 folder=${1:?a folder that does not exist yet, or a clone to go on with}

@@ -55,6 +55,7 @@ std::string not_a_decimal(std::string_view token) {
 }
 
 }  // namespace detail
+
 Number parse_decimal(const Text_reader& text, std::string_view token) {
   const char* p = token.data();
   const char* const end = p + token.size();

@@ -42,6 +42,7 @@ bool is_header(std::string_view line) {
 }
 
 }  // namespace detail
+
 void read_number_lines(const Input& input, const std::string& wanted,
                        const std::function<bool(const std::vector<Rational>&)>& take) {
   Text_reader reader(input, Text_reader::Comments::hash);

@@ -88,6 +88,7 @@ void Obj_reader::fail_out_of_range(std::string_view token) {
 }
 
 }  // namespace detail
+
 void write_obj(const Polygon_soup& soup, std::ostream& out) {
   check_no_holes(soup, "OBJ");
   out << "# " + std::to_string(soup.point_count()) + " vertices, " + std::to_string(soup.face_count()) + " faces\n";

@@ -207,6 +207,7 @@ double double_that_is(const Rational& value, Point_id p) {
 }
 
 }  // namespace detail
+
 Polygon_soup read_ply(const Input& input, const Read_options& options) {
   Text_reader text(input, Text_reader::Comments::none);
   const detail::Ply_header header = detail::Ply_header_reader(text).read();

@@ -54,6 +54,7 @@ std::optional<Format> format_of_content(const Input& input) {
 }
 
 }  // namespace detail
+
 Polygon_soup read_scene(std::string_view bytes, Format format, const std::string& name, const Read_options& options) {
   const Input input{name, bytes};
   if (bytes.find_first_not_of(" \t\v\f\r\n", bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) ==

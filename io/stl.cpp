@@ -116,6 +116,7 @@ Polygon_soup read_stl_binary(const Input& input) {
 }
 
 }  // namespace detail
+
 Polygon_soup read_stl(const Input& input, const Read_options& options) {
   // The size has the last word beyond 16 million facets; a smaller count has a zero byte, which text has not.
   if (!detail::has_binary_stl_size(input.bytes) && detail::looks_like_stl_text(input))

@@ -96,9 +96,8 @@ class Stl_text_reader {
   std::vector<Point_id> corners_;
 };
 
-inline constexpr std::size_t stl_header_bytes = 80,
-                             // Then a count of 4 bytes; a facet is a normal, three points, 2 spare bytes.
-    stl_facet_bytes = 50;
+/// After the header a count of 4 bytes; a facet is a normal, three points, 2 spare bytes.
+inline constexpr std::size_t stl_header_bytes = 80, stl_facet_bytes = 50;
 
 /// Whether the bytes are a binary STL file, by their number; also where they begin with "solid", as they should not but
 /// do. Text is not mistaken: four characters of it, taken for a count, mean 0x09090909 facets or more, a file of 7.5

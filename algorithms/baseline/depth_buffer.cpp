@@ -138,6 +138,7 @@ std::uint32_t Rasterizer::stored(float z) const {
 }
 
 }  // namespace depth_buffer_detail
+
 Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Depth_buffer_options& options) {
   if (options.size < 1 || options.size > 16384 || options.bits < 1 || options.bits > 32)
     throw std::invalid_argument("a depth buffer has 1 to 16384 pixels a side and 1 to 32 bits");

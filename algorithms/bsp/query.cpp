@@ -85,6 +85,7 @@ std::optional<int> winding_along(const Exact_traits& traits, const Exact_tree& t
 }
 
 }  // namespace bsp_detail
+
 Bsp_leaf find_leaf(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point,
                    Predicate_counts& counts) {
   Bsp_leaf leaf;

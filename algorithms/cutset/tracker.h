@@ -7,8 +7,8 @@
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/face_graph.h>
-#include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/partition_traits.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,7 @@
 #include <sightline/algorithms/point_visibility/boxes.h>
 
-#include <sightline/kernel/predicates.h>
-
 #include <sightline/kernel/plane_table.h>
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
@@ -25,18 +24,6 @@ bool Piece_boxes::is_behind(const Box& box, const Prepared_plane& h) {
   double value = h.d;
   for (std::size_t k = 0; k < 3; ++k) value += n[k] * (n[k] > 0 ? box.high[k] : box.low[k]);
   return value < -2 * h.bound;
-}
-
-bool Piece_boxes::is_behind(const Box& box, const std::array<double, 3>& n, double size, double error,
-                            const Located_point& eye) {
-  const std::array<double, 3> e{eye.ax, eye.ay, eye.az};
-  double value = 0, reach = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = (n[k] > 0 ? box.high[k] : box.low[k]) - e[k];
-    value += n[k] * x;
-    reach = std::max({reach, std::fabs(x), std::fabs(e[k])});
-  }
-  return value < -(reach * (error + 0x1p-49 * size) + 2 * size * eye.error + 0x1p-1000 * (1 + size));
 }
 
 double Piece_boxes::distance(const Box& box, const Located_point& eye) {

@@ -5,7 +5,10 @@
 #include <sightline/kernel/located_point.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -66,5 +69,17 @@ class Piece_boxes {
   std::vector<Chunk> chunks_;  // in the order of the tree
   std::vector<std::uint32_t> points_;
 };
+
+inline bool Piece_boxes::is_behind(const Box& box, const std::array<double, 3>& n, double size, double error,
+                                   const Located_point& eye) {
+  const std::array<double, 3> e{eye.ax, eye.ay, eye.az};
+  double value = 0, reach = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = (n[k] > 0 ? box.high[k] : box.low[k]) - e[k];
+    value += n[k] * x;
+    reach = std::max({reach, std::fabs(x), std::fabs(e[k])});
+  }
+  return value < -(reach * (error + 0x1p-49 * size) + 2 * size * eye.error + 0x1p-1000 * (1 + size));
+}
 
 }  // namespace sightline

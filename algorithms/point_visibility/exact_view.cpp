@@ -57,55 +57,6 @@ Exact_view::Ray Exact_view::meet(const Plane& p, const Plane& q, Predicate_count
   return r;
 }
 
-Sign Exact_view::side(const Plane& w, const Ray& r, Predicate_counts& counts) const {
-  const double value = w.x * r.x + w.y * r.y + w.z * r.z;
-  const double bound =
-      w.size * r.error + w.error * (r.size + 4 * r.error);  // the rounding of these lines is in r.error. P-60
-  if (value > bound) {
-    ++counts.filtered;
-    return CGAL::POSITIVE;
-  }
-  if (value < -bound) {
-    ++counts.filtered;
-    return CGAL::NEGATIVE;
-  }
-  return side_unfiltered(w, r, counts);
-}
-
-Sign Exact_view::side(const Plane& w, std::uint32_t point, Predicate_counts& counts) const {
-  const Approximate_vector d = approximate_direction(point);
-  const double value = w.x * d.x + w.y * d.y + w.z * d.z;
-  const double bound = (w.size * 0x1p-50 + w.error) * magnitude(d.x, d.y, d.z) + 0x1p-1000 * (1 + w.size);
-  if (value > bound) {
-    ++counts.filtered;
-    return CGAL::POSITIVE;
-  }
-  if (value < -bound) {
-    ++counts.filtered;
-    return CGAL::NEGATIVE;
-  }
-  if (w.name.has_point(point)) {
-    ++counts.combinatorial;
-    return CGAL::ZERO;
-  }
-  return side_unfiltered(w, ray(point), counts);
-}
-
-Sign Exact_view::nearer(std::uint32_t f, std::uint32_t g, const Ray& r, Predicate_counts& counts) const {
-  const Form &m = form(f), &n = form(g);
-  const double value = (m.x - n.x) * r.x + (m.y - n.y) * r.y + (m.z - n.z) * r.z;
-  const double bound = (m.size + n.size) * (2 * r.error + 0x1p-48 * r.size) + 0x1p-700;
-  if (value > bound) {
-    ++counts.filtered;
-    return CGAL::POSITIVE;
-  }
-  if (value < -bound) {
-    ++counts.filtered;
-    return CGAL::NEGATIVE;
-  }
-  return nearer_unfiltered(f, g, r, counts);
-}
-
 Sign Exact_view::beyond(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
   const Form& m = form(f);
   const Approximate_vector d = approximate_direction(point);

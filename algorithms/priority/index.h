@@ -5,10 +5,10 @@
 #include <sightline/algorithms/priority/relation.h>
 #include <sightline/kernel/counters.h>
 #include <sightline/kernel/plane_table.h>
+#include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/traits/partition_traits.h>
 #include <sightline/kernel/vectors.h>
 #include <sightline/kernel/vertex.h>
-#include <sightline/kernel/traits/exact_traits.h>
 
 #include <algorithm>
 #include <array>

@@ -32,6 +32,7 @@ bool Pixel_cone::holds(const std::array<double, 3>& d, Pixel_sets& counts) const
 }
 
 }  // namespace priority_detail
+
 Pixel_statistics pixel_statistics(const Pixel_sets& sets, std::span<const std::uint32_t> priority) {
   Pixel_statistics found;
   found.image.reserve(sets.size());

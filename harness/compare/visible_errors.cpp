@@ -183,6 +183,7 @@ void Image::each_cell(const Part& part, Function function) {
 }
 
 }  // namespace visible_errors_detail
+
 Visible_errors Visible_reference::errors(const Depth_buffer& buffer) {
   using namespace visible_errors_detail;
   Visible_errors e;

@@ -53,6 +53,7 @@ Json number_json(const Rational& value) {
 }
 
 }  // namespace protocol_detail
+
 Rational number_from_json(const nlohmann::json& value, const std::string& at) {
   if (value.is_number_unsigned()) return Rational(value.get<std::uint64_t>());
   if (value.is_number_integer()) return Rational(value.get<std::int64_t>());
@@ -183,6 +184,7 @@ Answer Answer_reader::finished() {
 }
 
 }  // namespace protocol_detail
+
 Json to_json(const Query& query) {
   Json value{{"query", question_names[static_cast<std::size_t>(query.question)]}};
   if (query.question == Question::weak) {

@@ -128,6 +128,7 @@ void find_lit(const Polygon_soup& soup, const Scene& scene, const Query& query, 
 }
 
 }  // namespace truth_detail
+
 Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options& options) {
   Truth truth;
   const Scene scene(soup);

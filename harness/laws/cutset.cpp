@@ -112,6 +112,7 @@ Answer answer(const Posed_scene& posed) {
 }
 
 }  // namespace cutset_subject
+
 Subject cutset() {
   using namespace cutset_subject;
   Subject subject;

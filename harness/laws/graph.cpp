@@ -67,6 +67,7 @@ Outcome by_explicit(const Posed_scene& posed, const Answer& answer) {
 }
 
 }  // namespace graph_subject
+
 Subject graph() {
   using namespace graph_subject;
   Subject subject;

@@ -141,6 +141,7 @@ Outcome by_definition(const Posed_scene& posed, const Answer& answer) {
 }
 
 }  // namespace order_subject
+
 Subject order() {
   using namespace order_subject;
   Subject subject;

@@ -65,6 +65,7 @@ Answer exactly(const Posed_scene& posed, bool verify) {
 }
 
 }  // namespace see_subject
+
 Subject see() {
   using namespace see_subject;
   Subject subject;

@@ -115,6 +115,7 @@ Outcome reversed(const Posed_scene& posed, const Answer& answer, Random& random)
 }
 
 }  // namespace weak_subject
+
 Subject weak() {
   using namespace weak_subject;
   Subject subject;

@@ -22,9 +22,8 @@ namespace sightline {
 /// What a search by events modelled.
 struct Event_counters {
   std::size_t targets = 0;  ///< pairs of a source and a piece
-  std::size_t away = 0, by_rays = 0,
-              /// Of these, decided at once: facing away, by one of a few lines, hidden by one piece alone.
-      in_shadow = 0;
+  /// Of these, decided at once: facing away, by one of a few lines, hidden by one piece alone.
+  std::size_t away = 0, by_rays = 0, in_shadow = 0;
   std::size_t occluders = 0, lines = 0;  ///< ways in which a piece can block; lines of edges; summed over pairs
   std::size_t horizon = 0, edge_vertex = 0,
               triple = 0;  ///< potential events: in a plane of edges, through a vertex and an edge, through three edges

@@ -82,9 +82,9 @@ class Matrix_game {
 
  private:
   static constexpr bool is_exact = !std::is_floating_point_v<Number>;
-  static constexpr int shift = 2, max_steps = 300,
-                       // Exact games that take more steps are not solved, and say so by what is checked.
-      careful_after = 150;
+  static constexpr int shift = 2, max_steps = 300;
+  // Exact games that take more steps are not solved, and say so by what is checked.
+  static constexpr int careful_after = 150;
 
   // The linear program: most sum of y >= 0 with sum_k y_k (a(k, c) + shift) <= 1 in each column c. The tableau is
   // condensed: a line for each basic variable, a place for each other one; variables k < rows are y_k, rows + c is the
