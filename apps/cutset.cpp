@@ -206,19 +206,10 @@ static Exit run(const Cutset_arguments& arguments) {
   const auto share = [&](std::uint64_t part) {
     return later == 0 || graph.size() == 0 ? 0 : static_cast<double>(part) / static_cast<double>(later * graph.size());
   };
-  const Json counters{{"nodes", graph.size()},
-                      {"edges", graph.edges().size()},
-                      {"components", graph.components().size()},
-                      {"convex", convex},
-                      {"refused", graph.refused()},
-                      {"tests", total.tests},
-                      {"tests_away", total.away},
-                      {"first_tests", frames.front().counters.tests},
-                      {"exact_tests", total.exact},
-                      {"changed", total.changed},
-                      {"births", total.births},
-                      {"searches", total.searches},
-                      {"compared", total.compared}};
+  Json counters{
+      {"nodes", graph.size()}, {"edges", graph.edges().size()}, {"components", graph.components().size()},
+      {"convex", convex},      {"refused", graph.refused()},    {"first_tests", frames.front().counters.tests}};
+  append_counters(counters, total);
   Json result;
   if (!common.json.empty()) result["frames"] = frames_json(frames, arguments);
   if (arguments.check) result["wrong_frames"] = wrong;

@@ -42,19 +42,9 @@ static Exit run(const Common& common) {
     const auto box = scene.box();
     result["box"] = {point_json(box[0]), point_json(box[1])};
   }
-  const Json counters{{"zero_area", c.zero_area},
-                      {"duplicates", c.duplicates},
-                      {"self_intersecting", c.self_intersecting},
-                      {"no_simple_projection", c.no_simple_projection},
-                      {"non_planar", c.non_planar},
-                      {"concave", c.concave},
-                      {"with_holes", c.with_holes},
-                      {"fanned", c.fanned},
-                      {"bits",
-                       {{"coordinate", budget.coordinate},
-                        {"normal", budget.normal},
-                        {"offset", budget.offset},
-                        {"side", budget.side()}}}};
+  Json counters = counters_json(c);
+  counters["bits"] = {
+      {"coordinate", budget.coordinate}, {"normal", budget.normal}, {"offset", budget.offset}, {"side", budget.side()}};
   if (write_json(common, "info", scene, result, counters, {{"read", reading}, {"prepare", preparing}}))
     return Exit::done;
 

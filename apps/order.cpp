@@ -141,20 +141,10 @@ static Exit run(const Order_arguments& arguments) {
                 {"predicates", predicates_json(c.predicates)},
                 {"eye_predicates", predicates_json(outcome.walk.predicates)}};
   if (by_graph) {
-    const Priority_tree_counters& t = graph.tree;
-    const Eye_order_counters& e = graph.eye;
-    counters["graph"] = {{"by_number", t.by_number},
-                         {"by_plane", t.by_plane},
-                         {"left", t.left},
-                         {"planes", t.planes},
-                         {"sequences", t.sequences},
-                         {"cycles", t.cycles},
-                         {"off_view", e.off_view},
-                         {"edge_on", e.edge_on},
-                         {"searched", e.searched},
-                         {"eye_cycles", e.cycles},
-                         {"in_eye_cycles", e.in_cycles},
-                         {"pairs", t.search.relation.pairs + e.search.relation.pairs}};
+    Json by = counters_json(graph.tree);
+    append_counters(by, graph.eye);
+    by["pairs"] = graph.tree.search.relation.pairs + graph.eye.search.relation.pairs;
+    counters["graph"] = std::move(by);
   }
   if (write_json(common, "order", scene, std::move(result), counters,
                  {{"build", outcome.build_seconds}, {"order", outcome.order_seconds}}))

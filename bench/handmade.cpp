@@ -206,10 +206,10 @@ std::vector<std::vector<Quadratic>> quadratics() {
   const Occluders occluders(scene);
   const Event_lines events(occluders, occluders.polygon(0), occluders.plane(0), occluders.polygon(1),
                            occluders.plane(1), 1);
-  std::vector<Event_lines::Line> edges = events.lines();
-  std::erase_if(edges, [](const Event_lines::Line& line) { return !line.real; });
+  std::vector<Event_lines::Event_line> edges = events.lines();
+  std::erase_if(edges, [](const Event_lines::Event_line& line) { return !line.real; });
   std::mt19937 dice(1);
-  const auto edge = [&]() -> const Event_lines::Line& { return edges[dice() % edges.size()]; };
+  const auto edge = [&]() -> const Event_lines::Event_line& { return edges[dice() % edges.size()]; };
   std::vector<std::vector<Quadratic>> all;
   while (all.size() < 256) {
     // As Event_search::search_regulus() has it.

@@ -52,7 +52,7 @@ Doubles_search::Polygon Doubles_search::part(const Polygon& polygon, const std::
 
 Weak_status Doubles_search::search(const Polygon& source, const Polygon& target, int halvings) {
   if (++cells_ > options_->cells) return Weak_status::undecided;
-  Line line;
+  Weighted_line line;
   const std::optional<bool> has_line = find_line(source, target, line);
   if (!has_line) return halves(source, target, halvings);
   if (!*has_line) return Weak_status::hidden;
@@ -124,7 +124,7 @@ std::vector<double> Doubles_search::sides(const Polygon& source, const Polygon& 
   return values;
 }
 
-std::optional<bool> Doubles_search::find_line(const Polygon& source, const Polygon& target, Line& line) {
+std::optional<bool> Doubles_search::find_line(const Polygon& source, const Polygon& target, Weighted_line& line) {
   const std::size_t m = source.size(), n = target.size();
   line = {std::vector<double>(m, 1.0 / static_cast<double>(m)), std::vector<double>(n, 1.0 / static_cast<double>(n))};
   rows_.clear();
@@ -148,7 +148,7 @@ std::optional<bool> Doubles_search::find_line(const Polygon& source, const Polyg
   return std::nullopt;
 }
 
-double Doubles_search::improve(Line& line, bool source) {
+double Doubles_search::improve(Weighted_line& line, bool source) {
   const std::size_t m = line.source.size(), n = line.target.size(), own = source ? m : n;
   end_.restart(own);
   for (const std::vector<double>& row : rows_) {
@@ -179,7 +179,7 @@ Triple Doubles_search::mean(const Polygon& polygon, const std::vector<double>& w
 }
 
 std::optional<std::uint32_t> Doubles_search::find_blocker(const Polygon& source, const Polygon& target,
-                                                          const Line& line, std::vector<Side>& open) const {
+                                                          const Weighted_line& line, std::vector<Side>& open) const {
   const Triple p = mean(source, line.source), q = mean(target, line.target);
   const Pluecker pluecker = pluecker_of_pair(p, q);
   std::optional<std::uint32_t> best;

@@ -47,7 +47,7 @@ class Doubles_search {
     std::size_t edge;
     int sign;
   };
-  struct Line {
+  struct Weighted_line {
     std::vector<double> source, target;  // weights of the corners
   };
 
@@ -77,17 +77,17 @@ class Doubles_search {
 
   /// Whether there is a line on the path's sides with some room, and one that is; nothing where there may be one, and
   /// none was found.
-  std::optional<bool> find_line(const Polygon& source, const Polygon& target, Line& line);
+  std::optional<bool> find_line(const Polygon& source, const Polygon& target, Weighted_line& line);
   /// The least side of a line whose one end is the best for the other; then that end goes half as far as it may towards
   /// the polygon's middle.
-  double improve(Line& line, bool source);
+  double improve(Weighted_line& line, bool source);
 
   // ---- What blocks it
 
   static Triple mean(const Polygon& polygon, const std::vector<double>& weights);
   /// A piece that a line meets, of several the one with the fewest open edges; those with the signs that they have
   /// inside.
-  std::optional<std::uint32_t> find_blocker(const Polygon& source, const Polygon& target, const Line& line,
+  std::optional<std::uint32_t> find_blocker(const Polygon& source, const Polygon& target, const Weighted_line& line,
                                             std::vector<Side>& open) const;
 
   const Occluders* occluders_;

@@ -32,7 +32,17 @@ struct Cut_set_counters {
   std::uint64_t births = 0;    ///< clusters of these of which none was at the cut-set
   std::uint64_t searches = 0;  ///< convex bodies that showed no face, searched for one
   std::uint64_t compared = 0;  ///< pairs of faces compared in these searches
-  Cut_set_counters& operator+=(const Cut_set_counters& other);
+  /// Each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("tests", &Cut_set_counters::tests);
+    visit("tests_away", &Cut_set_counters::away);
+    visit("exact_tests", &Cut_set_counters::exact);
+    visit("changed", &Cut_set_counters::changed);
+    visit("births", &Cut_set_counters::births);
+    visit("searches", &Cut_set_counters::searches);
+    visit("compared", &Cut_set_counters::compared);
+  }
 };
 
 /// The on-view nodes of a face graph and the cut-set, moved from viewpoint to viewpoint. Whatever the move, and

@@ -33,6 +33,15 @@ struct Eye_order_counters {
   std::uint64_t fragments = 0;  ///< polygons drawn
   Index_counters search;
   Predicate_counts predicates;
+  /// What `sightline order` reports, in its order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("off_view", &Eye_order_counters::off_view);
+    visit("edge_on", &Eye_order_counters::edge_on);
+    visit("searched", &Eye_order_counters::searched);
+    visit("eye_cycles", &Eye_order_counters::cycles);
+    visit("in_eye_cycles", &Eye_order_counters::in_cycles);
+  }
 };
 
 /// Polygons, farthest first, counterclockwise seen from the fronts of their pieces.

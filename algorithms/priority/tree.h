@@ -46,6 +46,16 @@ struct Priority_tree_counters {
   std::uint64_t graphs = 0;  ///< components searched for
   Index_counters search;
   Predicate_counts predicates;  ///< of planes and cuts
+  /// What `sightline order` reports, in its order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("by_number", &Priority_tree_counters::by_number);
+    visit("by_plane", &Priority_tree_counters::by_plane);
+    visit("left", &Priority_tree_counters::left);
+    visit("planes", &Priority_tree_counters::planes);
+    visit("sequences", &Priority_tree_counters::sequences);
+    visit("cycles", &Priority_tree_counters::cycles);
+  }
 };
 
 /// Nodes of three kinds. `sequence`: children whose order is the same from every eye, highest priority first (h of the

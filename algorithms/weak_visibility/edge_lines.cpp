@@ -13,7 +13,7 @@ const std::vector<Edge_lines::Edge>& Edge_lines::of(std::uint32_t piece) {
   return edges;
 }
 
-bool Edge_lines::passes(const Line& line, std::uint32_t point) const {
+bool Edge_lines::passes(const Edge_line& line, std::uint32_t point) const {
   if (line.points[0] == point || line.points[1] == point) return true;
   const Triple v = occluders_->near_point_of(point);
   const Pluecker& l = line.near;

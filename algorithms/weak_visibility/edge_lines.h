@@ -18,7 +18,7 @@ namespace sightline {
 /// yes.
 class Edge_lines {
  public:
-  struct Line {
+  struct Edge_line {
     Weak_line edge;                       ///< the first edge met on it; the line runs as it does
     std::array<std::uint32_t, 2> points;  ///< that edge's ends
     bool flipped;                         ///< runs against the canonical direction
@@ -35,21 +35,21 @@ class Edge_lines {
   explicit Edge_lines(const Occluders& occluders) : occluders_(&occluders), names_(occluders.scene().points()) {}
 
   std::size_t size() const { return lines_.size(); }
-  const Line& operator[](std::uint32_t line) const { return lines_[line]; }
-  const std::vector<Line>& all() const { return lines_; }
+  const Edge_line& operator[](std::uint32_t line) const { return lines_[line]; }
+  const std::vector<Edge_line>& all() const { return lines_; }
 
   /// The edges of a piece, from each corner to the next.
   const std::vector<Edge>& of(std::uint32_t piece);
 
   /// Whether a line goes through a point of the scene. Exact: yes.
-  bool passes(const Line& line, std::uint32_t point) const;
+  bool passes(const Edge_line& line, std::uint32_t point) const;
 
  private:
   Edge edge(std::uint32_t piece, std::size_t corner);
 
   const Occluders* occluders_;
   Line_table names_;  // as many as lines_, in the same order
-  std::vector<Line> lines_;
+  std::vector<Edge_line> lines_;
   std::unordered_map<std::uint32_t, std::vector<Edge>> of_piece_;
 };
 

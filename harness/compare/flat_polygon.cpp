@@ -36,7 +36,7 @@ Flat_polygon::Point Flat_polygon::vertex(std::size_t i) const {
   return p;
 }
 
-Flat_polygon Flat_polygon::clipped(const Line& h) const {
+Flat_polygon Flat_polygon::clipped(const Flat_line& h) const {
   const std::size_t n = lines_.size();
   std::vector<int> side(n);
   for (std::size_t i = 0; i < n; ++i) side[i] = side_of_vertex(i, h);
@@ -55,7 +55,7 @@ std::vector<Flat_polygon> Flat_polygon::without(const Flat_polygon& other) const
   std::vector<Flat_polygon> pieces;
   if (other.empty()) return {*this};
   Flat_polygon rest = *this;
-  for (const Line& h : other.lines_) {
+  for (const Flat_line& h : other.lines_) {
     if (rest.empty()) break;
     if (Flat_polygon outside = rest.clipped({Integer(-h[0]), Integer(-h[1]), Integer(-h[2])}); !outside.empty())
       pieces.push_back(std::move(outside));
@@ -73,21 +73,21 @@ Rational Flat_polygon::area() const {
   return twice / 2;
 }
 
-Flat_polygon::Line Flat_polygon::line_through(const Point& p, const Point& q) {
+Flat_polygon::Flat_line Flat_polygon::line_through(const Point& p, const Point& q) {
   const Rational a = p[1] - q[1], b = q[0] - p[0], c = -(a * p[0] + b * p[1]);
   const Integer common = lcm(lcm(a.get_den(), b.get_den()), c.get_den());
-  Line line{Integer(a * common), Integer(b * common), Integer(c * common)};
+  Flat_line line{Integer(a * common), Integer(b * common), Integer(c * common)};
   const Integer divisor = gcd(gcd(line[0], line[1]), line[2]);
   for (Integer& x : line) x /= divisor;
   return line;
 }
 
 std::array<Integer, 3> Flat_polygon::homogeneous(std::size_t i) const {
-  const Line &g = lines_[i == 0 ? lines_.size() - 1 : i - 1], &h = lines_[i];
+  const Flat_line &g = lines_[i == 0 ? lines_.size() - 1 : i - 1], &h = lines_[i];
   return {g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0]};
 }
 
-int Flat_polygon::side_of_vertex(std::size_t i, const Line& h) const {
+int Flat_polygon::side_of_vertex(std::size_t i, const Flat_line& h) const {
   const std::array<Integer, 3> v = homogeneous(i);
   return sgn(Integer(h[0] * v[0] + h[1] * v[1] + h[2] * v[2]));
 }

@@ -14,19 +14,19 @@ namespace sightline {
 /// line i - 1 meets line i. The same idea as the kernel's plane-defined polygons, one dimension down. Exact: yes.
 class Flat_polygon {
  public:
-  using Line = std::array<Integer, 3>;
+  using Flat_line = std::array<Integer, 3>;
   using Point = std::array<Rational, 2>;
 
   /// The convex hull of points. Degenerate: empty where they are collinear. Cost: O(n log n) rational operations.
   static Flat_polygon hull(std::vector<Point> points);
 
   bool empty() const { return lines_.size() < 3; }
-  std::span<const Line> lines() const { return lines_; }
+  std::span<const Flat_line> lines() const { return lines_; }
   /// Where line i - 1 meets line i. Pre: not empty.
   Point vertex(std::size_t i) const;
 
   /// The part where the line is positive. Degenerate: a part without area is empty.
-  Flat_polygon clipped(const Line& h) const;
+  Flat_polygon clipped(const Flat_line& h) const;
 
   /// The convex pieces of what is in this polygon and not in the other one.
   std::vector<Flat_polygon> without(const Flat_polygon& other) const;
@@ -34,12 +34,12 @@ class Flat_polygon {
   Rational area() const;
 
  private:
-  static Line line_through(const Point& p, const Point& q);
+  static Flat_line line_through(const Point& p, const Point& q);
   /// Vertex i in homogeneous coordinates with positive weight: consecutive lines turn left.
   std::array<Integer, 3> homogeneous(std::size_t i) const;
-  int side_of_vertex(std::size_t i, const Line& h) const;
+  int side_of_vertex(std::size_t i, const Flat_line& h) const;
 
-  std::vector<Line> lines_;
+  std::vector<Flat_line> lines_;
 };
 
 }  // namespace sightline

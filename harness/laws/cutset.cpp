@@ -5,6 +5,7 @@
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/face_graph.h>
@@ -119,15 +120,17 @@ Subject cutset() {
   subject.name = "cutset";
   subject.what = "on-view faces and the cut-set along paths, against the definition";
   subject.answer = cutset_subject::answer;
-  subject.checks = {
-      {"path", "each frame of a path is as the definition says",
-       [](const Posed_scene& posed, const Answer&, Random& random) {
-         return along_a_path(posed, random, [](const Scene& scene) { return Exact_traits(scene); });
-       }},
-      {"gmpq", "the same by Cartesian<Gmpq>", [](const Posed_scene& posed, const Answer&, Random& random) {
-         return along_a_path(posed, random,
-                             [](const Scene& scene) { return Point_traits<CGAL::Cartesian<CGAL::Gmpq>>(scene); });
-       }}};
+  subject.checks = {{"path", "each frame of a path is as the definition says",
+                     [](const Posed_scene& posed, const Answer&, Random& random) {
+                       return along_a_path(posed, random, [](const Scene& scene) { return Exact_traits(scene); });
+                     }},
+                    {"gmpq", "the same by Cartesian<Gmpq>",
+                     [](const Posed_scene& posed, const Answer&, Random& random) {
+                       return along_a_path(posed, random, [](const Scene& scene) {
+                         return Point_traits<CGAL::Cartesian<CGAL::Gmpq>>(scene);
+                       });
+                     }},
+                    front_door_check(tracked_by_front_door)};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
   return subject;
 }

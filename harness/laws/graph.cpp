@@ -10,6 +10,7 @@
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/convex_parts.h>
@@ -77,7 +78,8 @@ Subject graph() {
   subject.verified = [](const Posed_scene& posed) { return by_implicit(posed, true); };
   subject.checks = {
       {"explicit", "the same components from all arcs",
-       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }}};
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }},
+      front_door_check(grouped_by_front_door)};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn"});
   return subject;
 }

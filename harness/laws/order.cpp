@@ -14,6 +14,7 @@
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -160,9 +161,11 @@ Subject order() {
        [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, false); }},
       {"graph two-sided", "an order of both sides by the priority graph is accepted",
        [](const Posed_scene& posed, const Answer&, Random&) { return by_graph(posed, true); }},
-      {"gmpq", "the same tree by Cartesian<Gmpq>", [](const Posed_scene& posed, const Answer& answer, Random&) {
+      {"gmpq", "the same tree by Cartesian<Gmpq>",
+       [](const Posed_scene& posed, const Answer& answer, Random&) {
          return by_kernel<CGAL::Cartesian<CGAL::Gmpq>>(posed, answer, "gmpq");
-       }}};
+       }},
+      front_door_check(ordered_by_front_door)};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }

@@ -13,6 +13,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/generate/view_drafts.h>
 #include <sightline/harness/generate/weak_neighbours.h>
+#include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -73,9 +74,11 @@ Subject see() {
   subject.what = "visible surfaces from a point by two exact kernels, answers checked by verify";
   subject.answer = [](const Posed_scene& posed) { return exactly(posed, false); };
   subject.verified = [](const Posed_scene& posed) { return exactly(posed, true); };
-  subject.checks = {{"gmpq", "the same faces by Gmpq", [](const Posed_scene& posed, const Answer& answer, Random&) {
+  subject.checks = {{"gmpq", "the same faces by Gmpq",
+                     [](const Posed_scene& posed, const Answer& answer, Random&) {
                        return by_numbers<CGAL::Gmpq>(posed, answer, "gmpq");
-                     }}};
+                     }},
+                    front_door_check(seen_by_front_door)};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }

@@ -11,6 +11,7 @@
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -131,7 +132,8 @@ Subject weak() {
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer); }},
       {"grow", "a larger source sees no less",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return grown(posed, answer); }},
-      {"reverse", "source and target in each other's place", weak_subject::reversed}};
+      {"reverse", "source and target in each other's place", weak_subject::reversed},
+      front_door_check(weakly_seen_by_front_door)};
   add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
   return subject;
 }

@@ -41,6 +41,18 @@ struct Scene_counters {
   std::size_t points_read = 0, points = 0, faces_read = 0, faces = 0, pieces = 0;
   std::size_t zero_area = 0, duplicates = 0, self_intersecting = 0, no_simple_projection = 0;  ///< set aside
   std::size_t non_planar = 0, concave = 0, with_holes = 0, fanned = 0;
+  /// What became of faces, each by its key in reports, in their order.
+  template <class Visit>
+  static void each(Visit visit) {
+    visit("zero_area", &Scene_counters::zero_area);
+    visit("duplicates", &Scene_counters::duplicates);
+    visit("self_intersecting", &Scene_counters::self_intersecting);
+    visit("no_simple_projection", &Scene_counters::no_simple_projection);
+    visit("non_planar", &Scene_counters::non_planar);
+    visit("concave", &Scene_counters::concave);
+    visit("with_holes", &Scene_counters::with_holes);
+    visit("fanned", &Scene_counters::fanned);
+  }
 };
 
 /// All of it.

@@ -24,7 +24,7 @@ Rational area(const std::vector<Flat_polygon>& polygons) {
 }
 /// a ∩ b by clipping.
 Flat_polygon common(Flat_polygon a, const Flat_polygon& b) {
-  for (const Flat_polygon::Line& h : b.lines()) a = a.clipped(h);
+  for (const Flat_polygon::Flat_line& h : b.lines()) a = a.clipped(h);
   return a;
 }
 Corners random_points(generate::Random& random) {
@@ -63,7 +63,7 @@ TEST(Flat_polygon_hull, leaves_out_inner_and_straight_points_in_any_order) {
 
 TEST(Flat_polygon_hull, has_coprime_lines_with_the_inside_positive) {
   const Flat_polygon hull = Flat_polygon::hull({{ratio(1, 3), 0}, {ratio(5, 3), 0}, {1, ratio(7, 11)}});
-  for (const Flat_polygon::Line& h : hull.lines()) {
+  for (const Flat_polygon::Flat_line& h : hull.lines()) {
     EXPECT_EQ(gcd(gcd(h[0], h[1]), h[2]), 1);
     EXPECT_GT(Rational(h[0] * Rational(1) + h[1] * ratio(1, 10) + h[2]), 0);
   }
@@ -124,8 +124,8 @@ RC_GTEST_PROP(Flat_polygon_area, is_the_sum_of_the_parts_on_both_sides_of_a_line
   generate::Random random(*rc::gen::arbitrary<std::uint64_t>());
   for (int k = 0; k < 30; ++k) {
     const Flat_polygon a = Flat_polygon::hull(random_points(random));
-    Flat_polygon::Line h{static_cast<long>(random.between(-3, 3)), static_cast<long>(random.between(-3, 3)),
-                         static_cast<long>(random.between(-9, 9))};
+    Flat_polygon::Flat_line h{static_cast<long>(random.between(-3, 3)), static_cast<long>(random.between(-3, 3)),
+                              static_cast<long>(random.between(-9, 9))};
     if (h[0] == 0 && h[1] == 0) h[0] = 1;
     const Flat_polygon front = a.clipped(h), behind = a.clipped({Integer(-h[0]), Integer(-h[1]), Integer(-h[2])});
     RC_ASSERT(Rational(front.area() + behind.area()) == a.area());
@@ -140,7 +140,7 @@ RC_GTEST_PROP(Flat_polygon_area, of_a_hull_is_the_most_that_any_triangle_fan_of_
   const Corners points = random_points(random);
   const Flat_polygon hull = Flat_polygon::hull(points);
   for (const Point& p : points) {
-    for (const Flat_polygon::Line& h : hull.lines()) RC_ASSERT(Rational(h[0] * p[0] + h[1] * p[1] + h[2]) >= 0);
+    for (const Flat_polygon::Flat_line& h : hull.lines()) RC_ASSERT(Rational(h[0] * p[0] + h[1] * p[1] + h[2]) >= 0);
     if (points.size() < 3) continue;
     const Flat_polygon triangle = Flat_polygon::hull({p, points[0], points[1]});
     RC_ASSERT(triangle.area() <= hull.area());

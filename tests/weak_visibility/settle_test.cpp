@@ -12,8 +12,9 @@ namespace {
 
 using namespace sightline;
 
+constexpr std::size_t tangent = 8;
+
 TEST(Settled_by_events, also_between_the_open_parts_alone) {
-  constexpr std::size_t tangent = 8;
   std::size_t by_parts = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     generate::Random random(seed);
@@ -49,6 +50,35 @@ TEST(Settled_by_events, also_between_the_open_parts_alone) {
     }
   }
   EXPECT_GT(by_parts, 2u);
+}
+
+TEST(Settled_by_events, ends_with_what_progress_throws) {
+  struct Enough {};
+  std::size_t open = 0;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    generate::Random random(seed);
+    const weak_scenes::Weak_scene scene =
+        weak_scenes::finished(weak_scenes::drafters[tangent].draft(random, Rational(0)), random);
+    const Scene read(scene.soup);
+    const Occluders occluders(read);
+    const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
+    Weakly_visible found = weakly_visible(occluders, sources);
+    if (found.open.empty()) continue;
+    ++open;
+    Events_options options;
+    options.threads = 1;
+    std::size_t calls = 0;
+    options.progress = [&](std::size_t done, std::size_t all) {
+      EXPECT_LT(done, all);
+      ++calls;
+    };
+    Weakly_visible settled = found;
+    settle_by_events(occluders, sources, usual_event_edges, options, settled);
+    EXPECT_GE(calls, found.undecided.size());
+    options.progress = [](std::size_t, std::size_t) { throw Enough(); };
+    EXPECT_THROW(settle_by_events(occluders, sources, usual_event_edges, options, found), Enough);
+  }
+  EXPECT_GT(open, 2u);
 }
 
 }  // namespace

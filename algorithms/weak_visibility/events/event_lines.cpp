@@ -99,13 +99,13 @@ Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source,
     by_size.emplace_back(-area(occluders.corners(piece)), piece);
   std::sort(by_size.begin(), by_size.end());
   for (const auto& [size, piece] : by_size) add_piece(occluders, piece);
-  for (Line& line : lines_)
+  for (Event_line& line : lines_)
     if (line.in_source && sgn(dot(target_plane.exact, line.hull[0])) == 0 &&
         sgn(dot(target_plane.exact, line.hull[1])) == 0)
       line.real = false;
 }
 
-bool Event_lines::in_hull(const Line& line, const Homogeneous& x) {
+bool Event_lines::in_hull(const Event_line& line, const Homogeneous& x) {
   if (sgn(x[3]) == 0) return false;
   return before(line.pluecker, line.hull[0], x) >= 0 && before(line.pluecker, x, line.hull[1]) >= 0;
 }
@@ -122,7 +122,7 @@ std::uint32_t Event_lines::line(Exact_pluecker pluecker) {
 
 std::uint32_t Event_lines::edge(const Homogeneous& a, const Homogeneous& b) {
   const std::uint32_t number = line(join(a, b));
-  Line& own = lines_[number];
+  Event_line& own = lines_[number];
   for (const Homogeneous* x : {&a, &b}) {
     if (!own.real) {
       own.real = true;

@@ -63,7 +63,7 @@ struct Less_entries {
 /// plane, the source on one side of the target's; both may touch. Cost: O(n log n). Exact: yes. Proof: P-73
 class Event_lines {
  public:
-  struct Line {
+  struct Event_line {
     Exact_pluecker pluecker;
     bool in_source = false;             ///< in the source's plane
     bool real = false;                  ///< whether some of it is an edge that an event may touch: then all of that is
@@ -91,13 +91,13 @@ class Event_lines {
   const Homogeneous& source_plane() const { return near_source_plane_.exact; }
   const Homogeneous& target_plane() const { return near_target_plane_.exact; }
   int beside() const { return beside_; }
-  const std::vector<Line>& lines() const { return lines_; }
+  const std::vector<Event_line>& lines() const { return lines_; }
   const std::vector<Literal>& from() const { return from_; }  ///< hold iff a line leaves through the source
   const std::vector<Literal>& to() const { return to_; }      ///< hold iff it arrives within the target
   const std::vector<Blocker>& blockers() const { return blockers_; }
 
   /// Whether a point on a line's real part. Pre: it is on the line, and real.
-  static bool in_hull(const Line& line, const Homogeneous& x);
+  static bool in_hull(const Event_line& line, const Homogeneous& x);
 
  private:
   /// The line's number, the same for all edges on it.
@@ -115,7 +115,7 @@ class Event_lines {
   Near_plane near_source_plane_, near_target_plane_;
   int beside_;
   std::map<Exact_pluecker, std::uint32_t, Less_entries> numbers_;
-  std::vector<Line> lines_;
+  std::vector<Event_line> lines_;
   std::vector<Literal> from_, to_;
   std::vector<Blocker> blockers_;
 };

@@ -63,7 +63,7 @@ Quadratic linear_at(const Homogeneous& plane, const Homogeneous& turn, const Hom
 }
 
 /// The lines through ends of two edges.
-std::array<Exact_pluecker, 4> extreme_lines(const Event_lines::Line& a, const Event_lines::Line& b) {
+std::array<Exact_pluecker, 4> extreme_lines(const Event_lines::Event_line& a, const Event_lines::Event_line& b) {
   return {join(a.hull[0], b.hull[0]), join(a.hull[0], b.hull[1]), join(a.hull[1], b.hull[0]),
           join(a.hull[1], b.hull[1])};
 }
@@ -128,7 +128,7 @@ bool Event_search::pencils() {
   std::set<std::uint32_t> vertices, faces;
   for (std::size_t i = 0; i < lines().size(); ++i)
     for (std::size_t j = i + 1; j < lines().size(); ++j) {
-      const Line &a = lines()[i], &b = lines()[j];
+      const Event_line &a = lines()[i], &b = lines()[j];
       if (!a.real || !b.real || (a.in_source && b.in_source) || sgn(side(a.pluecker, b.pluecker)) != 0) continue;
       const Homogeneous& off = all_zero(join(b.hull[0], a.pluecker)) ? b.hull[1] : b.hull[0];
       const Homogeneous common = join(off, a.pluecker);
@@ -143,14 +143,14 @@ bool Event_search::pencils() {
     }
   // 2. Where such a plane meets another edge.
   for (const std::uint32_t plane : faces)
-    for (const Line& line : lines()) {
+    for (const Event_line& line : lines()) {
       if (!line.real || line.in_source) continue;
       const Homogeneous at = meet(planes.all[plane], line.pluecker);
       if (!all_zero(at) && Event_lines::in_hull(line, at)) add(points(at), plane, Event_kind::horizon);
     }
   // 3. Planes through such a vertex and an edge.
   for (const std::uint32_t point : vertices)
-    for (const Line& line : lines()) {
+    for (const Event_line& line : lines()) {
       if (!line.real) continue;
       const Homogeneous plane = join(points.all[point], line.pluecker);
       if (!all_zero(plane)) add(point, planes(plane), Event_kind::edge_vertex);
@@ -182,8 +182,8 @@ bool Event_search::search_pencil(const Homogeneous& vertex, const Homogeneous& p
   curve.l = {join(vertex, first), join(vertex, step), Exact_pluecker{0, 0, 0, 0, 0, 0}};
   // Where the event line is a touched line, or in the plane of two of them, or meets them in one point.
   const Homogeneous beyond = off_plane(plane);
-  std::vector<const Line*> star, flat;
-  for (const Line& line : lines()) {
+  std::vector<const Event_line*> star, flat;
+  for (const Event_line& line : lines()) {
     const bool through = all_zero(join(vertex, line.pluecker)), within = all_zero(meet(plane, line.pluecker));
     if (through) star.push_back(&line);
     if (within) flat.push_back(&line);
@@ -227,7 +227,7 @@ bool Event_search::reguli() {
   std::vector<std::vector<char>> usable(real.size(), std::vector<char>(real.size()));
   for (std::size_t i = 0; i < real.size(); ++i)
     for (std::size_t j = i + 1; j < real.size(); ++j) {
-      const Line &a = lines()[real[i]], &b = lines()[real[j]];
+      const Event_line &a = lines()[real[i]], &b = lines()[real[j]];
       if (sgn(side(a.pluecker, b.pluecker)) == 0) continue;
       const std::array<Exact_pluecker, 4> extreme = extreme_lines(a, b);
       usable[i][j] = can_pass(extreme, scene_->from()) && can_pass(extreme, scene_->to());
@@ -258,7 +258,7 @@ bool Event_search::can_pass(const std::array<Exact_pluecker, 4>& extreme, const 
 }
 
 bool Event_search::search_regulus(const std::array<std::uint32_t, 3>& edges) {
-  const Line &a = lines()[edges[0]], &b = lines()[edges[1]], &c = lines()[edges[2]];
+  const Event_line &a = lines()[edges[0]], &b = lines()[edges[1]], &c = lines()[edges[2]];
   Curve curve;
   curve.kind = Event_kind::triple;
   // The point x(s) of the first edge; its planes with the others meet in the event line (Plantinga's Eq. 1).

@@ -98,7 +98,7 @@ class Event_search {
   const std::vector<Surface>& surfaces() const { return surfaces_; }
 
  private:
-  using Line = Event_lines::Line;
+  using Event_line = Event_lines::Event_line;
   using Literal = Event_lines::Literal;
   using Blocker = Event_lines::Blocker;
   /// Lines l[0] + l[1] s + l[2] s^2, 0 < s < 1.
@@ -115,7 +115,7 @@ class Event_search {
     int turn;
   };
 
-  const std::vector<Line>& lines() const { return scene_->lines(); }
+  const std::vector<Event_line>& lines() const { return scene_->lines(); }
 
   bool in_one_shadow() const;
 

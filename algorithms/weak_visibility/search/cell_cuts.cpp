@@ -12,7 +12,8 @@
 namespace sightline {
 
 std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occluders) {
-  const auto plane_of = [&](const Edge_lines::Line& a, const Edge_lines::Line& b) -> std::optional<Near_plane> {
+  const auto plane_of = [&](const Edge_lines::Edge_line& a,
+                            const Edge_lines::Edge_line& b) -> std::optional<Near_plane> {
     double near = 0;
     for (std::size_t x = 0; x < 6; ++x) near += a.near[x] * b.near[(x + 3) % 6];
     if (std::fabs(near) > 1e-12) return {};

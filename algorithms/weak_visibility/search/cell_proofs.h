@@ -70,7 +70,7 @@ class Cell_proofs {
     std::vector<Rational> most;
   };
 
-  const Edge_lines::Line& line_of(const Line_cell& cell, std::size_t row) const {
+  const Edge_lines::Edge_line& line_of(const Line_cell& cell, std::size_t row) const {
     return (*lines_)[cell.rows[row].literal.line];
   }
 

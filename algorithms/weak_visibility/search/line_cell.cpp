@@ -20,7 +20,7 @@ const Exact_pluecker& Line_domain::exact_pluecker_of(std::size_t c) {
   return exact_pairs[c];
 }
 
-Rational Line_domain::exact_side(const Edge_lines::Line& line, std::size_t c, const Near_frame& frame) {
+Rational Line_domain::exact_side(const Edge_lines::Edge_line& line, std::size_t c, const Near_frame& frame) {
   return frame.near_cubic(dot(exact_pluecker_of(c), line.exact),
                           Integer(source[c / target.size()].exact[3] * target[c % target.size()].exact[3]));
 }
@@ -38,7 +38,7 @@ Side_row& Line_domain::row_at(const Edge_lines& lines, std::uint32_t id, const N
   return *rows[id];
 }
 
-Side_row Line_domain::row_of(const Edge_lines::Line& line, const Near_frame& frame) {
+Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame& frame) {
   Side_row r;
   r.values.reserve(pairs.size());
   double most = 0;

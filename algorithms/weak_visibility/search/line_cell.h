@@ -40,7 +40,7 @@ struct Line_domain {
 
   const Exact_pluecker& exact_pluecker_of(std::size_t c);
   /// The side of a line on a pair of vertices in near coordinates, for points with last coordinate 1. Exact: yes.
-  Rational exact_side(const Edge_lines::Line& line, std::size_t c, const Near_frame& frame);
+  Rational exact_side(const Edge_lines::Edge_line& line, std::size_t c, const Near_frame& frame);
   /// All of them, made when they are first asked for. Exact: yes.
   const std::vector<Rational>& exact_sides(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame);
   /// The line's row, made when it is first asked for. Its signs are exact where it is decided.
@@ -60,7 +60,7 @@ struct Line_domain {
 
  private:
   Side_row& row_at(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame);
-  Side_row row_of(const Edge_lines::Line& line, const Near_frame& frame);
+  Side_row row_of(const Edge_lines::Edge_line& line, const Near_frame& frame);
 };
 
 /// x 2^exponent. Exact: yes.

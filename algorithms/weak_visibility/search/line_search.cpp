@@ -47,7 +47,7 @@ Weak_answer Line_search::run(Weak_counters& counters) {
   const Refutation found = begin(0);
   Weak_answer answer;
   answer.status = found.status;
-  for (const Edge_lines::Line& line : lines_.all()) answer.lines.push_back(line.edge);
+  for (const Edge_lines::Edge_line& line : lines_.all()) answer.lines.push_back(line.edge);
   counters.lines += lines_.size();
   if (found.status == Weak_status::visible) answer.sightline = sightline_;
   else answer.proof = in_order(found.node);

@@ -1,0 +1,101 @@
+#include <sightline/harness/laws/front_door.h>
+
+#include <sightline/kernel/vectors.h>
+#include <sightline/sightline.h>
+
+namespace sightline::harness {
+namespace {
+
+Asking in_one_thread() { return {1, {}}; }
+
+/// No face has a label but those that the model keeps, which have this one.
+Answer blank(const Model& model, std::uint32_t label) {
+  Answer answer;
+  answer.labels.assign(model.face_count(), Answer::none);
+  for (const Part& part : model.parts()) answer.labels[part.face] = label;
+  return answer;
+}
+
+void check_certificate(const Model& model, const sightline::Answer& given, Answer& answer) {
+  const Checked checked = sightline::verify(model, given.certificate(), in_one_thread());
+  if (!checked.accepted) answer.flaw = "the front door's certificate is rejected: " + checked.why;
+}
+
+/// The eye's side of a convex part: 1 in front, -1 behind, 0 in its plane.
+int side_of(const Exact_point& eye, const std::vector<Exact_point>& corners) {
+  Exact_point normal{0, 0, 0};
+  for (std::size_t k = 1; k + 1 < corners.size() && is_zero(normal); ++k)
+    normal = cross(minus(corners[k], corners[0]), minus(corners[k + 1], corners[0]));
+  return sgn(dot(normal, minus(eye, corners[0])));
+}
+
+}  // namespace
+
+Answer ordered_by_front_door(const Posed_scene& posed) {
+  const Model model(posed.soup);
+  const Visibility_order found = sightline::order(model, posed.eye, in_one_thread());
+  Answer answer = blank(model, 0);
+  for (const Part& part : found.parts) {
+    const int side = side_of(posed.eye, part.corners);
+    answer.labels[part.face] |= side > 0 ? 1u : side < 0 ? 2u : 4u;
+  }
+  check_certificate(model, found, answer);
+  return answer;
+}
+
+Answer grouped_by_front_door(const Posed_scene& posed) {
+  const Model model(posed.soup);
+  const Priority found = sightline::priority_graph(model, in_one_thread());
+  Answer answer = blank(model, Answer::none);
+  for (std::uint32_t c = 0; c < found.components.size(); ++c)
+    for (const std::uint32_t part : found.components[c]) {
+      // As the subject does it: a face has the component of its last part.
+      const Face_id face = model.parts()[part].face;
+      if (part + 1 == model.parts().size() || model.parts()[part + 1].face != face) answer.labels[face] = c;
+    }
+  check_certificate(model, found, answer);
+  return answer;
+}
+
+Answer tracked_by_front_door(const Posed_scene& posed) {
+  const Model model(posed.soup);
+  Tracker tracker = sightline::track(model);
+  tracker.move_to(posed.eye);
+  Answer answer = blank(model, 0);
+  for (const Face_id face : tracker.on_view()) answer.labels[face] = 1;
+  return answer;
+}
+
+Answer seen_by_front_door(const Posed_scene& posed) {
+  const Model model(posed.soup);
+  const Seen found = sightline::see(model, posed.eye, in_one_thread());
+  Answer answer = blank(model, 0);
+  for (const Face_id face : found.visible) answer.labels[face] |= 1;
+  for (const Seen::Visible_part& part : found.parts)
+    if (!part.from_front) answer.labels[part.face] |= 2;
+  check_certificate(model, found, answer);
+  return answer;
+}
+
+Answer weakly_seen_by_front_door(const Posed_scene& posed) {
+  const Model model(posed.soup);
+  const Weak_visibility found = sightline::weakly_visible(model, {{posed.source}}, in_one_thread());
+  Answer answer = blank(model, Answer::none);
+  for (const Face_id face : found.visible) answer.labels[face] = 1;
+  for (const Face_id face : found.hidden) answer.labels[face] = 0;
+  answer.undecided = found.undecided.size();
+  check_certificate(model, found, answer);
+  return answer;
+}
+
+Check front_door_check(Answer (*by_front_door)(const Posed_scene&)) {
+  return {"front_door", "the same from sightline/sightline.h, its certificate checked",
+          [by_front_door](const Posed_scene& posed, const Answer& answer, Random&) {
+            if (answer.undecided > 0) return Outcome::undecided();  // events, which it goes on to, may take long
+            const Answer other = by_front_door(posed);
+            if (!other.flaw.empty()) return Outcome::failed(other.flaw);
+            return compared(answer, other, "the subject", "the front door");
+          }};
+}
+
+}  // namespace sightline::harness
