@@ -280,6 +280,7 @@ Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
   Seen answer;
   answer.eye = eye;
   answer.visible = surface->visible;
+  answer.from_behind = surface->from_behind;
   for (const auto& part : surface->parts) {
     if (part.piece == surface->nothing) continue;
     const Piece& piece = inside->scene.pieces()[part.piece];

@@ -114,12 +114,15 @@ Tracker track(const Model& model);
 /// What is seen from a point, all around.
 struct Seen : Answer {
   Exact_point eye;
-  std::vector<Face_id> visible;  ///< from their front, sorted
+  std::vector<Face_id> visible;      ///< from their front, sorted
+  std::vector<Face_id> from_behind;  ///< sorted
   struct Visible_part : Part {
     bool from_front;
   };
-  std::vector<Visible_part> parts;         ///< the visible parts of faces, those seen from behind too
-  double area(Face_id face) const;         ///< of what is seen of its front, to about 2^-48
+  /// The visible parts of faces, those seen from behind too. They do not overlap: where several faces lie in one plane
+  /// all of them are visible, and the part is of one of them, of one seen from its front if there is one.
+  std::vector<Visible_part> parts;
+  double area(Face_id face) const;         ///< of its parts that are seen from its front, to about 2^-48
   double solid_angle(Face_id face) const;  ///< the same in steradians, of 4 pi
 };
 Seen see(const Model& model, const Exact_point& eye, const Asking& asking = {});

@@ -71,8 +71,10 @@ Answer seen_by_front_door(const Posed_scene& posed) {
   const Seen found = sightline::see(model, posed.eye, in_one_thread());
   Answer answer = blank(model, 0);
   for (const Face_id face : found.visible) answer.labels[face] |= 1;
+  for (const Face_id face : found.from_behind) answer.labels[face] |= 2;
   for (const Seen::Visible_part& part : found.parts)
-    if (!part.from_front) answer.labels[part.face] |= 2;
+    if ((answer.labels[part.face] & (part.from_front ? 1u : 2u)) == 0)
+      answer.flaw = "the front door has a part of face " + std::to_string(part.face) + ", but does not list the face";
   check_certificate(model, found, answer);
   return answer;
 }

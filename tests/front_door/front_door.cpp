@@ -154,6 +154,19 @@ TEST(See, what_is_hidden_has_no_area) {
   EXPECT_NEAR(seen.area(1), 4, 1e-12);
 }
 
+TEST(See, lists_all_faces_of_one_plane_that_are_seen_and_gives_the_part_to_one) {
+  Polygon_soup soup;
+  for (const auto& [x, y, z] : {std::array{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) soup.add_point(x, y, z);
+  soup.add_face({0, 2, 1});
+  soup.add_face({0, 1, 2});
+  const Seen seen = see(Model(soup), {0, 0, 1});
+  EXPECT_EQ(seen.visible, std::vector<Face_id>{1});
+  EXPECT_EQ(seen.from_behind, std::vector<Face_id>{0});
+  for (const Seen::Visible_part& part : seen.parts) EXPECT_EQ(part.face, 1u);
+  EXPECT_EQ(seen.area(0), 0);
+  EXPECT_NEAR(seen.area(1), 0.5, 1e-14);
+}
+
 TEST(Weak, a_lamp_lights_lid_and_floor_and_both_answers_are_proved) {
   const Model model = lamp_and_lid();
   const Weak_visibility lit = weakly_visible(model, 2);

@@ -9,6 +9,13 @@
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/algorithms/verify/weak.h>
 
+#include <array>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace fuzz {
 
 using Points = std::vector<Exact_point>;
