@@ -1,6 +1,7 @@
 // The same algorithm on points of CGAL's kernels: exact ones give the same tree, inexact ones end.
 
 #include "support.h"
+#include "../sample.h"
 
 #include <sightline/algorithms/bsp/kernels.h>
 #include <sightline/harness/generate/buildings.h>
@@ -63,7 +64,7 @@ void expect_same_positions(const Built& built, const Bsp_options& options, const
 }
 
 TEST(Kernels, exact_ones_give_the_same_counts_on_200_degenerate_scenes) {
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(200u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     Bsp_options options = serial();
@@ -87,7 +88,7 @@ TEST(Kernels, exact_ones_give_the_same_counts_on_generated_scenes) {
 }
 
 TEST(Kernels, exact_ones_give_the_same_fragments_where_face_planes_have_one_sense) {
-  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(100u); ++seed) {
     const Built built(generate::soup(12, 0.5, seed, 20));
     expect_same_positions<Gmpq_kernel>(built, serial(), at(ratio(1, 2), 3, ratio(1, 4)));
     expect_same_positions<Epeck>(built, serial(), at(ratio(1, 2), 3, ratio(1, 4)));
@@ -113,7 +114,7 @@ void expect_an_end(const Polygon_soup& soup, std::uint64_t seed) {
 }
 
 TEST(Kernels, float_and_double_end_on_degenerate_scenes) {
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(300u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Polygon_soup soup = moved_somewhere(random_soup(random, 30), random);
@@ -121,8 +122,9 @@ TEST(Kernels, float_and_double_end_on_degenerate_scenes) {
     expect_an_end<double>(soup, seed);
     if (testing::Test::HasFailure()) return;
   }
-  for (const Polygon_soup& soup : {generate::lattice(6), generate::crossing(60), generate::soup(400, 0.6, 1),
-                                   generate::rooms(2, 2, 1), generate::convex_sphere(2000), generate::menger_sponge(1)})
+  for (const Polygon_soup& soup :
+       {generate::lattice(6), generate::crossing(60), generate::soup(400, 0.6, 1), generate::rooms(2, 2, 1),
+        generate::convex_sphere(test_scenes::sample(2000u)), generate::menger_sponge(1)})
     for (const Polygon_soup& same :
          {soup, generate::rotated(soup, generate::rotation(3, 1, -2, 1)),
           generate::translated(soup, at(100000000, 100000000, 100000000)),

@@ -1,6 +1,7 @@
 // Points and rays against the tree, compared with every face by itself, and with solids that are known.
 
 #include "support.h"
+#include "../sample.h"
 
 #include <sightline/algorithms/bsp/query.h>
 #include <sightline/harness/generate/buildings.h>
@@ -130,7 +131,7 @@ Exact_ray random_ray(const Built& built, Random& random) {
 
 TEST(Query, agrees_with_every_face_by_itself_on_1000_degenerate_scenes) {
   std::size_t on = 0, hits = 0, at_origin = 0, shared = 0;
-  for (std::uint64_t seed = 0; seed < 1000; ++seed) {
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(1000u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed);
     const Built built(moved_somewhere(random_soup(random, 8), random));
@@ -151,10 +152,10 @@ TEST(Query, agrees_with_every_face_by_itself_on_1000_degenerate_scenes) {
     }
     if (testing::Test::HasFailure()) return;
   }
-  EXPECT_GT(on, 1500u);
-  EXPECT_GT(shared, 250u);
-  EXPECT_GT(hits, 2000u);
-  EXPECT_GT(at_origin, 500u);
+  EXPECT_GT(on, test_scenes::least(1500u));
+  EXPECT_GT(shared, test_scenes::least(250u));
+  EXPECT_GT(hits, test_scenes::least(2000u));
+  EXPECT_GT(at_origin, test_scenes::least(500u));
 }
 
 TEST(Query, agrees_with_every_face_by_itself_on_generated_scenes) {

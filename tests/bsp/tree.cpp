@@ -2,6 +2,7 @@
 // used.
 
 #include "check_tree.h"
+#include "../sample.h"
 
 #include <sightline/harness/generate/buildings.h>
 #include <sightline/harness/generate/shapes.h>
@@ -41,7 +42,7 @@ void expect_same(const Built& a, const Built& b) {
 }
 
 TEST(Tree, is_sound_for_500_small_degenerate_scenes) {
-  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(500u); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Random random(seed + 10000);
     Bsp_options options = serial();
@@ -104,8 +105,8 @@ TEST(Tree, of_a_convex_body_is_not_a_chain) {
   const auto begin = std::chrono::steady_clock::now();
   Bsp_options options;
   options.threads = 2;
-  const Built built(generate::convex_sphere(100000), options);
-  std::cout << "100,000 faces of a convex body: "
+  const Built built(generate::convex_sphere(test_scenes::sample(100000u)), options);
+  std::cout << built.scene.pieces().size() << " faces of a convex body: "
             << std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() << " s, depth "
             << built.tree.counters.depth << ", " << built.tree.counters.fragments << " fragments, "
             << built.tree.counters.free_planes << " free planes\n";

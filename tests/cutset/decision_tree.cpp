@@ -1,6 +1,8 @@
 // Sets of on-view faces against an elimination of variables, and trees of tests against all partial assignments; then
 // both from eyes of every kind.
 
+#include "../sample.h"
+
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/cutset/decision_tree.h>
@@ -213,7 +215,7 @@ testing::AssertionResult right_cells(const Plane_list& planes) {
 
 TEST(View_cells, are_the_sets_that_elimination_finds_on_300_degenerate_sets_of_planes) {
   std::size_t flat = 0, bodies = 0, without_none = 0;
-  for (std::uint64_t k = 0; k < 300; ++k) {
+  for (std::uint64_t k = 0; k < test_scenes::sample(300u); ++k) {
     Random random(k);
     const Plane_list planes = k % 5 == 0 ? random_planes(random.below(7), 9, random)
                                          : degenerate_planes(random.below(k % 20 == 1 ? 8 : 7), random);
@@ -221,9 +223,9 @@ TEST(View_cells, are_the_sets_that_elimination_finds_on_300_degenerate_sets_of_p
     const Sets all = sets_of(view_cells(planes)), open = sets_of(view_cells(planes), true);
     flat += all != open, bodies += open.contains(0), without_none += !all.contains(0);
   }
-  EXPECT_GT(flat, 40u);
-  EXPECT_GT(bodies, 60u);
-  EXPECT_GT(without_none, 10u);
+  EXPECT_GT(flat, test_scenes::least(40u));
+  EXPECT_GT(bodies, test_scenes::least(60u));
+  EXPECT_GT(without_none, test_scenes::least(10u));
 }
 
 TEST(View_cells, of_a_box_are_27_and_26_of_them_outside) {
@@ -314,15 +316,15 @@ TEST(View_cells, hold_what_any_eye_sees_also_in_planes_on_edges_at_vertices_and_
     const std::vector<View_cell> cells = view_cells(planes);
     ASSERT_TRUE(sound(cells, planes)) << "planes " << k;
     const Sets all = sets_of(cells), open = sets_of(cells, true);
-    for (int eye = 0; eye < 200; ++eye) {
+    for (int eye = 0; eye < test_scenes::sample(200); ++eye) {
       const Exact_point p = some_eye(planes, random);
       const bool off = std::none_of(planes.begin(), planes.end(), [&](const Plane4& h) { return value_at(h, p) == 0; });
       ASSERT_TRUE((off ? open : all).contains(signs_from(planes, p))) << "planes " << k << ", eye " << eye;
       ++(off ? off_planes : in_planes);
     }
   }
-  EXPECT_GT(in_planes, 2000u);
-  EXPECT_GT(off_planes, 2000u);
+  EXPECT_GT(in_planes, test_scenes::least(2000u));
+  EXPECT_GT(off_planes, test_scenes::least(2000u));
 }
 
 TEST(View_cells, follow_the_order_of_planes_and_not_their_scale_or_place) {
@@ -516,7 +518,7 @@ TEST(Decision_tree, of_bodies_in_general_position_too) {
 
 TEST(Decision_tree, is_optimal_for_2000_random_likelihoods) {
   std::size_t above_bound = 0, at_bound = 0, costless = 0;
-  for (std::uint64_t k = 0; k < 2000; ++k) {
+  for (std::uint64_t k = 0; k < test_scenes::sample(2000u); ++k) {
     Random random(k);
     const unsigned faces = static_cast<unsigned>(1 + random.below(5));
     const std::uint64_t density = 1 + random.below(8), most = random.chance(1, 3) ? 1 : random.chance(1, 2) ? 3 : 1000;
@@ -533,9 +535,9 @@ TEST(Decision_tree, is_optimal_for_2000_random_likelihoods) {
     ++(tree.bound < tree.expected ? above_bound : at_bound);
     costless += std::any_of(views.begin(), views.end(), [](const Weighted_view& view) { return view.weight == 0; });
   }
-  EXPECT_GT(above_bound, 500u);
-  EXPECT_GT(at_bound, 200u);
-  EXPECT_GT(costless, 500u);
+  EXPECT_GT(above_bound, test_scenes::least(500u));
+  EXPECT_GT(at_bound, test_scenes::least(200u));
+  EXPECT_GT(costless, test_scenes::least(500u));
 }
 
 TEST(Decision_tree, is_optimal_for_the_cells_of_degenerate_planes_and_their_flat_views) {

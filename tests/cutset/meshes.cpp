@@ -2,6 +2,7 @@
 // of every face. SIGHTLINE_LONG: the frames of each scene, for a long run.
 
 #include "support.h"
+#include "../sample.h"
 
 #include <sightline/io/read.h>
 #include <sightline/harness/generate/shapes.h>
@@ -71,7 +72,8 @@ TEST_P(Mesh, every_frame_equals_a_test_of_every_face) {
   Exact_point centre, half;
   for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2, half[k] = (box[1][k] - box[0][k]) / 2;
   const char* const wanted = std::getenv("SIGHTLINE_LONG");
-  const std::size_t frames = wanted != nullptr ? static_cast<std::size_t>(std::max(300, std::atoi(wanted))) : 300;
+  const std::size_t frames = wanted != nullptr ? static_cast<std::size_t>(std::max(300, std::atoi(wanted)))
+                                               : test_scenes::sample(std::size_t{300});
   std::mt19937_64 random(stage.graph.size());
   const auto some = [&](std::size_t n) { return static_cast<std::uint32_t>(random() % n); };
   const auto corner_of = [&](const Piece& piece, std::size_t k) {

@@ -2,6 +2,7 @@
 // that doubles take for others.
 
 #include "support.h"
+#include "../sample.h"
 
 namespace cutset_test {
 namespace {
@@ -203,6 +204,7 @@ TEST(Tracker, holds_for_one_face_alone) {
 TEST(Tracker, walks_over_a_barrel_that_doubles_take_for_a_box) {
   for (const long bits : {30, 40, 48, 51, 52, 53, 56, 64})
     for (const int end : {0, 20, 40, 60}) {
+      if (test_scenes::is_sanitized() && bits % 3 != end % 3) continue;  // one way in three
       const Rational e = 1 / Rational(Integer(1) << bits);
       Polygon_soup soup;
       const int rings = 9;

@@ -2,6 +2,7 @@
 // is degenerate.
 
 #include "support.h"
+#include "../sample.h"
 
 #include <sightline/algorithms/cutset/motion.h>
 #include <sightline/algorithms/cutset/update_1977.h>
@@ -132,7 +133,7 @@ std::size_t frames_wanted() { return std::getenv("SIGHTLINE_LONG") != nullptr ? 
 TEST(Tracker, agrees_with_testing_every_face_of_random_hulls) {
   Random random(1);
   std::uint64_t frames = 0, searches = 0, exact = 0, found = 0;
-  for (int trial = 0; trial < 1000; ++trial) {
+  for (int trial = 0; trial < test_scenes::sample(1000); ++trial) {
     const Body body = random_hull(random);
     const Stage stage(body.soup());
     ASSERT_EQ(stage.graph.size(), body.faces.size());
@@ -155,10 +156,10 @@ TEST(Tracker, agrees_with_testing_every_face_of_random_hulls) {
     }
     searches += tracker.counters().searches, exact += tracker.counters().exact, found += tracker.counters().births;
   }
-  EXPECT_GE(frames, 60'000u);
-  EXPECT_GT(searches, 1000u);
-  EXPECT_GT(exact, 1000u);
-  EXPECT_GT(found, 1000u);
+  EXPECT_GE(frames, test_scenes::least(60'000u));
+  EXPECT_GT(searches, test_scenes::least(1000u));
+  EXPECT_GT(exact, test_scenes::least(1000u));
+  EXPECT_GT(found, test_scenes::least(1000u));
 }
 
 TEST(Tracker, agrees_on_scenes_of_any_kind) {
@@ -172,7 +173,7 @@ TEST(Tracker, agrees_on_scenes_of_any_kind) {
     Cut_set_tracker tracker(stage.traits, stage.graph);
     std::vector<bool> before(stage.graph.size());
     Exact_point at = box[0], step{0, 0, 0};
-    for (int frame = 0; frame < 120; ++frame) {
+    for (int frame = 0; frame < test_scenes::sample(120); ++frame) {
       Viewpoint view{at, false};
       if (frame % 24 == 7) view = {{Rational(between(random, -3, 3)), Rational(between(random, -3, 3)), 1}, true};
       if (frame % 24 == 13)

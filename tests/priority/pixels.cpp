@@ -177,7 +177,7 @@ TEST(Pixel_view, rays_go_through_the_middles_of_pixels_from_the_top_left) {
 void check_sets(bool square, Met& met, std::uint64_t& exact) {
   std::uint64_t rays = 0;
   std::size_t several = 0;
-  for (std::uint64_t k = 0; k < 200; ++k) {
+  for (std::uint64_t k = 0; k < test_scenes::sample(200u); ++k) {
     Random random(k);
     const Related scene(degenerate_soup(k));
     if (scene.flats.empty()) continue;
@@ -192,15 +192,15 @@ void check_sets(bool square, Met& met, std::uint64_t& exact) {
       for (const auto& set : expected) several += set.size() > 1;
     }
   }
-  EXPECT_GT(exact, 200u) << "signs that doubles could not tell";
-  EXPECT_GT(rays, 15000u);
-  EXPECT_GT(several, 500u);
-  EXPECT_GT(met.pierced, 5000u);
-  EXPECT_GT(met.on_boundary, 200u) << "rays through edges and corners";
-  EXPECT_GT(met.behind_eye, 70u) << "on-view faces on both sides of the eye";
-  EXPECT_GT(met.edge_on, 5000u);
-  EXPECT_GT(met.off_view, 5000u);
-  EXPECT_GT(met.along_plane, 200u);
+  EXPECT_GT(exact, test_scenes::least(200u)) << "signs that doubles could not tell";
+  EXPECT_GT(rays, test_scenes::least(15000u));
+  EXPECT_GT(several, test_scenes::least(500u));
+  EXPECT_GT(met.pierced, test_scenes::least(5000u));
+  EXPECT_GT(met.on_boundary, test_scenes::least(200u)) << "rays through edges and corners";
+  EXPECT_GT(met.behind_eye, test_scenes::least(70u)) << "on-view faces on both sides of the eye";
+  EXPECT_GT(met.edge_on, test_scenes::least(5000u));
+  EXPECT_GT(met.off_view, test_scenes::least(5000u));
+  EXPECT_GT(met.along_plane, test_scenes::least(200u));
 }
 TEST(Pixel_sets, are_those_of_exact_rays_on_200_degenerate_scenes_from_any_eye) {
   Met met;

@@ -332,7 +332,8 @@ TEST(Priority_tree, keeps_all_laws_on_scenes_of_each_kind_and_cities_are_settled
       {"city", 40}, {"city_rotated", 40}, {"rooms", 1},           {"bars", 5},         {"crossing", 6}, {"lattice", 3},
       {"soup", 80}, {"terrain", 100},     {"convex_sphere", 200}, {"menger_sponge", 1}};
   for (const auto& kind : scenes) {
-    const Related scene(generate::make(kind.first, kind.second, 1));
+    const Related scene(generate::make(
+        kind.first, test_scenes::is_sanitized() ? std::min(kind.second, 3 + kind.second / 5) : kind.second, 1));
     Exact_laws laws;
     for (const Priority_tree_options& options : all_options) {
       const Grown tree = build_priority_tree(scene.traits, options);
@@ -385,7 +386,7 @@ void check_kernel(const Related& scene, std::uint64_t k) {
   }
 }
 TEST(Priority_tree, keeps_all_laws_under_other_exact_kernels) {
-  for (std::uint64_t k = 0; k < 60; ++k) {
+  for (std::uint64_t k = 0; k < test_scenes::sample(60u); ++k) {
     const Related scene(degenerate_soup(k + 80000));
     ASSERT_NO_FATAL_FAILURE(check_kernel<CGAL::Epeck>(scene, k));
     ASSERT_NO_FATAL_FAILURE(check_kernel<CGAL::Cartesian<CGAL::Gmpq>>(scene, k));

@@ -49,6 +49,7 @@ TEST_F(Generate, every_kind_can_be_ordered_and_the_order_verified) {
                                                                             : "2";
     ASSERT_EQ(run({"generate", kind, "--size", size, "--out", scene}).code, done) << kind << size;
     for (const char* eye : {"7/3,-11,5.3", "0,0,0", "1/2,1/2,1/2"}) {
+      if (sanitized && *eye != '1') continue;
       const Outcome o = run({"order", scene, "--eye", eye, "--certificate", certificate});
       ASSERT_EQ(o.code, done) << o;
       const Outcome v = run({"verify", scene, certificate});

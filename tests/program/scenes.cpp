@@ -159,7 +159,7 @@ TEST_P(Collected, is_ordered_from_three_eyes_and_verified) {
   if (!all_scenes() && fs::file_size(scene) > most_bytes)
     GTEST_SKIP() << "left out: " << fs::file_size(scene) << " bytes are more than " << most_bytes
                  << "; SIGHTLINE_ALL_SCENES=1 leaves no scene out";
-  order_from_three_eyes_and_verify(all_scenes() ? 6000 : sanitized ? 300 : 2000);
+  order_from_three_eyes_and_verify(all_scenes() ? 6000 : sanitized ? 300 : 1000);
 }
 
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Collected);

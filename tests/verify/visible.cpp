@@ -683,18 +683,18 @@ const Sight& sight_of(unsigned seed) {
 
 TEST(Visible_by_cutting, is_accepted_and_right_in_directions_at_random) {
   std::size_t parts = 0, empty = 0, fields = 0;
-  for (unsigned seed = 0; seed < sight_count; ++seed) {
+  for (unsigned seed = 0; seed < test_scenes::sample(sight_count); ++seed) {
     SCOPED_TRACE(seed);
     Dice dice(seed);
     const Sight& sight = sight_of(seed);
     expect_accepted(sight);
-    for (int k = 0; k < 10; ++k) EXPECT_TRUE(right_in(sight, random_direction(dice)));
+    for (int k = 0; k < test_scenes::sample(10); ++k) EXPECT_TRUE(right_in(sight, random_direction(dice)));
     parts += sight.certificate.parts.size(), empty += sight.certificate.empty.size(),
         fields += !sight.certificate.field.empty();
   }
-  EXPECT_GT(parts, 500u);
-  EXPECT_GT(empty, 500u);
-  EXPECT_GT(fields, 20u);
+  EXPECT_GT(parts, test_scenes::least(500u));
+  EXPECT_GT(empty, test_scenes::least(500u));
+  EXPECT_GT(fields, test_scenes::least(20u));
 }
 
 // ---- Damage
