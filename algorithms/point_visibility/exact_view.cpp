@@ -62,14 +62,7 @@ Sign Exact_view::beyond(std::uint32_t f, std::uint32_t point, Predicate_counts& 
   const Approximate_vector d = approximate_direction(point);
   const double value = m.x * d.x + m.y * d.y + m.z * d.z - 1;
   const double bound = 0x1p-48 * (m.size * magnitude(d.x, d.y, d.z) + 1) + 0x1p-1000 * m.size;
-  if (value > bound) {
-    ++counts.filtered;
-    return CGAL::POSITIVE;
-  }
-  if (value < -bound) {
-    ++counts.filtered;
-    return CGAL::NEGATIVE;
-  }
+  if (const Sign sign = filtered(value, bound, counts); sign != CGAL::ZERO) return sign;
   return beyond_unfiltered(f, point, counts);
 }
 

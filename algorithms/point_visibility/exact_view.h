@@ -129,6 +129,12 @@ class Exact_view {
     return (std::fabs(x) + std::fabs(y) + std::fabs(z)) * (1 + 0x1p-50);
   }
   static int signum(const Integer& n) { return sgn(n); }
+  /// The sign of what lies within `bound` of a double; ZERO where that leaves it open.
+  static Sign filtered(double value, double bound, Predicate_counts& counts) {
+    const Sign sign = value > bound ? CGAL::POSITIVE : value < -bound ? CGAL::NEGATIVE : CGAL::ZERO;
+    if (sign != CGAL::ZERO) ++counts.filtered;
+    return sign;
+  }
   template <int L>
   static int signum(const Fixed_integer<L>& n);
 
@@ -220,14 +226,7 @@ inline Sign Exact_view::side(const Plane& w, const Ray& r, Predicate_counts& cou
   const double value = w.x * r.x + w.y * r.y + w.z * r.z;
   const double bound =
       w.size * r.error + w.error * (r.size + 4 * r.error);  // the rounding of these lines is in r.error. P-60
-  if (value > bound) {
-    ++counts.filtered;
-    return CGAL::POSITIVE;
-  }
-  if (value < -bound) {
-    ++counts.filtered;
-    return CGAL::NEGATIVE;
-  }
+  if (const Sign sign = filtered(value, bound, counts); sign != CGAL::ZERO) return sign;
   return side_unfiltered(w, r, counts);
 }
 
@@ -235,14 +234,7 @@ inline Sign Exact_view::side(const Plane& w, std::uint32_t point, Predicate_coun
   const Approximate_vector d = approximate_direction(point);
   const double value = w.x * d.x + w.y * d.y + w.z * d.z;
   const double bound = (w.size * 0x1p-50 + w.error) * magnitude(d.x, d.y, d.z) + 0x1p-1000 * (1 + w.size);
-  if (value > bound) {
-    ++counts.filtered;
-    return CGAL::POSITIVE;
-  }
-  if (value < -bound) {
-    ++counts.filtered;
-    return CGAL::NEGATIVE;
-  }
+  if (const Sign sign = filtered(value, bound, counts); sign != CGAL::ZERO) return sign;
   if (w.name.has_point(point)) {
     ++counts.combinatorial;
     return CGAL::ZERO;
@@ -254,14 +246,7 @@ inline Sign Exact_view::nearer(std::uint32_t f, std::uint32_t g, const Ray& r, P
   const Form &m = form(f), &n = form(g);
   const double value = (m.x - n.x) * r.x + (m.y - n.y) * r.y + (m.z - n.z) * r.z;
   const double bound = (m.size + n.size) * (2 * r.error + 0x1p-48 * r.size) + 0x1p-700;
-  if (value > bound) {
-    ++counts.filtered;
-    return CGAL::POSITIVE;
-  }
-  if (value < -bound) {
-    ++counts.filtered;
-    return CGAL::NEGATIVE;
-  }
+  if (const Sign sign = filtered(value, bound, counts); sign != CGAL::ZERO) return sign;
   return nearer_unfiltered(f, g, r, counts);
 }
 

@@ -1,5 +1,6 @@
 #include <sightline/harness/laws/front_door.h>
 
+#include <sightline/harness/laws/labels.h>
 #include <sightline/kernel/vectors.h>
 #include <sightline/sightline.h>
 
@@ -70,8 +71,7 @@ Answer seen_by_front_door(const Posed_scene& posed) {
   const Model model(posed.soup);
   const Seen found = sightline::see(model, posed.eye, in_one_thread());
   Answer answer = blank(model, 0);
-  for (const Face_id face : found.visible) answer.labels[face] |= 1;
-  for (const Face_id face : found.from_behind) answer.labels[face] |= 2;
+  label_seen(found, answer);
   for (const Seen::Visible_part& part : found.parts)
     if ((answer.labels[part.face] & (part.from_front ? 1u : 2u)) == 0)
       answer.flaw = "the front door has a part of face " + std::to_string(part.face) + ", but does not list the face";
@@ -83,15 +83,13 @@ Answer weakly_seen_by_front_door(const Posed_scene& posed) {
   const Model model(posed.soup);
   const Weak_visibility found = sightline::weakly_visible(model, {{posed.source}}, in_one_thread());
   Answer answer = blank(model, Answer::none);
-  for (const Face_id face : found.visible) answer.labels[face] = 1;
-  for (const Face_id face : found.hidden) answer.labels[face] = 0;
-  answer.undecided = found.undecided.size();
+  label_weakly_seen(found, answer);
   check_certificate(model, found, answer);
   return answer;
 }
 
 Check front_door_check(Answer (*by_front_door)(const Posed_scene&)) {
-  return {"front_door", "the same from sightline/sightline.h, its certificate checked",
+  return {"front_door", "the same from sightline/sightline.h, and the certificate checked where it gives one",
           [by_front_door](const Posed_scene& posed, const Answer& answer, Random&) {
             if (answer.undecided > 0) return Outcome::undecided();  // events, which it goes on to, may take long
             const Answer other = by_front_door(posed);

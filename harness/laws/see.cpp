@@ -14,6 +14,7 @@
 #include <sightline/harness/generate/view_drafts.h>
 #include <sightline/harness/generate/weak_neighbours.h>
 #include <sightline/harness/laws/front_door.h>
+#include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -32,15 +33,13 @@ inline Visible_options serial() {
   return options;
 }
 
-/// Labels: 1 where an open part of the face is seen from its front, 2 from behind.
 template <class Surface>
 Answer labels_of(const Posed_scene& posed, const Scene& scene, const Surface& surface) {
   Answer answer;
   answer.labels.assign(posed.soup.face_count(), Answer::none);
   answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
   for (const Piece& piece : scene.pieces()) answer.labels[piece.face] = 0;
-  for (const Face_id face : surface.visible) answer.labels[face] |= 1;
-  for (const Face_id face : surface.from_behind) answer.labels[face] |= 2;
+  label_seen(surface, answer);
   return answer;
 }
 

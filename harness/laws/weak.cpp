@@ -12,6 +12,7 @@
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/front_door.h>
+#include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -27,15 +28,12 @@ namespace weak_subject {
 /// Searches end here: rarely, a tangled degenerate scene would take minutes.
 inline constexpr std::size_t most_cells = 3000, most_events = 100000;
 
-/// Labels: 1 visible, 0 hidden.
 template <class Found>
 Answer labels_of(const Polygon_soup& soup, const Scene& scene, const Found& found) {
   Answer answer;
   answer.labels.assign(soup.face_count(), Answer::none);
   answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
-  for (const Face_id face : found.visible) answer.labels[face] = 1;
-  for (const Face_id face : found.hidden) answer.labels[face] = 0;
-  answer.undecided = found.undecided.size();
+  label_weakly_seen(found, answer);
   return answer;
 }
 

@@ -78,8 +78,8 @@ TEST(Verified, orders_of_generated_scenes) {
     Random random(size);
     const Polygon_soup soup = generate::make(kind, size, 3);
     const Built built(soup);
-    for (int eyes = test_scenes::is_sanitized() ? 2 : 0; eyes < 3; ++eyes)
-      ASSERT_TRUE(verified(built, random_eye(built, random))) << kind;
+    const int eyes = test_scenes::is_sanitized() ? 1 : 3;
+    for (int k = 0; k < eyes; ++k) ASSERT_TRUE(verified(built, random_eye(built, random))) << kind;
     if (size > 60) continue;
     const Built off(
         generate::one_ulp_perturbed(generate::translated(soup, at(ratio(1, 3), ratio(1, 3), ratio(1, 3))), 5));

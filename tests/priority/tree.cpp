@@ -331,19 +331,19 @@ TEST(Priority_tree, keeps_all_laws_on_scenes_of_each_kind_and_cities_are_settled
   const std::vector<std::pair<const char*, std::size_t>> scenes{
       {"city", 40}, {"city_rotated", 40}, {"rooms", 1},           {"bars", 5},         {"crossing", 6}, {"lattice", 3},
       {"soup", 80}, {"terrain", 100},     {"convex_sphere", 200}, {"menger_sponge", 1}};
-  for (const auto& kind : scenes) {
-    const Related scene(generate::make(
-        kind.first, test_scenes::is_sanitized() ? std::min(kind.second, 3 + kind.second / 5) : kind.second, 1));
+  for (const auto& [kind, full] : scenes) {
+    const std::size_t size = test_scenes::is_sanitized() ? std::min(full, 3 + full / 5) : full;
+    const Related scene(generate::make(kind, size, 1));
     Exact_laws laws;
     for (const Priority_tree_options& options : all_options) {
       const Grown tree = build_priority_tree(scene.traits, options);
-      EXPECT_TRUE(laws.hold(scene, scene.traits, options, tree)) << kind.first;
-      if (std::string_view(kind.first).starts_with("city")) {
-        EXPECT_EQ(tree.counters.left + tree.counters.splits, 0u) << kind.first;
-        EXPECT_GT(tree.counters.planes, 0u) << kind.first;
+      EXPECT_TRUE(laws.hold(scene, scene.traits, options, tree)) << kind;
+      if (std::string_view(kind).starts_with("city")) {
+        EXPECT_EQ(tree.counters.left + tree.counters.splits, 0u) << kind;
+        EXPECT_GT(tree.counters.planes, 0u) << kind;
       }
     }
-    EXPECT_EQ(laws.sum.cycles > 0, laws.sum.splits > 0) << kind.first;
+    EXPECT_EQ(laws.sum.cycles > 0, laws.sum.splits > 0) << kind;
   }
 }
 
