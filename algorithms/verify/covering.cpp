@@ -1,18 +1,18 @@
-// To be read after polygons.h, verdict.h, faces.h and set_aside.h, from top to bottom: tilings, then the check itself,
-// step by step.
+// To be read after polygons.h, verdict.h, faces.h, surface.h and set_aside.h, from top to bottom: tilings, then the
+// check itself, step by step.
 
 #include <sightline/algorithms/verify/covering.h>
 
 #include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/set_aside.h>
+#include <sightline/algorithms/verify/surface.h>
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
@@ -54,67 +54,32 @@ void check_tiling(const std::string& what, Boundary_chain target, const Plane& p
       }
 }
 
-/// A point where the chain is not the boundary of a face that is not planar: of its contour, and of its holes as some
-/// axis has them.
-std::optional<Exact_point> off_boundary(const Face& face, const Boundary_chain& chain) {
-  const auto uncancelled = [&](const std::vector<Polygon>& loops) {
-    Boundary_chain difference = chain;
-    difference.add(loops, -1);
-    return difference.nonzero();
-  };
-  if (face.loops.size() == 1) return uncancelled(face.loops);
-  std::optional<Exact_point> point = face.loops[0].front();
-  for (std::size_t axis = 0; axis < 3 && point; ++axis)
-    if (const std::vector<Polygon> loops = face.seen_along(axis); !loops.empty()) point = uncancelled(loops);
-  return point;
-}
-
-/// Rejects unless the pieces make a surface on the face's own vertices that its loops bound. Proof: P-22
+/// Rejects unless the pieces are the face: of one that is planar a tiling on its own vertices, else its surface.
+/// Proof: P-22
 void check_pieces(const std::string& what, const Face& face, const std::vector<Tile>& pieces) {
-  std::set<Exact_point> own;
-  for (const Polygon& loop : face.loops) own.insert(loop.begin(), loop.end());
-  Boundary_chain boundary;
-  std::size_t triangles = 0;
-  for (const Tile& piece : pieces) {
-    for (const Exact_point& p : *piece.polygon)
-      if (!own.count(p)) reject(piece.name + " of " + what + " has a vertex that is not one of the face's");
-    if (face.planar) continue;
-    if (piece.polygon->empty()) reject(piece.name + " of " + what + " is empty");
-    const Plane plane{newell_normal(*piece.polygon), piece.polygon->front()};
-    if (is_zero(plane.normal)) reject(piece.name + " of " + what + " has zero area");
-    if (const std::string fault = not_convex(*piece.polygon, plane); !fault.empty())
-      reject(piece.name + " of " + what + " " + fault);
-    boundary.add(*piece.polygon, 1);
-    triangles += piece.polygon->size() - 2;
-  }
-  if (face.planar) {
-    Boundary_chain target;
-    target.add(face.loops, 1);
-    check_tiling(what, target, face.plane, false, pieces);
+  if (!face.planar) {
+    std::vector<Surface_piece> surface;
+    for (const Tile& piece : pieces) surface.push_back({piece.polygon, piece.name});
+    check_surface(what, face, surface);
     return;
   }
-  if (const auto point = off_boundary(face, boundary))
-    reject(what + " is not bounded as its pieces are: boundaries do not cancel near " + name(*point));
-  // As many triangles as a polygon with holes has; fewer only where zero-area ones were left out, which holes forbid,
-  // or where loops touch: two for each time that they come back to a point. A hole walked there and back is none.
-  std::size_t holes = 0, corners = 0;
-  std::set<Exact_point> different;
-  for (const Polygon& loop : face.loops) {
-    Boundary_chain alone;
-    alone.add(loop, 1);
-    if (!alone.nonzero()) continue;
-    holes += &loop != &face.loops[0];
-    corners += loop.size();
-    different.insert(loop.begin(), loop.end());
-  }
-  const std::size_t most = face.corner_count() + 2 * (face.loops.size() - 1) - 2;
-  if (triangles > most || (holes > 0 && triangles + 2 * (corners - different.size()) + 2 < corners + 2 * holes))
-    reject(what + " has the wrong number of pieces for its corners");
+  std::set<Exact_point> own;
+  for (const Polygon& loop : face.loops) own.insert(loop.begin(), loop.end());
+  Boundary_chain target;
+  target.add(face.loops, 1);
+  for (const Tile& piece : pieces)
+    for (const Exact_point& p : *piece.polygon)
+      if (!own.count(p)) reject(piece.name + " of " + what + " has a vertex that is not one of the face's");
+  check_tiling(what, target, face.plane, false, pieces);
 }
 
 }  // namespace
 
-void check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye) {
+std::string Covered::text() const {
+  return std::to_string(set_aside) + " faces set aside, " + std::to_string(not_planar) + " not planar";
+}
+
+Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye) {
   const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
     return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
   };
@@ -156,11 +121,14 @@ void check_covering(const Polygon_soup& soup, const Covering& covering, const Ex
   }
 
   // 2. Nothing is lost and nothing is drawn twice.
+  Covered covered;
   for (const auto& entry : covering.set_aside) check_set_aside(soup, entry, set_aside);
+  covered.set_aside = set_aside.size();
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     if (set_aside.count(f)) continue;
     const std::string what = name("face", f);
     const Face face(soup, f);
+    covered.not_planar += !face.planar;
     if (pieces[f].empty()) {
       if (!face.planar) reject(what + " is not planar and has no pieces");
       if (!face.has_front) reject(what + " has no front and is not set aside");
@@ -182,6 +150,7 @@ void check_covering(const Polygon_soup& soup, const Covering& covering, const Ex
         check_tiling(what + ", " + name("piece", number), contour, plane, true, tiles[f][number]);
     }
   }
+  return covered;
 }
 
 }  // namespace sightline::certificate_check

@@ -5,6 +5,7 @@
 
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -40,9 +41,15 @@ struct Covering {
 
 namespace certificate_check {
 
+/// What a verdict says of the scene, whatever it is about.
+struct Covered {
+  std::size_t set_aside = 0, not_planar = 0;  ///< faces
+  std::string text() const;                   ///< "0 faces set aside, 0 not planar"
+};
+
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
 /// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Proof: P-21, P-22
-void check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye = nullptr);
+Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye = nullptr);
 
 }  // namespace certificate_check
 

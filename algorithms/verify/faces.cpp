@@ -23,15 +23,6 @@ Face::Face(const Polygon_soup& soup, Face_id f) {
     if (sgn(dot(plane.normal, newell_normal(loops[k]))) > 0) std::reverse(loops[k].begin(), loops[k].end());
 }
 
-std::vector<Polygon> Face::seen_along(std::size_t axis) const {
-  const int sense = sgn(newell_normal(loops[0])[axis]);
-  if (sense == 0) return {};
-  std::vector<Polygon> seen = loops;
-  for (std::size_t k = 1; k < seen.size(); ++k)
-    if (sgn(newell_normal(seen[k])[axis]) == sense) std::reverse(seen[k].begin(), seen[k].end());
-  return seen;
-}
-
 Integer_vector Face::some_normal() const {  // of the first three points that are not collinear
   std::vector<Exact_point> arms;
   for (const Polygon& loop : loops)

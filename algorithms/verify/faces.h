@@ -22,16 +22,6 @@ struct Face {
 
   Face(const Polygon_soup& soup, Face_id f);
 
-  /// The loops, each hole turned against the outer one as they look along an axis; there a hole without area stays as
-  /// it is. Nothing if the outer loop has no area there. Pre: not planar, as then holes are turned already.
-  std::vector<Polygon> seen_along(std::size_t axis) const;
-
-  std::size_t corner_count() const {
-    std::size_t count = 0;
-    for (const Polygon& loop : loops) count += loop.size();
-    return count;
-  }
-
  private:
   Integer_vector some_normal() const;
 };

@@ -2,9 +2,13 @@
 
 #include <sightline/algorithms/verify/graph.h>
 
+#include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/surface.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 
@@ -48,10 +52,39 @@ void check_reached(std::size_t begin, std::size_t end, const std::vector<std::ve
              {begin, i});
 }
 
-/// The certificate, step by step; throws a Rejection.
-void check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
+/// Rejects where a fragment is part of what the scene has as one polygon: a convex face, or a triangle of one that is
+/// not planar. Returns how many faces are cut as the certificate has them: those that are not convex, on their own
+/// points.
+std::size_t check_whole(const Polygon_soup& soup, const Graph_certificate& certificate) {
+  std::map<Face_id, std::vector<const Order_fragment*>> fragments;
+  for (const Order_fragment& fragment : certificate.fragments) fragments[fragment.face].push_back(&fragment);
+  std::size_t cut = 0;
+  for (const auto& [f, parts] : fragments) {
+    if (parts.size() == 1) continue;
+    const Face face(soup, f);
+    std::set<Exact_point> own;
+    for (const Polygon& loop : face.loops) own.insert(loop.begin(), loop.end());
+    std::set<std::uint32_t> pieces;
+    for (const Order_fragment* part : parts) {
+      if (!face.planar && !pieces.insert(part->piece).second)
+        reject(name("face", f) + ", " + name("piece", part->piece) + " is cut, though it is one triangle");
+      for (const Exact_point& p : part->vertices)
+        if (!own.count(p)) reject(name("face", f) + " is cut at " + name(p) + ", which is none of its points");
+    }
+    if (!face.planar) continue;
+    const Polygon contour = without_straight_points(face.loops[0]);
+    if (face.loops.size() == 1 && not_convex(contour, face.plane).empty())
+      reject(name("face", f) + " is convex, but in " + std::to_string(parts.size()) + " fragments");
+    ++cut;
+  }
+  return cut;
+}
+
+/// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
+std::string check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene, and the components are the fragments.
-  check_covering(soup, certificate);
+  const Covered covered = check_covering(soup, certificate);
+  const std::size_t cut = check_whole(soup, certificate);
   const std::size_t n = certificate.fragments.size();
   std::vector<std::size_t> component(n);
   std::size_t end = 0;
@@ -103,17 +136,16 @@ void check(const Polygon_soup& soup, const Graph_certificate& certificate, const
                {earlier, later});
   }
   if (options.progress) options.progress(n, n);
+  return std::to_string(certificate.sizes.size()) + " strongly connected components of " + std::to_string(n) +
+         " pieces in order of priority, " + std::to_string(cut) +
+         " faces that are not convex in pieces as the certificate cuts them; " + covered.text();
 }
 
 }  // namespace
 }  // namespace graph_check
 
 Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
-  return certificate_check::verdict_of([&] {
-    graph_check::check(soup, certificate, options);
-    return std::to_string(certificate.sizes.size()) + " strongly connected components of " +
-           std::to_string(certificate.fragments.size()) + " faces in order of priority";
-  });
+  return certificate_check::verdict_of([&] { return graph_check::check(soup, certificate, options); });
 }
 
 }  // namespace sightline

@@ -26,10 +26,11 @@ struct Graph_certificate : Covering {
 };
 
 /// Whether the certificate proves the strongly connected components of the priority graph and a consistent enumeration
-/// of them: (1) the fragments are the scene (as for orders); (2) the arcs hold, by their corners, and join each
-/// component both ways; (3) no fragment may obscure one of an earlier component. Degenerate: as the relation
-/// (algorithms/priority/relation.h). Cost: quadratic in the fragments. Exact: yes, without filters. Proof: P-21, P-22,
-/// P-34
+/// of them: (1) the fragments are the scene (as for orders), each convex face and each triangle of a face that is not
+/// planar one fragment, other faces cut at their own points in any way, which the verdict counts; (2) the arcs hold, by
+/// their corners, and join each component both ways; (3) no fragment may obscure one of an earlier component.
+/// Degenerate: as the relation (algorithms/priority/relation.h). Cost: quadratic in the fragments. Exact: yes, without
+/// filters. Proof: P-21, P-22, P-34
 Verdict verify_graph(const Polygon_soup& soup, const Graph_certificate& certificate,
                      const Verify_options& options = {});
 

@@ -34,11 +34,11 @@ std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::v
   return first;
 }
 
-/// The certificate, step by step; throws a Rejection.
-void check(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options) {
+/// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
+std::string check(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options) {
   // 1. The eye is a point, and the fragments are the scene.
   if (!canonical(certificate.eye)) reject("the eye is not a point in canonical numbers");
-  check_covering(soup, certificate, certificate.on_view ? &certificate.eye : nullptr);
+  const Covered covered = check_covering(soup, certificate, certificate.on_view ? &certificate.eye : nullptr);
 
   // 2. No fragment is nearer than one that is drawn after it.
   std::vector<Cone> cones;
@@ -53,17 +53,16 @@ void check(const Polygon_soup& soup, const Order_certificate& certificate, const
            {earlier, later});
   }
   if (options.progress) options.progress(cones.size(), cones.size());
+  return std::to_string(cones.size()) + " fragments in back-to-front order from " + exact_name(certificate.eye) +
+         ", every " + (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason; " +
+         covered.text();
 }
 
 }  // namespace
 }  // namespace order_check
 
 Verdict verify_order(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options) {
-  return certificate_check::verdict_of([&] {
-    order_check::check(soup, certificate, options);
-    return std::to_string(certificate.fragments.size()) + " fragments in back-to-front order, every " +
-           (certificate.on_view ? "on-view " : "") + "face drawn once or set aside for a true reason";
-  });
+  return certificate_check::verdict_of([&] { return order_check::check(soup, certificate, options); });
 }
 
 }  // namespace sightline

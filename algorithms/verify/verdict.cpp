@@ -10,6 +10,10 @@ std::string name(const Exact_point& p) {
   return text.str();
 }
 
+std::string exact_name(const Exact_point& p) {
+  return '(' + p[0].get_str() + ", " + p[1].get_str() + ", " + p[2].get_str() + ')';
+}
+
 bool canonical(const Rational& r) { return sgn(r.get_den()) > 0 && gcd(r.get_num(), r.get_den()) == 1; }
 
 bool canonical(const std::vector<Exact_point>& points) {

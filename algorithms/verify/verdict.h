@@ -49,7 +49,8 @@ Verdict verdict_of(Check check) {
 /// For messages.
 inline std::string name(const char* kind, std::size_t number) { return kind + (' ' + std::to_string(number)); }
 
-std::string name(const Exact_point& p);
+std::string name(const Exact_point& p);  // rounded
+std::string exact_name(const Exact_point& p);
 
 /// Whether numbers are in lowest terms, over positive denominators.
 bool canonical(const Rational& r);

@@ -149,10 +149,11 @@ class Check {
         parts_(certificate.parts.size()),
         tiles_(parts_ + certificate.empty.size()) {}
 
-  void run(const Polygon_soup& soup) {
+  /// Returns what was shown, in one line.
+  std::string run(const Polygon_soup& soup) {
     // 1. The eye is a point, and the fragments are the scene.
     if (!canonical(certificate_.eye)) reject("the eye is not a point in canonical numbers");
-    check_covering(soup, certificate_);
+    const Covered covered = check_covering(soup, certificate_);
     take_pieces();
 
     // 2. Each part is a convex polygon inside its piece, with its ray inside its cone.
@@ -168,6 +169,9 @@ class Check {
     std::optional<Cone> field;
     if (!certificate_.field.empty()) field = cone_of("the field", certificate_.field);
     check_field(std::span(cones_).subspan(pieces_), names_, field ? &*field : nullptr);
+    return std::to_string(parts_) + " visible parts and " + std::to_string(certificate_.empty.size()) +
+           " empty cones tile " + (field ? "the field" : "all directions") + rays_of_field() + " from " +
+           exact_name(certificate_.eye) + ", every face counted or set aside for a true reason; " + covered.text();
   }
 
  private:
@@ -182,6 +186,11 @@ class Check {
   void compare(std::size_t k, std::size_t i);
   [[noreturn]] void refuse(const Found& found) const;
 
+  std::string rays_of_field() const {
+    std::string text;
+    for (const Exact_point& ray : certificate_.field) text += (text.empty() ? " of " : " ") + exact_name(ray);
+    return text;
+  }
   std::string face_of(std::size_t piece) const { return name("face", certificate_.fragments[piece].face); }
 
   const Visible_certificate& certificate_;
@@ -268,13 +277,7 @@ void Check::refuse(const Found& found) const {
 
 Verdict verify_visible(const Polygon_soup& soup, const Visible_certificate& certificate,
                        const Verify_options& options) {
-  return certificate_check::verdict_of([&] {
-    visible_check::Check(certificate, options).run(soup);
-    const std::string counts = std::to_string(certificate.parts.size()) + " visible parts and " +
-                               std::to_string(certificate.empty.size()) + " empty cones";
-    return counts + " tile " + (certificate.field.empty() ? "all directions" : "the field") +
-           ", every face counted or set aside for a true reason";
-  });
+  return certificate_check::verdict_of([&] { return visible_check::Check(certificate, options).run(soup); });
 }
 
 }  // namespace sightline

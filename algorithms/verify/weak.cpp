@@ -458,10 +458,23 @@ std::string check_faces(const Weak_certificate& certificate, const Faces& visibl
          std::to_string(unknown) + " undecided";
 }
 
+/// The first sources by their corners and the side that they look to.
+std::string described(const std::vector<Polygon>& sources) {
+  constexpr std::size_t most = 3;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(most, sources.size()); ++k) {
+    text += (k == 0 ? "" : ", ") + name("source", k);
+    for (const Exact_point& p : sources[k]) text += ' ' + exact_name(p);
+    const Integer_vector side = newell_normal(sources[k]);
+    text += " looking to " + exact_name(Exact_point{Rational(side[0]), Rational(side[1]), Rational(side[2])});
+  }
+  return sources.size() > most ? text + " and " + std::to_string(sources.size() - most) + " more" : text;
+}
+
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
 std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene, and the sources are convex polygons.
-  check_covering(soup, certificate);
+  const Covered covered = check_covering(soup, certificate);
   std::vector<Outline> fragments;
   for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
   const std::vector<Outline> sources = outlines_of_sources(certificate);
@@ -491,7 +504,8 @@ std::string check(const Polygon_soup& soup, const Weak_certificate& certificate,
 
   // 3. Each face that is drawn is visible, hidden or undecided, and only one of these.
   return check_faces(certificate, visible, hidden) + " from " + std::to_string(sources.size()) + " source polygons; " +
-         std::to_string(trees.leaves()) + " leaves of proofs";
+         std::to_string(trees.leaves()) + " leaves of proofs; " + (certificate.two_sided ? "both sides" : "fronts") +
+         " of faces, " + described(certificate.sources) + "; " + covered.text();
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ Subject graph() {
       {"explicit", "the same components from all arcs",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }},
       front_door_check(grouped_by_front_door)};
-  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
   return subject;
 }
 

@@ -35,6 +35,32 @@ generate::Points convex_corners(const Polygon_soup& soup, Face_id face) {
   return corners;
 }
 
+std::optional<Image> begun_elsewhere(const Posed_scene& scene, Random& random) {
+  Image image{scene, same_faces(scene.soup)};
+  Polygon_soup& soup = image.scene.soup = {};
+  soup.file = scene.soup.file;
+  soup.coordinates = scene.soup.coordinates;
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f)
+    for (std::size_t k = 0; k < scene.soup.loop_count(f); ++k) {
+      const auto given = scene.soup.loop(f, k);
+      std::vector<Point_id> loop(given.begin(), given.end());
+      if (!loop.empty()) {
+        std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random.below(loop.size())), loop.end());
+        const std::size_t at = random.below(loop.size());
+        Point_id extra = loop[at];
+        if (random.chance(1, 2)) {
+          const Exact_point p = soup.point(extra), q = soup.point(loop[(at + 1) % loop.size()]);
+          const Exact_point middle = generate::along(p, generate::ratio(1, 2), minus(q, p));
+          extra = soup.add_point(middle[0], middle[1], middle[2]);
+        }
+        if (random.chance(1, 2)) loop.insert(loop.begin() + static_cast<std::ptrdiff_t>(at) + 1, extra);
+      }
+      if (k == 0) soup.add_face(loop);
+      else soup.add_hole(loop);
+    }
+  return image;
+}
+
 std::optional<Image> permuted(const Posed_scene& scene, Random& random) {
   const std::vector<Face_id> order = generate::random_order(scene.soup.face_count(), random.below(1u << 30));
   Image image{scene, {}};
@@ -139,14 +165,17 @@ std::optional<Image> with_a_bystander(const Posed_scene& scene, Random& random) 
 }
 
 const std::vector<Law>& laws() {
-  static const std::vector<Law> all{{"permute", "faces in another order", Law_kind::renamed, permuted},
-                                    {"translate", "moved by integers up to 10^8", Law_kind::moved, translated},
-                                    {"scale", "scaled by a power of two from 2^-60 to 2^60", Law_kind::moved, scaled},
-                                    {"rotate", "turned by a rational rotation", Law_kind::moved, rotated},
-                                    {"mirror", "mirrored, faces turned back", Law_kind::moved, mirrored},
-                                    {"turn", "all faces turned round: fronts are backs", Law_kind::moved, turned},
-                                    {"cut", "a convex face cut in two", Law_kind::changed, cut},
-                                    {"bystander", "a face more, out of sight", Law_kind::changed, with_a_bystander}};
+  using enum Law_kind;
+  static const std::vector<Law> all{
+      {"begin", "loops begun elsewhere, with corners repeated and straight ones more", everywhere, begun_elsewhere},
+      {"permute", "faces in another order", everywhere, permuted},
+      {"translate", "moved by integers up to 10^8", everywhere, translated},
+      {"scale", "scaled by a power of two from 2^-60 to 2^60", everywhere, scaled},
+      {"rotate", "turned by a rational rotation", planar_only, rotated},
+      {"mirror", "mirrored, faces turned back", planar_only, mirrored},
+      {"turn", "all faces turned round: fronts are backs", everywhere, turned},
+      {"cut", "a convex face cut in two", everywhere, cut},
+      {"bystander", "a face more, out of sight", everywhere, with_a_bystander}};
   return all;
 }
 
@@ -168,7 +197,7 @@ Check check_of(const Law& law, const std::function<Answer(const Posed_scene&)>& 
                const std::function<Answer(const Posed_scene&)>& verified) {
   return {law.name, law.what, [law, answer, verified](const Posed_scene& scene, const Answer& own, Random& random) {
             const bool verify = verified && random.chance(1, 4);
-            if (law.kind != Law_kind::renamed && !own.planar) return Outcome::not_applicable();
+            if (law.kind == Law_kind::planar_only && !own.planar) return Outcome::not_applicable();
             if (own.is_partition && !own.whole) return Outcome::not_applicable();
             const std::optional<Image> image = law.apply(scene, random);
             if (!image) return Outcome::not_applicable();

@@ -23,12 +23,10 @@ struct Image {
   bool sides_swapped = false;                   ///< fronts became backs
 };
 
-/// Where a law applies. The others keep everything that is asked, whatever it is.
+/// Where a law applies.
 enum class Law_kind {
-  renamed,  ///< faces have other names
-  moved,  ///< points have other coordinates: the scene must be planar, as how other faces are cut depends on where they
-          ///< are
-  changed  ///< faces are cut or added: what is known of pairs of faces need not stay
+  everywhere,
+  planar_only  ///< which surface a face has that is not planar depends on how it lies to the axes
 };
 
 struct Law {
@@ -61,6 +59,8 @@ generate::Points convex_corners(const Polygon_soup& soup, Face_id face);
 
 // ---- The laws
 
+/// Loops begun elsewhere, some with a corner repeated or a straight one more.
+std::optional<Image> begun_elsewhere(const Posed_scene& scene, Random& random);
 std::optional<Image> permuted(const Posed_scene& scene, Random& random);
 std::optional<Image> translated(const Posed_scene& scene, Random& random);
 std::optional<Image> scaled(const Posed_scene& scene, Random& random);

@@ -166,7 +166,7 @@ Subject order() {
          return by_kernel<CGAL::Cartesian<CGAL::Gmpq>>(posed, answer, "gmpq");
        }},
       front_door_check(ordered_by_front_door)};
-  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }
 

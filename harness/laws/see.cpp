@@ -78,7 +78,7 @@ Subject see() {
                        return by_numbers<CGAL::Gmpq>(posed, answer, "gmpq");
                      }},
                     front_door_check(seen_by_front_door)};
-  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }
 

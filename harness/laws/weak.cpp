@@ -132,7 +132,7 @@ Subject weak() {
        [](const Posed_scene& posed, const Answer& answer, Random&) { return grown(posed, answer); }},
       {"reverse", "source and target in each other's place", weak_subject::reversed},
       front_door_check(weakly_seen_by_front_door)};
-  add_laws(subject, {"permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
   return subject;
 }
 

@@ -261,9 +261,10 @@ std::optional<std::vector<bool>> wound_once(const Triangulation& triangulation,
 
 // ---- Pieces
 
-/// The chosen triangles, a ring each.
+/// The chosen triangles, a ring each. `across_contour`: whether triangles on both sides of an edge that the contour
+/// walks there and back are neighbours.
 Pieces rings_of(const Triangulation& triangulation, const std::vector<Triangulation::Face_handle>& faces,
-                const std::vector<bool>& chosen, const std::vector<Site>& sites) {
+                const std::vector<bool>& chosen, const std::vector<Site>& sites, bool across_contour) {
   std::vector<std::uint32_t> place(faces.size(), none);
   std::uint32_t count = 0;
   for (std::size_t f = 0; f < faces.size(); ++f)
@@ -279,10 +280,21 @@ Pieces rings_of(const Triangulation& triangulation, const std::vector<Triangulat
       pieces.origin[h] = faces[f]->vertex(Triangulation::ccw(i))->info().value;
       pieces.link(h, 3 * place[f] + static_cast<std::uint32_t>(Triangulation::ccw(i)));
       const std::uint32_t g = place[faces[f]->neighbor(i)->info().value];
-      if (g != none) pieces.twin[h] = 3 * g + static_cast<std::uint32_t>(triangulation.mirror_index(faces[f], i));
+      if (g != none && (across_contour || !faces[f]->is_constrained(i)))
+        pieces.twin[h] = 3 * g + static_cast<std::uint32_t>(triangulation.mirror_index(faces[f], i));
     }
   }
   return pieces;
+}
+
+/// Each ring, a convex polygon, as triangles from its least corner.
+std::vector<Loop> fanned(std::vector<Loop> rings) {
+  std::vector<Loop> triangles;
+  for (Loop& ring : rings) {
+    ring = from_least(std::move(ring));
+    for (std::size_t i = 2; i < ring.size(); ++i) triangles.push_back({ring[0], ring[i - 1], ring[i]});
+  }
+  return triangles;
 }
 
 /// The rings in lexicographic order, by indices of points.
@@ -317,9 +329,13 @@ Convex_parts cut(std::span<const Planar_point> points, std::span<const Loop> loo
   if (!inside) return crossed;
   if (std::find(inside->begin(), inside->end(), true) == inside->end()) return {};
 
-  Pieces pieces = rings_of(triangulation, faces, *inside, sites);
-  if (merge) pieces.merge();
-  return {Contour::simple, named(pieces.loops(!merge), used)};
+  Pieces pieces = rings_of(triangulation, faces, *inside, sites, merge);
+  if (merge) {
+    pieces.merge();
+    return {Contour::simple, named(pieces.loops(false), used)};
+  }
+  pieces.merge_circles();
+  return {Contour::simple, named(fanned(pieces.loops(true)), used)};
 }
 
 }  // namespace

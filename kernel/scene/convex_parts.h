@@ -51,8 +51,10 @@ struct Convex_parts {
 Convex_parts convex_parts(std::span<const Planar_point> points, std::span<const std::vector<std::uint32_t>> loops);
 
 /// The same polygon as triangles, every point of the contour a corner of those that touch it (straight points too): the
-/// constrained Delaunay triangulation. For faces that are not planar, cut through their projection.
-/// Pre, Post, Degenerate, Cost, Exact: as convex_parts(); points with equal projections count as one, the least index.
+/// constrained Delaunay triangulation, in which polygons with all corners on one circle are cut from the least index.
+/// So it is the only one for the contour and the order of its points. For faces that are not planar, cut through their
+/// projection. Pre, Post, Degenerate, Cost, Exact: as convex_parts(); points with equal projections count as one, the
+/// least index. Proof: P-22
 Convex_parts triangles(std::span<const Planar_point> points, std::span<const std::vector<std::uint32_t>> loops);
 
 }  // namespace sightline

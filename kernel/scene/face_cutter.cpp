@@ -108,7 +108,7 @@ class Cutter {
 
   /// Of a contour in a plane that goes back on all its edges, or of one that crosses itself.
   Set_aside_reason flaw_of_flat(const Vector<Number>& normal) const {
-    const Parts parts = parts_in({dominant(normal), false}, convex_parts);
+    const Parts parts = parts_in(loops_, {dominant(normal), false}, Into::convex_parts);
     return parts.contour == Contour::zero_area ? Set_aside_reason::zero_area : Set_aside_reason::self_intersecting;
   }
 
@@ -118,7 +118,7 @@ class Cutter {
       add_piece(normal, corners);
       return std::nullopt;
     }
-    const Parts parts = parts_in(projection, convex_parts);
+    const Parts parts = parts_in(loops_, projection, Into::convex_parts);
     if (parts.contour == Contour::zero_area) return Set_aside_reason::zero_area;
     if (parts.contour == Contour::self_intersecting) return Set_aside_reason::self_intersecting;
     ++faces_.counters.concave;
@@ -127,12 +127,15 @@ class Cutter {
     return std::nullopt;
   }
 
-  /// In a projection where the contour is simple, a triangulation of it is one of the face: along the dominant axis, or
-  /// else another. Else the fan of the first vertex, as most programs draw it; but that knows no holes.
+  /// One surface, whatever the loops' accidents. Without straight points and spikes, and in a projection where the
+  /// contour is simple, its triangulation is one of the face: along the dominant axis, or else another. Else the cone
+  /// from the least point; but that knows no holes. Proof: P-22
   std::optional<Set_aside_reason> cut_non_planar(const Vector<Number>& normal) {
-    if (!cut_along_an_axis(normal)) {
-      if (loops_.size() > 1) return Set_aside_reason::no_simple_projection;
-      if (!cut_as_fan()) return Set_aside_reason::zero_area;  // spikes only
+    const std::vector<Point_loop> loops = reduced();
+    if (loops.empty()) return Set_aside_reason::zero_area;
+    if (!cut_along_an_axis(loops, normal)) {
+      if (loops.size() > 1) return Set_aside_reason::no_simple_projection;
+      if (!cut_as_cone(loops[0])) return Set_aside_reason::zero_area;  // each edge is walked back
       ++faces_.counters.fanned;
     }
     ++faces_.counters.non_planar;
@@ -140,25 +143,96 @@ class Cutter {
     return std::nullopt;
   }
 
-  bool cut_along_an_axis(const Vector<Number>& normal) {
+  bool cut_along_an_axis(const std::vector<Point_loop>& loops, const Vector<Number>& normal) {
     for (const std::size_t axis : axes_by_size(normal)) {
       const Projection projection = along(axis, normal);
-      if (normal[axis] == 0 || hides_a_point(projection)) continue;
-      const Parts parts = parts_in(projection, triangles);
-      if (parts.contour != Contour::simple || !has_boundary(parts, axis)) continue;
+      const bool all_have_area =
+          std::all_of(loops.begin(), loops.end(), [&](const Point_loop& loop) { return area_vector(loop)[axis] != 0; });
+      if (!all_have_area || hides_a_point(loops, projection)) continue;
+      const Parts parts = parts_in(loops, projection, Into::triangles);
+      if (parts.contour != Contour::simple || !has_boundary(loops, parts, axis)) continue;
       for (const Point_loop& triangle : parts.pieces) add_piece(area_vector(triangle), triangle);
       return true;
     }
     return false;
   }
 
-  bool cut_as_fan() {
-    for (std::size_t i = 2; i < outer_.size(); ++i) {
-      const Point_loop triangle{outer_[0], outer_[i - 1], outer_[i]};
-      const Vector<Number> n = area_vector(triangle);
-      if (!is_zero(n)) add_piece(n, triangle);
+  /// Triangles from the least point to the edges, which are cut where a point is inside, less those walked back.
+  bool cut_as_cone(const Point_loop& loop) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, int> net;  // edges from the lower id to the higher
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Point_loop path = points_along(loop[i], loop[i + 1 == loop.size() ? 0 : i + 1], loop);
+      for (std::size_t k = 1; k < path.size(); ++k)
+        net[std::minmax(path[k - 1], path[k])] += path[k - 1] < path[k] ? 1 : -1;
     }
-    return number_ > 0;
+    std::erase_if(net, [](const auto& entry) { return entry.second == 0; });
+    if (net.empty()) return false;
+    std::uint32_t apex = net.begin()->first.first;
+    for (const auto& [edge, times] : net) apex = std::min({apex, edge.first, edge.second}, before());
+    for (const auto& [edge, times] : net) {
+      const Point_loop triangle =
+          times > 0 ? Point_loop{apex, edge.first, edge.second} : Point_loop{apex, edge.second, edge.first};
+      const Vector<Number> n = area_vector(triangle);
+      for (int k = 0; k < std::abs(times) && !is_zero(n); ++k) add_piece(n, triangle);
+    }
+    return true;
+  }
+
+  // ---- The loops of a face that is not planar
+
+  /// Without points that lie on one line with their neighbours, and again until there are none; without loops of which
+  /// nothing is left; nothing where that is the contour.
+  std::vector<Point_loop> reduced() const {
+    std::vector<Point_loop> loops;
+    for (const Point_loop& loop : loops_) {
+      Point_loop kept = without_straight_points(loop);
+      if (kept.empty() && loops.empty()) return {};
+      if (!kept.empty()) loops.push_back(std::move(kept));
+    }
+    return loops;
+  }
+
+  Point_loop without_straight_points(const Point_loop& loop) const {
+    const auto straight = [&](std::uint32_t p, std::uint32_t q, std::uint32_t r) {
+      return is_zero(cross(edge(p, q), edge(q, r)));
+    };
+    Point_loop kept;
+    for (const std::uint32_t p : loop) {
+      while (kept.size() > 1 && straight(kept[kept.size() - 2], kept.back(), p)) kept.pop_back();
+      if (kept.empty() || kept.back() != p) kept.push_back(p);
+    }
+    std::size_t first = 0;  // where the end and the beginning meet
+    while (kept.size() - first > 2) {
+      if (kept.back() == kept[first] || straight(kept[kept.size() - 2], kept.back(), kept[first])) kept.pop_back();
+      else if (straight(kept.back(), kept[first], kept[first + 1])) ++first;
+      else break;
+    }
+    kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(first));
+    if (kept.size() < 3) kept.clear();
+    return kept;
+  }
+
+  /// p, the points of the loop inside the edge from p to q, in their order, and q.
+  Point_loop points_along(std::uint32_t p, std::uint32_t q, const Point_loop& loop) const {
+    const Vector<Number> d = edge(p, q);
+    const Number length = dot(d, d);
+    std::vector<std::pair<Number, std::uint32_t>> inside;
+    for (const std::uint32_t r : loop) {
+      const Vector<Number> e = edge(p, r);
+      const Number at = dot(d, e);
+      if (at > 0 && at < length && is_zero(cross(d, e))) inside.emplace_back(at, r);
+    }
+    std::sort(inside.begin(), inside.end());
+    Point_loop path{p};
+    for (const auto& [at, r] : inside)
+      if (path.back() != r) path.push_back(r);
+    path.push_back(q);
+    return path;
+  }
+
+  /// Lexicographic order of points.
+  auto before() const {
+    return [&](std::uint32_t p, std::uint32_t q) { return at(p) < at(q); };
   }
 
   // ---- In space
@@ -242,9 +316,9 @@ class Cutter {
   }
 
   /// Whether two different points of the loops have one projection.
-  bool hides_a_point(const Projection& projection) const {
+  bool hides_a_point(const std::vector<Point_loop>& loops, const Projection& projection) const {
     std::map<std::array<Integer, 2>, std::uint32_t> seen;
-    for (const Point_loop& loop : loops_)
+    for (const Point_loop& loop : loops)
       for (const std::uint32_t p : loop) {
         const std::array<Integer, 2> place{points_.integer(p, projection.i()), points_.integer(p, projection.j())};
         if (seen.try_emplace(place, p).first->second != p) return true;
@@ -252,21 +326,27 @@ class Cutter {
     return false;
   }
 
-  /// `cut_plane`: convex_parts() or triangles().
-  template <class Cut>
-  Parts parts_in(const Projection& projection, Cut cut_plane) const {
-    std::vector<Planar_point> planar;
+  enum class Into { convex_parts, triangles };
+
+  Parts parts_in(const std::vector<Point_loop>& loops, const Projection& projection, Into into) const {
     std::vector<std::uint32_t> ids;
-    std::vector<Point_loop> indices;
-    for (const Point_loop& loop : loops_) {
-      Point_loop& index = indices.emplace_back();
-      for (const std::uint32_t p : loop) {
-        index.push_back(static_cast<std::uint32_t>(planar.size()));
-        planar.push_back({points_.integer(p, projection.i()), points_.integer(p, projection.j())});
-        ids.push_back(p);
-      }
+    for (const Point_loop& loop : loops) ids.insert(ids.end(), loop.begin(), loop.end());
+    std::vector<Point_loop> indices = loops;
+    if (into == Into::triangles) {  // which ask for points in lexicographic order
+      std::sort(ids.begin(), ids.end(), before());
+      ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+      for (Point_loop& loop : indices)
+        for (std::uint32_t& p : loop)
+          p = static_cast<std::uint32_t>(std::lower_bound(ids.begin(), ids.end(), p, before()) - ids.begin());
+    } else {
+      std::uint32_t next = 0;
+      for (Point_loop& loop : indices)
+        for (std::uint32_t& p : loop) p = next++;
     }
-    Convex_parts parts = cut_plane(planar, indices);
+    std::vector<Planar_point> planar;
+    for (const std::uint32_t p : ids)
+      planar.push_back({points_.integer(p, projection.i()), points_.integer(p, projection.j())});
+    Convex_parts parts = into == Into::triangles ? triangles(planar, indices) : convex_parts(planar, indices);
     for (Point_loop& piece : parts.pieces)
       for (std::uint32_t& corner : piece) corner = ids[corner];
     return {parts.contour, std::move(parts.pieces)};
@@ -274,7 +354,7 @@ class Cutter {
 
   /// Whether the pieces' directed edges add up to those of the loops: in a projection an edge-on part of a non-planar
   /// face can get lost.
-  bool has_boundary(const Parts& parts, std::size_t axis) const {
+  bool has_boundary(const std::vector<Point_loop>& loops, const Parts& parts, std::size_t axis) const {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> net;
     const auto add = [&](const Point_loop& loop, int sign) {
       for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -286,8 +366,8 @@ class Cutter {
     const auto sense = [&](const Point_loop& loop) {
       const Number area = area_vector(loop)[axis];
       return area < 0 ? -1 : area == 0 ? 0 : 1;
-    };  // holes run against the contour; triangles() leaves one without area here as it is, and the contour has some
-    for (const Point_loop& loop : loops_) add(loop, &loop != &outer_ && sense(loop) == sense(outer_) ? 1 : -1);
+    };  // holes run against the contour
+    for (const Point_loop& loop : loops) add(loop, &loop != &loops[0] && sense(loop) == sense(loops[0]) ? 1 : -1);
     return std::all_of(net.begin(), net.end(), [](const auto& entry) { return entry.second == 0; });
   }
 

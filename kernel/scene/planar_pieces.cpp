@@ -15,15 +15,32 @@ void Pieces::merge() {
       // Neither angle can reach a full turn, or the chain would be longer: a left turn or straight means at most pi.
       if (turn_at(before, other_after) == CGAL::RIGHT_TURN || turn_at(other_before, after) == CGAL::RIGHT_TURN)
         continue;
-      for (std::uint32_t h = first;; h = next[h]) {
-        alive[h] = alive[twin[h]] = false;
-        if (h == last) break;
-      }
-      link(before, other_after);
-      link(other_before, after);
+      unite(first, last);
       changed = true;
     }
   }
+}
+
+void Pieces::merge_circles() {
+  const auto corner_beyond = [&](std::uint32_t h) -> const Site& { return sites[origin[previous[h]]]; };
+  std::vector<std::uint32_t> diagonals;
+  for (std::uint32_t h = 0; h < origin.size(); ++h)
+    if (twin[h] != none && h < twin[h] &&
+        Traits::Side_of_oriented_circle_2{}(sites[origin[h]], sites[destination(h)], corner_beyond(h),
+                                            corner_beyond(twin[h])) == CGAL::ON_ORIENTED_BOUNDARY)
+      diagonals.push_back(h);
+  for (const std::uint32_t h : diagonals) unite(h, h);
+}
+
+void Pieces::unite(std::uint32_t first, std::uint32_t last) {
+  const std::uint32_t before = previous[first], after = next[last];
+  const std::uint32_t other_before = previous[twin[last]], other_after = next[twin[first]];
+  for (std::uint32_t h = first;; h = next[h]) {
+    alive[h] = alive[twin[h]] = false;
+    if (h == last) break;
+  }
+  link(before, other_after);
+  link(other_before, after);
 }
 
 std::vector<std::vector<std::uint32_t>> Pieces::loops(bool with_straight_corners) const {

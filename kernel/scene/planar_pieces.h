@@ -29,6 +29,11 @@ struct Pieces {
   /// Post: at most four times as many pieces as an optimal partition of a simple polygon has. Exact: yes
   void merge();
 
+  /// Removes diagonals between triangles whose corners lie on one circle: what a Delaunay triangulation could as well
+  /// have otherwise. Pre: one ring for each triangle. Post: what is left does not depend on which one it was. Exact:
+  /// yes. Proof: P-22
+  void merge_circles();
+
   /// The rings as loops of places in `sites`; straight corners only where asked for.
   std::vector<std::vector<std::uint32_t>> loops(bool with_straight_corners) const;
 
@@ -36,6 +41,8 @@ struct Pieces {
     next[a] = b;
     previous[b] = a;
   }
+  /// Takes the edges from `first` to `last` out of a ring and of its neighbour's, which become one.
+  void unite(std::uint32_t first, std::uint32_t last);
 };
 
 }  // namespace sightline::planar

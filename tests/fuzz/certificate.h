@@ -17,11 +17,12 @@ namespace fuzz {
 inline const Known_scene& known_scene() {
   static const Known_scene scene = [] {
     Known_scene known{
-        read_scene(std::string(SIGHTLINE_SOURCE_DIR) + "/tests/corpus/general/lamp_and_screens.off"), {}, {}};
+        read_scene(std::string(SIGHTLINE_SOURCE_DIR) + "/tests/corpus/general/lamp_and_screens.off"), {}, {}, {}};
     for (Face_id f = 0; f < known.soup.face_count(); ++f) {
       Points corners;
       for (const Point_id p : known.soup.loop(f)) corners.push_back(known.soup.point(p));
       std::vector<Flat>& parts = known.parts.emplace_back();
+      known.duplicate.push_back(false);
       known.set_aside.push_back(f == 6 || f == 7 || f == 10);  // a duplicate, one without area, one that winds twice
       if (f < 5 || f == 9) parts.emplace_back(corners);
       if (f == 5)
@@ -33,10 +34,16 @@ inline const Known_scene& known_scene() {
   return scene;
 }
 
-inline Verdict verdict_on(const Order_certificate& claim) { return verify_order(known_scene().soup, claim); }
-inline Verdict verdict_on(const Graph_certificate& claim) { return verify_graph(known_scene().soup, claim); }
-inline Verdict verdict_on(const Visible_certificate& claim) { return verify_visible(known_scene().soup, claim); }
-inline Verdict verdict_on(const Weak_certificate& claim) { return verify_weak(known_scene().soup, claim); }
+inline Verdict verdict_on(const Polygon_soup& soup, const Order_certificate& claim) {
+  return verify_order(soup, claim);
+}
+inline Verdict verdict_on(const Polygon_soup& soup, const Graph_certificate& claim) {
+  return verify_graph(soup, claim);
+}
+inline Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& claim) {
+  return verify_visible(soup, claim);
+}
+inline Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim) { return verify_weak(soup, claim); }
 
 inline std::optional<Certificate> certificate_in(std::string_view bytes) {
   std::istringstream in{std::string(bytes)};
@@ -54,7 +61,7 @@ inline std::optional<Verdict> checked_certificate(std::string_view bytes) {
   if (!certificate) return std::nullopt;
   return std::visit(
       [](const auto& claim) {
-        const Verdict verdict = verdict_on(claim);
+        const Verdict verdict = verdict_on(known_scene().soup, claim);
         require(!verdict.why.empty() && verdict.why.find('\n') == std::string::npos, "a verdict is one line");
         for (const std::size_t i : verdict.fragments)
           require(i < claim.fragments.size(), "a verdict names fragments that there are");

@@ -11,6 +11,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -79,6 +80,7 @@ struct Known_scene {
   Polygon_soup soup;
   std::vector<std::vector<Flat>> parts;  // of each face, convex; none where it is not planar
   std::vector<bool> set_aside;
+  std::vector<bool> duplicate;  // may as well be drawn
 };
 
 inline std::vector<Flat> flats(const Covering& covering) {
@@ -93,32 +95,40 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
                          const Exact_point* eye = nullptr) {
   std::vector<bool> set_aside(scene.parts.size());
   for (const Covering::Set_aside& entry : covering.set_aside) set_aside[entry.face] = true;
-  require(set_aside == scene.set_aside, "what is set aside has to be");
-  const auto in = [](const std::vector<Flat>& parts, const Exact_point& p) {
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const Flat& part) { return part.side(p) == 0 && part.location(p) >= 0; });
+  for (std::size_t f = 0; f < set_aside.size(); ++f)
+    require(set_aside[f] == scene.set_aside[f] || (!set_aside[f] && scene.duplicate[f]), "what is set aside has to be");
+  const auto is_in = [](const Flat& part, const Exact_point& p) { return part.side(p) == 0 && part.location(p) >= 0; };
+  const auto lies_with = [](const Flat& part, const Flat& fragment) {  // in its plane, with its front
+    return dot(part.normal, fragment.normal) > 0 &&
+           std::all_of(fragment.corners.begin(), fragment.corners.end(),
+                       [&](const Exact_point& p) { return part.side(p) == 0; });
   };
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const std::vector<Flat>& parts = scene.parts[covering.fragments[i].face];
     if (parts.empty()) continue;
-    require(dot(fragments[i].normal, parts[0].normal) > 0, "a fragment has its face's front");
-    for (const Exact_point& p : mixtures(fragments[i].corners)) require(in(parts, p), "a fragment is in its face");
+    for (const Exact_point& p : mixtures(fragments[i].corners))
+      require(std::any_of(parts.begin(), parts.end(),
+                          [&](const Flat& part) { return lies_with(part, fragments[i]) && is_in(part, p); }),
+              "a fragment is in its face, with its front");
   }
   for (std::size_t f = 0; f < scene.parts.size(); ++f) {
     if (set_aside[f]) continue;
-    const auto own = [&](std::size_t i) { return covering.fragments[i].face == f; };
-    bool any = false;
-    for (std::size_t i = 0; i < fragments.size(); ++i) any = any || own(i);
-    if (!any && eye != nullptr && !scene.parts[f].empty() && scene.parts[f][0].side(*eye) <= 0) continue;
-    require(any || (scene.parts[f].empty() && eye != nullptr), "a face has fragments");
-    for (const Flat& part : scene.parts[f])
+    const bool planar = std::all_of(scene.parts[f].begin(), scene.parts[f].end(),
+                                    [&](const Flat& part) { return lies_with(scene.parts[f][0], part); });
+    for (const Flat& part : scene.parts[f]) {
+      const bool is_meant = eye == nullptr || part.side(*eye) > 0;
       for (const Exact_point& p : mixtures(part.corners)) {
         std::size_t inside = 0, touching = 0;
-        for (std::size_t i = 0; i < fragments.size(); ++i)
-          if (own(i)) inside += fragments[i].location(p) > 0, touching += fragments[i].location(p) == 0;
-        if (eye == nullptr || scene.parts[f][0].side(*eye) > 0)
-          require(inside == 1 || (inside == 0 && touching >= 2), "a point of a face is in one fragment");
+        for (std::size_t i = 0; i < fragments.size(); ++i) {
+          if (covering.fragments[i].face != f || !lies_with(part, fragments[i])) continue;
+          inside += fragments[i].location(p) > 0;
+          touching += fragments[i].location(p) == 0;
+        }
+        // The triangles of one that is not planar may lie on one another.
+        const bool once = planar ? inside == 1 || (inside == 0 && touching >= 2) : inside + touching > 0;
+        require(once || !is_meant, "a point of a face is in one fragment");
       }
+    }
   }
 }
 
@@ -159,24 +169,39 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
       require(component[i] != component[j] || reaches[i][j], "a component is strongly connected");
 }
 
-/// A convex cone: 1 strictly inside, 0 on the boundary, -1 outside.
-inline int location_in_cone(const Points& rays, const Exact_point& direction) {
-  const Exact_point middle = mixtures(rays, false)[0];
-  int least = 1;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Exact_point plane = cross(rays[i], rays[(i + 1) % rays.size()]);
-    least = std::min(least, sgn(dot(plane, middle)) * sgn(dot(plane, direction)));
+/// A convex cone.
+struct Tile {
+  Points rays, inward;  // normals of its sides
+
+  explicit Tile(Points of) : rays(std::move(of)) {
+    const Exact_point middle = mixtures(rays, false)[0];
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Exact_point side = cross(rays[i], rays[(i + 1) % rays.size()]);
+      inward.push_back(times(sgn(dot(side, middle)), side));
+    }
   }
-  return least;
-}
+  /// Of a direction: 1 strictly inside, 0 on the boundary, -1 outside.
+  int location(const Exact_point& direction) const {
+    int least = 1;
+    for (const Exact_point& side : inward) {
+      least = std::min(least, sgn(dot(side, direction)));
+      if (least < 0) break;
+    }
+    return least;
+  }
+};
 
 inline void try_claims(const Known_scene& scene, const Visible_certificate& claim) {
   const std::vector<Flat> fragments = flats(claim);
   try_covering(scene, claim, fragments);
-  std::vector<Points> tiles = claim.empty;
+  std::vector<Tile> tiles;
+  for (const Points& cone : claim.empty) tiles.emplace_back(cone);
+  std::optional<Tile> field;
+  if (!claim.field.empty()) field.emplace(claim.field);
   for (const Visible_certificate::Part& part : claim.parts) {
-    Points& rays = tiles.emplace_back();
+    Points rays;
     for (const Exact_point& p : part.vertices) rays.push_back(minus(p, claim.eye));
+    tiles.emplace_back(std::move(rays));
     for (const Exact_point& p : mixtures(part.vertices)) {
       require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0,
               "a part is in its fragment");
@@ -190,20 +215,18 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
       for (const Flat& other : fragments)
         if (const auto hit = other.hit(claim.eye, plus(claim.eye, d)))
           require(hit->first <= 0 || hit->second == 0, "nothing is in an empty cone");
-  for (const Points& tile : tiles)
-    for (const Exact_point& d : mixtures(tile, false)) {
-      require(claim.field.empty() || location_in_cone(claim.field, d) >= 0, "what is seen is in the field");
-      require(std::count_if(tiles.begin(), tiles.end(),
-                            [&](const Points& other) { return location_in_cone(other, d) > 0; }) == 1,
+  for (const Tile& tile : tiles)
+    for (const Exact_point& d : mixtures(tile.rays, false)) {
+      require(!field || field->location(d) >= 0, "what is seen is in the field");
+      require(std::count_if(tiles.begin(), tiles.end(), [&](const Tile& other) { return other.location(d) > 0; }) == 1,
               "a direction is in one cone");
     }
   for (const Flat& fragment : fragments)
     for (const Exact_point& p : mixtures(fragment.corners)) {
       const Exact_point d = minus(p, claim.eye);
-      if (fragment.side(claim.eye) == 0 || (!claim.field.empty() && location_in_cone(claim.field, d) <= 0)) continue;
-      require(
-          std::any_of(tiles.begin(), tiles.end(), [&](const Points& tile) { return location_in_cone(tile, d) >= 0; }),
-          "a direction of the field is in a cone");
+      if (fragment.side(claim.eye) == 0 || (field && field->location(d) <= 0)) continue;
+      require(std::any_of(tiles.begin(), tiles.end(), [&](const Tile& tile) { return tile.location(d) >= 0; }),
+              "a direction of the field is in a cone");
     }
 }
 

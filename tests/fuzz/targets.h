@@ -6,6 +6,7 @@
 #include "decimal.h"
 #include "event_cells.h"
 #include "fixed_integer.h"
+#include "forged.h"
 #include "mutate.h"
 #include "other_readers.h"
 #include "quadratic_roots.h"
@@ -37,6 +38,7 @@ inline const std::vector<Target>& targets() {
                                        {"answer", answer, {"answers/"}},
                                        {"number_lines", number_lines, {"paths/"}},
                                        {"certificate", certificate, {"certificates/"}},
+                                       {"forged", forged, {}},
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
                                        {"quadratic_roots", quadratic_roots, {}},

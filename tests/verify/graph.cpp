@@ -72,8 +72,8 @@ Graph_scene ring() {
 }
 
 TEST(Graph_certificate, of_a_stack_is_accepted_from_the_top_down_only) {
-  expect_accepted(stack(1), "1 strongly connected components of 1 faces");
-  expect_accepted(stack(5), "5 strongly connected components of 5 faces");
+  expect_accepted(stack(1), "1 strongly connected components of 1 pieces");
+  expect_accepted(stack(5), "5 strongly connected components of 5 pieces");
   for (std::size_t i = 0; i < 5; ++i)
     for (std::size_t j = i + 1; j < 5; ++j) {
       Graph_scene given = stack(5);
@@ -84,7 +84,7 @@ TEST(Graph_certificate, of_a_stack_is_accepted_from_the_top_down_only) {
 }
 
 TEST(Graph_certificate, of_an_empty_scene_is_accepted) {
-  expect_accepted(Graph_scene(), "0 strongly connected components of 0 faces");
+  expect_accepted(Graph_scene(), "0 strongly connected components of 0 pieces");
 }
 
 TEST(Graph_certificate, takes_any_order_of_faces_without_arcs) {
@@ -106,7 +106,7 @@ TEST(Graph_certificate, takes_any_order_of_faces_without_arcs) {
 TEST(Graph_certificate, of_a_ring_needs_arcs_both_ways_and_one_component) {
   const Graph_scene whole = ring();
   ASSERT_GE(whole.certificate.arcs.size(), 3u);
-  expect_accepted(whole, "1 strongly connected components of 3 faces");
+  expect_accepted(whole, "1 strongly connected components of 3 pieces");
   Graph_scene apart = whole;
   apart.certificate.sizes = {1, 1, 1}, apart.certificate.arcs.clear();
   EXPECT_NE(apart.verdict().why.find("which has higher priority"), std::string::npos) << apart.verdict().why;
@@ -120,6 +120,87 @@ TEST(Graph_certificate, of_a_ring_needs_arcs_both_ways_and_one_component) {
     std::erase_if(out.certificate.arcs, [&](const auto& arc) { return arc.from == face; });
     EXPECT_NE(in.verdict().why.find("is not reached from fragment 0"), std::string::npos) << in.verdict().why;
     EXPECT_NE(out.verdict().why.find("does not reach fragment 0"), std::string::npos) << out.verdict().why;
+  }
+}
+
+TEST(Graph_certificate, must_not_dissolve_a_component_by_cutting) {
+  // Two plates that cross: each is across the other's plane, so they are one component; cut there they are four.
+  const auto plate = [](bool turned, const Rational& from, const Rational& to) {
+    Points p = {at(0, from, 0), at(0, to, 0), at(0, to, 2), at(0, from, 2)};
+    if (turned)
+      for (Exact_point& q : p) q = {Rational(-q[1]), q[0], q[2]};
+    return p;
+  };
+  Scene scene;
+  for (const bool turned : {false, true}) scene.face(plate(turned, -1, 1));
+  std::vector<Order_fragment> halves;
+  for (const bool turned : {false, true})
+    for (const int from : {-1, 0}) halves.push_back({turned ? 1u : 0u, 0, plate(turned, from, from + 1)});
+  // In some order the checker would take them as four components, were it not for the cut.
+  std::vector<std::size_t> order{0, 1, 2, 3};
+  std::size_t cut = 0;
+  do {
+    Graph_scene given;
+    given.scene = scene;
+    for (const std::size_t k : order) given.certificate.fragments.push_back(halves[k]);
+    given.certificate.sizes = {1, 1, 1, 1};
+    EXPECT_FALSE(given.verdict().accepted);
+    cut += given.verdict().why.find("is cut at") != std::string::npos;
+  } while (std::next_permutation(order.begin(), order.end()));
+  EXPECT_EQ(cut, 24u);
+  // At corners it is no better, with pieces or without.
+  for (const bool with_pieces : {false, true}) {
+    Graph_scene given;
+    const Points square = rectangle(0, 1, 0, 1, 0);
+    given.scene.face(square);
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const Points half = {square[0], square[k + 1], square[k + 2]};
+      given.certificate.fragments.push_back({0, k, half});
+      if (with_pieces) given.certificate.pieces.push_back({0, k, half});
+      given.certificate.sizes.push_back(1);
+    }
+    expect_rejected(given, "face 0 is convex, but in 2 fragments");
+  }
+  // A spike makes no face concave. One that is may be cut, at its own points, and the line says so.
+  Points spiked = rectangle(0, 4, 0, 4, 0);
+  spiked.insert(spiked.begin() + 1, {at(2, 0, 0), at(1, 0, 0)});
+  Graph_scene given;
+  given.scene.face(spiked);
+  for (const Points& half :
+       {Points{at(0, 0, 0), at(4, 0, 0), at(4, 4, 0)}, Points{at(0, 0, 0), at(4, 4, 0), at(0, 4, 0)}}) {
+    given.certificate.fragments.push_back({0, 0, half});
+    given.certificate.sizes.push_back(1);
+  }
+  expect_rejected(given, "face 0 is convex, but in 2 fragments");
+  const Points ell = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(2, 2, 0), at(2, 4, 0), at(0, 4, 0)};
+  Graph_scene concave, elsewhere;
+  concave.scene.face(ell);
+  elsewhere.scene.face(ell);
+  for (const Points& part : {Points{ell[0], ell[1], ell[2], ell[3]}, Points{ell[0], ell[3], ell[4], ell[5]}}) {
+    concave.certificate.fragments.push_back({0, 0, part});
+    concave.certificate.sizes.push_back(1);
+  }
+  expect_accepted(concave, "2 pieces in order of priority, 1 faces that are not convex in pieces as the certificate");
+  for (const Points& part : {rectangle(0, 4, 0, 2, 0), rectangle(0, 2, 2, 4, 0)}) {
+    elsewhere.certificate.fragments.push_back({0, 0, part});
+    elsewhere.certificate.sizes.push_back(1);
+  }
+  expect_rejected(elsewhere, "face 0 is cut at (0, 2, 0), which is none of its points");
+  // A triangle of a face that is not planar is one fragment.
+  const Points saddle = {at(0, 0, 0), at(4, 0, 1), at(4, 4, 0), at(0, 4, 1)};
+  const Points first = {saddle[0], saddle[1], saddle[2]}, second = {saddle[0], saddle[2], saddle[3]};
+  for (const bool whole : {true, false}) {
+    Graph_scene skew;
+    skew.scene.face(saddle);
+    skew.certificate.pieces = {{0, 0, first}, {0, 1, second}};
+    std::vector<Points> fragments = {first};
+    const Exact_point middle = at(2, 2, 0);
+    if (!whole) fragments = {{first[0], first[1], middle}, {first[1], first[2], middle}};
+    for (const Points& fragment : fragments) skew.certificate.fragments.push_back({0, 0, fragment});
+    skew.certificate.fragments.push_back({0, 1, second});
+    skew.certificate.sizes.assign(skew.certificate.fragments.size(), 1);
+    if (whole) expect_accepted(skew, "0 faces set aside, 1 not planar");
+    else expect_rejected(skew, "is cut");
   }
 }
 

@@ -154,8 +154,8 @@ TEST(Set_aside, as_simple_along_no_axis) {
   rejected(saddle, {{at(0, 0, 0), at(2, 1, 0), at(1, 2, 0)}}, "but is along axis");  // at a corner, in space
   rejected(saddle, {{at(1, tiny(300), 2), at(2, 1, 0), at(1, 1, 0)}}, "but is along axis");
   rejected(saddle, {{at(1, 1, 0), at(2, 1, 0), at(2, tiny(300) + 1, 1)}}, "but is along axis");
-  rejected(saddle, {{at(1, 1, 0), at(2, 2, 0)}}, "but is along axis");  // there and back
-  rejected(saddle, {{}}, "but is along axis");
+  rejected(saddle, {{at(1, 1, 0), at(2, 2, 0)}}, "but has no holes");  // there and back
+  rejected(saddle, {{}}, "but has no holes");
   const Points corner_to_corner = {at(0, 0, 0), at(4, 0, 1), at(4, 4, 8), at(0, 4, 1)};  // area along all axes
   rejected(corner_to_corner, {rectangle(1, 2, 1, 2, 0)}, "but is along axis");
 }

@@ -57,7 +57,8 @@ TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in
   for (const Exact_point& eye : {below, in_plane}) {
     expect_accepted(seen(ground, eye, {}));
     EXPECT_EQ(seen(ground, eye, {}).verdict().why,
-              "0 fragments in back-to-front order, every on-view face drawn once or set aside for a true reason");
+              std::string("0 fragments in back-to-front order from ") + (eye == below ? "(1, 2, -10)" : "(9, 9, 0)") +
+                  ", every on-view face drawn once or set aside for a true reason; 0 faces set aside, 0 not planar");
     expect_accepted(seen(ground, eye, {ground}));
     expect_rejected(seen(ground, eye, {}, false), "face 0 has no fragment");
     expect_rejected(seen(ground, eye, {rectangle(0, 1, 0, 4, 0)}), "face 0 is not tiled");
@@ -66,8 +67,8 @@ TEST(Tiling, of_on_view_faces_only_leaves_out_whole_faces_that_the_eye_is_not_in
   expect_rejected(seen(ground, at(9, 9, tiny(500)), {}), "face 0 has no fragment");
   expect_accepted(seen(reversed(ground), eye_above, {}));
   // A bent face: one of its pieces is on-view, the other is not.
-  const Points bent = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)},
-               low = {at(0, 0, 0), at(4, 0, 0), at(0, 4, 0)}, high = {at(4, 0, 0), at(4, 4, 3), at(0, 4, 0)};
+  const Points bent = {at(0, 0, 0), at(4, 0, 0), at(5, 5, 3), at(0, 4, 0)},
+               low = {at(0, 0, 0), at(4, 0, 0), at(0, 4, 0)}, high = {at(4, 0, 0), at(5, 5, 3), at(0, 4, 0)};
   const auto pieces = [&](const Exact_point& eye, bool draw_low, bool draw_high) {
     Scene scene = seen(bent, eye, {});
     scene.cut(0, 0, low).cut(0, 1, high);
@@ -286,22 +287,22 @@ Scene skew_face(const std::vector<Points>& pieces) {
   return scene;
 }
 
-TEST(Non_planar, a_skew_quad_may_be_cut_along_either_diagonal) {
+TEST(Non_planar, a_skew_quad_is_cut_along_one_diagonal) {
   const Points s012 = corners(skew, {0, 1, 2}), s023 = corners(skew, {0, 2, 3}), s013 = corners(skew, {0, 1, 3}),
                s123 = corners(skew, {1, 2, 3});
   expect_accepted(skew_face({s012, s023}));
-  expect_accepted(skew_face({s013, s123}));
+  expect_rejected(skew_face({s013, s123}), "should be the other one");
   expect_rejected(skew_face({s012, s123}), "is not bounded as its pieces are");
   expect_rejected(skew_face({s012}), "is not bounded as its pieces are");
-  expect_rejected(skew_face({reversed(s012), reversed(s023)}), "is not bounded as its pieces are");
+  expect_rejected(skew_face({reversed(s012), reversed(s023)}), "does not run counterclockwise");
   expect_rejected(skew_face({s012, s012, s023}), "is not bounded as its pieces are");
-  expect_rejected(skew_face({skew}), "piece 0 of face 0 has a vertex off the plane");
-  expect_rejected(skew_face({s012, s023, {}}), "piece 2 of face 0 is empty");
-  expect_rejected(skew_face({s012, s023, corners(skew, {0, 1, 0})}), "piece 2 of face 0 has zero area");
-  expect_rejected(skew_face({s012, corners(skew, {0, 2, 3, 3})}), "repeated vertex");
+  expect_rejected(skew_face({skew}), "piece 0 of face 0, which is not planar, is no triangle");
+  expect_rejected(skew_face({s012, s023, {}}), "piece 2 of face 0, which is not planar, is no triangle");
+  expect_rejected(skew_face({s012, s023, corners(skew, {0, 1, 0})}), "piece 2 of face 0 does not run counterclockwise");
+  expect_rejected(skew_face({s012, corners(skew, {0, 2, 3, 3})}), "is no triangle");
   // A triangle and its reverse cancel; so does a closed surface.
-  expect_rejected(skew_face({s012, s023, s013, reversed(s013)}), "wrong number of pieces");
-  expect_rejected(skew_face({s012, s023, s012, s023, reversed(s013), reversed(s123)}), "wrong number of pieces");
+  expect_rejected(skew_face({s012, s023, s013, reversed(s013)}), "does not run counterclockwise");
+  expect_rejected(skew_face({s012, s023, s012, s023, reversed(s013), reversed(s123)}), "does not run counterclockwise");
   Scene plain = one_face(skew);
   expect_rejected(plain.draw(0, skew), "is not planar and has no pieces");
   Scene lost = one_face(skew);
@@ -312,7 +313,7 @@ TEST(Non_planar, a_skew_quad_may_be_cut_along_either_diagonal) {
   const Exact_point m = at(2, 2, 2);
   expect_rejected(
       skew_face({{skew[0], skew[1], m}, {skew[1], skew[2], m}, {skew[2], skew[3], m}, {skew[3], skew[0], m}}),
-      "not one of the face's");
+      "not a corner of the face's");
 }
 
 TEST(Non_planar, one_corner_off_the_plane_is_enough) {
@@ -338,41 +339,51 @@ TEST(Non_planar, pieces_are_tiled_by_fragments) {
 }
 
 TEST(Non_planar, the_pieces_are_in_the_order_too) {
-  // The fold along either diagonal, seen so that one triangle hides part of the other.
-  const Points fold = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(3, 1, 3)};
-  const Points bottom = corners(fold, {0, 1, 2}), flap = corners(fold, {0, 2, 3});
-  for (const bool bottom_first : {false, true}) {
+  // A roof, seen from low beside it, so that one triangle hides the other.
+  const Points roof = {at(0, 0, 0), at(2, -1, 3), at(4, 0, 0), at(2, 1, 3)};
+  const Points near = corners(roof, {0, 1, 3}), far = corners(roof, {1, 2, 3});
+  for (const bool far_first : {false, true}) {
     Scene scene;
-    scene.seen_from(at(3, 1, 20)).face(fold);
-    scene.cut(0, 0, bottom).cut(0, 1, flap);
-    if (bottom_first) expect_accepted(scene.draw(0, bottom, 0).draw(0, flap, 1));
-    else expect_rejected(scene.draw(0, flap, 1).draw(0, bottom, 0), "is nearer", {0, 1});
+    scene.seen_from(at(-20, 0, 1)).face(roof);
+    scene.cut(0, 0, near).cut(0, 1, far);
+    if (far_first) expect_accepted(scene.draw(0, far, 1).draw(0, near, 0));
+    else expect_rejected(scene.draw(0, near, 0).draw(0, far, 1), "is nearer", {0, 1});
   }
 }
 
-TEST(Non_planar, larger_pieces_and_holes_are_counted) {
-  // A roof: a planar pentagon side and a triangle, one convex piece of four corners.
+TEST(Non_planar, pieces_are_triangles_on_corners_that_are_not_straight) {
+  // A roof: a planar square and a triangle.
   const Points roof = {at(0, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0), at(-2, 2, 3)};
-  Scene scene = one_face(roof);
-  const Points floor = corners(roof, {0, 1, 2, 3}), flap = corners(roof, {0, 3, 4});
-  expect_accepted(scene.cut(0, 0, floor).cut(0, 1, flap).draw(0, floor, 0).draw(0, flap, 1));
-  // A collinear corner, so that one triangle of the fan has no area and may be left out.
+  const Points floor = corners(roof, {0, 1, 2, 3}), half = corners(roof, {0, 1, 2}), other = corners(roof, {0, 2, 3}),
+               flap = corners(roof, {0, 3, 4});
+  Scene scene = one_face(roof), larger = scene;
+  expect_accepted(
+      scene.cut(0, 0, half).cut(0, 1, other).cut(0, 2, flap).draw(0, half, 0).draw(0, other, 1).draw(0, flap, 2));
+  expect_rejected(larger.cut(0, 0, floor).cut(0, 1, flap).draw(0, floor, 0).draw(0, flap, 1), "is no triangle");
+  // A straight corner is none of the surface's.
   const Points bent = {at(0, 0, 0), at(2, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 1)};
-  Scene fewer = one_face(bent);
+  Scene without = one_face(bent), with = without;
   const Points first = corners(bent, {0, 2, 3}), second = corners(bent, {0, 3, 4});
-  expect_accepted(fewer.cut(0, 0, first).cut(0, 1, second).draw(0, first, 0).draw(0, second, 1));
+  expect_accepted(without.cut(0, 0, first).cut(0, 1, second).draw(0, first, 0).draw(0, second, 1));
+  const Points left = corners(bent, {0, 1, 3}), right = corners(bent, {1, 2, 3});
+  expect_rejected(
+      with.cut(0, 0, left).cut(0, 1, right).cut(0, 2, second).draw(0, left, 0).draw(0, right, 1).draw(0, second, 2),
+      "not a corner of the face's");
+}
+
+TEST(Non_planar, holes_are_no_caps) {
   // A triangle with a triangular hole, lifted at one corner: six triangles, and not the outer one minus the inner one.
   const Points outer = {at(0, 0, 0), at(12, 0, 0), at(0, 12, 3)}, inner = {at(2, 2, 1), at(4, 2, 0), at(2, 4, 0)};
   const std::vector<Points> ring = {{outer[0], outer[1], inner[1]}, {outer[0], inner[1], inner[0]},
-                                    {outer[1], outer[2], inner[2]}, {outer[1], inner[2], inner[1]},
-                                    {outer[2], outer[0], inner[0]}, {outer[2], inner[0], inner[2]}};
+                                    {outer[1], outer[2], inner[1]}, {outer[2], inner[2], inner[1]},
+                                    {outer[2], outer[0], inner[2]}, {outer[0], inner[0], inner[2]}};
   for (const Points& hole : {inner, reversed(inner)}) {
     Scene whole = one_face(outer, {hole}), capped = one_face(outer, {hole});
     for (std::uint32_t k = 0; k < 6; ++k) whole.cut(0, k, ring[k]).draw(0, ring[k], k);
     whole.seen_from(at(1, 2, 100));
     expect_accepted(whole);
     expect_rejected(capped.cut(0, 0, outer).cut(0, 1, reversed(inner)).draw(0, outer, 0).draw(0, reversed(inner), 1),
-                    "wrong number of pieces");
+                    "does not run counterclockwise");
   }
 }
 

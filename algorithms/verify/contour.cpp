@@ -1,0 +1,91 @@
+#include <sightline/algorithms/verify/contour.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <utility>
+
+namespace sightline::certificate_check {
+
+int side(const Contour::Edge& e, const Contour::Point& p) {
+  return sgn(Rational((e.to[0] - e.from[0]) * (p[1] - e.from[1]) - (e.to[1] - e.from[1]) * (p[0] - e.from[0])));
+}
+
+bool cross_inside(const Contour::Edge& e, const Contour::Edge& f) {
+  return side(e, f.from) * side(e, f.to) < 0 && side(f, e.from) * side(f, e.to) < 0;
+}
+
+bool inside(const Contour::Edge& e, const Contour::Point& p) {
+  return p != e.from && p != e.to && side(e, p) == 0 && std::min(e.from, e.to) < p && p < std::max(e.from, e.to);
+}
+
+namespace {
+
+/// Where the lines of the edges meet. Pre: they are not parallel.
+Contour::Point crossing(const Contour::Edge& e, const Contour::Edge& f) {
+  const Rational ex = e.to[0] - e.from[0], ey = e.to[1] - e.from[1], fx = f.to[0] - f.from[0], fy = f.to[1] - f.from[1];
+  const Rational t = ((f.from[0] - e.from[0]) * fy - (f.from[1] - e.from[1]) * fx) / (ex * fy - ey * fx);
+  return {Rational(e.from[0] + t * ex), Rational(e.from[1] + t * ey)};
+}
+
+}  // namespace
+
+Contour::Contour(const std::vector<Polygon>& loops, std::size_t axis, bool mirrored) {
+  for (const Polygon& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      edges.push_back({look(loop[i], axis, mirrored), look(loop[(i + 1) % loop.size()], axis, mirrored)});
+      points.insert(edges.back().from);
+    }
+}
+
+Contour::Point Contour::look(const Exact_point& p, std::size_t axis, bool mirrored) {
+  const Rational &x = p[(axis + 1) % 3], &y = p[(axis + 2) % 3];
+  if (mirrored) return {y, x};
+  return {x, y};
+}
+
+bool Contour::crosses_itself() const {
+  for (auto e = edges.begin(); e != edges.end(); ++e)
+    for (auto f = edges.begin(); f != e; ++f)
+      if (cross_inside(*e, *f) && !points.count(crossing(*e, *f))) return true;
+  return false;
+}
+
+Contour::Winding Contour::winding() const {
+  std::set<Rational> abscissae;
+  for (const Point& p : points) abscissae.insert(p[0]);
+  Winding found = Winding::none;
+  if (abscissae.empty()) return found;
+  // Between neighbouring abscissae no edges cross: add up the winding number from below on a line in the middle.
+  for (auto left = abscissae.begin(), right = std::next(left); right != abscissae.end(); ++left, ++right) {
+    const Rational middle = (*left + *right) / 2;
+    std::map<Rational, int> steps;
+    for (const auto& [from, to] : edges)
+      if (std::min(from[0], to[0]) < middle && middle < std::max(from[0], to[0])) {
+        const Rational height = from[1] + (to[1] - from[1]) * (middle - from[0]) / (to[0] - from[0]);
+        steps[height] += from[0] < to[0] ? 1 : -1;
+      }
+    int number = 0;
+    for (const auto& [height, step] : steps) {
+      number += step;
+      if (number != 0 && number != 1) return Winding::other;
+      if (number == 1) found = Winding::once;
+    }
+  }
+  return found;
+}
+
+bool Contour::edge_passes_a_point() const {
+  std::map<std::pair<Point, Point>, long> walks;  // there minus back
+  for (const auto& [from, to] : edges) {
+    if (from < to) ++walks[{from, to}];
+    else --walks[{to, from}];
+  }
+  return std::any_of(walks.begin(), walks.end(), [&](const auto& walk) {
+    const Edge edge{walk.first.first, walk.first.second};
+    return walk.second != 0 &&
+           std::any_of(points.begin(), points.end(), [&](const Point& p) { return inside(edge, p); });
+  });
+}
+
+}  // namespace sightline::certificate_check
