@@ -166,7 +166,6 @@ class Solver {
     Predicate_counts& counts = out.counters.predicates;
     std::array<Region<V>, 2> regions = cut(view_, task.region, w, counts);
     ++out.counters.splits;
-    if (w.name.kind() == Eye_plane_name::crossing_kind) note_crossing(task, regions[0], w.name, out);
     return {part_of(task, std::move(regions[0]), w, counts),
             part_of(task, std::move(regions[1]), view_.opposite(w), counts)};
   }
@@ -187,13 +186,6 @@ class Solver {
     return part;
   }
   static bool is_flat(const Task<V>& task) { return task.region.rays.size() < 3; }  // inexact signs only
-  /// Where the cover and the first item cross, with what is on one side of that line.
-  void note_crossing(const Task<V>& task, const Region<V>& near, Eye_plane_name name, Output<V>& out) const {
-    const std::uint32_t f = chunks_.piece_of(task.cover), g = chunks_.piece_of(task.items.front().chunk);
-    const std::size_t n = near.rays.size();
-    for (std::size_t k = 0; k < n; ++k)
-      if (near.sides[k].name == name) out.crossings.push_back({f, g, near.rays[k], near.rays[k + 1 == n ? 0 : k + 1]});
-  }
 
   // ---- All of them
 
