@@ -27,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -91,20 +92,25 @@ class Solver {
   std::optional<Plane> settle(Task<V>& task, Visible_counters& counters) const {
     std::size_t checked = 0;  // items before this have been compared with the cover
     std::optional<Hiding> hiding;
+    std::ptrdiff_t enough = 6;
     for (;;) {
       if (covers_.find_cover(task, checked, counters) || (!hiding && task.has_cover()))
         covers_.drop_hidden_boxes(task, hiding.emplace(covers_.hiding_in(task)), counters);
       covers_.drop_hidden(task, checked, counters);
       checked = task.items.size();
-      if (task.boxes.empty() || has_enough(task)) break;
+      if (task.boxes.empty()) break;
+      if (has_edges(task, enough)) {
+        if (!cuts_.is_pile(task)) break;
+        enough = 2 * std::ssize(task.items);
+      }
       open_nearest(task, hiding, counters);
     }
     if (task.items.empty()) return std::nullopt;
     return cuts_.choose(task, counters);
   }
   /// Whether there are pieces enough to choose a cut from; one that covers the region offers no edge.
-  static bool has_enough(const Task<V>& task) {
-    constexpr std::ptrdiff_t enough = 6;
+  static bool has_edges(const Task<V>& task, std::ptrdiff_t enough) {
+    if (std::ssize(task.items) < enough) return false;
     return std::count_if(task.items.begin(), task.items.end(), [](const Item& item) { return !item.covers(); }) >=
            enough;
   }
