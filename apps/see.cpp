@@ -77,7 +77,8 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, const Wanted& wan
 }
 
 /// Edges of the scene that are in the view, and where faces cross in it.
-std::vector<Drawn_line> lines_of(const Exact_view& view, const Visible_surface<Exact_view>& surface, int threads) {
+std::vector<Drawn_line> lines_of(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                                 const Piece_boxes& boxes, int threads) {
   static constexpr const char* names[] = {"boundary", "silhouette", "smooth", "crease"};
   const Scene& scene = view.scene();
   std::vector<Drawn_line> lines;
@@ -89,13 +90,8 @@ std::vector<Drawn_line> lines_of(const Exact_view& view, const Visible_surface<E
                                                      std::move(drawn.parts)});
     for (const std::uint32_t piece : drawn.edge.pieces) line.faces.push_back(scene.pieces()[piece].face);
   }
-  for (const auto& crossing : surface.crossings) {
-    const auto face = [&](std::uint32_t piece) { return scene.pieces()[piece].face; };
-    lines.push_back({{view.position(crossing.f, crossing.from), view.position(crossing.f, crossing.to)},
-                     "intersection",
-                     {face(crossing.f), face(crossing.g)},
-                     {{0, 1, Line_part::nothing}}});
-  }
+  for (Drawn_crossing& crossing : visible_crossings(view, surface, boxes, threads))
+    lines.push_back({crossing.ends, "intersection", std::move(crossing.faces), {{0, 1, Line_part::nothing}}});
   return lines;
 }
 Exact_point point_on(const Drawn_line& line, const Rational& at) {
@@ -162,7 +158,7 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
     if (wanted.certificate) seen.certificate = visible_certificate(view, surface, eye, field);
     if (wanted.lines) {
       const Stopwatch more;
-      seen.lines = lines_of(view, surface, options.threads);
+      seen.lines = lines_of(view, surface, boxes, options.threads);
       seen.line_seconds = more.seconds();
     }
   } else if (kernel == "double") {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <tuple>
 
 namespace sightline {
 
@@ -41,28 +42,34 @@ std::vector<Piece_boxes::Entry> Piece_boxes::entries_of(const Scene& scene) {
   const double error = points.bits() <= 53 ? 0 : 0x1p-50 * points.range() + 0x1p-1000;
   std::vector<Entry> entries;
   entries.reserve(scene.pieces().size());
+  const auto add = [&](Entry entry) {
+    Box& box = entry.box;
+    box.low.fill(std::numeric_limits<double>::infinity());
+    box.high.fill(-std::numeric_limits<double>::infinity());
+    for (std::uint32_t k = 0; k < entry.size; ++k)
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double x = points.approximate(corner(scene, entry, k), static_cast<int>(axis));
+        box.low[axis] = std::min(box.low[axis], x - error);
+        box.high[axis] = std::max(box.high[axis], x + error);
+      }
+    entries.push_back(entry);
+  };
+  constexpr std::uint32_t stride = chunk_size - 1;  // neighbours have a corner in common
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
-    const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[i]);
-    for (std::size_t from = 1; from + 1 < corners.size();) {
-      const std::size_t to = std::min(corners.size(), from + chunk_size - 1);  // slices have an edge in common
-      Entry& entry =
-          entries.emplace_back(Entry{{}, i, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to - from)});
-      Box& box = entry.box;
-      box.low.fill(std::numeric_limits<double>::infinity());
-      box.high.fill(-std::numeric_limits<double>::infinity());
-      const auto include = [&](std::uint32_t point) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-          const double x = points.approximate(point, static_cast<int>(axis));
-          box.low[axis] = std::min(box.low[axis], x - error);
-          box.high[axis] = std::max(box.high[axis], x + error);
-        }
-      };
-      include(corners[0].point);
-      for (std::size_t k = from; k < to; ++k) include(corners[k].point);
-      from = to == corners.size() ? to : to - 1;
-    }
+    // What is cut off along the boundary, then what is left, of every 31st corner, and so on.
+    std::uint32_t step = 1, left = scene.pieces()[i].size;
+    for (; left > chunk_size; step *= stride, left = (left + stride - 1) / stride)
+      for (std::uint32_t k = 0; k + 1 < left; k += stride)
+        add({{}, i, k * step, step, std::min(chunk_size, left - k + 1)});
+    if (left > 2) add({{}, i, 0, step, left});
   }
   return entries;
+}
+
+std::uint32_t Piece_boxes::corner(const Scene& scene, const Entry& entry, std::uint32_t k) {
+  const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[entry.piece]);
+  const std::size_t at = std::size_t{entry.first} + std::size_t{k} * entry.step;
+  return corners[at < corners.size() ? at : 0].point;
 }
 
 std::uint32_t Piece_boxes::nodes_for(std::uint32_t count) {
@@ -93,7 +100,7 @@ void Piece_boxes::build(std::vector<Entry>& entries, std::uint32_t at, std::uint
   const std::uint32_t half = count / 2;
   std::nth_element(begin, begin + half, end, [&](const Entry& a, const Entry& b) {
     const double x = a.box.low[axis] + a.box.high[axis], y = b.box.low[axis] + b.box.high[axis];
-    return x != y ? x < y : a.piece != b.piece ? a.piece < b.piece : a.first < b.first;
+    return x != y ? x < y : std::tie(a.piece, a.first, a.step) < std::tie(b.piece, b.first, b.step);
   });
   const std::uint32_t second = nodes_[at].second = at + 1 + nodes_for(half);
   constexpr std::uint32_t worth_a_task = 4096;
@@ -109,10 +116,8 @@ void Piece_boxes::build(std::vector<Entry>& entries, std::uint32_t at, std::uint
 void Piece_boxes::place(const Scene& scene, const std::vector<Entry>& entries) {
   chunks_.reserve(entries.size());
   for (const Entry& entry : entries) {
-    const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[entry.piece]);
-    chunks_.push_back({entry.piece, static_cast<std::uint32_t>(points_.size()), entry.size + 1});
-    points_.push_back(corners[0].point);
-    for (std::uint32_t k = entry.first; k < entry.first + entry.size; ++k) points_.push_back(corners[k].point);
+    chunks_.push_back({entry.piece, static_cast<std::uint32_t>(points_.size()), entry.size});
+    for (std::uint32_t k = 0; k < entry.size; ++k) points_.push_back(corner(scene, entry, k));
   }
 }
 

@@ -25,7 +25,8 @@ class Piece_boxes {
   struct Box {
     std::array<double, 3> low, high;
   };
-  /// Up to 32 corners of a piece: all of them, as a rule, else a slice of the fan around its first one.
+  /// Up to 32 corners of a piece: all of them, as a rule, else what a chord cuts off, of the piece or of what other
+  /// chords have left of it.
   struct Chunk {
     std::uint32_t piece, first, size;
   };
@@ -54,8 +55,9 @@ class Piece_boxes {
  private:
   struct Entry {
     Box box;
-    std::uint32_t piece, first, size;  // corners first, first + 1, ... of the piece, after its corner 0
+    std::uint32_t piece, first, step, size;  // corners first, first + step, ... of the piece, 0 beyond the last
   };
+  static std::uint32_t corner(const Scene& scene, const Entry& entry, std::uint32_t k);
   static std::vector<Entry> entries_of(const Scene& scene);
 
   /// How many nodes a tree of so many chunks has: of each two halves at most two sizes differ, so this takes a step for

@@ -81,6 +81,13 @@ std::array<Integer, 3> Exact_view::direction(const Ray& r) const {
   return d;
 }
 
+std::array<Integer, 3> Exact_view::normal(const Plane& w) const {
+  std::array<Integer, 3> n = normal<Integer>(w.name);
+  if (w.flipped)
+    for (Integer& x : n) x = -x;
+  return n;
+}
+
 Exact_point Exact_view::position(std::uint32_t piece, const Ray& r) const {
   if (r.point != no_point && scene_->incidences().contains(r.point, scene_->pieces()[piece].support.id()))
     return scene_->position(r.point);

@@ -98,8 +98,9 @@ class Exact_view {
 
   // ---- Exact values
 
-  /// An integer vector along a ray.
+  /// An integer vector along a ray, and one along a plane's normal.
   std::array<Integer, 3> direction(const Ray& r) const;
+  std::array<Integer, 3> normal(const Plane& w) const;
   Exact_point position(std::uint32_t piece, const Ray& r) const;
 
   // ---- Doubles for culling and for choices

@@ -2,6 +2,7 @@
 
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/threads.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <span>
@@ -40,19 +41,56 @@ Edge_class classify(const Exact_view& view, const Scene_edge& edge) {
 }
 
 Hidden_lines::Hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface)
-    : view_(view), surface_(surface), predicates_(view.scene().predicates()) {
+    : view_(view), surface_(surface), predicates_(view.scene().predicates()), eye_(view.scene().locate(view.eye())) {
   const std::vector<Piece>& pieces = view.scene().pieces();
   for (std::uint32_t i = 0; i < pieces.size(); ++i)
     if (view.eye_side(i) == CGAL::ZERO) edge_on_[pieces[i].support.id()].push_back(i);
+  find_rims();
 }
 
 std::vector<Line_part> Hidden_lines::parts(std::uint32_t p, std::uint32_t q) const {
   const Exact_view::Plane along = view_.edge(p, q);
   if (along.size == 0) return {};
-  Walk walk{p, q, along, view_.direction(view_.ray(p)), view_.direction(view_.ray(q)), {}, {}, {}};
+  const Arc arc{view_.ray(p), view_.ray(q)};
+  Walk walk{along, arc, view_.direction(arc.from), view_.direction(arc.to), 1};
+  return parts(walk);
+}
+
+std::vector<Line_part> Hidden_lines::parts(const Crossing& crossing) const {
+  for (const std::uint32_t piece : crossing.pieces)
+    if (view_.eye_side(piece) == CGAL::ZERO) return {};
+  const auto& [p, q] = crossing.ends;
+  std::array<Integer, 3> to_p = direction(p), to_q = direction(q);
+  // The plane of eye and line turns from p to q.
+  Exact_view::Plane along = view_.crossing(crossing.pieces[0], crossing.pieces[1]);
+  const std::array<Integer, 3> normal = cross(to_p, to_q);
+  if (sgn(dot(normal, view_.normal(along))) < 0) along = view_.opposite(along);
+  Predicate_counts counts;
+  const Arc arc{towards(p, along, to_p, counts), towards(q, along, to_q, counts)};
+  for (Integer& x : to_p) x *= q.at[3];
+  for (Integer& x : to_q) x *= p.at[3];
+  Walk walk{along, arc, to_p, to_q, p.at[3] * q.at[3]};
+  return parts(walk);
+}
+
+std::vector<Line_part> Hidden_lines::parts(Walk& walk) const {
   for (std::size_t k = 0; k < surface_.cones.size(); ++k) clip(walk, k);
+  hide_along_rims(walk);
   hide_behind_edge_on(walk);
   return in_order(walk);
+}
+
+std::array<Integer, 3> Hidden_lines::direction(const Crossing_end& end) const {
+  return {Integer(eye_.w * end.at[0] - eye_.x * end.at[3]), Integer(eye_.w * end.at[1] - eye_.y * end.at[3]),
+          Integer(eye_.w * end.at[2] - eye_.z * end.at[3])};
+}
+
+Hidden_lines::Ray Hidden_lines::towards(const Crossing_end& end, const Exact_view::Plane& w,
+                                        const std::array<Integer, 3>& direction, Predicate_counts& counts) const {
+  if (end.p == end.q) return view_.ray(end.p);
+  const Ray r = view_.meet(w, view_.edge(end.p, end.q), counts);
+  if (sgn(dot(view_.direction(r), direction)) > 0) return r;
+  return view_.meet(view_.edge(end.p, end.q), w, counts);
 }
 
 std::array<std::optional<Hidden_lines::Arc>, 2> Hidden_lines::cut(Walk& walk, const Arc& arc,
@@ -69,7 +107,7 @@ std::array<std::optional<Hidden_lines::Arc>, 2> Hidden_lines::cut(Walk& walk, co
 }
 
 void Hidden_lines::clip(Walk& walk, std::size_t cone) const {
-  Arc arc{view_.ray(walk.p), view_.ray(walk.q)};
+  Arc arc = walk.arc;
   for (const Exact_view::Plane& side : surface_.cones[cone].sides) {
     const auto parts = cut(walk, arc, side);
     if (!parts[0]) return;
@@ -96,27 +134,39 @@ void Hidden_lines::descend(Walk& walk, std::int32_t root, const Arc& whole) cons
 }
 
 void Hidden_lines::hide(Walk& walk, const Arc& arc, std::uint32_t piece) const {
-  const Sign at_p = view_.beyond(piece, walk.p, walk.counts), at_q = view_.beyond(piece, walk.q, walk.counts);
+  const Sign at_p = beyond(walk, piece, walk.arc.from, walk.to_p), at_q = beyond(walk, piece, walk.arc.to, walk.to_q);
   if (at_p != CGAL::POSITIVE && at_q != CGAL::POSITIVE) return;
   Line_part part{parameter(walk, arc.from), parameter(walk, arc.to), piece};
-  if (at_p == CGAL::NEGATIVE || at_q == CGAL::NEGATIVE) {  // the edge pierces the plane
-    const Rational height_p = height(piece, walk.p), at = height_p / (height_p - height(piece, walk.q));
+  if (at_p == CGAL::NEGATIVE || at_q == CGAL::NEGATIVE) {  // the line pierces the plane
+    const Integer height_p = height(walk, piece, walk.to_p);
+    Rational at(height_p, height_p - height(walk, piece, walk.to_q));
+    at.canonicalize();
     if (at_p == CGAL::POSITIVE) part.to = std::min(part.to, at);
     else part.from = std::max(part.from, at);
   }
   if (part.from < part.to) walk.hidden.push_back(std::move(part));
 }
 
-Rational Hidden_lines::height(std::uint32_t piece, std::uint32_t point) const {
+Sign Hidden_lines::beyond(Walk& walk, std::uint32_t piece, const Ray& end, const std::array<Integer, 3>& to_end) const {
+  if (end.point != Exact_view::no_point) return view_.beyond(piece, end.point, walk.counts);
+  ++walk.counts.gmp;
+  return static_cast<Sign>(-sgn(height(walk, piece, to_end)) * view_.eye_side(piece));
+}
+
+bool Hidden_lines::is_on(Walk& walk, std::uint32_t piece, const Ray& end, const std::array<Integer, 3>& to_end) const {
+  if (end.point != Exact_view::no_point) return view_.side(piece, end.point, walk.counts) == CGAL::ZERO;
+  return height(walk, piece, to_end) == 0;
+}
+
+Integer Hidden_lines::height(const Walk& walk, std::uint32_t piece, const std::array<Integer, 3>& to_end) const {
   const std::array<Integer, 4> h = predicates_.coefficients(view_.scene().pieces()[piece].support);
-  const Grid_points& points = view_.scene().points();
-  return Rational(h[0] * points.integer(point, 0) + h[1] * points.integer(point, 1) + h[2] * points.integer(point, 2) +
-                  h[3]);
+  const Integer at_eye = h[0] * eye_.x + h[1] * eye_.y + h[2] * eye_.z + h[3] * eye_.w;
+  return Integer(h[0] * to_end[0] + h[1] * to_end[1] + h[2] * to_end[2] + at_eye * walk.scale);
 }
 
 Rational Hidden_lines::parameter(const Walk& walk, const Ray& r) const {
-  if (r.point == walk.p) return 0;
-  if (r.point == walk.q) return 1;
+  if (r.point != Exact_view::no_point && r.point == walk.arc.from.point) return 0;
+  if (r.point != Exact_view::no_point && r.point == walk.arc.to.point) return 1;
   const std::array<Integer, 3> d = view_.direction(r);
   const std::array<Integer, 3>&p = walk.to_p, &q = walk.to_q;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -127,33 +177,86 @@ Rational Hidden_lines::parameter(const Walk& walk, const Ray& r) const {
     s.canonicalize();
     return s;
   }
-  return 0;  // not reached: the edge does not run towards the eye
+  return 0;  // not reached: the line does not run towards the eye
+}
+
+bool Hidden_lines::is_rim(std::size_t cone, std::size_t side) const {
+  const auto ray = [](const auto& of, std::size_t k) -> const Ray& { return of.rays[k % of.rays.size()]; };
+  const auto same = [](const Ray& a, const Ray& b) {
+    return a.p == b.p && a.q == b.q && a.point == b.point && a.flipped == b.flipped;
+  };
+  const auto& own = surface_.cones[cone];
+  for (std::size_t c = 0; c < surface_.cones.size(); ++c)
+    for (std::size_t k = 0; c != cone && k < surface_.cones[c].rays.size(); ++k)
+      if (same(ray(surface_.cones[c], k), ray(own, side + 1)) && same(ray(surface_.cones[c], k + 1), ray(own, side)))
+        return false;
+  return true;
+}
+
+void Hidden_lines::find_rims() {
+  const Scene& scene = view_.scene();
+  Predicate_counts counts;
+  for (std::size_t c = 0; c < surface_.cones.size(); ++c)
+    for (std::size_t k = 0; k < surface_.cones[c].sides.size(); ++k) {
+      if (!is_rim(c, k)) continue;
+      Rim& rim = rims_.emplace_back(Rim{surface_.cones[c].sides[k], {}});
+      for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+        bool in_front = true, behind = true;
+        for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) {
+          const Sign s = view_.side(rim.plane, corner.point, counts);
+          in_front = in_front && s == CGAL::POSITIVE;
+          behind = behind && s == CGAL::NEGATIVE;
+          if (!in_front && !behind) break;
+        }
+        if (!in_front && !behind) rim.pieces.push_back(i);
+      }
+    }
+}
+
+void Hidden_lines::hide_along_rims(Walk& walk) const {
+  if (walk.within.empty()) return;
+  for (const Rim& rim : rims_)
+    if (view_.side(rim.plane, walk.arc.from, walk.counts) == CGAL::ZERO &&
+        view_.side(rim.plane, walk.arc.to, walk.counts) == CGAL::ZERO)
+      for (const std::uint32_t piece : rim.pieces) hide_behind(walk, piece);
 }
 
 void Hidden_lines::hide_behind_edge_on(Walk& walk) const {
-  for (const auto& [plane, pieces] : edge_on_) {
-    if (view_.side(pieces[0], walk.p, walk.counts) != CGAL::ZERO ||
-        view_.side(pieces[0], walk.q, walk.counts) != CGAL::ZERO)
-      continue;
-    for (const std::uint32_t piece : pieces) hide_behind_edge_on(walk, piece);
-  }
+  if (walk.within.empty()) return;
+  for (const auto& [plane, pieces] : edge_on_)
+    if (is_on(walk, pieces[0], walk.arc.from, walk.to_p) && is_on(walk, pieces[0], walk.arc.to, walk.to_q))
+      for (const std::uint32_t piece : pieces) hide_behind(walk, piece);
 }
 
-void Hidden_lines::hide_behind_edge_on(Walk& walk, std::uint32_t piece) const {
-  using Flat = std::array<Rational, 2>;
-  const std::array<Integer, 3>&p = walk.to_p, &q = walk.to_q;
-  std::size_t k = 0;  // an axis along which the plane does not vanish
-  while (p[(k + 1) % 3] * q[(k + 2) % 3] == p[(k + 2) % 3] * q[(k + 1) % 3]) ++k;
-  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-  const Integer whole = p[i] * q[j] - p[j] * q[i];
-  std::vector<Flat> polygon;
+std::vector<Hidden_lines::Flat> Hidden_lines::section(const Walk& walk, std::uint32_t piece) const {
+  const std::array<Integer, 3>&p = walk.to_p, &q = walk.to_q, normal = cross(p, q);
+  const std::size_t k = normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2, i = (k + 1) % 3, j = (k + 2) % 3;
+  std::vector<Integer> heights;
+  std::vector<Flat> flats;  // along the k-axis, where a corner is not in the plane
   for (const Piece_corner& corner : view_.scene().corners(view_.scene().pieces()[piece])) {
-    const std::array<Integer, 3> c = view_.direction(view_.ray(corner.point));
-    Flat at{Rational(c[i] * q[j] - c[j] * q[i], whole), Rational(p[i] * c[j] - p[j] * c[i], whole)};
+    std::array<Integer, 3> c = view_.direction(view_.ray(corner.point));
+    for (Integer& x : c) x *= walk.scale;
+    heights.push_back(dot(normal, c));
+    Flat& at = flats.emplace_back(
+        Flat{Rational(c[i] * q[j] - c[j] * q[i], normal[k]), Rational(p[i] * c[j] - p[j] * c[i], normal[k])});
     at[0].canonicalize();
     at[1].canonicalize();
-    polygon.push_back(at);
   }
+  std::vector<Flat> common;
+  for (std::size_t n = 0; n < flats.size(); ++n) {
+    const std::size_t next = n + 1 == flats.size() ? 0 : n + 1;
+    if (heights[n] == 0) common.push_back(flats[n]);
+    if (sgn(heights[n]) * sgn(heights[next]) >= 0) continue;
+    Rational t(heights[n], heights[n] - heights[next]);
+    t.canonicalize();
+    common.push_back({Rational(flats[n][0] + t * (flats[next][0] - flats[n][0])),
+                      Rational(flats[n][1] + t * (flats[next][1] - flats[n][1]))});
+  }
+  return common;
+}
+
+void Hidden_lines::hide_behind(Walk& walk, std::uint32_t piece) const {
+  std::vector<Flat> polygon = section(walk, piece);
   // Clipped to x >= 0, y >= 0, x + y <= 1.
   for (int side = 0; side < 3; ++side) {
     const auto value = [&](const Flat& at) -> Rational {
@@ -171,20 +274,18 @@ void Hidden_lines::hide_behind_edge_on(Walk& walk, std::uint32_t piece) const {
     }
     polygon = std::move(kept);
   }
-  // What is left is convex: it spans the directions between those of its corners, and is in front of the edge unless
-  // all of it is on the edge.
+  // What is left is convex: it spans the directions between those of its corners, and is in front of the line unless
+  // all of it is on the line.
   Line_part part{1, 0, piece};
   bool in_front = false;
   for (const Flat& at : polygon) {
     const Rational sum = at[0] + at[1];
-    if (sum == 0) continue;
     in_front = in_front || sum < 1;
+    if (sum == 0) continue;  // the eye
     part.from = std::min(part.from, Rational(at[1] / sum));
     part.to = std::max(part.to, Rational(at[1] / sum));
   }
-  const bool around_eye =
-      std::any_of(polygon.begin(), polygon.end(), [](const Flat& at) { return at[0] == 0 && at[1] == 0; });
-  if ((in_front || around_eye) && part.from < part.to) walk.hidden.push_back(std::move(part));
+  if (in_front && part.from < part.to) walk.hidden.push_back(std::move(part));
 }
 
 std::vector<Line_part> Hidden_lines::in_order(Walk& walk) {
@@ -226,6 +327,25 @@ std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surfa
   run_with_threads(threads, [&] {
     parallel_for(drawn.size(), [&](std::size_t i) { drawn[i].parts = lines.parts(drawn[i].edge.p, drawn[i].edge.q); });
   });
+  return drawn;
+}
+
+std::vector<Drawn_crossing> visible_crossings(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                                              const Piece_boxes& boxes, int threads) {
+  const std::vector<Crossing> all = crossings(view.scene(), boxes);
+  std::vector<std::vector<Line_part>> parts(all.size());
+  const Hidden_lines lines(view, surface);
+  run_with_threads(threads, [&] { parallel_for(all.size(), [&](std::size_t i) { parts[i] = lines.parts(all[i]); }); });
+  std::vector<Drawn_crossing> drawn;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Exact_point p = view.scene().position(all[i].ends[0].at), q = view.scene().position(all[i].ends[1].at);
+    const auto point = [&](const Rational& s) {
+      return Exact_point{Rational(p[0] + s * (q[0] - p[0])), Rational(p[1] + s * (q[1] - p[1])),
+                         Rational(p[2] + s * (q[2] - p[2]))};
+    };
+    for (const Line_part& part : parts[i])
+      if (part.hidden_by == Line_part::nothing) drawn.push_back({all[i].faces, {point(part.from), point(part.to)}});
+  }
   return drawn;
 }
 

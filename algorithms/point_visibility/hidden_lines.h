@@ -1,8 +1,12 @@
 #pragma once
-// Hidden lines with provenance: which parts of the scene's edges an eye sees, and which face hides the others, exactly.
+// Hidden lines with provenance: which parts of the scene's edges, and of the lines where faces cross, an eye sees, and
+// which face hides the others, exactly.
 
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/crossings.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
+#include <sightline/kernel/located_point.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/predicates.h>
@@ -44,9 +48,9 @@ std::vector<Scene_edge> scene_edges(const Scene& scene);
 
 Edge_class classify(const Exact_view& view, const Scene_edge& edge);
 
-/// Finds the visible parts of edges in a surface that one eye sees. A point q of an edge is visible iff the open
-/// segment from the eye to q meets no closed piece: grazing hides, and what q lies on does not. Up to finitely many
-/// points of each edge. Exact: yes. Proof: P-64
+/// Finds the visible parts of lines in a surface that one eye sees. A point q of a line is visible iff the open segment
+/// from the eye to q meets no closed piece: grazing hides, and what q lies on does not. Up to finitely many points of
+/// each line. Exact: yes. Proof: P-64
 class Hidden_lines {
  public:
   /// Pre: the surface is the view's, and both outlive this.
@@ -57,21 +61,35 @@ class Hidden_lines {
   /// are held to each of these.
   std::vector<Line_part> parts(std::uint32_t p, std::uint32_t q) const;
 
+  /// The same for a line where faces cross, from its first end to its second. Degenerate: none where the eye is in the
+  /// plane of one of these faces, which then hide it (or is on the line).
+  std::vector<Line_part> parts(const Crossing& crossing) const;
+
  private:
   using Ray = Exact_view::Ray;
   static constexpr std::uint32_t nothing = Line_part::nothing;
 
-  /// Where an arc of the edge ends: at a ray in the edge's plane.
+  /// Where an arc of the line ends: at a ray in the plane of eye and line.
   struct Arc {
     Ray from, to;
   };
   struct Walk {
-    std::uint32_t p, q;
     Exact_view::Plane plane;
-    std::array<Integer, 3> to_p, to_q;      // from the eye
-    std::vector<Line_part> within, hidden;  // in the cones; behind pieces
-    Predicate_counts counts;
+    Arc arc;                                          // all of the line
+    std::array<Integer, 3> to_p, to_q;                // its ends, from the eye
+    Integer scale;                                    // the unit of these, of a direction's
+    std::vector<Line_part> within = {}, hidden = {};  // in the cones; behind pieces
+    Predicate_counts counts = {};
   };
+  std::vector<Line_part> parts(Walk& walk) const;
+
+  // ---- Lines where faces cross
+
+  /// From the eye to an end, times the last coordinate of the end.
+  std::array<Integer, 3> direction(const Crossing_end& end) const;
+  /// The ray of an end of a line in plane w, along a direction that it has.
+  Ray towards(const Crossing_end& end, const Exact_view::Plane& w, const std::array<Integer, 3>& direction,
+              Predicate_counts& counts) const;
 
   // ---- Down the trees
 
@@ -80,20 +98,37 @@ class Hidden_lines {
   void clip(Walk& walk, std::size_t cone) const;
   void descend(Walk& walk, std::int32_t root, const Arc& whole) const;
 
-  /// What a piece that covers all of an arc hides of the edge there: what is strictly beyond its plane.
+  /// What a piece that covers all of an arc hides of the line there: what is strictly beyond its plane.
   void hide(Walk& walk, const Arc& arc, std::uint32_t piece) const;
-  /// Over a piece's plane, in grid coordinates.
-  Rational height(std::uint32_t piece, std::uint32_t point) const;
-  /// Where on the edge a ray of its plane meets it: s with p + s (q - p) along the ray, p and q as seen from the eye.
+  /// Whether an end is beyond a piece's plane (which does not hold the eye), or on it, and its height over that, up to
+  /// one factor for both ends of a walk.
+  Sign beyond(Walk& walk, std::uint32_t piece, const Ray& end, const std::array<Integer, 3>& to_end) const;
+  bool is_on(Walk& walk, std::uint32_t piece, const Ray& end, const std::array<Integer, 3>& to_end) const;
+  Integer height(const Walk& walk, std::uint32_t piece, const std::array<Integer, 3>& to_end) const;
+  /// Where on the line a ray of its plane meets it: s with p + s (q - p) along the ray, p and q as seen from the eye.
   Rational parameter(const Walk& walk, const Ray& r) const;
 
-  // ---- Pieces that are edge-on
+  // ---- Pieces that are held to a line by themselves
 
-  /// They hide nothing but edges in their own plane.
+  /// A side of a cone that no other cone has from its other side, and what meets its plane: there the surface does not
+  /// know what is outside.
+  struct Rim {
+    Exact_view::Plane plane;
+    std::vector<std::uint32_t> pieces;
+  };
+  void find_rims();
+  bool is_rim(std::size_t cone, std::size_t side) const;
+
+  void hide_along_rims(Walk& walk) const;
+  /// What is edge-on is in no part of the surface. It hides nothing but lines in its own plane.
   void hide_behind_edge_on(Walk& walk) const;
-  /// In the plane of the eye and the edge a point is eye + x (p - eye) + y (q - eye); it is in front of the edge iff x,
-  /// y >= 0 and 0 < x + y < 1, at s = y / (x + y).
-  void hide_behind_edge_on(Walk& walk, std::uint32_t piece) const;
+  /// What one piece hides, by itself. In the plane of the eye and the line a point is eye + x (p - eye) + y (q - eye);
+  /// it is in front of the line iff x, y >= 0 and 0 < x + y < 1, at s = y / (x + y).
+  void hide_behind(Walk& walk, std::uint32_t piece) const;
+  /// What a piece and the plane of the eye and the line have in common, in these coordinates: the corners of a polygon,
+  /// the ends of a segment, or a point.
+  using Flat = std::array<Rational, 2>;
+  std::vector<Flat> section(const Walk& walk, std::uint32_t piece) const;
 
   // ---- Together
 
@@ -103,7 +138,9 @@ class Hidden_lines {
   const Exact_view& view_;
   const Visible_surface<Exact_view>& surface_;
   Predicates predicates_;
+  Located_point eye_;
   std::map<std::uint32_t, std::vector<std::uint32_t>> edge_on_;  // pieces by plane
+  std::vector<Rim> rims_;
 };
 
 struct Drawn_edge {
@@ -116,5 +153,17 @@ struct Drawn_edge {
 /// Threads: 0: as many as there are processors; the result is the same for any number. Exact: yes. Proof: P-64
 std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface,
                                      int threads = 0);
+
+/// A visible stretch of a line where faces cross, in the file's coordinates.
+struct Drawn_crossing {
+  std::vector<Face_id> faces;  ///< that cross there, ascending
+  std::array<Exact_point, 2> ends;
+};
+
+/// Where faces cross in what is seen: each open segment of `crossings(scene, boxes)` within the surface's cones that is
+/// visible, as long as can be. The same segments in any order of the faces. Pre: surface and boxes are the view's.
+/// Threads as above. Exact: yes. Proof: P-64, P-65
+std::vector<Drawn_crossing> visible_crossings(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                                              const Piece_boxes& boxes, int threads = 0);
 
 }  // namespace sightline

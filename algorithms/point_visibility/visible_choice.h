@@ -8,10 +8,14 @@
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/sign.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <vector>
 
 namespace sightline::visible_detail {
 
@@ -22,17 +26,47 @@ class Cut_choice {
 
   explicit Cut_choice(const Chunks<V>& chunks) : chunks_(chunks), view_(chunks.view()) {}
 
-  /// The plane to cut a region by: of the edges of the piece that is nearest in the middle of it, the one that shares
-  /// out the rest best; where nothing but pieces that cover the region is left, and two of them cross, their line.
-  /// Pre: there are items.
+  /// The plane to cut a region by: of the edges of the piece that is nearest in the middle of it, or in the middle of
+  /// the pile that this one is in, the one that shares out the rest best; where nothing but pieces that cover the
+  /// region is left, and two of them cross, their line. Pre: there are items.
   Plane choose(const Task<V>& task, Visible_counters& counters) const {
-    if (const Item* nearest = nearest_in_the_middle(task)) return cheapest_edge(*nearest, task, counters.predicates);
+    if (const Item* nearest = nearest_in_the_middle(task)) {
+      std::vector<Item> pile = pile_of(*nearest, task);
+      if (pile.empty()) return cheapest_edge(*nearest, false, task, counters.predicates);
+      const auto middle = pile.begin() + static_cast<std::ptrdiff_t>(pile.size() / 2);
+      std::nth_element(pile.begin(), middle, pile.end(),
+                       [&](const Item& f, const Item& g) { return !chunks_.comes_first(g.chunk, f.chunk); });
+      return cheapest_edge(*middle, true, task, counters.predicates);
+    }
     ++counters.crossings;
     return view_.crossing(chunks_.piece_of(task.cover),
                           chunks_.piece_of(task.items.front().chunk));  // no boxes are left
   }
 
+  /// Whether most of the items are one pile: then a cut wants to know the rest of it. Pre: there are items.
+  bool is_pile(const Task<V>& task) const {
+    const Item* nearest = nearest_in_the_middle(task);
+    return nearest != nullptr && 4 * pile_of(*nearest, task).size() >= 3 * task.items.size();
+  }
+
  private:
+  /// The items of one plane that a direction inside one of them meets; none where these are few. They do not hide each
+  /// other. A cut by an edge of the first in their order would leave all others in both parts; in the middle of it half
+  /// of them are done with inside, and the other half outside.
+  std::vector<Item> pile_of(const Item& item, const Task<V>& task) const {
+    constexpr std::ptrdiff_t least = 5;
+    const auto is_beside = [&](const Item& other) {
+      return !other.covers() && chunks_.same_plane(item.chunk, other.chunk);
+    };
+    std::vector<Item> pile;
+    if (std::count_if(task.items.begin(), task.items.end(), is_beside) < least) return pile;
+    const Approximate_vector middle = chunks_.middle_of(item.chunk);
+    for (const Item& other : task.items)
+      if (is_beside(other) && chunks_.holds(other.chunk, middle)) pile.push_back(other);
+    if (std::ssize(pile) < least) pile.clear();
+    return pile;
+  }
+
   /// Of items that do not cover the region; none where all do.
   const Item* nearest_in_the_middle(const Task<V>& task) const {
     const Approximate_vector middle = middle_of(view_, task.region);
@@ -48,12 +82,12 @@ class Cut_choice {
     }
     return best;
   }
-  Plane cheapest_edge(const Item& item, const Task<V>& task, Predicate_counts& counts) const {
+  Plane cheapest_edge(const Item& item, bool of_pile, const Task<V>& task, Predicate_counts& counts) const {
     const Plane* cheapest = nullptr;
     double least = std::numeric_limits<double>::infinity();
     for (std::uint32_t bits = item.active; bits != 0; bits &= bits - 1) {
       const Plane& w = chunks_.edges_of(item.chunk)[std::countr_zero(bits)];
-      const double cost = cost_of(w, task, counts);
+      const double cost = cost_of(w, of_pile ? &item : nullptr, task, counts);
       if (cheapest == nullptr || cost < least) {
         least = cost;
         cheapest = &w;
@@ -62,8 +96,9 @@ class Cut_choice {
     return *cheapest;
   }
   /// What a cut costs: pieces and boxes that it does not keep on one side, and how unequal the sides become. A box
-  /// counts as the square root of its pieces: most of them will be hidden.
-  double cost_of(const Plane& w, const Task<V>& task, Predicate_counts& counts) const {
+  /// counts as the square root of its pieces: most of them will be hidden. `shown`: the item that the cut is an edge
+  /// of, where it is of a pile: what comes after that in its plane is not seen inside.
+  double cost_of(const Plane& w, const Item* shown, const Task<V>& task, Predicate_counts& counts) const {
     constexpr double price = 3;
     double front = 0, behind = 0, both = 0;
     const auto weigh = [&](bool in_front, bool at_back, double weight) {
@@ -81,6 +116,9 @@ class Cut_choice {
         in_front = in_front || s == CGAL::POSITIVE;
         at_back = at_back || s == CGAL::NEGATIVE;
       }
+      if (shown != nullptr && at_back && chunks_.same_plane(shown->chunk, item.chunk) &&
+          chunks_.comes_first(shown->chunk, item.chunk))
+        in_front = false;
       weigh(in_front, at_back, 1);
     }
     return price * both + std::fabs(front - behind);

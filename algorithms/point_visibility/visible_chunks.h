@@ -9,10 +9,12 @@
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/located_point.h>
 #include <sightline/kernel/plane.h>
+#include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/sign.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -100,6 +102,35 @@ class Chunks {
   bool meets(std::uint32_t chunk, const Region<V>& region, Predicate_counts& counts) const {
     Item item = with_all_edges(chunk);
     return update(item, region, counts) && (item.covers() || !is_outside(chunk, region, counts));
+  }
+
+  bool same_plane(std::uint32_t f, std::uint32_t g) const { return view_.same_plane(piece_of(f), piece_of(g)); }
+  /// Whether chunk f is shown where both are met at once.
+  bool comes_first(std::uint32_t f, std::uint32_t g) const {
+    const std::uint32_t a = piece_of(f), b = piece_of(g);
+    const Sign side_a = view_.eye_side(a), side_b = view_.eye_side(b);
+    if (side_a != side_b) return side_a == CGAL::POSITIVE;
+    const Piece &p = view_.scene().pieces()[a], &q = view_.scene().pieces()[b];
+    return p.face != q.face ? p.face < q.face : p.number <= q.number;
+  }
+  /// A direction inside a chunk, approximately.
+  Approximate_vector middle_of(std::uint32_t chunk) const {
+    const Grid_points& points = view_.scene().points();
+    Approximate_vector sum{0, 0, 0};
+    for (const std::uint32_t p : points_of(chunk)) {
+      sum.x += points.approximate(p, 0) - eye_.ax;
+      sum.y += points.approximate(p, 1) - eye_.ay;
+      sum.z += points.approximate(p, 2) - eye_.az;
+    }
+    return sum;
+  }
+  /// Whether a direction is inside a chunk's cone, as far as doubles say so.
+  bool holds(std::uint32_t chunk, const Approximate_vector& direction) const {
+    const Plane* edges = edges_of(chunk);
+    return std::all_of(edges, edges + points_of(chunk).size(), [&](const Plane& w) {
+      const std::array<double, 3> n = view_.approximate(w).normal;
+      return n[0] * direction.x + n[1] * direction.y + n[2] * direction.z > 0;
+    });
   }
 
   bool is_behind(std::uint32_t chunk, const Plane& w, Predicate_counts& counts) const {

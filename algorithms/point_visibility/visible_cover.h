@@ -40,7 +40,7 @@ class Cover_search {
   /// How chunk f, which covers the region, is to chunk g there. `farther`: g is nearer, or comes first, in all of it.
   Depth compare(std::uint32_t f, std::uint32_t g, const Region<V>& region, Predicate_counts& counts) const {
     const std::uint32_t a = chunks_.piece_of(f), b = chunks_.piece_of(g);
-    if (view_.same_plane(a, b)) return comes_first(a, b) ? Depth::tied : Depth::farther;
+    if (view_.same_plane(a, b)) return chunks_.comes_first(f, g) ? Depth::tied : Depth::farther;
     bool nearer = false, farther = false;
     for (const typename V::Ray& r : region.rays) {
       const Sign s = view_.nearer(a, b, r, counts);
@@ -111,13 +111,6 @@ class Cover_search {
   }
 
  private:
-  /// Whether piece a comes before b where both are met at once.
-  bool comes_first(std::uint32_t a, std::uint32_t b) const {
-    const Sign side_a = view_.eye_side(a), side_b = view_.eye_side(b);
-    if (side_a != side_b) return side_a == CGAL::POSITIVE;
-    const Piece &p = view_.scene().pieces()[a], &q = view_.scene().pieces()[b];
-    return p.face != q.face ? p.face < q.face : p.number <= q.number;
-  }
   /// Whether chunk g is behind f, which covers the region, although their planes cross there: no corner of it is on the
   /// eye's side of f's plane.
   bool is_beyond(std::uint32_t f, std::uint32_t g, Predicate_counts& counts) const {
@@ -130,8 +123,7 @@ class Cover_search {
     return Eye_plane_name::crossing(chunks_.piece_of(f), chunks_.piece_of(g));
   }
   void replace_cover(Task<V>& task, std::uint32_t chunk) const {
-    if (task.has_cover() && view_.same_plane(chunks_.piece_of(task.cover), chunks_.piece_of(chunk)))
-      task.tied.push_back(task.cover);
+    if (task.has_cover() && chunks_.same_plane(task.cover, chunk)) task.tied.push_back(task.cover);
     else task.tied.clear();
     task.cover = chunk;
   }

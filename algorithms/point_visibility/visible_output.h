@@ -24,7 +24,6 @@ struct Output {
   std::vector<typename Surface::Part> parts;
   std::vector<typename V::Ray> rays;
   std::vector<typename Surface::Node> nodes;
-  std::vector<typename Surface::Crossing> crossings;
   std::int32_t root = Surface::no_child;
   Visible_counters counters;
 
@@ -66,7 +65,6 @@ std::int32_t append(const Output<V>& from, std::int32_t child, To& to) {
   for (const typename Surface::Node& node : from.nodes)
     to.nodes.push_back({node.plane, moved(node.front), moved(node.behind)});
   to.rays.insert(to.rays.end(), from.rays.begin(), from.rays.end());
-  to.crossings.insert(to.crossings.end(), from.crossings.begin(), from.crossings.end());
   to.counters += from.counters;
   return moved(child);
 }

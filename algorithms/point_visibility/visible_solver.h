@@ -27,6 +27,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -91,20 +92,25 @@ class Solver {
   std::optional<Plane> settle(Task<V>& task, Visible_counters& counters) const {
     std::size_t checked = 0;  // items before this have been compared with the cover
     std::optional<Hiding> hiding;
+    std::ptrdiff_t enough = 6;
     for (;;) {
       if (covers_.find_cover(task, checked, counters) || (!hiding && task.has_cover()))
         covers_.drop_hidden_boxes(task, hiding.emplace(covers_.hiding_in(task)), counters);
       covers_.drop_hidden(task, checked, counters);
       checked = task.items.size();
-      if (task.boxes.empty() || has_enough(task)) break;
+      if (task.boxes.empty()) break;
+      if (has_edges(task, enough)) {
+        if (!cuts_.is_pile(task)) break;
+        enough = 2 * std::ssize(task.items);
+      }
       open_nearest(task, hiding, counters);
     }
     if (task.items.empty()) return std::nullopt;
     return cuts_.choose(task, counters);
   }
   /// Whether there are pieces enough to choose a cut from; one that covers the region offers no edge.
-  static bool has_enough(const Task<V>& task) {
-    constexpr std::ptrdiff_t enough = 6;
+  static bool has_edges(const Task<V>& task, std::ptrdiff_t enough) {
+    if (std::ssize(task.items) < enough) return false;
     return std::count_if(task.items.begin(), task.items.end(), [](const Item& item) { return !item.covers(); }) >=
            enough;
   }
@@ -166,7 +172,6 @@ class Solver {
     Predicate_counts& counts = out.counters.predicates;
     std::array<Region<V>, 2> regions = cut(view_, task.region, w, counts);
     ++out.counters.splits;
-    if (w.name.kind() == Eye_plane_name::crossing_kind) note_crossing(task, regions[0], w.name, out);
     return {part_of(task, std::move(regions[0]), w, counts),
             part_of(task, std::move(regions[1]), view_.opposite(w), counts)};
   }
@@ -187,13 +192,6 @@ class Solver {
     return part;
   }
   static bool is_flat(const Task<V>& task) { return task.region.rays.size() < 3; }  // inexact signs only
-  /// Where the cover and the first item cross, with what is on one side of that line.
-  void note_crossing(const Task<V>& task, const Region<V>& near, Eye_plane_name name, Output<V>& out) const {
-    const std::uint32_t f = chunks_.piece_of(task.cover), g = chunks_.piece_of(task.items.front().chunk);
-    const std::size_t n = near.rays.size();
-    for (std::size_t k = 0; k < n; ++k)
-      if (near.sides[k].name == name) out.crossings.push_back({f, g, near.rays[k], near.rays[k + 1 == n ? 0 : k + 1]});
-  }
 
   // ---- All of them
 

@@ -67,11 +67,6 @@ struct Visible_surface {
     std::int32_t front, behind;
   };
   static constexpr std::int32_t no_child = std::numeric_limits<std::int32_t>::min();
-  /// A visible part of the line along which two pieces cross.
-  struct Crossing {
-    std::uint32_t f, g;
-    typename V::Ray from, to;
-  };
   std::vector<Part> parts;
   std::vector<typename V::Ray> rays;
   std::vector<Node> nodes;
@@ -82,7 +77,6 @@ struct Visible_surface {
   };
   std::vector<Cone> cones;          ///< that one began with
   std::vector<std::int32_t> roots;  ///< of their trees
-  std::vector<Crossing> crossings;
   /// Sorted: faces of which the eye sees an open part from the front by the law, ties included.
   std::vector<Face_id> visible;
   std::vector<Face_id> from_behind;  ///< the same from behind

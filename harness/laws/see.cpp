@@ -16,6 +16,7 @@
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/see_lines.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -49,7 +50,8 @@ Outcome by_numbers(const Posed_scene& posed, const Answer& answer, const std::st
   const Scene scene(posed.soup);
   const Piece_boxes boxes(scene);
   const Number_view<FT> view(scene, posed.eye);
-  return compared(answer, labels_of(posed, scene, visible_surface(view, boxes, serial())), "exact", name);
+  return compared(without_lines(answer), labels_of(posed, scene, visible_surface(view, boxes, serial())), "exact",
+                  name);
 }
 
 Answer exactly(const Posed_scene& posed, bool verify) {
@@ -58,10 +60,20 @@ Answer exactly(const Posed_scene& posed, bool verify) {
   const Exact_view view(scene, posed.eye);
   const auto surface = visible_surface(view, boxes, serial());
   Answer answer = labels_of(posed, scene, surface);
+  label_crossings(posed, answer);
   if (!verify) return answer;
   const Verdict verdict = verify_visible(posed.soup, visible_certificate(view, surface, posed.eye));
   if (!verdict.accepted) answer.flaw = "the certificate is rejected: " + verdict.why;
   return answer;
+}
+
+/// What the front door says, which has no lines.
+Check front_door() {
+  Check check = front_door_check(seen_by_front_door);
+  check.run = [run = check.run](const Posed_scene& posed, const Answer& answer, Random& random) {
+    return run(posed, without_lines(answer), random);
+  };
+  return check;
 }
 
 }  // namespace see_subject
@@ -70,14 +82,16 @@ Subject see() {
   using namespace see_subject;
   Subject subject;
   subject.name = "see";
-  subject.what = "visible surfaces from a point by two exact kernels, answers checked by verify";
+  subject.what = "visible surfaces and lines from a point, by two exact kernels, verify and brute force";
   subject.answer = [](const Posed_scene& posed) { return exactly(posed, false); };
   subject.verified = [](const Posed_scene& posed) { return exactly(posed, true); };
   subject.checks = {{"gmpq", "the same faces by Gmpq",
                      [](const Posed_scene& posed, const Answer& answer, Random&) {
                        return by_numbers<CGAL::Gmpq>(posed, answer, "gmpq");
                      }},
-                    front_door_check(seen_by_front_door)};
+                    front_door(),
+                    lines_check(),
+                    field_check()};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The subject `see`: the visible parts of faces from an eye, over the whole sphere of directions.
+// The subject `see`: the visible parts of faces and lines from an eye.
 
 #include <sightline/harness/laws/subject.h>
 

@@ -169,6 +169,67 @@ TEST(Crossings, are_cut_where_many_faces_that_cover_a_region_cross) {
     }
 }
 
+// ---- Many of one plane, many corners
+
+using view_scenes::Points;
+using view_scenes::Random;
+
+/// Triangles in the plane z = 0, each inside the next.
+std::vector<Points> nested_triangles(long count) {
+  std::vector<Points> faces;
+  for (long k = 1; k <= count; ++k) faces.push_back({{-2 * k, -k, 0}, {3 * k, -k, 0}, {0, 4 * k, 0}});
+  return faces;
+}
+
+TEST(Piles, are_seen_as_brute_force_sees_them) {
+  for (std::uint64_t seed = 1; seed <= some(6) && !testing::Test::HasFailure(); ++seed) {
+    Random random(seed);
+    const auto any = [&](long least, long most) { return static_cast<long>(random.between(least, most)); };
+    std::vector<Points> faces = nested_triangles(seed % 2 == 0 ? 9 : 0);
+    for (int k = 0; k < 9; ++k) {
+      const long x = any(-9, 5), y = any(-9, 5);
+      faces.push_back(view_scenes::rectangle(x, x + any(2, 9), y, y + any(2, 9), 0));
+      if (random.chance(1, 3)) faces.back() = view_scenes::reversed(faces.back());
+    }
+    faces.push_back({{-3, -3, -2}, {4, -2, -2}, {2, 5, 3}});
+    if (seed % 3 != 0) random.shuffle(faces);
+    expect_as_brute_force(
+        {"pile " + std::to_string(seed), view_scenes::soup_of(faces), {any(-3, 3), any(-3, 3), any(1, 3)}});
+  }
+}
+
+TEST(Piles, of_nested_faces_take_time_as_their_number) {
+  for (const long count : {100L, 400L})
+    for (const bool outwards : {true, false}) {
+      std::vector<Points> faces = nested_triangles(count);
+      if (!outwards) std::reverse(faces.begin(), faces.end());
+      const Scene scene(view_scenes::soup_of(faces));
+      const auto surface = visible_surface(Exact_view(scene, {1, 1, 1}), Piece_boxes(scene));
+      EXPECT_EQ(surface.visible.size(), static_cast<std::size_t>(count));
+      EXPECT_LT(surface.counters.regions, 24 * static_cast<std::uint64_t>(count));  // and its logarithm
+      EXPECT_LT(surface.counters.looked_at, 16 * static_cast<std::uint64_t>(count));
+    }
+}
+
+TEST(Faces_of_many_corners, are_seen_as_brute_force_sees_them) {
+  for (const long count : {32L, 33L, 62L, 63L, 64L, 93L, 94L, 95L, 130L}) {
+    Points curve;  // convex
+    for (long k = 0; k < count; ++k) curve.push_back({k - count / 2, (k - count / 2) * (k - count / 2), 0});
+    expect_as_brute_force({std::to_string(count) + " corners",
+                           view_scenes::soup_of({curve, {{-2, 3, 2}, {5, 2, 2}, {1, 40, 3}}}),
+                           {1, 20, 9}});
+  }
+}
+
+TEST(Faces_of_many_corners, take_time_as_their_number) {
+  Points curve;
+  for (long k = -1000; k < 1000; ++k) curve.push_back({k, k * k, 0});
+  const Scene scene(view_scenes::soup_of({curve}));
+  const auto surface = visible_surface(Exact_view(scene, {1, 1, 5}), Piece_boxes(scene));
+  EXPECT_LT(surface.counters.regions, 4 * curve.size());
+  EXPECT_LT(surface.counters.looked_at, 40 * curve.size());
+}
+
 INSTANTIATE_TEST_SUITE_P(All, See, testing::ValuesIn(view_scenes::families),
                          [](const auto& of) { return std::string(view_scenes::name(of.param)); });
 

@@ -4,6 +4,9 @@
 
 #include <sightline/kernel/number.h>
 
+#include <algorithm>
+#include <set>
+
 namespace program {
 
 class See : public Program {
@@ -95,6 +98,33 @@ TEST_F(See, cuts_edges_into_visible_and_hidden_parts) {
   const Json crossed = see({crossing, "--eye", "-3,-4,3", "--lines"});
   for (const Json& line : crossed["result"]["lines"]) intersections += line["class"] == "intersection";
   EXPECT_GE(intersections, 1u);
+}
+
+TEST_F(See, lists_lines_where_faces_cross_alike_in_any_order_of_the_faces) {
+  // Two ramps through each other and a level roof through both, its middle between them and the eye.
+  const std::string points =
+      "-3 -3 -3\n3 -3 3\n3 3 3\n-3 3 -3\n-3 -3 3\n3 -3 -3\n3 3 -3\n-3 3 3\n"
+      "-2 -4 1\n2 -4 1\n2 4 1\n-2 4 1\n";
+  std::vector<std::string> faces{"4 0 1 2 3\n", "4 4 5 6 7\n", "4 8 9 10 11\n"};
+  std::sort(faces.begin(), faces.end());
+  std::set<Json> found;
+  do {
+    const Json d = see(
+        {file("ramps.off", "OFF\n12 3 0\n" + points + faces[0] + faces[1] + faces[2]), "--eye", "1/7,0,12", "--lines"});
+    Json lines = Json::array();
+    for (const Json& line : d["result"]["lines"])
+      if (line["class"] == "intersection") lines.push_back(line["parts"]);
+    EXPECT_EQ(lines.size(), 2u);
+    found.insert(lines);
+  } while (std::next_permutation(faces.begin(), faces.end()));
+  EXPECT_EQ(found.size(), 1u);
+}
+
+TEST_F(See, shows_lines_in_a_field_as_without_it) {
+  const std::vector<std::string> looking{crossing, "--eye", "-3,-4,3", "--look", "3,4,-3", "--field", "120", "--lines"};
+  std::vector<std::string> in_field = looking;
+  in_field.emplace_back("--frustum");
+  EXPECT_EQ(see(looking)["result"]["lines"], see(in_field)["result"]["lines"]);
 }
 
 TEST_F(See, draws_what_it_sees) {

@@ -1,0 +1,307 @@
+#include <sightline/algorithms/point_visibility/crossings.h>
+
+#include <sightline/kernel/plane.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <utility>
+
+namespace sightline {
+
+namespace {
+
+using Planes = std::pair<std::uint32_t, std::uint32_t>;  // by id, the lower one first
+
+/// The pairs of pieces that have boxes with a point in common, each once or more.
+class Close_pairs {
+ public:
+  explicit Close_pairs(const Piece_boxes& boxes) : boxes_(boxes) {}
+
+  template <class Visit>
+  void each(const Visit& visit) const {
+    if (!boxes_.nodes().empty()) within(0, visit);
+  }
+
+ private:
+  const Piece_boxes::Node& node(std::uint32_t at) const { return boxes_.nodes()[at]; }
+  static bool meet(const Piece_boxes::Box& a, const Piece_boxes::Box& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
+    return true;
+  }
+  template <class Visit>
+  void within(std::uint32_t at, const Visit& visit) const {
+    const Piece_boxes::Node& own = node(at);
+    if (own.second == 0) {
+      for (std::uint32_t i = own.first; i < own.first + own.count; ++i)
+        for (std::uint32_t j = own.first; j < i; ++j) visit(boxes_.chunks()[i].piece, boxes_.chunks()[j].piece);
+      return;
+    }
+    within(at + 1, visit);
+    within(own.second, visit);
+    between(at + 1, own.second, visit);
+  }
+  template <class Visit>
+  void between(std::uint32_t one, std::uint32_t other, const Visit& visit) const {
+    const Piece_boxes::Node &a = node(one), &b = node(other);
+    if (!meet(a.box, b.box)) return;
+    if (a.second == 0 && b.second == 0) {
+      for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
+        for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
+          visit(boxes_.chunks()[i].piece, boxes_.chunks()[j].piece);
+    } else if (b.second == 0 || (a.second != 0 && a.count >= b.count)) {
+      between(one + 1, other, visit);
+      between(a.second, other, visit);
+    } else {
+      between(one, other + 1, visit);
+      between(one, b.second, visit);
+    }
+  }
+
+  const Piece_boxes& boxes_;
+};
+
+/// A piece that has a segment of the line where its plane and another one meet, and the sides of that plane on which it
+/// has points.
+struct Reaching {
+  std::uint32_t piece;
+  bool front, behind;
+  friend auto operator<=>(const Reaching&, const Reaching&) = default;
+};
+/// What reaches the line of two planes: pieces of the one, pieces of the other.
+using Reached = std::array<std::vector<Reaching>, 2>;
+
+/// The segment of a line that a piece has, and the sides of it, in the piece's plane, on which the piece lies.
+struct Chord {
+  std::uint32_t piece, plane;
+  bool left, right;
+  std::array<Crossing_end, 2> ends;
+  std::array<Rational, 2> at;  // the ends' places along the line, ascending
+};
+
+/// A line by its direction and moment, in lowest terms, the first of the direction that is not 0 positive.
+using Line_name = std::array<Integer, 6>;
+
+class Crossing_search {
+ public:
+  explicit Crossing_search(const Scene& scene) : scene_(scene), predicates_(scene.predicates()) {
+    for (const Piece& piece : scene.pieces()) {
+      const std::uint32_t plane = piece.support.id();
+      if (plane >= in_plane_.size()) in_plane_.resize(plane + std::size_t{1}, 0);
+      ++in_plane_[plane];
+    }
+  }
+
+  std::vector<Crossing> find(const Piece_boxes& boxes) {
+    Close_pairs(boxes).each([&](std::uint32_t f, std::uint32_t g) { note(f, g); });
+    for (auto& [planes, reached] : reached_) add_chords(planes, reached);
+    for (auto& [line, chords] : chords_) list(chords);
+    return std::move(found_);
+  }
+
+ private:
+  static constexpr std::size_t low = 0, high = 1;
+
+  // ---- Pairs of planes, and what reaches their line
+
+  std::uint32_t plane_of(std::uint32_t piece) const { return scene_.pieces()[piece].support.id(); }
+  Sign side(std::uint32_t point, const Prepared_plane& h) {
+    return predicates_.side(predicates_.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), h,
+                            counts_);
+  }
+  /// How a piece reaches the line of its plane and another one; none where it does not, or nothing can be on the other
+  /// side of the line.
+  std::optional<Reaching> reach(std::uint32_t piece, std::uint32_t plane) {
+    const Prepared_plane h = predicates_.prepare(Plane(plane, false));
+    Reaching found{piece, false, false};
+    std::size_t on = 0;
+    for (const Piece_corner& corner : scene_.corners(scene_.pieces()[piece])) {
+      const Sign s = side(corner.point, h);
+      found.front |= s == CGAL::POSITIVE;
+      found.behind |= s == CGAL::NEGATIVE;
+      on += s == CGAL::ZERO;
+    }
+    const bool across = found.front && found.behind;
+    if (!across && (on < 2 || in_plane_[plane_of(piece)] == 1)) return std::nullopt;
+    return found;
+  }
+  void note(std::uint32_t f, std::uint32_t g) {
+    if (plane_of(f) == plane_of(g)) return;
+    if (plane_of(f) > plane_of(g)) std::swap(f, g);
+    const std::optional<Reaching> one = reach(f, plane_of(g));
+    if (!one) return;
+    const std::optional<Reaching> other = reach(g, plane_of(f));
+    if (!other) return;
+    Reached& reached = reached_[{plane_of(f), plane_of(g)}];
+    reached[low].push_back(*one);
+    reached[high].push_back(*other);
+  }
+
+  // ---- Lines, and the chords that pieces have of them
+
+  void add_chords(const Planes& planes, Reached& reached) {
+    for (std::vector<Reaching>& side : reached) {
+      std::sort(side.begin(), side.end());
+      side.erase(std::unique(side.begin(), side.end()), side.end());
+      if (std::none_of(side.begin(), side.end(), [](const Reaching& r) { return r.front; }) ||
+          std::none_of(side.begin(), side.end(), [](const Reaching& r) { return r.behind; }))
+        return;
+    }
+    const std::array<std::array<Integer, 4>, 2> h{predicates_.coefficients(Plane(planes.first, false)),
+                                                  predicates_.coefficients(Plane(planes.second, false))};
+    const auto [line, turned] = line_of(h[low], h[high]);
+    std::vector<Chord>& chords = chords_[line];
+    const std::size_t axis = line[0] != 0 ? 0 : line[1] != 0 ? 1 : 2;
+    for (const std::size_t k : {low, high})
+      for (const Reaching& r : reached[k]) {
+        // The other plane's front is on the left of the line in the lower plane, and on its right in the higher one,
+        // unless the line is turned.
+        const bool left_is_front = (k == low) != turned;
+        Chord chord{r.piece,
+                    plane_of(r.piece),
+                    left_is_front ? r.front : r.behind,
+                    left_is_front ? r.behind : r.front,
+                    ends_of(r.piece, h[1 - k]),
+                    {}};
+        for (std::size_t e = 0; e < 2; ++e) chord.at[e] = place(chord.ends[e], axis);
+        if (chord.at[1] < chord.at[0]) {
+          std::swap(chord.at[0], chord.at[1]);
+          std::swap(chord.ends[0], chord.ends[1]);
+        }
+        chords.push_back(std::move(chord));
+      }
+  }
+  /// The line of two planes, and whether it runs against the product of their normals.
+  static std::pair<Line_name, bool> line_of(const std::array<Integer, 4>& g, const std::array<Integer, 4>& h) {
+    const std::array<Integer, 3> m{g[0], g[1], g[2]}, n{h[0], h[1], h[2]}, direction = cross(m, n);
+    Line_name line{direction[0], direction[1], direction[2], {}, {}, {}};
+    for (std::size_t k = 0; k < 3; ++k) line[k + 3] = g[3] * n[k] - h[3] * m[k];
+    Integer common = 0;
+    for (const Integer& x : line) common = gcd(common, x);
+    const bool turned = *std::find_if(direction.begin(), direction.end(), [](const Integer& x) { return x != 0; }) < 0;
+    if (turned) common = -common;
+    for (Integer& x : line) x /= common;
+    return {line, turned};
+  }
+  Integer height(std::uint32_t point, const std::array<Integer, 4>& h) const {
+    const Grid_points& points = scene_.points();
+    return Integer(h[0] * points.integer(point, 0) + h[1] * points.integer(point, 1) + h[2] * points.integer(point, 2) +
+                   h[3]);
+  }
+  /// Where a strictly convex piece, across a plane or with an edge in it, meets it.
+  std::array<Crossing_end, 2> ends_of(std::uint32_t piece, const std::array<Integer, 4>& h) const {
+    const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[piece]);
+    const Grid_points& points = scene_.points();
+    std::vector<Integer> heights;
+    for (const Piece_corner& corner : corners) heights.push_back(height(corner.point, h));
+    std::array<Crossing_end, 2> ends;
+    std::size_t found = 0;
+    for (std::size_t k = 0; k < corners.size() && found < 2; ++k) {
+      const std::size_t next = k + 1 == corners.size() ? 0 : k + 1;
+      const std::uint32_t p = corners[k].point, q = corners[next].point;
+      if (heights[k] == 0) {
+        ends[found++] = {p, p, {points.integer(p, 0), points.integer(p, 1), points.integer(p, 2), 1}};
+      } else if (sgn(heights[k]) * sgn(heights[next]) < 0) {
+        const Integer to_p = abs(heights[k]), to_q = abs(heights[next]);
+        Crossing_end& end = ends[found++] = {p, q, {}};
+        for (int i = 0; i < 3; ++i)
+          end.at[static_cast<std::size_t>(i)] = to_q * points.integer(p, i) + to_p * points.integer(q, i);
+        end.at[3] = to_p + to_q;
+      }
+    }
+    return ends;
+  }
+  static Rational place(const Crossing_end& end, std::size_t axis) {
+    Rational at(end.at[axis], end.at[3]);
+    at.canonicalize();
+    return at;
+  }
+
+  // ---- Along one line
+
+  /// Lists the stretches of a line that are inside the surfaces of two planes or more.
+  void list(std::vector<Chord>& chords) {
+    std::sort(chords.begin(), chords.end(), [](const Chord& a, const Chord& b) { return a.piece < b.piece; });
+    chords.erase(
+        std::unique(chords.begin(), chords.end(), [](const Chord& a, const Chord& b) { return a.piece == b.piece; }),
+        chords.end());
+    struct Event {
+      std::uint32_t chord;
+      std::size_t end;
+    };
+    std::vector<Event> events;
+    for (std::uint32_t i = 0; i < chords.size(); ++i)
+      for (std::size_t e = 0; e < 2; ++e) events.push_back({i, e});
+    const auto at = [&](const Event& e) -> const Rational& { return chords[e.chord].at[e.end]; };
+    std::sort(events.begin(), events.end(), [&](const Event& a, const Event& b) { return at(a) < at(b); });
+
+    std::set<std::uint32_t> active;
+    std::optional<Crossing> open;
+    for (std::size_t k = 0; k < events.size(); ++k) {
+      if (events[k].end == 0) active.insert(events[k].chord);
+      else active.erase(events[k].chord);
+      if (k + 1 < events.size() && at(events[k + 1]) == at(events[k])) continue;
+      const Crossing_end& here = chords[events[k].chord].ends[events[k].end];
+      std::optional<Crossing> next = inside(chords, active, here);
+      if (open && next && same(*open, *next)) continue;
+      if (open) {
+        open->ends[1] = here;
+        found_.push_back(std::move(*open));
+      }
+      open = std::move(next);
+    }
+  }
+  /// The crossing that begins at an end with these chords, if they make one.
+  std::optional<Crossing> inside(const std::vector<Chord>& chords, const std::set<std::uint32_t>& active,
+                                 const Crossing_end& from) const {
+    std::map<std::uint32_t, std::pair<bool, bool>> sides;  // of planes: left, right
+    for (const std::uint32_t i : active) {
+      auto& [left, right] = sides[chords[i].plane];
+      left |= chords[i].left;
+      right |= chords[i].right;
+    }
+    const auto both = [](const auto& of) { return of.second.first && of.second.second; };
+    if (std::count_if(sides.begin(), sides.end(), both) < 2) return std::nullopt;
+    Crossing crossing{{}, {}, {from, from}};
+    std::set<std::uint32_t> planes;
+    for (const std::uint32_t i : active) {
+      if (!both(*sides.find(chords[i].plane))) continue;
+      crossing.faces.push_back(scene_.pieces()[chords[i].piece].face);
+      if (planes.insert(chords[i].plane).second) crossing.pieces.push_back(chords[i].piece);
+    }
+    std::sort(crossing.faces.begin(), crossing.faces.end());
+    crossing.faces.erase(std::unique(crossing.faces.begin(), crossing.faces.end()), crossing.faces.end());
+    return crossing;
+  }
+  /// Whether two crossings on one line are of the same faces in the same planes.
+  bool same(const Crossing& a, const Crossing& b) const {
+    const auto planes = [&](const Crossing& c) {
+      std::set<std::uint32_t> of;
+      for (const std::uint32_t piece : c.pieces) of.insert(plane_of(piece));
+      return of;
+    };
+    return a.faces == b.faces && planes(a) == planes(b);
+  }
+
+  const Scene& scene_;
+  Predicates predicates_;
+  Predicate_counts counts_;
+  std::vector<std::uint32_t> in_plane_;  // pieces, by plane
+  std::map<Planes, Reached> reached_;
+  std::map<Line_name, std::vector<Chord>> chords_;
+  std::vector<Crossing> found_;
+};
+
+}  // namespace
+
+std::vector<Crossing> crossings(const Scene& scene, const Piece_boxes& boxes) {
+  return Crossing_search(scene).find(boxes);
+}
+
+}  // namespace sightline

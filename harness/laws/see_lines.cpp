@@ -1,0 +1,327 @@
+#include <sightline/harness/laws/see_lines.h>
+
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/hidden_lines.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+namespace sightline::harness {
+namespace {
+
+using Points = std::vector<Exact_point>;
+using Interval = std::pair<Rational, Rational>;
+
+Exact_point between(const Exact_point& p, const Rational& t, const Exact_point& q) {
+  return {Rational(p[0] + t * (q[0] - p[0])), Rational(p[1] + t * (q[1] - p[1])), Rational(p[2] + t * (q[2] - p[2]))};
+}
+
+// ---- By definition, in rationals
+
+/// A plane, or a half-space.
+struct Level {
+  Exact_point normal;
+  Rational offset;
+  Rational height(const Exact_point& p) const { return Rational(dot(normal, p) - offset); }
+};
+
+struct Flat_piece {
+  Points corners;
+  Level plane;
+  std::vector<Level> walls;  // through its edges, the piece on their positive sides
+  Face_id face;
+
+  bool is_in_plane_of(const Flat_piece& other) const {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Exact_point& p) { return other.plane.height(p) == 0; });
+  }
+};
+using Flat_pieces = std::vector<Flat_piece>;
+
+Flat_pieces flat_pieces(const Scene& scene) {
+  Flat_pieces flats;
+  for (const Piece& piece : scene.pieces()) {
+    Flat_piece flat{{}, {}, {}, piece.face};
+    for (const Piece_corner& corner : scene.corners(piece)) flat.corners.push_back(scene.position(corner.point));
+    const Points& c = flat.corners;
+    flat.plane.normal = cross(minus(c[1], c[0]), minus(c[2], c[0]));
+    flat.plane.offset = dot(flat.plane.normal, c[0]);
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      const Exact_point inward = cross(flat.plane.normal, minus(c[(k + 1) % c.size()], c[k]));
+      flat.walls.push_back({inward, dot(inward, c[k])});
+    }
+    flats.push_back(std::move(flat));
+  }
+  return flats;
+}
+
+/// The part of [least, most] of t for which p + t (q - p) is inside or on all walls; none where it has no length.
+/// `touches`: one that has no length counts too.
+std::optional<Interval> clipped(const std::vector<Level>& walls, const Exact_point& p, const Exact_point& q,
+                                Interval range, bool touches = false) {
+  auto& [least, most] = range;
+  for (const Level& wall : walls) {
+    const Rational at = wall.height(p), rise = Rational(wall.height(q) - at);
+    if (rise == 0 && at < 0) return std::nullopt;
+    if (rise > 0) least = std::max(least, Rational(-at / rise));
+    if (rise < 0) most = std::min(most, Rational(-at / rise));
+  }
+  if (least < most || (touches && least == most)) return range;
+  return std::nullopt;
+}
+
+/// Whether the open segment from p to q meets a closed piece.
+bool blocks(const Flat_piece& flat, const Exact_point& p, const Exact_point& q) {
+  const Rational from = flat.plane.height(p), to = flat.plane.height(q);
+  if (from == 0 && to == 0) {
+    const std::optional<Interval> common = clipped(flat.walls, p, q, {0, 1}, true);
+    return common && common->first < 1 && common->second > 0;
+  }
+  if (from * to >= 0) return false;
+  const Exact_point at = between(p, Rational(from / (from - to)), q);
+  return std::all_of(flat.walls.begin(), flat.walls.end(), [&](const Level& wall) { return wall.height(at) >= 0; });
+}
+bool is_sightline(const Flat_pieces& flats, const Exact_point& eye, const Exact_point& q) {
+  return std::none_of(flats.begin(), flats.end(), [&](const Flat_piece& flat) { return blocks(flat, eye, q); });
+}
+
+/// The faces that hold a point of a line, in planes whose pieces hold what is next to it on both sides of the line;
+/// none where these are not two planes.
+std::set<Face_id> crossing_at(const Flat_pieces& flats, const Exact_point& x, const Exact_point& direction) {
+  std::vector<std::size_t> around;
+  for (std::size_t i = 0; i < flats.size(); ++i)
+    if (flats[i].plane.height(x) == 0 && dot(flats[i].plane.normal, direction) == 0) around.push_back(i);
+  std::set<Face_id> faces;
+  std::size_t planes = 0;
+  for (const std::size_t i : around) {
+    const auto together = [&](std::size_t k) { return flats[k].is_in_plane_of(flats[i]); };
+    if (*std::find_if(around.begin(), around.end(), together) != i) continue;
+    std::array<std::set<Face_id>, 2> beside;
+    for (std::size_t side = 0; side < 2; ++side) {
+      Exact_point to = cross(direction, flats[i].plane.normal);
+      if (side == 1) to = minus({0, 0, 0}, to);
+      for (const std::size_t k : around) {
+        const auto keeps = [&](const Level& wall) {
+          const Rational at = wall.height(x);
+          return at > 0 || (at == 0 && dot(wall.normal, to) >= 0);
+        };
+        if (together(k) && std::all_of(flats[k].walls.begin(), flats[k].walls.end(), keeps))
+          beside[side].insert(flats[k].face);
+      }
+    }
+    if (beside[0].empty() || beside[1].empty()) continue;
+    ++planes;
+    for (const auto& some : beside) faces.insert(some.begin(), some.end());
+  }
+  return planes < 2 ? std::set<Face_id>() : faces;
+}
+
+/// What two pieces have in common, where they go through each other: an open segment, if there is one.
+std::optional<std::array<Exact_point, 2>> common_segment(const Flat_piece& f, const Flat_piece& g) {
+  std::vector<Exact_point> on;  // where f's edges meet g's plane
+  const auto at = [](const Flat_piece& of, std::size_t k) { return of.corners[k % of.corners.size()]; };
+  for (std::size_t k = 0; k < f.corners.size(); ++k) {
+    const Exact_point p = at(f, k), q = at(f, k + 1);
+    const Rational from = g.plane.height(p), to = g.plane.height(q);
+    if (from == 0) on.push_back(p);
+    if (from * to < 0) on.push_back(between(p, Rational(from / (from - to)), q));
+  }
+  if (on.size() != 2) return std::nullopt;
+  const std::optional<Interval> common = clipped(g.walls, on[0], on[1], {0, 1});
+  if (!common) return std::nullopt;
+  return std::array{between(on[0], common->first, on[1]), between(on[0], common->second, on[1])};
+}
+
+// ---- What the method says
+
+struct Looked {
+  Scene scene;
+  Piece_boxes boxes;
+  Exact_view view;
+  Visible_surface<Exact_view> surface;
+
+  explicit Looked(const Posed_scene& posed, const std::vector<Exact_point>& field = {})
+      : scene(posed.soup),
+        boxes(scene),
+        view(scene, posed.eye, field.empty() ? std::vector<std::array<Integer, 3>>() : field_of(field)),
+        surface(visible_surface(view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), serial())) {}
+
+  std::vector<Drawn_edge> edges() const { return hidden_lines(view, surface, 1); }
+  std::vector<Drawn_crossing> crossings() const { return visible_crossings(view, surface, boxes, 1); }
+
+ private:
+  static Visible_options serial() {
+    Visible_options options;
+    options.threads = 1;
+    return options;
+  }
+};
+
+std::string name_of(const Scene& scene, const Drawn_edge& drawn) {
+  return "an edge of face " + std::to_string(scene.pieces()[drawn.edge.pieces[0]].face);
+}
+
+/// The visible parts of an edge within a range, neighbours joined.
+std::vector<Interval> visible_in(const std::vector<Line_part>& parts, const Interval& range) {
+  std::vector<Interval> found;
+  for (const Line_part& part : parts) {
+    const Rational from = std::max(part.from, range.first), to = std::min(part.to, range.second);
+    if (part.hidden_by != Line_part::nothing || from >= to) continue;
+    if (!found.empty() && found.back().second == from) found.back().second = to;
+    else found.push_back({from, to});
+  }
+  return found;
+}
+
+// ---- Checks
+
+/// A point of a part that is none of those few where lines touch a corner in the view.
+Exact_point point_inside(const Exact_point& p, const Rational& from, const Rational& to, const Exact_point& q,
+                         Random& random) {
+  const Rational share(static_cast<long>(random.between(1, 99990)), 99991);
+  return between(p, Rational(from + share * (to - from)), q);
+}
+
+Outcome check_edges(const Looked& looked, const Flat_pieces& flats, const Exact_point& eye, Random& random) {
+  for (const Drawn_edge& drawn : looked.edges()) {
+    const Exact_point p = looked.scene.position(drawn.edge.p), q = looked.scene.position(drawn.edge.q);
+    for (const Line_part& part : drawn.parts) {
+      const Exact_point x = point_inside(p, part.from, part.to, q, random);
+      if (part.hidden_by == Line_part::nothing ? !is_sightline(flats, eye, x) : !blocks(flats[part.hidden_by], eye, x))
+        return Outcome::failed(name_of(looked.scene, drawn) + (part.hidden_by == Line_part::nothing
+                                                                   ? " is hidden where it is listed as visible"
+                                                                   : " is not behind what is listed as hiding it"));
+    }
+  }
+  return {};
+}
+
+Outcome check_crossings(const Looked& looked, const Flat_pieces& flats, const Exact_point& eye, Random& random) {
+  const std::vector<Drawn_crossing> drawn = looked.crossings();
+  for (const Drawn_crossing& c : drawn) {
+    const Exact_point x = point_inside(c.ends[0], 0, 1, c.ends[1], random);
+    const std::set<Face_id> faces = crossing_at(flats, x, minus(c.ends[1], c.ends[0]));
+    if (!std::equal(faces.begin(), faces.end(), c.faces.begin(), c.faces.end()))
+      return Outcome::failed("a line is listed where its faces do not cross, " + face_name(c.faces[0]) +
+                             " one of them");
+    if (!is_sightline(flats, eye, x))
+      return Outcome::failed("a line of crossing is hidden, on " + face_name(c.faces[0]));
+  }
+  // A point of each pair's line, if it is visible, is on one that is listed.
+  for (std::size_t f = 0; f < flats.size(); ++f)
+    for (std::size_t g = 0; g < f; ++g) {
+      const auto common = common_segment(flats[f], flats[g]);
+      if (!common) continue;
+      const Exact_point d = minus((*common)[1], (*common)[0]),
+                        x = point_inside((*common)[0], 0, 1, (*common)[1], random);
+      const std::set<Face_id> faces = crossing_at(flats, x, d);
+      if (faces.empty() || is_zero(cross(d, minus(x, eye))) || !is_sightline(flats, eye, x)) continue;
+      const auto holds = [&](const Drawn_crossing& c) {
+        if (!is_zero(cross(minus(x, c.ends[0]), d)) || !is_zero(cross(minus(x, c.ends[1]), d))) return false;
+        return dot(minus(x, c.ends[0]), minus(x, c.ends[1])) <= 0;
+      };
+      if (std::none_of(drawn.begin(), drawn.end(), holds))
+        return Outcome::failed("faces cross unlisted: " + std::to_string(flats[f].face) + " and " +
+                               std::to_string(flats[g].face));
+    }
+  return {};
+}
+
+/// The rays of a field around the eye: upright along an axis, or through three points of the scene.
+std::vector<Exact_point> any_field(const Posed_scene& posed, Random& random) {
+  std::vector<Exact_point> rays;
+  const std::size_t n = posed.soup.point_count();
+  if (n > 0 && random.chance(1, 2)) {
+    for (int k = 0; k < 3; ++k)
+      rays.push_back(minus(posed.soup.point(static_cast<Point_id>(random.below(n))), posed.eye));
+  } else {
+    const std::size_t axis = random.below(3);
+    const long sense = random.chance(1, 2) ? 1 : -1, wide = static_cast<long>(random.between(1, 2)),
+               high = static_cast<long>(random.between(1, 2));
+    for (const auto& [across, up] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+      Exact_point& ray = rays.emplace_back(Exact_point{0, 0, 0});
+      ray[axis] = sense;
+      ray[(axis + 1) % 3] = across * wide;
+      ray[(axis + 2) % 3] = up * high;
+    }
+  }
+  if (dot(cross(rays[0], rays[1]), rays[2]) < 0) std::reverse(rays.begin(), rays.end());
+  return rays;
+}
+
+using Segments = std::set<std::tuple<Exact_point, Exact_point, std::vector<Face_id>>>;
+
+/// Segments within a field, each from its lower end.
+Segments within(const std::vector<Drawn_crossing>& drawn, const std::vector<Level>& field) {
+  Segments found;
+  for (const Drawn_crossing& c : drawn)
+    if (const auto range = clipped(field, c.ends[0], c.ends[1], {0, 1})) {
+      const Exact_point p = between(c.ends[0], range->first, c.ends[1]),
+                        q = between(c.ends[0], range->second, c.ends[1]);
+      found.insert({std::min(p, q), std::max(p, q), c.faces});
+    }
+  return found;
+}
+
+Outcome check_field(const Posed_scene& posed, Random& random) {
+  const std::vector<Exact_point> rays = any_field(posed, random);
+  std::vector<Level> field;
+  try {
+    for (const std::array<Integer, 3>& n : field_of(rays)) {
+      const Exact_point normal{Rational(n[0]), Rational(n[1]), Rational(n[2])};
+      field.push_back({normal, dot(normal, posed.eye)});
+    }
+  } catch (const std::invalid_argument&) {
+    return Outcome::not_applicable();  // the three points span no cone
+  }
+  const Looked whole(posed), part(posed, rays);
+  const std::vector<Drawn_edge> all = whole.edges(), some = part.edges();
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Exact_point p = whole.scene.position(all[k].edge.p), q = whole.scene.position(all[k].edge.q);
+    const std::optional<Interval> range = clipped(field, p, q, {0, 1});
+    if ((range ? visible_in(all[k].parts, *range) : std::vector<Interval>()) != visible_in(some[k].parts, {0, 1}))
+      return Outcome::failed(name_of(whole.scene, all[k]) + " is not visible in the field as it is without");
+  }
+  if (within(whole.crossings(), field) != within(part.crossings(), field))
+    return Outcome::failed("lines where faces cross are not those in the field as without");
+  return {};
+}
+
+}  // namespace
+
+Check lines_check() {
+  return {"lines", "visible and hidden parts of edges, and lines where faces cross, by brute force in rationals",
+          [](const Posed_scene& posed, const Answer&, Random& random) {
+            const Looked looked(posed);
+            const Flat_pieces flats = flat_pieces(looked.scene);
+            const Outcome edges = check_edges(looked, flats, posed.eye, random);
+            return edges.state == Outcome::State::failed ? edges : check_crossings(looked, flats, posed.eye, random);
+          }};
+}
+
+Check field_check() {
+  return {"field", "the same parts of lines in a field of view as without",
+          [](const Posed_scene& posed, const Answer&, Random& random) { return check_field(posed, random); }};
+}
+
+void label_crossings(const Posed_scene& posed, Answer& answer) {
+  for (const Drawn_crossing& c : Looked(posed).crossings())
+    for (const Face_id face : c.faces) answer.labels[face] |= 4;
+}
+
+Answer without_lines(const Answer& answer) {
+  Answer other = answer;
+  for (std::uint32_t& label : other.labels)
+    if (label != Answer::none) label &= 3u;
+  return other;
+}
+
+}  // namespace sightline::harness
