@@ -77,7 +77,7 @@ target_link_libraries(faulty_library PUBLIC sightline::dependencies)
 
 add_executable(sightline_faulty EXCLUDE_FROM_ALL tests/faults/program/main.cpp
                apps/fuzz/fuzz.cpp apps/fuzz/case_watch.cpp apps/fuzz/io.cpp apps/support/query.cpp apps/support/common.cpp
-               apps/support/options.cpp)
+               apps/support/files.cpp apps/support/options.cpp)
 target_link_libraries(sightline_faulty PRIVATE CLI11::CLI11 fmt::fmt)
 add_executable(fuzz_targets_faulty EXCLUDE_FROM_ALL tests/fuzz/program/main.cpp)
 target_link_libraries(fuzz_targets_faulty PRIVATE GTest::gtest rapidcheck)
