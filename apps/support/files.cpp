@@ -91,7 +91,7 @@ static void end_by_signal_without_remains(int number) {
 
 void watch_for_signals() {
   std::signal(SIGXFSZ, SIG_IGN);
-  for (const int number : {SIGINT, SIGTERM})
+  for (const int number : {SIGHUP, SIGINT, SIGTERM})
     if (std::signal(number, end_by_signal_without_remains) == SIG_IGN) std::signal(number, SIG_IGN);
 }
 

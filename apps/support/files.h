@@ -28,8 +28,8 @@ void write_file(const std::string& name, std::string_view text);
 /// Writes a file of a temporary folder, without waiting for the disk. Errors: std::runtime_error.
 void write_temporary(const std::filesystem::path& path, std::string_view text);
 
-/// Lets SIGINT and SIGTERM remove an output that is not finished before they end the program; a limit on the size of
-/// files (SIGXFSZ) becomes an error of writing.
+/// Lets SIGHUP, SIGINT and SIGTERM remove an output that is not finished before they end the program; a limit on the
+/// size of files (SIGXFSZ) becomes an error of writing.
 void watch_for_signals();
 /// The first half of that, for a handler of somebody else's.
 void remove_unfinished() noexcept;
