@@ -22,6 +22,7 @@ static Exit run(const Bsp_arguments& arguments) {
   task.bsp.threads = common.threads;
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Outcome outcome = run_method(arguments.kernel, scene, task);
+  progress.clear();
   const Bsp_counters& c = outcome.tree;
 
   const Json result{{"nodes", c.nodes}, {"depth", c.depth}, {"splits", c.splits}, {"fragments", c.fragments}};

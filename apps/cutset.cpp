@@ -264,7 +264,9 @@ void add_cutset(Command program) {
                   "1977-literal: the same to the letter, which loses edges of the cut-set")
       .check(one_of({"tracker", "1977", "1977-literal"}))
       .show_default();
-  command.add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline");
+  command.add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline")
+      .writes_file()
+      .check(ending(".svg"));
   command.footer(
       "Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"
       "         sightline cutset box.off --decision-tree\n"

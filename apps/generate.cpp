@@ -93,9 +93,9 @@ void add_generate(Command program) {
   command.add_option("--offset", a->offset, "X,Y,Z added to all points, exact decimals or p/q").show_default();
   command.add_option("--scale", a->scale, "multiplies all coordinates, before --offset: a number or 2^K")
       .show_default();
-  command.add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff").required();
-  command.add_option("--query", a->query,
-                     "write the eye, the source polygon and what is known of its answers, as JSON");
+  command.add_option("--out", a->out, "the file to write: .off .obj .ply .stl .qoff").required().writes_file();
+  command.add_option("--query", a->query, "write the eye, the source polygon and what is known of its answers, as JSON")
+      .writes_file();
   command.footer(list_of_families() +
                  "\nExamples: sightline generate rooms --size 4 --out rooms.off\n          sightline generate regulus "
                  "--seed 7 --ulps 1 --out regulus.qoff --query regulus.json");

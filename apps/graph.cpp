@@ -383,15 +383,15 @@ void add_graph(Command program) {
       command
           .add_option("--eyes", a->pixels.eyes,
                       "the images' eyes: a file with X,Y,Z a line, or X,Y,Z,DX,DY,DZ with the direction of view")
-          .check(not_empty());
+          .reads_file();
   const Option pictures =
       command.add_option("--pictures", a->pixels.pictures, "a folder to write a picture of each image to")
           .check(folder());
   pixels.needs(eyes);
   eyes.needs(pixels);
   pictures.needs(pixels);
-  command.add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes");
-  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads");
+  command.add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes").writes_file();
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
   command.footer(
       "Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed "
       "highest priority first:\n"

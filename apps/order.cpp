@@ -120,6 +120,7 @@ static Exit run(const Order_arguments& arguments) {
     write_file(arguments.svg, svg.text());
   }
 
+  progress.clear();
   Json fragments = Json::array();
   if (!common.json.empty())
     for (const Drawn& item : outcome.drawn) {
@@ -194,8 +195,8 @@ void add_order(Command program) {
       .check(one_of({"bsp", "graph"}))
       .show_default();
   command.add_flag("--two-sided", a->two_sided, "with --method graph: faces seen from behind too");
-  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads");
-  command.add_option("--svg", a->svg, "draw the order as a painter would");
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
+  command.add_option("--svg", a->svg, "draw the order as a painter would").writes_file().check(ending(".svg"));
   a->view.add_to(command);
   command.footer(
       "Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

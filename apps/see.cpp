@@ -205,6 +205,7 @@ static Exit run(const See_arguments& arguments) {
     write_file(arguments.svg, svg.text());
   }
 
+  progress.clear();
   const auto counted = [&](const Drawn& drawn) { return arguments.two_sided || drawn.side == CGAL::POSITIVE; };
   std::size_t parts = 0;
   Json pieces = Json::array();
@@ -281,8 +282,8 @@ void add_see(Command program) {
   command.add_flag("--lines", a->lines,
                    "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
                    "in the picture solid and dashed");
-  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads");
-  command.add_option("--svg", a->svg, "draw the visible parts");
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
+  command.add_option("--svg", a->svg, "draw the visible parts").writes_file().check(ending(".svg"));
   a->view.add_to(command);
   command.footer(
       "Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

@@ -3,10 +3,10 @@
 #include "support/common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/io/format.h>
 #include <sightline/io/input.h>
 
-#include <fstream>
-#include <iostream>
+#include <sstream>
 
 namespace sightline::app {
 
@@ -23,22 +23,31 @@ static Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& clai
   return verify_weak(soup, claim, options);
 }
 
+static Certificate certificate_of(const std::string& file) {
+  const std::string text = read_input(file);
+  std::istringstream in(text);
+  try {
+    return read_certificate(in);
+  } catch (const std::exception& error) {
+    // What is no JSON is told with its place; the rest has its place in the message.
+    if (!nlohmann::json::accept(text) && format_of_ending(file))
+      throw Input_error::of_file(file,
+                                 "is a scene by its name, not a certificate; `verify` wants SCENE, then CERTIFICATE");
+    parse_json(text, file);
+    throw Input_error::of_file(file, std::string(error.what()) + "; make the certificate again");
+  }
+}
+
 static Exit run(const Common& common, const std::string& file) {
   const Polygon_soup soup = common.read();
-  std::ifstream in(file);
-  if (!in) throw Input_error::of_file(file, "cannot be opened; check the path");
-  Certificate certificate;
-  try {
-    certificate = read_certificate(in);
-  } catch (const std::exception& error) {  // not a certificate, or not a file
-    throw Input_error::of_file(file, error.what());
-  }
+  const Certificate certificate = certificate_of(file);
   const Stopwatch watch;
   Progress progress("verifying");
   Verify_options options;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Verdict verdict = std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
   const double seconds = watch.seconds();
+  progress.clear();
   const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
   Json result{{"accepted", verdict.accepted}, {"why", verdict.why}, {"fragments", verdict.fragments}};
   if (write_json(
@@ -57,7 +66,7 @@ void add_verify(Command program) {
   auto common = std::make_shared<Common>();
   auto certificate = std::make_shared<std::string>();
   common->add_to(command);
-  command.add_option("CERTIFICATE", *certificate, "a file that --certificate wrote").required();
+  command.add_option("CERTIFICATE", *certificate, "a file that --certificate wrote").required().reads_file();
   command.footer("Exit code 0: accepted; 1: rejected; 3: scene or certificate cannot be read.");
   command.set_action([common, certificate] { return run(*common, *certificate); });
 }

@@ -194,6 +194,7 @@ Exit run_weak(const Weak_arguments& arguments) {
   const Weak_outcome outcome = run_weak_method(method, occluders, sources, task);
   const Weakly_visible& found = outcome.found;
   const double seconds = watch.seconds();
+  progress.clear();
 
   if (!arguments.certificate.empty())
     write_file(arguments.certificate,
@@ -241,6 +242,10 @@ Exit run_weak(const Weak_arguments& arguments) {
   if (method == "lines")
     row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets,
                                 c.away, c.by_rays, c.cells));
+  if (method == "lines" && found.visible.empty() && found.undecided.empty() && c.away > 0 && c.cells == 0)
+    row("turned round?",
+        "all faces are behind the source or have their backs to it; a source looks to the side from which its corners "
+        "run counterclockwise: to look to the other one, write them backwards");
   if (method == "lines")
     row("cells", fmt::format("{} blocked, {} empty, {} by what was learned; {} cuts, {} shaves, {} bisections; {} "
                              "linear programs, {} of them exact",
@@ -288,16 +293,25 @@ void add_weak(Command program) {
                   "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")
       .check(whole_number())
       .show_default();
-  command.add_option("--certificate", a->certificate,
-                     "write what `sightline verify` reads: of lines all answers, of events what is visible, with "
-                     "--conservative what is hidden");
-  command.add_option("--surfaces", a->surfaces,
-                     "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; "
-                     "then no search ends before it has them all");
-  command.add_option(
-      "--svg", a->svg,
-      "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out");
-  command.add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided");
+  command
+      .add_option("--certificate", a->certificate,
+                  "write what `sightline verify` reads: of lines all answers, of events what is visible, with "
+                  "--conservative what is hidden")
+      .writes_file();
+  command
+      .add_option("--surfaces", a->surfaces,
+                  "events: write the surfaces where visibility changes, FILE.json exactly, FILE.obj as strips; "
+                  "then no search ends before it has them all")
+      .writes_file();
+  command
+      .add_option(
+          "--svg", a->svg,
+          "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out")
+      .writes_file()
+      .check(ending(".svg"));
+  command.add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided")
+      .writes_file()
+      .check(ending(".obj"));
   command.add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
       .check(not_empty());
   a->view.add_to(command);

@@ -107,10 +107,16 @@ Number parse_decimal(const Text_reader& text, std::string_view token) {
     ++zeros;
     ++exponent;
   }
-  if (exponent > largest_decimal_exponent || exponent < -largest_decimal_exponent)
+  const auto is_within = [](std::int64_t e) { return -largest_decimal_exponent <= e && e <= largest_decimal_exponent; };
+  if (!is_within(exponent)) {
+    if (is_within(exponent + after_point - zeros))  // as it is written: the digits take it beyond
+      text.fail(token, quoted(token) + " has more than " + std::to_string(largest_decimal_exponent) +
+                           " places; round it, or read the scene with coordinates rounded to double "
+                           "(--coordinates double)");
     text.fail(token, "exponent out of range in " + quoted(token) +
                          "; scale the scene so that exponents stay within +-" +
                          std::to_string(largest_decimal_exponent));
+  }
 
   const int scale = static_cast<int>(exponent);
   if (significant <= 18 && scale <= 0) {
@@ -153,15 +159,43 @@ Number parse_rational(const Text_reader& text, std::string_view token) {
   }
 }
 
+/// Whether a decimal that no double is near is so for being small: by the place of its first digit that is not 0.
+static bool is_tiny(std::string_view token) {
+  const std::size_t e = std::min(token.find_first_of("eE"), token.size()), point = std::min(token.find('.'), e),
+                    first = token.find_first_of("123456789");
+  const auto place = static_cast<std::int64_t>(point) - static_cast<std::int64_t>(first);
+  const std::string_view written = token.substr(std::min(e + 1, token.size()));
+  const std::int64_t exponent = parse_integer(written).value_or(0);  // which it holds at 10^18
+  return place + exponent < 0;
+}
+
+/// The double nearest to a decimal, ties to even, however many digits it has; nothing for what is no decimal, and
+/// beyond the largest double.
+static std::optional<double> rounded_decimal(std::string_view token) {
+  // What from_chars takes and a decimal may not be: +-1, inf, nan.
+  const bool plus = token.front() == '+';
+  if (plus) token.remove_prefix(1);
+  if (token.find_first_not_of("0123456789.eE+-") != std::string_view::npos || (plus && token.starts_with('-')))
+    return std::nullopt;
+  double rounded = 0;
+  const auto [last, error] = std::from_chars(token.data(), token.data() + token.size(), rounded);
+  if (last != token.data() + token.size() || !std::isfinite(rounded)) return std::nullopt;
+  if (error == std::errc::result_out_of_range && is_tiny(token)) return 0;
+  return error == std::errc() ? std::optional(rounded) : std::nullopt;
+}
+
 Number read_coordinate(const Text_reader& text, std::string_view token, Number_syntax syntax,
                        const Read_options& options) {
   if (token.empty()) text.fail(token, "a coordinate is missing; a point has three");
-  Number number = syntax == Number_syntax::decimal ? parse_decimal(text, token) : parse_rational(text, token);
-  if (!options.round_to_double) return number;
-  double rounded = 0;
-  const char *const begin = token.data() + (token.front() == '+' ? 1 : 0), *const end = token.data() + token.size();
-  const auto [last, error] = std::from_chars(begin, end, rounded);
-  if (last != end || error != std::errc()) rounded = nearest_double(value_of(number));  // p/q, or out of range
+  const bool is_decimal = syntax == Number_syntax::decimal;
+  std::optional<double> nearest;
+  if (options.round_to_double && is_decimal) nearest = rounded_decimal(token);
+  if (!nearest) {
+    Number number = is_decimal ? parse_decimal(text, token) : parse_rational(text, token);
+    if (!options.round_to_double) return number;
+    nearest = nearest_double(value_of(number));
+  }
+  const double rounded = *nearest;
   if (!std::isfinite(rounded))
     text.fail(token, quoted(token) + " is beyond the range of a double; scale the scene, or read exact coordinates");
   return rounded == 0 ? 0.0 : rounded;  // -0 is 0

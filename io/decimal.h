@@ -29,7 +29,8 @@ using Number = std::variant<Decimal, double, Rational>;
 
 /// A decimal is an integer x 10^E, E the exponent less the number of digits after the point; zeros at the end are
 /// dropped while E < 0, so that 1.0e-1100 is read, and 1.0e1101 is 10 x 10^1100. |E| at most this, or a file of twenty
-/// bytes would fill the memory. Every double is within it (the least is 5^1074 x 10^-1074).
+/// bytes would fill the memory, and one number of many places would make every coordinate on its grid as long. Every
+/// double is within it (the least is 5^1074 x 10^-1074).
 inline constexpr std::int64_t largest_decimal_exponent = 1100;
 
 void push(Coordinates& coordinates, const Number& number);

@@ -24,7 +24,10 @@ std::optional<std::string> decimal_text(const Rational& value) {
   mpz_ui_pow_ui(factor.get_mpz_t(), twos < places ? 2 : 5, places - std::min(twos, fives));
   std::string digits = Integer(abs(value.get_num()) * factor).get_str();
   const std::string sign = sgn(value) < 0 ? "-" : "";
-  if (places > digits.size() + 5) return sign + digits + "e-" + std::to_string(places);
+  if (places > digits.size() + 5) {  // one digit before the point, so that one sees how large it is
+    const std::string exponent = "e-" + std::to_string(places + 1 - digits.size());
+    return sign + (digits.size() == 1 ? digits : digits.insert(1, ".")) + exponent;
+  }
   if (places >= digits.size()) digits.insert(0, places + 1 - digits.size(), '0');
   return sign + digits.insert(digits.size() - places, ".");
 }

@@ -72,7 +72,8 @@ void Off_reader::read_point(std::size_t i) {
         value && syntax_ == Number_syntax::rational && !denominator_.include(value->get_den()))
       text_.fail(token, "common denominator of the coordinates needs more than " +
                             std::to_string(largest_common_denominator_bits) +
-                            " bits; read the file with coordinates rounded to double, or round them in the file");
+                            " bits; read the file with coordinates rounded to double (--coordinates double), or round "
+                            "them in the file");
     push(soup_.coordinates, number);
   }
   // A normal, a colour, a texture coordinate. Plain OFF has none, but colours are often met there.

@@ -1,46 +1,16 @@
 #include <sightline/io/read.h>
 
+#include <sightline/io/file.h>
 #include <sightline/io/obj.h>
 #include <sightline/io/off.h>
 #include <sightline/io/ply.h>
 #include <sightline/io/stl.h>
 #include <sightline/io/text.h>
 
-#include <cstddef>
-#include <cstdio>
-#include <cstring>
 #include <limits>
-#include <memory>
-#include <system_error>
 
 namespace sightline {
 namespace detail {
-
-std::string read_bytes(const std::filesystem::path& path) {
-  const auto fail = [&path](const std::string& message) { throw Input_error::of_file(path.string(), message); };
-  std::error_code error;
-  const std::filesystem::file_status status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status)) fail("no such file, or it is out of reach; check the path");
-  if (std::filesystem::is_directory(status)) fail("is a directory; name a file in it");
-  if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_fifo(status))
-    fail("is not a file that has an end; name a regular file");
-
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) fail(std::string("cannot be opened: ") + std::strerror(errno) + "; check its permissions");
-  std::string bytes;
-  std::size_t used = 0;
-  if (std::filesystem::is_regular_file(status))
-    if (const std::uintmax_t size = std::filesystem::file_size(path, error); !error) bytes.resize(size + 1);
-  for (;;) {
-    if (used == bytes.size()) bytes.resize(2 * used + 65536);
-    const std::size_t got = std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
-    used += got;
-    if (got == 0) break;
-  }
-  if (std::ferror(file.get())) fail(std::string("cannot be read: ") + std::strerror(errno) + "; check the file");
-  bytes.resize(used);
-  return bytes;
-}
 
 std::optional<Format> format_of_content(const Input& input) {
   if (has_binary_stl_size(input.bytes) || looks_like_stl_text(input)) return Format::stl;
@@ -77,7 +47,7 @@ Polygon_soup read_scene(std::string_view bytes, Format format, const std::string
 }
 
 Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& options) {
-  const std::string bytes = detail::read_bytes(path);
+  const std::string bytes = read_bytes(path);
   const std::string name = path.string();
   std::optional<Format> format = format_of_ending(path);
   if (!format) format = detail::format_of_content({name, bytes});

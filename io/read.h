@@ -14,9 +14,6 @@ namespace sightline {
 
 namespace detail {
 
-/// All bytes of a file (or pipe). Throws Input_error where there is none, or it cannot be read.
-std::string read_bytes(const std::filesystem::path& path);
-
 /// The format that the bytes show, for a file whose ending says nothing; nothing where they show none.
 std::optional<Format> format_of_content(const Input& input);
 

@@ -23,6 +23,7 @@ class Text_reader {
     backslash
   };  ///< a backslash at the end of a line joins the next line to it, as a blank would
 
+  explicit Text_reader(Input&&, Comments, Continuation = Continuation::none) = delete;
   explicit Text_reader(const Input& input, Comments comments, Continuation continuation = Continuation::none)
       : input_(input),
         cursor_(input.bytes.data()),

@@ -1,19 +1,19 @@
 #include <sightline/io/write.h>
 
+#include <sightline/io/file.h>
 #include <sightline/io/obj.h>
 #include <sightline/io/off.h>
 #include <sightline/io/ply.h>
 #include <sightline/io/stl.h>
 
-#include <fstream>
-#include <ios>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
-#include <system_error>
 
 namespace sightline {
 
 void write_scene(const Polygon_soup& soup, std::ostream& out, Format format) {
+  soup.check_corners();
   switch (format) {
     case Format::obj: return write_obj(soup, out);
     case Format::off: return write_off(soup, out);
@@ -25,21 +25,9 @@ void write_scene(const Polygon_soup& soup, std::ostream& out, Format format) {
 }
 
 void write_scene(const Polygon_soup& soup, const std::filesystem::path& path, Format format) {
-  std::filesystem::path partial = path;
-  partial += ".partial";
-  try {
-    std::ofstream out(partial, std::ios::binary);
-    if (out) write_scene(soup, out, format);
-    out.close();
-    if (!out)
-      throw std::runtime_error(path.string() +
-                               ": cannot be written; check the folder, its permissions and its free space");
-    std::filesystem::rename(partial, path);
-  } catch (...) {
-    std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
-    throw;
-  }
+  std::ostringstream out;
+  write_scene(soup, out, format);
+  write_bytes(path, out.view());
 }
 
 void write_scene(const Polygon_soup& soup, const std::filesystem::path& path) {

@@ -10,12 +10,13 @@
 namespace sightline {
 
 /// Writes a scene such that read_scene gives it back: the same points and faces; from STL the same triangles of the
-/// same points. Throws Not_representable where the format cannot hold it; then some of it may have been written. Exact:
-/// yes. Post: errors of the stream are left in its state.
+/// same points. Throws Not_representable where the format cannot hold it; then some of it may have been written; and
+/// std::out_of_range where a face has a corner that is no point. Exact: yes. Post: errors of the stream are left in its
+/// state.
 void write_scene(const Polygon_soup& soup, std::ostream& out, Format format);
 
-/// Writes a scene to a file. What was there before is replaced only once all is written (to PATH.partial, first).
-/// Throws Not_representable, or std::runtime_error where the file cannot be written.
+/// Writes a scene to a file, whole or not at all, as write_bytes does. Throws Not_representable, or std::runtime_error
+/// where the file cannot be written.
 void write_scene(const Polygon_soup& soup, const std::filesystem::path& path, Format format);
 
 /// Writes a scene to a file in the format that its ending says (.ply: text). Throws as above, and std::runtime_error

@@ -25,6 +25,7 @@ struct Line {
 /// line share an id also where their end points differ. Exact: yes. Proof: P-01
 class Line_table {
  public:
+  explicit Line_table(Grid_points&&) = delete;
   explicit Line_table(const Grid_points& points)
       : points_(&points), limbs_((2 * points.bits() + 3) / 64 + 1), rows_(static_cast<std::size_t>(6 * limbs_)) {}
 

@@ -41,6 +41,9 @@ struct Prepared_plane {
 /// and a width.
 class Predicates {
  public:
+  Predicates(Grid_points&&, const Plane_table&, const Point_planes&) = delete;
+  Predicates(const Grid_points&, Plane_table&&, const Point_planes&) = delete;
+  Predicates(const Grid_points&, const Plane_table&, Point_planes&&) = delete;
   Predicates(const Grid_points& points, const Plane_table& planes, const Point_planes& incidences)
       : points_(&points),
         planes_(&planes),

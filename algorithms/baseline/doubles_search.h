@@ -33,6 +33,8 @@ struct Doubles_search_options {
 /// nothing is learned from a cell. Exact: no
 class Doubles_search {
  public:
+  Doubles_search(Occluders&&, const Doubles_search_options&) = delete;
+  Doubles_search(const Occluders&, Doubles_search_options&&) = delete;
   Doubles_search(const Occluders& occluders, const Doubles_search_options& options)
       : occluders_(&occluders), options_(&options) {}
 

@@ -50,6 +50,8 @@ requires(Traits::is_exact) class On_view {
   };
 
   /// Pre: graph and traits are of one scene and outlive this.
+  On_view(Traits&&, const Face_graph&) = delete;
+  On_view(const Traits&, Face_graph&&) = delete;
   On_view(const Traits& traits, const Face_graph& graph)
       : traits_(&traits),
         graph_(&graph),

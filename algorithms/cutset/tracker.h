@@ -57,6 +57,8 @@ template <Partition_traits Traits>
 class Cut_set_tracker {
  public:
   /// Before the first move nothing is on-view. Pre: traits and graph are of one scene and outlive the tracker.
+  Cut_set_tracker(Traits&&, const Face_graph&) = delete;
+  Cut_set_tracker(const Traits&, Face_graph&&) = delete;
   Cut_set_tracker(const Traits& traits, const Face_graph& graph)
       : graph_(&graph),
         tester_(traits, graph),

@@ -29,6 +29,8 @@ template <Partition_traits Traits>
 class Cut_set_1977 {
  public:
   /// Tests every node. Pre: traits and graph are of one scene and outlive this.
+  Cut_set_1977(Traits&&, const Face_graph&, const Viewpoint&, Reading_1977) = delete;
+  Cut_set_1977(const Traits&, Face_graph&&, const Viewpoint&, Reading_1977) = delete;
   Cut_set_1977(const Traits& traits, const Face_graph& graph, const Viewpoint& start, Reading_1977 reading)
       : graph_(&graph), tester_(traits, graph), reading_(reading), on_(graph.size()), checked_(graph.size(), 0) {
     const auto eye = tester_.locate(start);

@@ -46,6 +46,7 @@ class Exact_view {
 
   /// Pre: the scene outlives the view, and takes no further planes. `field`: normals of the sides of a field of view;
   /// side k meets side k + 1, in this sense, in a ray of it.
+  Exact_view(Scene&&, const Exact_point&, std::vector<std::array<Integer, 3>> = {}) = delete;
   Exact_view(const Scene& scene, const Exact_point& eye, std::vector<std::array<Integer, 3>> field = {})
       : scene_(&scene),
         eye_point_(eye),

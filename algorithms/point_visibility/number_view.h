@@ -40,6 +40,7 @@ class Number_view {
     Eye_plane_name p, q;
   };
 
+  Number_view(Scene&&, const Exact_point&) = delete;
   Number_view(const Scene& scene, const Exact_point& eye)
       : scene_(&scene), eye_point_(eye), directions_(scene.points().size()), forms_(scene.pieces().size()) {
     for (std::size_t k = 0; k < 3; ++k) eye_[k] = number::from(eye[k]);

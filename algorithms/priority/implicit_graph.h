@@ -31,6 +31,7 @@ class Implicit_priority_graph {
   using Index = Priority_index<typename Relation::Traits>;
 
   /// Pre: the relation outlives the graph. Cost: O(n log n) time, O(n) memory.
+  explicit Implicit_priority_graph(Relation&&) = delete;
   explicit Implicit_priority_graph(const Relation& relation) : relation_(&relation), index_(relation.faces()) {}
 
   std::size_t size() const { return relation_->size(); }

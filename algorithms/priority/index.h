@@ -48,6 +48,7 @@ class Priority_index {
   using Relation = Priority_relation<Traits>;
 
   /// Pre: the relation outlives the index. Post: all faces are live. Cost: O(n log n).
+  explicit Priority_index(Relation&&) = delete;
   explicit Priority_index(const Relation& relation) : relation_(&relation) {
     const std::uint32_t n = relation.size();
     measure();

@@ -46,12 +46,14 @@ class Priority_relation {
   using Polygon = Convex_polygon<Traits>;
 
   /// All pieces of the scene. Pre: the traits outlive the relation.
+  explicit Priority_relation(Traits&&) = delete;
   explicit Priority_relation(const Traits& traits) : traits_(&traits) {
     polygons_.reserve(traits.piece_count());
     cutters_.reserve(traits.piece_count());
     for (std::uint32_t i = 0; i < traits.piece_count(); ++i) add(store_.piece(traits, i));
   }
   /// Of these polygons only. Pre: their corners live as long as the relation.
+  Priority_relation(Traits&&, std::span<const Polygon>) = delete;
   Priority_relation(const Traits& traits, std::span<const Polygon> polygons) : traits_(&traits) {
     for (const Polygon& polygon : polygons) add(polygon);
   }

@@ -99,6 +99,7 @@ class Region_relation {
   using Traits = Model;
 
   /// Pre: `faces` outlives it. Cost: a side for each face and point of the region.
+  Region_relation(Priority_relation<Traits>&&, const View_region&) = delete;
   Region_relation(const Priority_relation<Traits>& faces, const View_region& region)
       : faces_(&faces), grid_(faces, region.points), seen_(faces.size()) {
     for (std::uint32_t i = 0; i < faces.size(); ++i)
@@ -310,6 +311,7 @@ class Ray_relation {
   using Traits = Model;
 
   /// Pre: `faces` outlives it. Errors: std::domain_error for a zero direction. Cost: linear in the corners.
+  Ray_relation(Priority_relation<Traits>&&, const Exact_point&, const Exact_point&) = delete;
   Ray_relation(const Priority_relation<Traits>& faces, const Exact_point& eye, const Exact_point& direction)
       : faces_(&faces), pierced_(faces.size()) {
     if (sgn(direction[0]) == 0 && sgn(direction[1]) == 0 && sgn(direction[2]) == 0)

@@ -63,6 +63,7 @@ class Separation_finder {
   using Triple = std::array<double, 3>;
 
   /// Pre: the traits outlive it. Exact traits only.
+  explicit Separation_finder(Traits&&) = delete;
   explicit Separation_finder(const Traits& traits) : traits_(&traits) {}
 
   /// Pre: the polygon's corners outlive the finder. Cost: an exact position a corner.

@@ -134,7 +134,7 @@ void add_compare(Command program) {
                   "are asked where no pair has more")
       .check(whole_number())
       .show_default();
-  command.add_option("--svg", a->svg, "weak: plot the seconds and the errors");
+  command.add_option("--svg", a->svg, "weak: plot the seconds and the errors").writes_file().check(ending(".svg"));
   command.footer(
       "order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of "
       "inexact kernels).\n"

@@ -2,6 +2,7 @@
 
 #include "case_watch.h"
 
+#include "../support/files.h"
 #include "../support/options.h"
 
 #include <fmt/format.h>
@@ -45,6 +46,7 @@ void set_alarm(double seconds) {
 
 extern "C" void end_by_signal(int number) {
   tell_of_crash();
+  remove_unfinished();
   std::signal(number, SIG_DFL);
   std::raise(number);
 }

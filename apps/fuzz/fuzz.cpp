@@ -21,6 +21,7 @@ namespace {
 
 struct Fuzz_arguments {
   std::string command, family, only, check, scene, query, out = "sightline-fuzz", json;
+  bool quiet = false;  ///< an output takes standard output
   double seconds = 60, case_seconds = 120;
   std::size_t scenes = 0, most_faces = harness::Fuzz_options{}.most_faces;
   std::uint64_t seed = 1;
@@ -146,10 +147,9 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
                           {"checks", tallies_json(summary.by_check)},
                           {"families", tallies_json(summary.by_family)}}},
                         {"seconds", {{"fuzz", seconds}}}};
-    if (arguments.json == "-") std::cout << to_text(document, 1) << '\n';
-    else write_file(arguments.json, to_text(document, 1) + "\n");
+    write_file(arguments.json, to_text(document, 1) + "\n");
   }
-  if (arguments.json != "-") {
+  if (!arguments.quiet) {
     print_tallies("check", summary.by_check);
     print_tallies("family", summary.by_family);
     row("scenes", fmt::format("{} from seed {}", summary.scenes, arguments.seed));
@@ -189,10 +189,14 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
     for (const harness::Check& check : subject.checks) names += ", " + check.name;
     throw Usage_error(fmt::format("--check '{}': {} has {}", arguments.check, subject.name, names));
   }
+  if (!arguments.json.empty()) {
+    const std::string stem = (std::filesystem::path(arguments.out) / arguments.command).string();
+    check_files({}, {{"--json", arguments.json}, {"--out", stem + ".qoff"}, {"--out", stem + ".json"}});
+  }
   watch_for_crashes();
   const std::string checks = arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
   if (!arguments.scene.empty()) {
-    Polygon_soup soup = read_scene(std::filesystem::path(arguments.scene));
+    Polygon_soup soup = read_scene(input_path(arguments.scene));
     harness::Posed_query query;
     if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
     generate::Posed_scene& scene = query.scene;
@@ -254,16 +258,20 @@ void add_fuzz(Command program) {
       .check(whole_number())
       .show_default();
   command.add_option("--case", a->only, "run one case alone, FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER");
-  command.add_option("--scene", a->scene, "run a scene of a file alone");
-  command.add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them");
+  command.add_option("--scene", a->scene, "run a scene of a file alone").reads_file();
+  command.add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them")
+      .reads_file();
   command.add_option("--check", a->check, "with --case or --scene: this check only");
-  command.add_option("--out", a->out, "the folder for the smallest failing scene").show_default();
-  command.add_option("--json", a->json, "write the summary as JSON to this file, - for standard output");
+  command.add_option("--out", a->out, "the folder for the smallest failing scene").check(not_empty()).show_default();
+  command.add_option("--json", a->json, "write the summary as JSON to this file, - for standard output").writes_file();
   command.footer(
       "Commands and their checks; each answer is also checked by itself ('certificate'):" + list_of_checks() +
       "\nExit codes: 0 nothing found, 1 something disagrees or a case does not end, 2 usage, 3 bad input."
       "\nExample: sightline fuzz see --seconds 600 --seed 7 --out found");
-  command.set_action([a] { return run_fuzz(*a); });
+  command.set_action([a, command] {
+    a->quiet = command.writes_standard_output();
+    return run_fuzz(*a);
+  });
 }
 
 }  // namespace sightline::app

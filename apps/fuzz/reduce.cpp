@@ -10,6 +10,7 @@
 
 #include <iostream>
 #include <limits>
+#include <sstream>
 
 namespace sightline::app {
 
@@ -45,7 +46,11 @@ Exit run(const Reduce_arguments& arguments) {
   const std::optional<Format> format = format_of_ending(arguments.out);
   if (!format)
     throw Usage_error("--out " + arguments.out + ": no format has this ending; give one of " + supported_formats);
-  Polygon_soup soup = read_scene(std::filesystem::path(arguments.scene));
+  const std::string reduced_query = std::filesystem::path(arguments.out).replace_extension(".json").string();
+  if (!arguments.query.empty())
+    check_files({{"SCENE", arguments.scene}, {"--query", arguments.query}},
+                {{"--out", arguments.out}, {"the query beside --out,", reduced_query}});
+  Polygon_soup soup = read_scene(input_path(arguments.scene));
   harness::Posed_query query;
   if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
   generate::Posed_scene& scene = query.scene;
@@ -63,11 +68,14 @@ Exit run(const Reduce_arguments& arguments) {
         word.replace(at, mark.size(), file);
   const auto code_for = [&](const generate::Posed_scene& smaller) -> int {
     try {
-      write_scene(smaller.soup, scene_file, *format);
+      std::ostringstream text;
+      write_scene(smaller.soup, text, *format);
+      write_temporary(scene_file, text.view());
     } catch (const Not_representable&) {
       return 0;  // not a scene that can be handed over
     }
-    if (!arguments.query.empty()) write_file(query_file, to_text(harness::query_json(smaller, query.seed), 1) + "\n");
+    if (!arguments.query.empty())
+      write_temporary(query_file, to_text(harness::query_json(smaller, query.seed), 1) + "\n");
     return exit_code_of(words, arguments.limit);
   };
   const auto fails = [&](const generate::Posed_scene& smaller) {
@@ -88,8 +96,7 @@ Exit run(const Reduce_arguments& arguments) {
   const harness::Reduced reduced = harness::reduce(scene, fails, options);
   write_scene(reduced.scene.soup, arguments.out, *format);
   if (!arguments.query.empty())
-    write_file(std::filesystem::path(arguments.out).replace_extension(".json").string(),
-               to_text(harness::query_json(reduced.scene, query.seed), 1) + "\n");
+    write_file(reduced_query, to_text(harness::query_json(reduced.scene, query.seed), 1) + "\n");
   row("faces", fmt::format("{} of {}", reduced.scene.soup.face_count(), scene.soup.face_count()));
   row("points", fmt::format("{} of {}", reduced.scene.soup.point_count(), scene.soup.point_count()));
   row("runs", fmt::format("{}, {} steps kept, {:.1f} seconds{}", reduced.tests, reduced.kept, time.seconds(),
@@ -103,15 +110,21 @@ void add_reduce(Command program) {
   const Command command = program.add_command(
       "reduce", "The smallest and roundest scene for which a program still fails, whatever program it is");
   auto a = std::make_shared<Reduce_arguments>();
-  command.add_option("SCENE", a->scene, "a scene for which it fails: .obj .off .ply .stl .qoff").required();
+  command.add_option("SCENE", a->scene, "a scene for which it fails: .obj .off .ply .stl .qoff")
+      .required()
+      .reads_file();
   command
       .add_option("PROGRAM", a->program,
                   "after --: the program and its arguments; {} stands for the scene's file, {query} for the query's")
       .required();
-  command.add_option("--out", a->out, "the file to write; the program gets scenes with the same ending").required();
-  command.add_option("--query", a->query,
-                     "what is asked of the scene, as `generate --query` writes it: reduced with the scene, and "
-                     "written beside --out as .json");
+  command.add_option("--out", a->out, "the file to write; the program gets scenes with the same ending")
+      .required()
+      .writes_file();
+  command
+      .add_option("--query", a->query,
+                  "what is asked of the scene, as `generate --query` writes it: reduced with the scene, and "
+                  "written beside --out as .json")
+      .reads_file();
   command
       .add_option("--code", a->code,
                   "the exit code that counts as failing; 128 + S for signal S, 124 for no end in time. By default any "

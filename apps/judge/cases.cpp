@@ -136,8 +136,7 @@ namespace fs = std::filesystem;
 judge::Query query_of(const std::string& file, judge::Question question) {
   judge::Query query;
   try {
-    std::ifstream in(file);
-    query = judge::query_from_json(parse_json(in));
+    query = judge::query_from_json(parse_json(read_input(file), file));
   } catch (const std::exception& error) {
     throw Usage_error("--ask " + file + ": no query: " + printable(error.what(), 400, true));
   }

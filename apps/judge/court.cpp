@@ -2,12 +2,14 @@
 
 #include "court.h"
 
+#include <sightline/io/file.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 #include <sightline/io/exact_text.h>
 
 #include <csignal>
 #include <cstring>
+#include <sstream>
 
 namespace sightline::app {
 
@@ -54,12 +56,14 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
         throw std::logic_error(fmt::format(
             "the library says of face {} what its construction excludes (seed {}); please report it", face, seed));
   try {
-    write_scene(asked.soup, scene());
+    std::ostringstream text;
+    write_scene(asked.soup, text, *format_of_ending(scene()));
+    write_temporary(scene(), text.view());
   } catch (const Not_representable& error) {
     judged.not_asked = "the format cannot hold the scene";
     return judged;
   }
-  write_file(query(), judge::to_json(asked.query).dump() + "\n");
+  write_temporary(query(), judge::to_json(asked.query).dump() + "\n");
   fs::remove_all(answer());
   run(asked, truth, judged);
   return judged;
@@ -105,8 +109,8 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
     if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
-    judged.grade = judge::grade(
-        truth, judge::read_answer(detail::read_bytes(answer()), asked.query.question, asked.soup.face_count()));
+    judged.grade =
+        judge::grade(truth, judge::read_answer(read_bytes(answer()), asked.query.question, asked.soup.face_count()));
   } catch (const std::runtime_error& error) {  // no file that can be read
     judged.mark = judge::Mark::invalid;
     judged.why = error.what();

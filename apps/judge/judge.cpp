@@ -21,7 +21,7 @@ struct Judge_arguments {
   double time = 10, budget = 20, reduce = 0;
   std::uint64_t memory = 1024;
   int threads = 0;
-  bool two_sided = false, cycles = false;
+  bool two_sided = false, cycles = false, quiet = false;  // quiet: an output takes standard output
 
   Case_options case_options() const {
     return {static_cast<Question>(place_of(query, question_names)), two_sided, format != "qoff"};
@@ -99,6 +99,24 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
       {"again", command_again(arguments, "--scenes " + shell_word(files.at(0)) + " --ask " + shell_word(files.at(1)))}};
 }
 
+/// What --keep writes is neither read nor written by another option.
+void check_kept(const Judge_arguments& arguments) {
+  const Case_choice& choice = arguments.choice;
+  if (arguments.keep.empty()) return;
+  std::error_code not_there;
+  if (std::filesystem::equivalent(choice.scenes, arguments.keep, not_there))
+    throw Usage_error("--keep " + arguments.keep + ": that is the folder that --scenes reads; name another one");
+  std::vector<Named_file> inputs{{"--scenes", choice.scenes}, {"--ask", choice.ask}},
+      outputs{{"--json", arguments.json}, {"--html", arguments.html}};
+  const auto is_left_out = [](const Named_file& file) { return file.name.empty(); };
+  std::erase_if(inputs, is_left_out);
+  std::erase_if(outputs, is_left_out);
+  for (const std::string stem : {"smallest.", "reduced."})
+    for (const std::string& ending : {arguments.format, std::string("json"), std::string("answer")})
+      outputs.push_back({"--keep", (std::filesystem::path(arguments.keep) / (stem + ending)).string()});
+  check_files(inputs, outputs);
+}
+
 Exit run(const Judge_arguments& arguments) {
   if (!arguments.choice.scenes.empty() && !arguments.choice.families.empty())
     throw Usage_error("--scenes and --families exclude each other: ask twice");
@@ -106,6 +124,7 @@ Exit run(const Judge_arguments& arguments) {
     throw Usage_error("--ask wants --scenes: which scene is asked about");
   if (arguments.reduce > 0 && arguments.keep.empty())
     throw Usage_error("--reduce wants --keep: the folder for the scene");
+  check_kept(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
   const Court court(arguments.court_options());
   const std::uint64_t cases = arguments.choice.ask.empty() ? arguments.cases : 1;
@@ -172,12 +191,11 @@ Exit run(const Judge_arguments& arguments) {
   result["failures"] = std::move(failures);
   document["seconds"] = {{"all", watch.seconds()}};
 
+  progress.clear();
   if (!arguments.html.empty()) write_file(arguments.html, judge_page(document));
   const std::string text = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (arguments.json == "-") {
-    std::cout << text << std::flush;
-  } else {
-    if (!arguments.json.empty()) write_file(arguments.json, text);
+  if (!arguments.json.empty()) write_file(arguments.json, text);
+  if (!arguments.quiet) {
     print_table(document);
     print_verdict(document);
   }
@@ -219,13 +237,12 @@ void add_judge(Command program) {
   command.add_option("--size", a->choice.size, "how large the families' scenes are; 0: small")
       .check(whole_number())
       .show_default();
-  command.add_option("--scenes", a->choice.scenes, "instead of families: a scene, or a folder of them")
-      .check(not_empty());
+  command.add_option("--scenes", a->choice.scenes, "instead of families: a scene, or a folder of them").reads_file();
   command
       .add_option(
           "--ask", a->choice.ask,
           "with --scenes: a file with the query to ask, as --keep writes it, instead of queries of the judge's own")
-      .check(not_empty());
+      .reads_file();
   command.add_option("--cases", a->cases, "of each family at each distance, or of each scene")
       .check(whole_number())
       .show_default();
@@ -252,10 +269,11 @@ void add_judge(Command program) {
   command.add_option("--threads", a->threads, "for the truth; 0: one for each processor")
       .check(range(0, 1024))
       .show_default();
-  command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output");
-  command.add_option("--html", a->html, "write a page to look at");
-  command.add_option("--keep", a->keep,
-                     "a folder for the smallest case that breaks the contract: scene, query and answer");
+  command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
+  command.add_option("--html", a->html, "write a page to look at").writes_file().check(ending(".html"));
+  command
+      .add_option("--keep", a->keep, "a folder for the smallest case that breaks the contract: scene, query and answer")
+      .check(not_empty());
   command
       .add_option("--reduce", a->reduce,
                   "with --keep: make that case smaller still, for so many seconds, as long as the program breaks the "
@@ -272,7 +290,10 @@ void add_judge(Command program) {
       "A wrong face, an answer outside of the protocol and a crash break the contract; to abstain, and to run out of "
       "time or memory, does not. Exit code 1: broken.\n"
       "All of it: harness/judge/README.md.");
-  command.set_action([a] { return run(*a); });
+  command.set_action([a, command] {
+    a->quiet = command.writes_standard_output();
+    return run(*a);
+  });
 }
 
 }  // namespace sightline::app

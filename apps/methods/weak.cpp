@@ -27,7 +27,7 @@ void Source_arguments::add_to(Command command, const std::string& prefix) {
                   prefix +
                       "a closed polyhedron, as a file like SCENE: what its surface sees outwards, and the faces that "
                       "it sees from within; may be repeated")
-      .check(not_empty());
+      .reads_file();
   command.add_option("--from-faces", solid, prefix + "the same for faces of the scene that bound a solid, with commas")
       .delimiter(',');
   command.add_flag("--two-sided", two_sided,

@@ -1,5 +1,6 @@
 #include "common.h"
 
+#include <sightline/io/input.h>
 #include <sightline/io/number_lines.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/predicates.h>
@@ -7,24 +8,26 @@
 
 #include <unistd.h>
 
-#include <fstream>
 #include <iostream>
 
 namespace sightline::app {
 
-void Common::add_to(Command command) {
-  command.add_option("SCENE", scene, "a scene: .obj .off .ply .stl .qoff").required();
-  command.add_option("--json", json, "write everything as JSON to this file, - for standard output");
-  command
-      .add_option("--coordinates", coordinates,
-                  "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
+void Common::add_to(Command of) {
+  command = of;
+  of.add_option("SCENE", scene,
+                "a scene: .obj .off .ply .stl .qoff; - for standard input, whose content shows the format")
+      .required()
+      .reads_file();
+  of.add_option("--json", json, "write everything as JSON to this file, - for standard output").writes_file();
+  of.add_option("--coordinates", coordinates,
+                "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
       .check(one_of({"exact", "double"}))
       .show_default();
-  command.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")
+  of.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))
       .show_default();
-  command.add_option("--seed", seed, "of random choices").check(whole_number()).show_default();
-  command.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")
+  of.add_option("--seed", seed, "of random choices").check(whole_number()).show_default();
+  of.add_option("--budget", budget, "seconds; 0: no limit. Exit code 4 where they run out")
       .check(not_negative() & finite_number())
       .show_default();
 }
@@ -41,7 +44,7 @@ std::function<void(std::size_t, std::size_t)> Common::within_budget(
 Polygon_soup Common::read() const {
   Read_options options;
   options.round_to_double = coordinates == "double";
-  return read_scene(std::filesystem::path(scene), options);
+  return read_scene(input_path(scene), options);
 }
 
 std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted) {
@@ -76,8 +79,9 @@ Exact_point eye_of(const std::string& text, const Scene& scene) {
 }
 
 Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(2) != 0) {}
-Progress::~Progress() {
-  if (shown_ >= 0) std::cerr << "\r\033[K" << std::flush;
+Progress::~Progress() { clear(); }
+void Progress::clear() {
+  if (shown_.exchange(-1) >= 0) std::cerr << "\r\033[K" << std::flush;
 }
 void Progress::operator()(std::size_t done, std::size_t all) {
   if (!terminal_ || watch_.seconds() < 0.5) return;
@@ -114,26 +118,33 @@ Json scene_json(const Scene& scene) {
 
 bool write_json(const Common& common, const std::string& command, const Scene& scene, Json result, Json counters,
                 Json seconds) {
-  if (common.json.empty()) return false;
+  const bool taken = common.command->writes_standard_output();
+  if (common.json.empty()) return taken;
   Json document;
   document["command"] = command;
   document["scene"] = scene_json(scene);
   document["result"] = std::move(result);
   document["counters"] = std::move(counters);
   document["seconds"] = std::move(seconds);
-  const std::string text = document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-  if (common.json == "-") std::cout << text << std::flush;
-  else write_file(common.json, text);
-  return common.json == "-";
+  write_file(common.json, document.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  return taken;
 }
 
 std::string to_text(const Json& value, int indent) { return value.dump(indent); }
-nlohmann::json parse_json(std::istream& in) { return nlohmann::json::parse(in); }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw std::runtime_error(path + ": cannot be written; check the folder and its permissions");
+nlohmann::json parse_json(const std::string& text, const std::string& name) {
+  try {
+    return nlohmann::json::parse(text);
+  } catch (const nlohmann::json::parse_error& error) {
+    const std::size_t place = std::min(std::max<std::size_t>(error.byte, 1) - 1, text.size());
+    Input{name, text}.fail(text.data() + place,
+                           place == text.size()
+                               ? "the JSON ends too early; write the file again, or fetch it again"
+                               : "from here on it is no JSON; write the file again, or fetch it again");
+  } catch (const nlohmann::json::exception& error) {  // a number beyond doubles
+    const std::string_view what = error.what();
+    throw Input_error::of_file(name, std::string(what.substr(what.find("] ") + 2)) + "; write the file again");
+  }
 }
 
 void row(const std::string& name, const std::string& value) { std::cout << fmt::format("{:<22} {}\n", name, value); }

@@ -2,6 +2,7 @@
 // What the commands share: reading a scene, exact points on the command line, JSON, tables, progress.
 
 #include "command.h"
+#include "files.h"
 
 #include <sightline/kernel/counters.h>
 #include <sightline/kernel/scene/scene.h>
@@ -26,7 +27,9 @@ struct Common {
   std::uint64_t seed = 1;
   double budget = 0;  ///< seconds; 0: none
 
-  void add_to(Command command);
+  std::optional<Command> command;  ///< whose options these are
+
+  void add_to(Command of);
   Polygon_soup read() const;
   /// A progress callback that throws Out_of_budget once the seconds are over.
   std::function<void(std::size_t, std::size_t)> within_budget(
@@ -56,6 +59,7 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   void operator()(std::size_t done, std::size_t all);
+  void clear();  ///< takes the bar away, before what is printed next
 
  private:
   std::string what_;
@@ -103,15 +107,14 @@ Json counters_json(const Type& counters) {
 }
 Json point_json(const Exact_point& p);
 
-/// Writes the JSON document of a command where --json asks for it. Returns whether standard output is taken by it.
+/// Writes the JSON document of a command where --json asks for it. Returns whether standard output is taken, by it or
+/// by another output.
 bool write_json(const Common& common, const std::string& command, const Scene& scene, Json result, Json counters,
                 Json seconds);
-/// JSON as text and from text: here, since both take long to compile. `indent` below 0: one line. Errors are the
-/// library's.
+/// JSON as text and from text: here, since both take long to compile. `indent` below 0: one line. Errors: Input_error
+/// with line and column; `name` is the file's.
 std::string to_text(const Json& value, int indent = -1);
-nlohmann::json parse_json(std::istream& in);
-/// Writes a file, or throws with the reason.
-void write_file(const std::string& path, const std::string& text);
+nlohmann::json parse_json(const std::string& text, const std::string& name);
 
 /// One row of a table for people.
 void row(const std::string& name, const std::string& value);

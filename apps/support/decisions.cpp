@@ -14,7 +14,7 @@ void add_to(Command command, Decision_arguments& arguments) {
       .add_option("--likelihood", arguments.likelihood,
                   "with --decision-tree: a file with WEIGHT,FACE,FACE,... a line, the faces that are on-view together; "
                   "without it all views from outside are alike")
-      .check(not_empty());
+      .reads_file();
   command.add_flag("--inside", arguments.inside, "with --decision-tree: no face on-view is possible too, at weight 0");
 }
 

@@ -46,6 +46,7 @@ void set_limit(int what, rlim_t most) {
 [[noreturn]] void become(const std::vector<char*>& argv, int input, int output, int report, rlim_t processor_seconds) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
+  signal(SIGXFSZ, SIG_DFL);
   set_limit(RLIMIT_CORE, 0);
   set_limit(RLIMIT_FSIZE, rlim_t{256} << 20);
   set_limit(RLIMIT_CPU, processor_seconds);

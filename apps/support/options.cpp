@@ -2,8 +2,12 @@
 
 #include "options.h"
 
+#include "files.h"
+
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 #include <utility>
 
@@ -18,12 +22,35 @@ Check operator&(const Check& first, const Check& second) { return made(*first.va
 Check one_of(const std::vector<std::string>& names) { return made(CLI::IsMember(names)); }
 Check range(int least, int most) { return made(CLI::Range(least, most)); }
 Check range(double least, double most) { return made(CLI::Range(least, most)); }
-Check positive() { return made(CLI::PositiveNumber); }
-Check not_negative() { return made(CLI::NonNegativeNumber); }
+/// A check of a number, which help calls by a name.
+static Check of_number(const std::string& name, const std::string& wanted, bool (*holds)(double)) {
+  return made({[wanted, holds](std::string& text) {
+                 double value = 0;
+                 const bool good = CLI::detail::lexical_cast(text, value) &&
+                                   (std::isnan(value) || (std::isfinite(value) && holds(value)));
+                 return good ? "" : '"' + text + "\" is not " + wanted;
+               },
+               name});
+}
+Check positive() {
+  return of_number("POSITIVE", "a number > 0", [](double x) { return x > 0; });
+}
+Check not_negative() {
+  return of_number("NONNEGATIVE", "a number >= 0", [](double x) { return x >= 0; });
+}
 Check folder() { return made(CLI::ExistingDirectory); }
 Check not_empty() {
   return made(
       {[](std::string& text) { return text.empty() ? "is empty; leave the option out, or give it a value" : ""; }, ""});
+}
+Check ending(const std::string& wanted) {
+  return made({[wanted](std::string& text) {
+                 const std::string found = std::filesystem::path(text).extension().string();
+                 return found.empty() || CLI::detail::to_lower(found) == wanted
+                            ? ""
+                            : '"' + text + "\" does not end with " + wanted + ", which is what it would hold";
+               },
+               ""});
 }
 Check whole_number() {
   return made({[](std::string& text) {
@@ -43,6 +70,11 @@ Check finite_number() {
 // ---- Options
 
 Option Option::required() const { return Option(*option_->required()); }
+/// What help calls the value of an option that names a file, and what such options are known by.
+static constexpr const char *input_file = "FILE", *output_file = "OUTPUT";
+
+Option Option::reads_file() const { return Option(*option_->type_name(input_file)).check(not_empty()); }
+Option Option::writes_file() const { return Option(*option_->type_name(output_file)).check(not_empty()); }
 Option Option::check(const Check& check) const { return Option(*option_->check(*check.validator)); }
 Option Option::show_default() const { return Option(*option_->capture_default_str()); }
 Option Option::delimiter(char between) const { return Option(*option_->delimiter(between)); }
@@ -84,8 +116,22 @@ Option Command::add_flag(std::string_view name, std::string& variable, std::stri
 }
 void Command::footer(std::string_view text) const { app_->footer(std::string(text)); }
 
+/// The files that a command line names by options of one kind.
+static std::vector<Named_file> files_of(const CLI::App& app, std::string_view kind) {
+  std::vector<Named_file> files;
+  for (const CLI::Option* option : app.get_options())
+    if (option->get_type_name() == kind)
+      for (const std::string& name : option->results()) files.push_back({option->get_name(), name});
+  return files;
+}
+bool Command::writes_standard_output() const {
+  const std::vector<Named_file> outputs = files_of(*app_, output_file);
+  return std::any_of(outputs.begin(), outputs.end(), [](const Named_file& output) { return output.name == "-"; });
+}
+
 void Command::set_action(std::function<Exit()> action) const {
-  app_->callback([action = std::move(action)] {
+  app_->callback([app = app_, action = std::move(action)] {
+    check_files(files_of(*app, input_file), files_of(*app, output_file));
     if (const Exit exit = action(); exit != Exit::done) throw CLI::RuntimeError(static_cast<int>(exit));
   });
 }

@@ -52,6 +52,8 @@ Check positive();
 Check not_negative();
 Check folder();  ///< one that is there
 Check not_empty();
+/// Of a file to write: its name has this ending, or none.
+Check ending(const std::string& wanted);
 /// What CLI11's own conversions leave out: they wrap -1 to 2^64 - 1, and let nan through every range.
 Check whole_number();
 Check finite_number();
@@ -62,6 +64,10 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option required() const;
+  /// The value is the name of a file to read, which help calls FILE, or to write, which it calls OUTPUT: not empty, and
+  /// held to the other files of the command line before the command's action (check_files).
+  Option reads_file() const;
+  Option writes_file() const;
   Option check(const Check& check) const;
   Option show_default() const;  ///< in the help: what its variable holds now
   Option delimiter(char between) const;
@@ -96,6 +102,7 @@ class Command {
   /// A name --flag{value} sets the variable to the value.
   Option add_flag(std::string_view name, std::string& variable, std::string_view description) const;
   void footer(std::string_view text) const;  ///< of its help
+  bool writes_standard_output() const;       ///< once the command line is read: an output is "-"
 
   /// Lets a command do its work after the whole command line is read; what `action` returns becomes the program's exit
   /// code. Pre: called once for a command.

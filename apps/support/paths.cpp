@@ -5,15 +5,13 @@
 #include <sightline/io/svg.h>
 #include <sightline/io/decimal.h>
 
-#include <fstream>
-
 namespace sightline::app {
 
 void add_to(Command command, Path_arguments& arguments) {
   command
       .add_option("--path", arguments.path,
                   "viewpoints: a file with X,Y,Z a line; X,Y,Z,0 is the direction of a viewpoint at infinity")
-      .check(not_empty());
+      .reads_file();
   command.add_option("--orbit", arguments.orbit, "this many viewpoints on a level circle round the scene")
       .check(whole_number() & range(1, 100'000'000));
   command.add_option("--radius", arguments.radius, "of the orbit, in half lengths of the scene's longest side")
@@ -26,7 +24,7 @@ void add_to(Command command, Path_arguments& arguments) {
       .add_option("--motion", arguments.motion,
                   "the object moves instead: a file with W,X,Y,Z,TX,TY,TZ a line, a quaternion of any length and a "
                   "translation, seen from --eye")
-      .check(not_empty());
+      .reads_file();
   command.add_option("--eye", arguments.eye, "with --motion: the eye X,Y,Z; by default a place outside the scene")
       .check(not_empty());
 }
@@ -43,9 +41,7 @@ void check_usage(const Path_arguments& arguments) {
 
 void read_lines(const std::string& file, const std::string& wanted,
                 const std::function<bool(const std::vector<Rational>&)>& take) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Input_error::of_file(file, "cannot be opened; check its name");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  const std::string bytes = read_input(file);
   read_number_lines({file, bytes}, wanted, take);
 }
 

@@ -19,6 +19,7 @@ static Direction3 parse_direction(const std::string& text, const std::string& op
   const Direction3 direction{nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
   for (const double x : direction)
     if (!std::isfinite(x)) throw Usage_error(option + " wants a direction in the range of doubles");
+  if (direction == Direction3{}) throw Usage_error(option + " wants a direction that is not 0,0,0");
   return direction;
 }
 

@@ -1,5 +1,9 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
 namespace sightline {
 
 Point_id Polygon_soup::add_point(const Rational& x, const Rational& y, const Rational& z) {
@@ -10,10 +14,25 @@ Point_id Polygon_soup::add_point(const Rational& x, const Rational& y, const Rat
 }
 
 Point_id Polygon_soup::add_point(double x, double y, double z) {
+  for (const double coordinate : {x, y, z})
+    if (!std::isfinite(coordinate))
+      throw std::domain_error("point " + std::to_string(point_count()) + ": " + std::to_string(coordinate) +
+                              " is no coordinate; give the point finite ones");
   coordinates.push_double(x);
   coordinates.push_double(y);
   coordinates.push_double(z);
   return static_cast<Point_id>(point_count() - 1);
+}
+
+void Polygon_soup::check_corners() const {
+  const auto is_there = [this](Point_id p) { return p < point_count(); };
+  if (std::all_of(corners_.begin(), corners_.end(), is_there)) return;
+  for (Face_id f = 0; f < face_count(); ++f)
+    for (std::size_t k = 0; k < loop_count(f); ++k)
+      for (const Point_id p : loop(f, k))
+        if (!is_there(p))
+          throw std::out_of_range("face " + std::to_string(f) + " has the corner " + std::to_string(p) +
+                                  ", and there are " + std::to_string(point_count()) + " points, counted from 0");
 }
 
 }  // namespace sightline

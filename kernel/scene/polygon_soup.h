@@ -19,8 +19,9 @@ using Face_id = std::uint32_t;  ///< 0-based place of a face in the input
 using Exact_point = std::array<Rational, 3>;
 
 /// A polygon soup. A face is one or more loops of point ids: the first is the outer contour, seen counterclockwise from
-/// the face's front; further loops are holes (either sense). Nothing is checked here but index ranges by the readers:
-/// repeated points, non-planar, concave and zero-area faces are all welcome. Points may be unused or repeated.
+/// the face's front; further loops are holes (either sense). Repeated points, non-planar, concave and zero-area faces
+/// are all welcome, and points may be unused. A face may be added before its points: check_corners() sees whether they
+/// came.
 struct Polygon_soup {
   std::string file;         ///< where it came from, for messages and for JSON
   Coordinates coordinates;  ///< x, y, z of point 0, then of point 1, ...
@@ -37,7 +38,8 @@ struct Polygon_soup {
     return {corners_.data() + loop_begin_[l], corners_.data() + loop_begin_[l + 1]};
   }
 
-  /// Appends a point and returns its id.
+  /// Appends a point and returns its id. Errors: std::domain_error, which names the point, where a double is not
+  /// finite.
   Point_id add_point(const Rational& x, const Rational& y, const Rational& z);
   Point_id add_point(double x, double y, double z);
   /// Appends a face of one loop (possibly of fewer than three points) and returns its id.
@@ -53,6 +55,8 @@ struct Polygon_soup {
     face_begin_.back() = loop_begin_.size() - 1;
   }
   void add_hole(std::initializer_list<Point_id> hole) { add_hole(std::span(hole.begin(), hole.size())); }
+  /// Errors: std::out_of_range, which names the face and the point, where a face has a point that there is not.
+  void check_corners() const;
 
  private:
   void add_loop(std::span<const Point_id> loop) {

@@ -93,6 +93,7 @@ void cut_faces(const Face_loops& all, const Grid_points& points, Scene_faces& fa
 Scene::Scene(const Polygon_soup& soup) : file_(soup.file) {
   if (soup.face_count() >= Plane::max_table_planes || soup.point_count() >= Plane::max_axis_point)
     throw std::length_error("scenes of up to 2^28 points and 2^30 faces only");
+  soup.check_corners();
 
   // 1. Points on the grid, faces on planes.
   std::vector<std::uint32_t> ids;
@@ -115,7 +116,7 @@ Scene::Scene(const Polygon_soup& soup) : file_(soup.file) {
   c.pieces = pieces().size();
 }
 
-Predicates Scene::predicates() const { return {points(), planes(), incidences_}; }
+Predicates Scene::predicates() const& { return {points(), planes(), incidences_}; }
 
 std::array<Rational, 4> Scene::file_coefficients(Plane plane) const {
   return file_coefficients(predicates().coefficients(plane));

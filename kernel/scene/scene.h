@@ -22,7 +22,8 @@ class Predicates;
 /// An exact polygonal scene (design laws in proofs/semantics.md). Points lie on the coarsest integer grid that holds
 /// them all, centred (Scene_grid). Non-planar faces are triangulated, concave ones and ones with holes cut into convex
 /// pieces on their own vertices; what cannot be modelled is set aside for a Set_aside_reason and listed.
-/// Errors: std::length_error for 2^28 points or 2^30 faces and more.
+/// Errors: std::out_of_range where a face names a point that there is not; std::length_error for 2^28 points or 2^30
+/// faces and more.
 /// Cost: O(n) hashing, O(k log k) for a face of k vertices. Exact: yes. Proof: P-00, P-01, P-02
 class Scene {
  public:
@@ -40,7 +41,8 @@ class Scene {
   const std::vector<Face_id>& concave() const { return faces_.concave; }
   const Scene_counters& counters() const { return faces_.counters; }
   const Point_planes& incidences() const { return incidences_; }
-  Predicates predicates() const;  ///< of `kernel/predicates.h`
+  Predicates predicates() const&;  ///< of `kernel/predicates.h`
+  Predicates predicates() const&& = delete;
 
   /// Bit length of the largest coordinate once the whole scene is scaled to integers, and of that scale.
   int bits() const { return grid_.bits(); }

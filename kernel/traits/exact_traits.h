@@ -36,6 +36,7 @@ class Exact_traits {
   static constexpr bool is_exact = true;
 
   /// Pre: the scene outlives the traits, and takes no further planes.
+  explicit Exact_traits(Scene&&) = delete;
   explicit Exact_traits(const Scene& scene) : scene_(&scene), predicates_(scene.predicates()) {}
 
   const Scene& scene() const { return *scene_; }

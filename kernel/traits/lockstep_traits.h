@@ -41,6 +41,8 @@ class Lockstep_traits {
     typename Judged::Eye judged;
   };
 
+  Lockstep_traits(Truth&&, const Judged&) = delete;
+  Lockstep_traits(const Truth&, Judged&&) = delete;
   Lockstep_traits(const Truth& truth, const Judged& judged) : truth_(&truth), judged_(&judged) {
     // Judged knows a plane by a piece that lies on it.
     for (std::uint32_t piece = 0; piece < truth.piece_count(); ++piece) {

@@ -82,6 +82,7 @@ class Point_traits {
   using Eye = Point_3;
   static constexpr bool is_exact = !std::is_floating_point_v<typename K::FT>;  // Epick's field type is double
 
+  explicit Point_traits(Scene&&) = delete;
   explicit Point_traits(const Scene& scene) : scene_(&scene) {
     points_.reserve(scene.points().size());
     for (std::uint32_t p = 0; p < scene.points().size(); ++p) points_.push_back(eye(scene.position(p)));

@@ -75,9 +75,15 @@ target_compile_features(faulty_library PUBLIC cxx_std_20)
 target_compile_options(faulty_library PUBLIC $<TARGET_PROPERTY:sightline_library,INTERFACE_COMPILE_OPTIONS>)
 target_link_libraries(faulty_library PUBLIC sightline::dependencies)
 
+# Found here too: the program and the tests, which find them otherwise, may be left out.
+find_package(CLI11 CONFIG REQUIRED)
+find_package(fmt CONFIG REQUIRED)
+find_package(GTest CONFIG REQUIRED)
+find_package(rapidcheck CONFIG REQUIRED)
+
 add_executable(sightline_faulty EXCLUDE_FROM_ALL tests/faults/program/main.cpp
                apps/fuzz/fuzz.cpp apps/fuzz/case_watch.cpp apps/fuzz/io.cpp apps/support/query.cpp apps/support/common.cpp
-               apps/support/options.cpp)
+               apps/support/files.cpp apps/support/options.cpp)
 target_link_libraries(sightline_faulty PRIVATE CLI11::CLI11 fmt::fmt)
 add_executable(fuzz_targets_faulty EXCLUDE_FROM_ALL tests/fuzz/program/main.cpp)
 target_link_libraries(fuzz_targets_faulty PRIVATE GTest::gtest rapidcheck)

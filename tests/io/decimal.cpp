@@ -92,11 +92,24 @@ TEST(Decimal, exponents_up_to_1100_are_read_and_no_further) {
   EXPECT_EQ(value_of(decimal("0.1e1101")), exact_decimal(1, 1100));
   EXPECT_EQ(value_of(decimal("10e-1101")), exact_decimal(1, -1100));
   EXPECT_EQ(value_of(decimal("1.0e1101")), exact_decimal(1, 1101));
-  for (const char* token : {"1e1101", "1e-1101", "0.1e-1100", "1.1e1102", "1e99999999999999999999999",
-                            "-1e-99999999999999999999999", "1e4294967296", "1e18446744073709551616"})
+  for (const char* token : {"1e1101", "1e-1101", "1.1e1102", "1e99999999999999999999999", "-1e-99999999999999999999999",
+                            "1e4294967296", "1e18446744073709551616"})
     EXPECT_NE(message_of(decimal, token).find(": exponent out of range in"), std::string::npos)
         << message_of(decimal, token);
-  EXPECT_NE(message_of(decimal, "0." + std::string(1100, '0') + "1").find("exponent out of range"), std::string::npos);
+}
+
+TEST(Decimal, of_more_than_1100_places_is_refused_as_that_and_digits_before_the_point_are_free) {
+  const std::string ones(10'000, '1');
+  EXPECT_EQ(value_of(decimal(ones)), Rational(ones));
+  EXPECT_EQ(value_of(decimal("1." + std::string(1100, '1'))),
+            Rational("1" + std::string(1100, '1')) * exact_decimal(1, -1100));
+  EXPECT_EQ(value_of(decimal("1." + std::string(10'000, '0'))), 1);
+  for (const std::string& token : {"0." + ones, "0." + std::string(1100, '0') + "1", std::string("0.1e-1100")})
+    EXPECT_NE(message_of(decimal, token)
+                  .find("has more than 1100 places; round it, or read the scene with coordinates "
+                        "rounded to double (--coordinates double)"),
+              std::string::npos)
+        << message_of(decimal, token);
 }
 
 TEST(Decimal, refuses_what_is_no_decimal) {
@@ -202,6 +215,18 @@ TEST(Rounding_to_double, is_what_the_reader_does_where_asked) {
             "6004799503160661/18014398509481984 1/2 0 |");
   expect_error_at(2, 5, "\"1e309\" is beyond the range of a double", "#\nv 0 1e309 0\n", Format::obj, to_double);
   EXPECT_EQ(read_text("v 1e-400 0 0\n", Format::obj, to_double), "0 0 0 |");
+  // Decimals and denominators that are too long to be exact.
+  EXPECT_EQ(read_text("v 0.5" + std::string(10'000, '0') + "1 1e-1200 -.25\n", Format::obj, to_double), "1/2 0 -1/4 |");
+  EXPECT_EQ(
+      read_text("v -0." + std::string(2000, '0') + "7 0.01e-99999999999999999999 0e-2000\n", Format::obj, to_double),
+      "0 0 0 |");
+  expect_error_at(1, 3, "beyond", "v " + std::string(400, '9') + " 0 0\n", Format::obj, to_double);
+  EXPECT_EQ(read_text("OFF\n1 0 0\n1" + std::string(3000, '0') + "/2" + std::string(3000, '0') + " 1/1" +
+                          std::string(3000, '0') + " 0\n",
+                      Format::qoff, to_double),
+            "1/2 0 0 |");
+  for (const char* token : {"+-1", "0x1", "nan", "inf", "1e", ""})
+    EXPECT_THROW(read_text("v " + std::string(token) + " 0 0\n", Format::obj, to_double), Input_error) << token;
 }
 
 TEST(Ignored_number, may_be_anything_that_stands_for_a_number) {

@@ -117,15 +117,17 @@ TEST(Round_trip, of_a_polygon_of_300_corners_outgrows_short_lists) {
 }
 
 TEST(Decimal_text, is_short_where_the_number_is) {
-  const std::vector<std::pair<Rational, std::string>> cases{{0, "0"},
-                                                            {-25, "-25"},
-                                                            {Rational(1, 2), "0.5"},
-                                                            {Rational(-1, 8), "-0.125"},
-                                                            {Rational(5, 4), "1.25"},
-                                                            {Rational(1, 5), "0.2"},
-                                                            {Rational(-3, 1000), "-0.003"},
-                                                            {exact_decimal(12, -9), "12e-9"},
-                                                            {exact_decimal(7, 3), "7000"}};
+  const std::vector<std::pair<Rational, std::string>> cases{
+      {0, "0"},
+      {-25, "-25"},
+      {Rational(1, 2), "0.5"},
+      {Rational(-1, 8), "-0.125"},
+      {Rational(5, 4), "1.25"},
+      {Rational(1, 5), "0.2"},
+      {Rational(-3, 1000), "-0.003"},
+      {exact_decimal(12, -9), "1.2e-8"},
+      {Rational(1) / exact(0x1p48), "3.552713678800500929355621337890625e-15"},
+      {exact_decimal(7, 3), "7000"}};
   for (const auto& [value, text] : cases) EXPECT_EQ(decimal_text(value), text);
   EXPECT_FALSE(decimal_text(Rational(1, 3)));
   EXPECT_FALSE(decimal_text(Rational(1, 30)));
@@ -200,7 +202,8 @@ TEST(Write_scene, to_a_file_goes_by_its_ending) {
     write_scene(soup, folder / "none" / "a.obj");
     ADD_FAILURE();
   } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find("none/a.obj: cannot be written; check"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("none/a.obj: cannot be written: No such file or directory"),
+              std::string::npos)
         << error.what();
   }
 

@@ -641,3 +641,36 @@ TEST(Scene_planes, incidences_are_those_of_the_corners) {
     }
   }
 }
+
+// ---- Soups that are none
+
+/// What a std::out_of_range or std::domain_error says; "" where there is none.
+static std::string complaint(const std::function<void()>& about) {
+  try {
+    about();
+  } catch (const std::logic_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Soup, of_a_corner_that_is_no_point_is_refused_with_face_and_point) {
+  Polygon_soup soup;
+  for (const double x : {0.0, 1.0}) soup.add_point(x, 0.0, 0.0);
+  soup.add_face({0, 1, 2});  // its last point comes after it
+  soup.add_point(0.0, 1.0, 0.0);
+  EXPECT_EQ(complaint([&] { Scene scene(soup); }), "");
+  Polygon_soup holed = soup;
+  soup.add_face({0, 1, 7});
+  EXPECT_EQ(complaint([&] { Scene scene(soup); }), "face 1 has the corner 7, and there are 3 points, counted from 0");
+  holed.add_hole({2, 3, 1});
+  EXPECT_EQ(complaint([&] { Scene scene(holed); }), "face 0 has the corner 3, and there are 3 points, counted from 0");
+}
+
+TEST(Soup, of_coordinates_that_are_no_numbers_names_the_point) {
+  Polygon_soup soup;
+  soup.add_point(0.0, 0.0, 0.0);
+  EXPECT_EQ(complaint([&] { soup.add_point(0.0, std::nan(""), 0.0); }).rfind("point 1: nan is no coordinate", 0), 0u);
+  EXPECT_EQ(complaint([&] { soup.add_point(-HUGE_VAL, 0.0, 0.0); }).rfind("point 1: -inf is no coordinate", 0), 0u);
+  EXPECT_EQ(soup.point_count(), 1u) << "nothing is left of it";
+}

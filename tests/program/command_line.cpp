@@ -112,6 +112,13 @@ TEST_F(Command_line, values_out_of_range_are_usage_errors) {
   expect_usage_error({"compare", cube, "cutset"}, "cutset");
 }
 
+TEST_F(Command_line, a_number_out_of_range_is_told_in_few_words) {
+  for (const char* budget : {"-1", "soon", "1e400"})
+    expect_usage_error({"bsp", cube, "--budget", budget}, '"' + std::string(budget) + "\" is not a number >= 0");
+  expect_usage_error({"fuzz", "order", "--seconds", "0"}, "\"0\" is not a number > 0");
+  EXPECT_LT(run({"bsp", cube, "--budget", "-1"}).err.size(), 100u);
+}
+
 TEST_F(Command_line, a_budget_that_is_no_number_is_a_usage_error) {
   expect_usage_error({"bsp", cube, "--budget", "nan"}, "--budget");
 }
@@ -145,6 +152,11 @@ TEST_F(Command_line, directions_of_a_picture_are_three_exact_numbers) {
   const std::string svg = path("a.svg").string();
   expect_usage_error({"order", cube, "--eye", "3,4,5", "--svg", svg, "--look", "1,2"}, "--look");
   expect_usage_error({"order", cube, "--eye", "3,4,5", "--svg", svg, "--up", "up"}, "--up");
+  for (const char* option : {"--look", "--up"})
+    for (const char* zero : {"0,0,0", "-0,0/7,0e5", "1e-400,0,0"})
+      expect_usage_error({"see", cube, "--svg", svg, option, zero},
+                         std::string(option) + " wants a direction that is not 0,0,0");
+  EXPECT_FALSE(fs::exists(svg));
 }
 
 TEST_F(Command_line, an_eye_that_is_not_given_is_outside_the_scene) {

@@ -117,7 +117,7 @@ TEST_F(Cutset, wrong_arguments_are_usage_errors) {
 }
 
 TEST_F(Cutset, bad_files_name_line_and_column) {
-  refused({"cutset", cube, "--path", path("none.csv").string()}, bad_input, "cannot be opened");
+  refused({"cutset", cube, "--path", path("none.csv").string()}, bad_input, "no such file");
   refused({"cutset", cube, "--path", file("empty.csv", "# nothing\n")}, bad_input, "X,Y,Z");
   refused({"cutset", cube, "--path", file("two.csv", "0,0,1\n  1,2\n")}, bad_input, "two.csv:2:3");
   refused({"cutset", cube, "--path", file("nan.csv", "0,0,nan\n")}, bad_input, "nan.csv:1:1");

@@ -264,7 +264,7 @@ TEST_F(Graph, wrong_eyes_and_sizes_are_named_with_their_place) {
   const std::string good = file("good.txt", "0,0,9\n");
   for (const char* size : {"0x4", "4", "x", "4x", "4x-4", "5000x2", "4x4x4", "99999999999x2"})
     fails(size, good, usage, "--pixels wants WIDTHxHEIGHT");
-  fails("4x4", path("none.txt").string(), bad_input, "cannot be opened");
+  fails("4x4", path("none.txt").string(), bad_input, "no such file");
   fails("4x4", file("empty.txt", "# nothing\n"), bad_input, "has no line; write an eye");
   fails("4x4", file("wrong.txt", "0,0,9\n0,0\n"), bad_input, "wrong.txt:2:1: ");
   fails("4x4", file("much.txt", "0,0,9,0,0,1,7\n"), bad_input, "much.txt:1:1: ");

@@ -56,6 +56,7 @@ inline const std::string executable =
 struct Limits {
   double seconds = 60;
   std::size_t mebibytes = 4096;  ///< of addresses, with those of threads' stacks
+  std::size_t file_blocks = 0;   ///< of 512 bytes, of a file that is written; 0: no limit
 };
 
 /// What became of a run of the program.
@@ -114,11 +115,12 @@ class Program : public testing::Test {
 
   /// A run whose standard output goes to a file of its own choice.
   Outcome run_to(const std::string& out, const std::vector<std::string>& arguments, Limits limits = {}) const {
-    const std::string err = path("stderr").string();
+    const std::string err = errors_.empty() ? path("stderr").string() : errors_;
     std::vector<std::string> words{
         "/bin/sh", "-c",
-        sanitized ? "exec \"$@\""
-                  : "ulimit -v " + std::to_string(limits.mebibytes * 1024) + " && ulimit -c 0 && exec \"$@\"",
+        (limits.file_blocks == 0 ? "" : "ulimit -f " + std::to_string(limits.file_blocks) + " && ") +
+            (sanitized ? "" : "ulimit -v " + std::to_string(limits.mebibytes * 1024) + " && ulimit -c 0 && ") +
+            "exec \"$@\"",
         "sh", executable};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
@@ -127,7 +129,7 @@ class Program : public testing::Test {
 
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, 0, input_.c_str(), O_RDONLY, 0);
     posix_spawn_file_actions_addopen(&actions, 1, out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_addopen(&actions, 2, err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
     Outcome result;
@@ -162,9 +164,12 @@ class Program : public testing::Test {
           WIFEXITED(status) ? "exit " + std::to_string(result.code) : "signal " + std::to_string(WTERMSIG(status));
     }
     if (fs::is_regular_file(out)) result.out = read_file(out);
-    result.err = read_file(err);
+    if (fs::is_regular_file(err)) result.err = read_file(err);
     return result;
   }
+
+  std::string input_ = "/dev/null",
+              errors_;  ///< standard input of runs, and standard error where it is no file of ours
 
  private:
   fs::path folder_;

@@ -42,6 +42,14 @@ TEST_F(Weak, sees_the_sides_of_a_cube_that_face_the_source_and_proves_the_others
   EXPECT_EQ(weak({cube, "--from-face", "0"})["result"]["visible"].size(), 0u);
 }
 
+TEST_F(Weak, says_where_the_source_may_be_the_wrong_way_round) {
+  const std::string note = "turned round?";
+  const Outcome away = run({"weak", cube, "--from", "0,0,3 1,0,3 1,1,3 0,1,3"}),
+                towards = run({"weak", cube, "--from", "0,0,3 0,1,3 1,1,3 1,0,3"});
+  EXPECT_NE(away.out.find(note), std::string::npos) << away;
+  EXPECT_EQ(towards.out.find(note), std::string::npos) << towards;
+}
+
 TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("rooms.json").string();
   const Json lit = weak({rooms, "--from", "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", "--certificate", to});

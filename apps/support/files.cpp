@@ -1,0 +1,98 @@
+#include "files.h"
+
+#include "options.h"
+
+#include <sightline/io/file.h>
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+#include <iostream>
+
+namespace sightline::app {
+
+namespace fs = std::filesystem;
+
+// ---- Which file is which
+
+/// Where a file is or will be, links followed; an empty path where that cannot be told.
+static fs::path place_of(const std::string& name) {
+  try {
+    return fs::weakly_canonical(fs::absolute(behind_links(name)));
+  } catch (const fs::filesystem_error&) {
+    return {};
+  }
+}
+
+static bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  if (fs::exists(a, error) && !fs::is_regular_file(a, error)) return false;
+  if (fs::equivalent(a, b, error)) return true;
+  const fs::path place = place_of(a);
+  return !place.empty() && place == place_of(b);
+}
+
+static bool clash(const Named_file& a, const Named_file& b) {
+  return a.name == "-" || b.name == "-" ? a.name == b.name : same_file(a.name, b.name);
+}
+
+void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs) {
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (inputs[i].name == "-" && inputs[j].name == "-")
+        throw Usage_error(
+            fmt::format("{} -: {} reads standard input already; name a file", inputs[i].option, inputs[j].option));
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    const Named_file& output = outputs[i];
+    for (const Named_file& input : inputs)
+      if (output.name != "-" && clash(output, input))
+        throw Usage_error(fmt::format("{} {}: that is the file that {} reads, which would be lost; name another one",
+                                      output.option, output.name, input.option));
+    for (std::size_t j = 0; j < i; ++j)
+      if (clash(output, outputs[j]))
+        throw Usage_error(fmt::format("{} {}: that is where {} writes to already; name another file", output.option,
+                                      output.name, outputs[j].option));
+  }
+}
+
+// ---- Reading and writing
+
+fs::path input_path(const std::string& name) { return name == "-" ? "/dev/stdin" : name; }
+std::string read_input(const std::string& name) { return read_bytes(input_path(name)); }
+
+void write_file(const std::string& name, std::string_view text) {
+  if (name == "-") std::cout << text;
+  else write_bytes(name, text);
+}
+
+void write_temporary(const fs::path& path, std::string_view text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(path.string() + ": cannot be written; check the free space of that folder");
+}
+
+// ---- Signals
+
+void remove_unfinished() noexcept {
+  if (const char* const name = unfinished_file()) unlink(name);
+}
+
+extern "C" {
+static void end_by_signal_without_remains(int number) {
+  remove_unfinished();
+  std::signal(number, SIG_DFL);
+  std::raise(number);
+}
+}
+
+void watch_for_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int number : {SIGHUP, SIGINT, SIGTERM})
+    if (std::signal(number, end_by_signal_without_remains) == SIG_IGN) std::signal(number, SIG_IGN);
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,37 @@
+#pragma once
+// The files of a command line: no output takes the place of what is read or of another output, and each is written
+// whole or not at all.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sightline::app {
+
+/// A file as the command line names it: by which option, and how; "-" is standard input or output.
+struct Named_file {
+  std::string option, name;
+};
+
+/// Errors: Usage_error where an output is a file that is read or another output, whatever names they have (links too),
+/// and where two are "-". Devices and pipes may be named twice.
+void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs);
+
+/// All bytes of an input. Errors: Input_error.
+std::string read_input(const std::string& name);
+/// The file that an input is: what "-" stands for has a name too.
+std::filesystem::path input_path(const std::string& name);
+
+/// Writes an output, whole or not at all. Errors: std::runtime_error; of "-", none: main looks at standard output.
+void write_file(const std::string& name, std::string_view text);
+/// Writes a file of a temporary folder, without waiting for the disk. Errors: std::runtime_error.
+void write_temporary(const std::filesystem::path& path, std::string_view text);
+
+/// Lets SIGHUP, SIGINT and SIGTERM remove an output that is not finished before they end the program; a limit on the
+/// size of files (SIGXFSZ) becomes an error of writing.
+void watch_for_signals();
+/// The first half of that, for a handler of somebody else's.
+void remove_unfinished() noexcept;
+
+}  // namespace sightline::app

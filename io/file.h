@@ -1,0 +1,27 @@
+#pragma once
+// Files as bytes, whole: what every reader begins with, and what every output ends in.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace sightline {
+
+/// All bytes of a file (or pipe). Errors: Input_error where there is none, or it cannot be read.
+std::string read_bytes(const std::filesystem::path& path);
+
+/// The file that a path is a name of: links are followed, also one to a file that is not there yet. Errors:
+/// std::filesystem::filesystem_error where they lead in a circle.
+std::filesystem::path behind_links(const std::filesystem::path& path);
+
+/// Writes a file whole or not at all: to PATH.partial (or PATH.partial1 and so on, where that is taken), and renamed
+/// once it is on the disk, so that what was there before stays until then. Its permissions stay, links stay links, and
+/// what is no regular file (a device, a pipe) is written to directly. Errors: std::runtime_error that names the path
+/// and says what the system said. Cost: waits for the disk.
+void write_bytes(const std::filesystem::path& path, std::string_view bytes);
+
+/// The name of a file that write_bytes has begun and not yet renamed, or nullptr: what a signal handler removes before
+/// it ends the process. Of files that are written at the same time, one.
+const char* unfinished_file() noexcept;
+
+}  // namespace sightline

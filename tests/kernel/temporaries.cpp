@@ -1,0 +1,79 @@
+// What keeps a pointer to what it was made of takes no temporary for it: that would be gone before the first question.
+
+#include <sightline/algorithms/baseline/doubles_search.h>
+#include <sightline/algorithms/cutset/tracker.h>
+#include <sightline/algorithms/cutset/update_1977.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/number_view.h>
+#include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/priority/scope.h>
+#include <sightline/algorithms/priority/separation.h>
+#include <sightline/kernel/line_table.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/face_graph.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/traits/lockstep_traits.h>
+#include <sightline/kernel/traits/point_traits.h>
+
+#include <CGAL/Simple_cartesian.h>
+#include <gtest/gtest.h>
+
+#include <span>
+#include <type_traits>
+#include <utility>
+
+namespace sightline {
+
+/// Whether a Class is made of a thing that stays (and what comes after it), and of no temporary.
+template <class Class, class Kept, class... Others>
+inline constexpr bool keeps = std::is_constructible_v<Class, const Kept&, const Others&...>&&
+                                  std::is_constructible_v<Class, Kept&, const Others&...> &&
+                              !std::is_constructible_v<Class, Kept, const Others&...>;
+/// The same of the second of two things.
+template <class Class, class First, class Kept, class... Others>
+inline constexpr bool keeps_second = !std::is_constructible_v<Class, const First&, Kept, const Others&...>;
+
+template <class Of>
+concept gives_predicates = requires(Of&& of) {
+  std::forward<Of>(of).predicates();
+};
+
+TEST(Temporaries, are_not_taken_by_what_keeps_a_pointer) {
+  using Doubles = Point_traits<CGAL::Simple_cartesian<double>>;
+  using Both = Lockstep_traits<Exact_traits, Doubles>;
+  using Relation = Priority_relation<Exact_traits>;
+
+  // kernel/
+  static_assert(keeps<Exact_traits, Scene>);
+  static_assert(keeps<Doubles, Scene>);
+  static_assert(keeps<Face_graph, Scene>);
+  static_assert(keeps<Line_table, Grid_points>);
+  static_assert(keeps<Both, Exact_traits, Doubles> && keeps_second<Both, Exact_traits, Doubles>);
+  static_assert(keeps<Predicates, Grid_points, Plane_table, Point_planes> &&
+                keeps_second<Predicates, Grid_points, Plane_table, Point_planes>);
+  static_assert(!std::is_constructible_v<Predicates, const Grid_points&, const Plane_table&, Point_planes>);
+
+  // algorithms/
+  static_assert(keeps<Exact_view, Scene, Exact_point>);
+  static_assert(keeps<Number_view<double>, Scene, Exact_point>);
+  static_assert(keeps<Separation_finder<Exact_traits>, Exact_traits>);
+  static_assert(keeps<Relation, Exact_traits>);
+  static_assert(keeps<Relation, Exact_traits, std::span<const Relation::Polygon>>);
+  static_assert(keeps<Priority_index<Exact_traits>, Relation>);
+  static_assert(keeps<Implicit_priority_graph<Relation>, Relation>);
+  static_assert(keeps<Region_relation<Exact_traits>, Relation, View_region>);
+  static_assert(keeps<Ray_relation<Exact_traits>, Relation, Exact_point, Exact_point>);
+  static_assert(keeps<On_view<Exact_traits>, Exact_traits, Face_graph> &&
+                keeps_second<On_view<Exact_traits>, Exact_traits, Face_graph>);
+  static_assert(keeps<Cut_set_tracker<Exact_traits>, Exact_traits, Face_graph> &&
+                keeps_second<Cut_set_tracker<Exact_traits>, Exact_traits, Face_graph>);
+  static_assert(keeps<Cut_set_1977<Exact_traits>, Exact_traits, Face_graph, Viewpoint, Reading_1977> &&
+                keeps_second<Cut_set_1977<Exact_traits>, Exact_traits, Face_graph, Viewpoint, Reading_1977>);
+  static_assert(keeps<Doubles_search, Occluders, Doubles_search_options> &&
+                keeps_second<Doubles_search, Occluders, Doubles_search_options>);
+
+  // Predicates point into their scene.
+  static_assert(gives_predicates<const Scene&> && gives_predicates<Scene&> && !gives_predicates<Scene>);
+}
+
+}  // namespace sightline

@@ -1,0 +1,303 @@
+// What the program writes: never over what it reads, whole or not at all, and not without a word where it cannot.
+
+#include "program.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
+
+#include <atomic>
+
+namespace program {
+
+class Outputs : public Program {
+ protected:
+  const std::string cube = read_file(corpus / "general" / "cube.off");
+  /// Some 20 MB of JSON.
+  std::vector<std::string> much(const std::string& json) const {
+    const std::string scene = path("many.off").string();
+    const bool made = fs::exists(scene) || run({"generate", "rooms", "--size", "12", "--out", scene}).code == done;
+    EXPECT_TRUE(made) << scene;
+    return {"order", scene, "--eye", "3,4,5", "--json", json};
+  }
+  void expect_refused(const std::vector<std::string>& words, const std::string& mentions) const {
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, usage) << r;
+    EXPECT_EQ(r.out, "") << r;
+    EXPECT_NE(r.err.find(mentions), std::string::npos) << "no '" << mentions << "' in: " << r;
+  }
+  bool nothing_is_left_aside() const {
+    for (const auto& entry : fs::directory_iterator(path("")))
+      if (entry.path().string().find(".partial") != std::string::npos) return false;
+    return true;
+  }
+};
+
+// ---- Which file is which
+
+TEST_F(Outputs, never_take_the_place_of_what_is_read) {
+  const std::string scene = file("s.off", cube), hard = path("hard.off").string(), soft = path("soft.svg").string(),
+                    dotted = path("./s.off").string(), numbers = file("path.csv", "3,4,5\n"),
+                    query = path("s.json").string();
+  fs::create_hard_link(scene, hard);
+  fs::create_symlink("s.off", soft);
+  ASSERT_EQ(run({"generate", "rooms", "--out", path("rooms.off").string(), "--query", query}).code, done);
+  const std::string asked = read_file(query);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"order", scene, "--certificate", scene},
+        {"order", scene, "--json", dotted},
+        {"order", hard, "--certificate", scene},
+        {"order", scene, "--svg", soft},
+        {"see", soft, "--certificate", scene},
+        {"info", scene, "--json", scene},
+        {"bsp", scene, "--json", hard},
+        {"graph", scene, "--dot", scene},
+        {"weak", scene, "--from-face", "0", "--surfaces", scene, "--method", "events"},
+        {"verify", scene, numbers, "--json", numbers},
+        {"compare", scene, "order", "--json", scene},
+        {"cutset", scene, "--path", numbers, "--json", numbers},
+        {"weak", path("rooms.off").string(), "--from-volume", scene, "--certificate", scene},
+        {"fuzz", "order", "--scene", scene, "--json", scene},
+        {"reduce", scene, "--out", scene, "--", "false", "{}"},
+        {"reduce", scene, "--out", path("s.obj").string(), "--query", query, "--", "false", "{}"},
+        {"judge", "--program", "false {scene} {query} {answer}", "--query", "see", "--contract", "exact", "--scenes",
+         scene, "--json", scene},
+        {"judge", "--program", "false {scene} {query} {answer}", "--query", "see", "--contract", "exact", "--scenes",
+         path("").string(), "--keep", path(".").string()}})
+    expect_refused(words, words[0] == "judge" ? "--scenes" : "would be lost");
+  EXPECT_EQ(read_file(scene), cube);
+  EXPECT_EQ(read_file(numbers), "3,4,5\n");
+  EXPECT_EQ(read_file(query), asked);
+}
+
+TEST_F(Outputs, never_take_the_place_of_one_another) {
+  const std::string scene = file("s.off", cube), one = path("one").string(), other = path("./one").string(),
+                    ahead = path("ahead").string();
+  fs::create_symlink("one", ahead);  // to what is not there yet
+  for (const std::string& name : {one, other, ahead})
+    expect_refused({"order", scene, "--json", one, "--certificate", name}, "writes to already");
+  expect_refused({"generate", "rooms", "--out", path("a.off").string(), "--query", path("a.off").string()}, "already");
+  expect_refused(
+      {"fuzz", "order", "--scenes", "1", "--out", path("found").string(), "--json", path("found/order.json").string()},
+      "--json writes to already");
+  EXPECT_FALSE(fs::exists(one));
+  EXPECT_EQ(run({"order", scene, "--json", "/dev/null", "--certificate", "/dev/null"}).code, done)
+      << "a device takes them all";
+}
+
+TEST_F(Outputs, and_inputs_without_a_name_are_refused) {
+  const std::string scene = file("s.off", cube), off = path("a.off").string();
+  const std::vector<std::string> judge{"judge", "--program", "true", "--query", "see", "--contract", "exact"};
+  const auto judged = [&](const std::string& option) {
+    std::vector<std::string> words = judge;
+    words.insert(words.end(), {option, ""});
+    return words;
+  };
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"info", ""},
+                                                {"info", scene, "--json", ""},
+                                                {"order", scene, "--certificate", ""},
+                                                {"order", scene, "--svg", ""},
+                                                {"see", scene, "--certificate", ""},
+                                                {"see", scene, "--svg", ""},
+                                                {"graph", scene, "--certificate", ""},
+                                                {"graph", scene, "--dot", ""},
+                                                {"cutset", scene, "--orbit", "3", "--svg", ""},
+                                                {"cutset", scene, "--path", ""},
+                                                {"weak", scene, "--from-face", "0", "--certificate", ""},
+                                                {"weak", scene, "--from-face", "0", "--surfaces", ""},
+                                                {"weak", scene, "--from-face", "0", "--svg", ""},
+                                                {"weak", scene, "--from-face", "0", "--obj", ""},
+                                                {"compare", scene, "weak", "--from-face", "0", "--svg", ""},
+                                                {"verify", scene, ""},
+                                                {"generate", "rooms", "--out", ""},
+                                                {"generate", "rooms", "--out", off, "--query", ""},
+                                                {"fuzz", "order", "--scenes", "1", "--json", ""},
+                                                {"fuzz", "order", "--scenes", "1", "--out", ""},
+                                                {"fuzz", "order", "--scene", ""},
+                                                {"fuzz", "order", "--scene", scene, "--query", ""},
+                                                {"reduce", scene, "--out", "", "--", "false", "{}"},
+                                                {"reduce", scene, "--out", off, "--query", "", "--", "false", "{}"},
+                                                judged("--json"),
+                                                judged("--html"),
+                                                judged("--keep"),
+                                                judged("--scenes"),
+                                                judged("--ask")})
+    expect_refused(words, "is empty");
+  EXPECT_FALSE(fs::exists(off));
+}
+
+// ---- Whole or not at all
+
+TEST_F(Outputs, that_do_not_fit_leave_the_old_file_and_say_so) {
+  for (const char* option : {"--json", "--certificate"}) {
+    const std::string to = file("old.json", "old");
+    std::vector<std::string> words = much(to);
+    words[4] = option;
+    Limits limits;
+    limits.file_blocks = 16;
+    const Outcome r = run(words, limits);
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_EQ(r.err, "sightline: " + to + ": cannot be written: File too large\n") << r;
+    EXPECT_EQ(read_file(to), "old");
+    EXPECT_TRUE(nothing_is_left_aside());
+  }
+}
+
+TEST_F(Outputs, that_a_signal_cuts_off_leave_the_old_file_and_nothing_beside_it) {
+  const std::string to = file("old.json", "old");
+  std::string command = "exec 1> /dev/null; " + executable;
+  for (const std::string& word : much(to)) command += " '" + word + "'";
+  // As soon as there is a file aside; the whole one is there where the program was quicker.
+  command += " & p=$!; while kill -0 $p && ! [ -e '" + to + ".partial' ]; do :; done; kill -TERM $p; wait $p";
+  const int status = std::system(("exec 2> /dev/null; " + command).c_str());
+  EXPECT_TRUE(nothing_is_left_aside());
+  if (WEXITSTATUS(status) == done) EXPECT_GT(fs::file_size(to), 1'000'000u);
+  else EXPECT_EQ(read_file(to), "old") << WEXITSTATUS(status);
+}
+
+TEST_F(Outputs, go_into_pipes_and_through_links) {
+  const std::string scene = file("s.off", cube), pipe = path("pipe").string(), link = path("link").string();
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  fs::create_symlink("behind", link);
+  std::string piped;
+  std::thread reader([&] { piped = read_file(pipe); });
+  const Outcome r = run({"order", scene, "--eye", "3,4,5", "--certificate", pipe, "--json", link});
+  if (r.code != done) std::ofstream(pipe).close();  // or the reader would wait for ever
+  reader.join();
+  EXPECT_EQ(r.code, done) << r;
+  EXPECT_EQ(Json::parse(piped, nullptr, false)["format"], "sightline order 1");
+  EXPECT_TRUE(fs::is_fifo(pipe));
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(Json::parse(read_file(path("behind")), nullptr, false)["command"], "order");
+}
+
+TEST_F(Outputs, that_cannot_be_written_name_the_reason) {
+  const std::string scene = file("s.off", cube), here = path("").string();
+  for (const auto& [name, why] :
+       std::vector<std::pair<std::string, std::string>>{{"/dev/full", "No space left on device"},
+                                                        {path("no/such").string(), "No such file or directory"},
+                                                        {here, "Is a directory"},
+                                                        {path("s.off/x").string(), "Not a directory"}}) {
+    const Outcome r = run({"order", scene, "--certificate", name});
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_EQ(r.err, "sightline: " + name + ": cannot be written: " + why + "\n") << r;
+  }
+}
+
+// ---- Standard output
+
+TEST_F(Outputs, to_a_full_standard_output_are_no_answer_whatever_it_was) {
+  const std::string scene = file("s.off", cube), right = path("right.json").string();
+  ASSERT_EQ(run({"order", scene, "--eye", "3,4,5", "--certificate", right}).code, done);
+  Json changed = Json::parse(read_file(right));
+  changed["fragments"].erase(0);
+  const std::string wrong = file("wrong.json", changed.dump());
+  const std::string two = file("two.off",
+                               "OFF\n12 3 0\n-2 -2 4\n-2 2 4\n2 2 4\n2 -2 4\n-4 -2 2\n0 -2 2\n0 2 2\n-4 2 2\n0 -2 "
+                               "2\n4 -2 2\n4 2 2\n0 2 2\n4 0 1 2 3\n4 4 5 6 7\n4 8 9 10 11\n");
+  const std::vector<std::string> open{"weak",    two, "--from",        "-1,-1,0 1,-1,0 1,1,0 -1,1,0",
+                                      "--cells", "1", "--event-edges", "0"};
+  for (const auto& [words, code] :
+       std::vector<std::pair<std::vector<std::string>, int>>{{{"verify", scene, wrong}, disagreement},
+                                                             {{"verify", scene, wrong, "--json", "-"}, disagreement},
+                                                             {{"--help"}, done},
+                                                             {open, undecided}}) {
+    EXPECT_EQ(run(words).code, code);
+    const Outcome r = run_to("/dev/full", words);
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_EQ(r.err.rfind("sightline: standard output cannot be written", 0), 0u) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+  }
+}
+
+TEST_F(Outputs, one_of_them_may_be_standard_output_and_then_it_is_all_there_is) {
+  const std::string scene = file("s.off", cube);
+  const auto printed = [&](const std::vector<std::string>& words) {
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, done) << r;
+    EXPECT_EQ(r.err, "") << r;
+    return r;
+  };
+  const std::vector<std::string> lamp{"weak", scene, "--from", "0,0,3 0,1,3 1,1,3 1,0,3"};
+  const auto lit = [&](const std::string& option) {
+    std::vector<std::string> words = lamp;
+    words.insert(words.end(), {option, "-"});
+    return printed(words);
+  };
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"order", scene, "--svg", "-"},
+                                                {"see", scene, "--svg", "-"},
+                                                {"cutset", scene, "--orbit", "3", "--svg", "-"}}) {
+    const std::string out = printed(words).out;
+    EXPECT_EQ(out.rfind("<svg ", 0), 0u) << out;
+    EXPECT_EQ(out.substr(out.size() - 7), "</svg>\n");
+  }
+  EXPECT_EQ(lit("--svg").out.rfind("<svg ", 0), 0u);
+  EXPECT_EQ(lit("--obj").out.rfind("v ", 0), 0u);
+  EXPECT_EQ(printed({"graph", scene, "--dot", "-"}).out.rfind("digraph priority {", 0), 0u);
+  EXPECT_EQ(printed({"graph", scene, "--certificate", "-"}).json()["format"], "sightline graph 1");
+  EXPECT_EQ(printed({"generate", "rooms", "--out", path("a.off").string(), "--query", "-"}).json()["format"],
+            "sightline query 1");
+  EXPECT_EQ(printed({"see", scene, "--svg", path("a.svg").string(), "--certificate", "-"}).json()["format"],
+            "sightline see 1");
+  EXPECT_EQ(lit("--certificate").json()["format"], "sightline weak 1");
+  EXPECT_FALSE(fs::exists("-"));
+  expect_refused({"order", scene, "--json", "-", "--certificate", "-"}, "writes to already");
+}
+
+TEST_F(Outputs, are_read_again_from_standard_input) {
+  const std::string scene = file("s.off", cube);
+  input_ = scene;
+  const Outcome info = run({"info", "-", "--json", "-"});
+  ASSERT_EQ(info.code, done) << info;
+  EXPECT_EQ(info.json()["scene"]["faces"], 6);
+  const Outcome order = run({"order", "-", "--eye", "3,4,5", "--certificate", "-"});
+  EXPECT_EQ(order.code, done) << order;
+  input_ = file("c.json", order.out);
+  const Outcome verified = run({"verify", scene, "-"});
+  EXPECT_EQ(verified.code, done) << verified;
+  expect_refused({"verify", "-", "-"}, "reads standard input already");
+}
+
+TEST_F(Outputs, with_the_ending_of_another_format_are_refused) {
+  const std::string scene = file("s.off", cube);
+  for (const char* name : {"a.png", "a.svg.gz", "a.json"})
+    for (const char* command : {"order", "see"})
+      expect_refused({command, scene, "--svg", path(name).string()}, "does not end with .svg");
+  expect_refused({"weak", scene, "--from-face", "0", "--obj", path("a.off").string()}, "does not end with .obj");
+  EXPECT_EQ(run({"order", scene, "--svg", path("A.SVG").string()}).code, done);
+  EXPECT_EQ(run({"order", scene, "--svg", path("picture").string()}).code, done) << "no ending says nothing else";
+}
+
+// ---- A terminal
+
+TEST_F(Outputs, to_a_terminal_begin_where_the_bar_was) {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK);
+  if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) GTEST_SKIP() << "no terminal to be had";
+  const std::string name = ptsname(terminal), scene = path("many.off").string();
+  const int kept = open(name.c_str(), O_RDWR | O_NOCTTY);  // or what is written is lost once the program closes it
+  ASSERT_EQ(run({"generate", "rooms", "--size", "3", "--out", scene}).code, done);
+
+  std::string text;
+  std::atomic<bool> ended{false};
+  std::thread reader([&] {
+    for (char bytes[4096];;) {
+      const bool last = ended;
+      const ssize_t n = read(terminal, bytes, sizeof bytes);
+      if (n > 0) text.append(bytes, static_cast<std::size_t>(n));
+      else if (last) return;
+      else std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  });
+  errors_ = name;
+  const Outcome r = run_to(name, {"weak", scene, "--from-face", "0", "--method", "sample", "--rays", "3000000"});
+  ended = true;
+  reader.join();
+  close(kept);
+  close(terminal);
+  EXPECT_EQ(r.code, done) << r;
+  const std::size_t bar = text.rfind("searching ["), clear = text.find("\r\033[K", bar), table = text.find("scene   ");
+  ASSERT_NE(bar, std::string::npos) << "the run was too short for a bar: " << text;
+  EXPECT_LT(clear, table) << text;
+}
+
+}  // namespace program
