@@ -13,7 +13,8 @@
 namespace sightline {
 
 /// A solid that the faces of a scene bound; inside is where their winding number is not zero, so fronts may look
-/// outwards or inwards. Bodies may be several, concave, nested, touch or overlap. What some point of its inside sees is
+/// outwards or inwards. Bodies may be several, concave, nested, touch, overlap or have faces in common: a face counts
+/// as often as it is given. What some point of its inside sees is
 /// what its surface sees outwards, and the faces of which it sees a part right in front, from within. Faces of the
 /// scene that lie in the surface hide nothing from it, as a source that is a face does not hide what is in front of it.
 /// Cost: a tree of its faces; where its faces cross one another's planes nearby, a point location for each part that
