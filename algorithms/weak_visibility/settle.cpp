@@ -91,6 +91,7 @@ Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source&
           return same(parts.source, cell.source) && same(parts.target, cell.target);
         }))
       continue;
+    if (options.out_of_time && options.out_of_time()) return {};
     if (edges_between(occluders, cell.source, cell.target) > most_edges) return {};
     all.push_back({std::move(cell.source), std::move(cell.target)});
   }
@@ -135,7 +136,9 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
     for (Weakly_visible::Pair& pair : face.pairs) {
       if (options.progress) options.progress(done.load(), faces.size());
       const Events_answer answer =
-          open_pair_by_events(occluders, sources[pair.source], pair, most_edges, options, face.counters);
+          options.out_of_time && options.out_of_time()
+              ? Events_answer{}
+              : open_pair_by_events(occluders, sources[pair.source], pair, most_edges, options, face.counters);
       if (answer.status == Weak_status::hidden) continue;
       if (answer.status == Weak_status::visible) {
         open.clear();

@@ -7,6 +7,7 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -59,9 +60,9 @@ class Weak_volume {
 };
 
 /// Adds the faces that a volume sees from within to those that its surface was found to see; they are unproved, as they
-/// need no sightline. Returns them, sorted. Cost: Weak_volume::sees_from_within() of the pieces that are not found
-/// visible. Exact: yes. Proof: P-74
+/// need no sightline. Returns them, sorted. Once out of time, what was found hidden and is not asked is undecided.
+/// Cost: Weak_volume::sees_from_within() of the pieces that are not found visible. Exact: yes. Proof: P-74
 std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided,
-                                          Weakly_visible& found);
+                                          Weakly_visible& found, const std::function<bool()>& out_of_time = {});
 
 }  // namespace sightline

@@ -95,7 +95,7 @@ struct Weak_search_options {
   int bisections = 12;  ///< how often, one in another, a cell is halved that has neither a line nor a proof
   int rays = 24;        ///< lines that are tried before the search
   std::uint64_t seed = 1;
-  std::function<bool()> out_of_time;  ///< asked now and then
+  std::function<bool()> out_of_time;  ///< asked before each cell; then what is left is undecided
 };
 
 // ---- Of all faces

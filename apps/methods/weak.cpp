@@ -171,7 +171,8 @@ Weak_outcome run_weak_method(const std::string& method, const Occluders& occlude
     outcome = by_events(occluders, sources, events);
   }
   for (const Weak_volume& volume : sources.volumes) {
-    const std::vector<Face_id> within = add_seen_from_within(occluders.scene(), volume, task.two_sided, outcome.found);
+    const std::vector<Face_id> within =
+        add_seen_from_within(occluders.scene(), volume, task.two_sided, outcome.found, task.out_of_time);
     outcome.within.insert(outcome.within.end(), within.begin(), within.end());
   }
   std::sort(outcome.within.begin(), outcome.within.end());
