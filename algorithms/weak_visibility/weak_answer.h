@@ -87,6 +87,13 @@ struct Weak_answer {
   std::vector<Weak_line> lines;
 };
 
+/// An answer that says nothing: all lines are open.
+inline Weak_answer nothing_known() {
+  Weak_answer answer;
+  answer.proof.push_back({Weak_step::Kind::open, 0, {}, {}});
+  return answer;
+}
+
 struct Weak_search_options {
   bool two_sided = false;
   std::size_t cells = 200000;  ///< that a search may take; then `undecided`

@@ -44,7 +44,7 @@ Line_search::Line_search(const Occluders& occluders, Near_polygon source, const 
 Weak_answer Line_search::run(Weak_counters& counters) {
   counters_ = &counters;
   ++counters.targets;
-  const Refutation found = out_of_time() ? open() : begin(0);
+  const Refutation found = begin(0);
   Weak_answer answer;
   answer.status = found.status;
   for (const Edge_lines::Edge_line& line : lines_.all()) answer.lines.push_back(line.edge);
