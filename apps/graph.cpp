@@ -9,6 +9,7 @@
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
+#include <functional>
 #include <iostream>
 #include <map>
 #include <sstream>
@@ -28,6 +29,15 @@ struct Graph_arguments {
 };
 
 using Faces = Priority_relation<Exact_traits>;
+using Report = std::function<void(std::size_t done, std::size_t all)>;
+
+/// One budget for all that a command does, whatever it shows of it.
+Report shown(const Report& in_time, Progress& progress) {
+  return [&](std::size_t done, std::size_t all) {
+    in_time(done, all);
+    progress(done, all);
+  };
+}
 
 const std::map<Precedence, std::string> precedence_names{{Precedence::never, "never"},
                                                          {Precedence::first, "first"},
@@ -46,7 +56,7 @@ struct Found {
 
 /// Components and arcs of a relation of whatever scope.
 template <class Relation>
-Found find(const Relation& relation, const Graph_arguments& arguments) {
+Found find(const Relation& relation, const Graph_arguments& arguments, const Report& in_time) {
   // Arcs are counted where that takes no longer than a moment.
   constexpr std::uint32_t few = 2000;
   Found found;
@@ -55,15 +65,13 @@ Found find(const Relation& relation, const Graph_arguments& arguments) {
   if (!is_explicit) {
     Implicit_priority_graph<Relation> graph(relation);
     Progress progress("searching");
-    found.components = graph.find_components(
-        &found.trees, arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
+    found.components = graph.find_components(&found.trees, shown(in_time, progress));
     found.component_seconds = watch.seconds();
     found.counters = counters_json(graph.counters());
   }
   if (is_explicit || arguments.arcs || !arguments.dot.empty() || relation.size() <= few) {
     Progress progress("comparing");
-    found.arcs.emplace(relation,
-                       arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); }));
+    found.arcs.emplace(relation, shown(in_time, progress));
     if (is_explicit) {
       found.components = components(*found.arcs);
       found.component_seconds = watch.seconds();
@@ -121,17 +129,19 @@ struct Clusters {
   Json codes = Json::array();  // of the pairs that some ray pierces
 };
 
-Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph_arguments& arguments) {
+Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph_arguments& arguments,
+                     const Report& in_time) {
   Clusters found;
   Stopwatch watch;
   Progress progress("separating");
-  const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const Report report = shown(in_time, progress);
   found.tree = build_priority_tree(traits, {arguments.two_sided, arguments.split, report});
   found.seconds = watch.seconds();
   if (arguments.split) {
     Bsp_options options;
     options.seed = arguments.common.seed;
     options.threads = arguments.common.threads;
+    options.progress = in_time;
     found.bsp_fragments = build_bsp(traits, options).counters.fragments;
   }
   if (!arguments.codes) return found;
@@ -147,8 +157,8 @@ Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph
     if (node.kind != Priority_tree<Exact_traits>::Kind::cycle) continue;
     const auto members = found.tree.slots_of(node);
     for (std::size_t a = 0; a < members.size(); ++a) {
-      if (report) report(a, members.size());
       for (std::size_t b = a + 1; b < members.size(); ++b) {
+        report(a, members.size());
         const std::uint32_t i = static_cast<std::uint32_t>(members[a]), j = static_cast<std::uint32_t>(members[b]);
         const Pair_code code = pair_code(faces, i, j, counters);
         ++found.pairs[code.precedence];
@@ -165,17 +175,17 @@ Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph
 
 std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& traits, const Faces& faces,
                                    const Priority_components& components, const std::vector<View>& views,
-                                   const Graph_arguments& arguments) {
+                                   const Graph_arguments& arguments, const Report& in_time) {
   std::vector<Pixel_image> images;
   Progress progress("looking");
-  const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const Report report = shown(in_time, progress);
   std::vector<std::uint32_t> h(faces.size());
   for (std::uint32_t i = 0; i < faces.size(); ++i) h[i] = components.h(i);
   const Priority_tree<Exact_traits> tree =
       build_priority_tree(traits, {false, false, report});  // cuts nothing, so its polygons are the faces
   for (const View& unaimed : views) {
     const View view = scene.counters().faces > 0 ? aimed(unaimed, scene) : unaimed;
-    if (report) report(images.size(), views.size());
+    report(images.size(), views.size());
     const Pixel_sets sets = pixel_sets(faces, pixel_view(view));
     Pixel_image image{view, pixel_statistics(sets, h), pixel_statistics(sets, priorities(traits, tree, view.eye)), {}};
     if (!images.empty()) {
@@ -280,25 +290,26 @@ static Exit run(const Graph_arguments& arguments) {
   const std::vector<View> views = arguments.pixels.size.empty() ? std::vector<View>{} : read_views(arguments.pixels);
 
   const Scene scene(common.read());
+  const Report in_time = common.within_budget([](std::size_t, std::size_t) {});
   const Exact_traits traits(scene);
   const Faces faces(traits);
   std::string scope = "all viewpoints";
   const Found found = [&] {
     if (!arguments.direction.empty()) {
       scope = "one ray";
-      return find(Ray_relation<Exact_traits>(faces, eye, direction), arguments);
+      return find(Ray_relation<Exact_traits>(faces, eye, direction), arguments, in_time);
     }
     if (!arguments.eye.empty()) {
       scope = "one viewpoint";
-      return find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments);
+      return find(Region_relation<Exact_traits>(faces, View_region::eye(eye)), arguments, in_time);
     }
     if (!whole) {
       const View_region viewpoints = box.empty() ? View_region{region} : View_region::box(box[0], box[1]);
       scope = viewpoints.points.empty() ? "no viewpoint: the box is empty"
                                         : fmt::format("viewpoints in the hull of {} points", viewpoints.points.size());
-      return find(Region_relation<Exact_traits>(faces, viewpoints), arguments);
+      return find(Region_relation<Exact_traits>(faces, viewpoints), arguments, in_time);
     }
-    return find(faces, arguments);
+    return find(faces, arguments, in_time);
   }();
 
   if (!arguments.certificate.empty())
@@ -306,9 +317,10 @@ static Exit run(const Graph_arguments& arguments) {
                to_json(graph_certificate(scene, faces, found.components, found.trees)).dump() + "\n");
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
   std::optional<Clusters> clusters;
-  if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments);
+  if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments, in_time);
   std::vector<Pixel_image> images;
-  if (!arguments.pixels.size.empty()) images = images_of(scene, traits, faces, found.components, views, arguments);
+  if (!arguments.pixels.size.empty())
+    images = images_of(scene, traits, faces, found.components, views, arguments, in_time);
   Json result{{"scope", scope}, {"arcs", found.arcs ? Json(found.arcs->arc_count()) : Json()}};
   if (!common.json.empty()) {
     Json components = Json::array();

@@ -61,6 +61,8 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
   Polygon_store<Exact_traits> store;
   Split_scratch<Exact_traits> scratch;
   for (const Convex_polygon<Exact_traits>& polygon : order.polygons) {
+    if (task.bsp.progress && outcome.drawn.size() % 64 == 0)
+      task.bsp.progress(outcome.drawn.size(), order.polygons.size());
     const Piece& piece = scene.pieces()[polygon.piece];
     Drawn drawn;
     drawn.fragment.face = piece.face;

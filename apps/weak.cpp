@@ -212,10 +212,11 @@ Exit run_weak(const Weak_arguments& arguments) {
   Json counters = counters_json(c);
   counters["events"] = counters_json(e);
   counters["events"]["surfaces"] = outcome.surfaces.size();
-  Json result{{"visible", found.visible},     {"hidden", found.hidden},
-              {"undecided", found.undecided}, {"certificate", arguments.certificate},
-              {"unproved", found.unproved},   {"by_events", outcome.by_events},
-              {"within", outcome.within},     {"open", open_json(occluders, sources, found)}};
+  Json result{
+      {"visible", found.visible},     {"hidden", found.hidden},
+      {"undecided", found.undecided}, {"certificate", arguments.certificate},
+      {"unproved", found.unproved},   {"by_events", outcome.by_events},
+      {"within", outcome.within},     {"open", common.json.empty() ? Json() : open_json(occluders, sources, found)}};
   if (write_json(common, "weak", scene, std::move(result), counters,
                  {{"prepare", prepare_seconds}, {"search", seconds}}))
     return exit;
@@ -231,8 +232,8 @@ Exit run_weak(const Weak_arguments& arguments) {
   row("hidden", fmt::format("{}", found.hidden.size()));
   row("undecided", found.undecided.empty()
                        ? "none"
-                       : fmt::format("{}: --cells and --budget set how long each is looked at, --event-edges whether "
-                                     "events are; --json shows the cells that are open",
+                       : fmt::format("{}: --budget, --cells and --event-edges set how long each is looked at; --json "
+                                     "shows the cells that are open",
                                      found.undecided.size()));
   if (!outcome.by_events.empty())
     row("by events", fmt::format("{} of them, that lines left open", outcome.by_events.size()));
@@ -285,12 +286,17 @@ void add_weak(Command program) {
       .disable_flag_override()
       .excludes(method);
   command.add_option("--rays", a->task.rays, "sample: from each source").check(whole_number()).show_default();
-  command.add_option("--cells", a->task.cells, "lines: how many cells a search may take before its face is undecided")
+  command
+      .add_option("--cells", a->task.cells,
+                  "lines: how many cells a search may take before its face is undecided; 0: as many as it takes, "
+                  "unless --event-edges says where to end")
       .check(whole_number())
       .show_default();
   command
-      .add_option("--event-edges", a->task.event_edges,
-                  "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does")
+      .add_option(
+          "--event-edges", a->task.event_edges,
+          "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does. More, "
+          "and more cells, where neither this nor --cells is given")
       .check(whole_number())
       .show_default();
   command

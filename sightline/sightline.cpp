@@ -326,6 +326,7 @@ Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector
   events.threads = asking.threads;
   events.progress = asking.progress;
   settle_by_events(occluders, polygons, usual_event_edges, events, *found);
+  decide_the_rest(occluders, polygons, options, usual_event_edges, events, *found);
   Weak_visibility answer;
   answer.visible = found->visible;
   answer.hidden = found->hidden;

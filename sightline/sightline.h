@@ -128,7 +128,7 @@ struct Seen : Answer {
 Seen see(const Model& model, const Exact_point& eye, const Asking& asking = {});
 
 /// The faces some point of which is seen from some point of the sources. Every kept face is in one list; lists are
-/// sorted.
+/// sorted. It goes on until nothing is undecided; what `progress` throws ends it.
 struct Weak_visibility : Answer {
   std::vector<Face_id> visible, hidden, undecided;
 };

@@ -1,5 +1,6 @@
 #include <sightline/algorithms/bsp/query.h>
 
+#include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <algorithm>
@@ -62,7 +63,8 @@ Sign Grid_ray::side_within(const Convex_polygon<Exact_traits>& polygon, const Ra
   return all;
 }
 
-std::optional<int> winding_along(const Exact_traits& traits, const Exact_tree& tree, const Exact_ray& ray) {
+std::optional<int> winding_along(const Exact_traits& traits, const Exact_tree& tree, const Exact_ray& ray,
+                                 const std::vector<int>& times) {
   const Grid_ray grid(traits, ray);
   int winding = 0;
   for (const Exact_tree::Node& node : tree.nodes) {
@@ -77,8 +79,8 @@ std::optional<int> winding_along(const Exact_traits& traits, const Exact_tree& t
       if (t < 0) break;
       const Sign inside = grid.side_within(fragment.polygon, t);
       if (inside == CGAL::ZERO) return std::nullopt;
-      if (inside == CGAL::POSITIVE)
-        winding += (v.slope > 0) == fragment.same_sense ? 1 : -1;  // leaving through a front counts one
+      if (inside == CGAL::POSITIVE)  // leaving through a front counts
+        winding += ((v.slope > 0) == fragment.same_sense ? 1 : -1) * times[fragment.polygon.piece];
     }
   }
   return winding;
@@ -131,10 +133,11 @@ Point_location locate_point(const Exact_traits& traits, const Exact_tree& tree, 
   if (!found.faces.empty()) {
     found.location = Location::on;
   } else if (closed) {
+    const std::vector<int> times = times_given(traits.scene());
     // A ray that meets an edge says nothing; only finitely many directions of this curve do.
     for (long k = 1;; ++k) {
       const Exact_ray ray{point, {Rational(1000003), Rational(7919 * k), Rational(104729 + k * k)}};
-      if (const std::optional<int> winding = bsp_detail::winding_along(traits, tree, ray)) {
+      if (const std::optional<int> winding = bsp_detail::winding_along(traits, tree, ray, times)) {
         found.location = *winding != 0 ? Location::inside : Location::outside;
         break;
       }

@@ -71,8 +71,10 @@ class Grid_ray {
   std::array<Rational, 3> origin_, direction_;
 };
 
-/// The winding number of the faces about a point off all of them; nothing where the ray meets an edge.
-std::optional<int> winding_along(const Exact_traits& traits, const Exact_tree& tree, const Exact_ray& ray);
+/// The winding number of the faces about a point off all of them; nothing where the ray meets an edge. `times`: how
+/// often each piece counts.
+std::optional<int> winding_along(const Exact_traits& traits, const Exact_tree& tree, const Exact_ray& ray,
+                                 const std::vector<int>& times);
 
 }  // namespace bsp_detail
 
@@ -86,8 +88,9 @@ std::vector<Face_id> faces_at(const Exact_traits& traits, const Exact_tree& tree
                               Predicate_counts& counts);
 
 /// Where a point is: on a face, or else inside or outside the solid that the faces bound (inside: winding number not
-/// zero). Degenerate: `undefined` where the scene is not closed (pass closure(scene).closed) and the point is on no
-/// face. Cost: O(depth), and O(n) rational arithmetic for inside or outside. Exact: yes. Proof: P-08
+/// zero, where a face counts as often as it is given). Degenerate: `undefined` where the scene is not closed (pass
+/// closure(scene).closed) and the point is on no face. Cost: O(depth), and O(n) rational arithmetic for inside or
+/// outside. Exact: yes. Proof: P-08
 Point_location locate_point(const Exact_traits& traits, const Exact_tree& tree, const Exact_point& point, bool closed,
                             Predicate_counts& counts);
 

@@ -119,9 +119,9 @@ requires(Traits::is_exact) class On_view {
 
  private:
   /// Four terms, each off by a relative 2^-49, three sums of 2^-53, and the viewpoint's own error along a unit normal:
-  /// 2^-47 and twice the error cover that. P-51
+  /// 2^-47 and twice the error cover that; where a height might overflow it is infinite. P-51
   static double bound(double x, double y, double z, double error, double reach) {
-    return 0x1p-47 * (std::fabs(x) + std::fabs(y) + std::fabs(z) + reach) + 2 * error +
+    return 0x1p-57 * (0x1p10 * (std::fabs(x) + std::fabs(y) + std::fabs(z) + reach)) + 2 * error +
            0x1p-900 * (1 + std::fabs(x) + std::fabs(y) + std::fabs(z));
   }
   [[gnu::noinline]] bool test_exactly(std::uint32_t node, const Eye& eye, Predicate_counts& counts) const {

@@ -34,7 +34,7 @@ double Piece_boxes::distance(const Box& box, const Located_point& eye) {
     const double x = std::max({box.low[k] - e[k], e[k] - box.high[k], 0.0});
     sum += x * x;
   }
-  return std::sqrt(sum);
+  return std::isfinite(sum) ? std::sqrt(sum) : 0;
 }
 
 std::vector<Piece_boxes::Entry> Piece_boxes::entries_of(const Scene& scene) {

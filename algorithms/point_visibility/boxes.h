@@ -49,7 +49,8 @@ class Piece_boxes {
   /// within `error`.
   static bool is_behind(const Box& box, const std::array<double, 3>& n, double size, double error,
                         const Located_point& eye);
-  /// At most the distance from the eye, but for rounding by a relative 2^-50 and errors of the eye.
+  /// At most the distance from the eye, but for rounding by a relative 2^-50 and errors of the eye. 0 where that is too
+  /// far for its square.
   static double distance(const Box& box, const Located_point& eye);
 
  private:
@@ -81,7 +82,8 @@ inline bool Piece_boxes::is_behind(const Box& box, const std::array<double, 3>& 
     value += n[k] * x;
     reach = std::max({reach, std::fabs(x), std::fabs(e[k])});
   }
-  return value < -(reach * (error + 0x1p-49 * size) + 2 * size * eye.error + 0x1p-1000 * (1 + size));
+  return value <
+         -(reach * error + 0x1p-52 * (8 * reach * size) + 2 * size * eye.error + 0x1p-1000 * (1 + size));  // P-60
 }
 
 }  // namespace sightline

@@ -103,7 +103,7 @@ Exact_point Exact_view::position(std::uint32_t piece, const Ray& r) const {
 double Exact_view::farthest(std::uint32_t piece, const Ray& r) const {
   const Form& m = form(piece);
   const double near = m.x * r.x + m.y * r.y + m.z * r.z - (m.size * (2 * r.error + 0x1p-48 * r.size) + 0x1p-700);
-  const double length = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z) + 2 * r.error;
+  const double length = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z) + 2 * r.error + 0x1p-530;  // squares underflow
   const double far = length / near * box_units_ * (1 + 0x1p-40);
   return near > 0 && std::isfinite(far) ? far : std::numeric_limits<double>::infinity();
 }
@@ -154,7 +154,7 @@ Exact_view::Form Exact_view::form_of(const Piece& piece) const {
   form.y = quotient(h[1]);
   form.z = quotient(h[2]);
   form.size = magnitude(form.x, form.y, form.z);
-  if (!std::isfinite(form.size)) {
+  if (!(form.size < 0x1p300)) {  // or products of three of its kind would be beyond doubles
     form.x = form.y = form.z = 0;
     form.size = std::numeric_limits<double>::infinity();
   }

@@ -38,8 +38,8 @@ class Explicit_priority_graph {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> arcs;
     const std::uint32_t n = relation.size();
     for (std::uint32_t i = 0; i < n; ++i) {
-      if (progress) progress(i, n);
       for (std::uint32_t j = i + 1; j < n; ++j) {
+        if (progress && (j - i) % 256 == 1) progress(i, n);
         const Arcs both = relation.arcs(i, j, counters_);
         if (both.forth) arcs.emplace_back(i, j);
         if (both.back) arcs.emplace_back(j, i);

@@ -54,6 +54,11 @@ class Implicit_priority_graph {
       trees->to.resize(n);
     }
 
+    std::size_t steps = 0, done = 0;
+    const auto tick = [&] {
+      if (progress && ++steps % 16 == 0) progress(done, 2 * std::size_t{n});
+    };
+
     // 1. Along the arcs.
     index_.revive();
     std::vector<char> alone(n);  // trees of one face
@@ -63,27 +68,29 @@ class Implicit_priority_graph {
           root, Follow::obscured, trees == nullptr ? nullptr : &trees->from, [&](std::uint32_t) {},
           [&](std::uint32_t face) {
             finished.push_back(face);
-            if (progress && finished.size() % 64 == 0) progress(finished.size(), 2 * std::size_t{n});
-          });
+            ++done;
+          },
+          tick);
       alone[root] = finished.size() == before + 1;
     }
 
     // 2. Against them, last finished first: each search is a component.
     if (std::find(alone.begin(), alone.end(), 0) != alone.end()) index_.revive(alone);
     std::uint32_t count = 0;
-    std::size_t done = n;
     const auto enter = [&](std::uint32_t face) {
       h[face] = count;
-      if (progress && ++done % 64 == 0) progress(done, 2 * std::size_t{n});
+      ++done;
     };
     for (std::uint32_t k = n; k-- > 0;) {
       const std::uint32_t face = finished[k];
       if (alone[face]) {
         enter(face);
+        tick();
         if (trees != nullptr) trees->to[face] = face;
         ++count;
-      } else if (search(face, Follow::obscuring, trees == nullptr ? nullptr : &trees->to, enter,
-                        [](std::uint32_t) {})) {
+      } else if (search(
+                     face, Follow::obscuring, trees == nullptr ? nullptr : &trees->to, enter, [](std::uint32_t) {},
+                     tick)) {
         ++count;
       }
     }
@@ -96,9 +103,10 @@ class Implicit_priority_graph {
     std::uint32_t face, from;
   };
 
-  /// Depth-first search from a root, if that is live; parents by face, roots their own.
-  template <class Enter, class Leave>
-  bool search(std::uint32_t root, Follow follow, std::vector<std::uint32_t>* parents, Enter enter, Leave leave) {
+  /// Depth-first search from a root, if that is live; parents by face, roots their own. `tick` is called at each step.
+  template <class Enter, class Leave, class Tick>
+  bool search(std::uint32_t root, Follow follow, std::vector<std::uint32_t>* parents, Enter enter, Leave leave,
+              Tick tick) {
     if (!index_.is_live(root)) return false;
     const auto visit = [&](std::uint32_t face, std::uint32_t parent) {
       index_.remove(face);
@@ -108,6 +116,7 @@ class Implicit_priority_graph {
     };
     visit(root, root);
     while (!stack_.empty()) {
+      tick();
       Step& step = stack_.back();
       const std::uint32_t i = step.face;
       const auto accept = [&](std::uint32_t j) {

@@ -76,19 +76,25 @@ Pixel_sets pixel_sets(const Priority_relation<Traits>& faces, const Pixel_view& 
   const double volume = dot(view.look, forth);
   const bool skewed =
       !(volume * volume > 1e-6 * dot(view.look, view.look) * dot(view.right, view.right) * dot(view.up, view.up)) ||
-      !std::isfinite(volume);
+      !(volume * volume > 0x1p-800) || !std::isfinite(volume);
+  // So many pixels to so small a field that the projection may be off by as much as one.
+  const auto fine = [&](const std::array<double, 3>& half, std::uint32_t count) {
+    return !(dot(view.look, view.look) * count * count < 0x1p39 * dot(half, half));
+  };
+  const bool by_projection = !skewed && !fine(view.right, view.width) && !fine(view.up, view.height);
   for (std::uint32_t i = 0; i < faces.size(); ++i) {
     if (traits.side(viewpoint, faces.plane(i), counts) != CGAL::POSITIVE) continue;
     const priority_detail::Pixel_cone cone(priority_detail::positions(traits, faces[i]), view.eye);
 
     // 1. The pixels that it may cover, and one more on each side.
     std::array<double, 4> box{1, -1, 1, -1};  // x from, to; y from, to, in the plane of the image
-    bool in_front = !skewed;
+    bool in_front = by_projection;
     for (const Exact_point& arm : cone.arms) {
       const std::array<double, 3> a{nearest_double(arm[0]), nearest_double(arm[1]), nearest_double(arm[2])};
       const double z = dot(a, forth) / volume, x = dot(a, across) / volume / z,
                    y = dot(a, upwards) / volume / z;  // a = z (look + x right + y up)
-      in_front = in_front && z > 1e-6 * std::sqrt(dot(a, a) / dot(view.look, view.look)) && std::isfinite(x + y);
+      in_front = in_front && dot(a, a) > 0x1p-900 && z > 1e-6 * std::sqrt(dot(a, a) / dot(view.look, view.look)) &&
+                 std::isfinite(x + y);
       box = {std::min(box[0], x), std::max(box[1], x), std::min(box[2], y), std::max(box[3], y)};
     }
     if (!in_front) box = {-1, 1, -1, 1};

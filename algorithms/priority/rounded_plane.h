@@ -22,12 +22,14 @@ std::vector<Exact_point> positions(const Traits& traits, const Convex_polygon<Tr
 struct Rounded_plane {
   using Triple = std::array<double, 3>;
   Triple normal, size;
+  double lost;  ///< of what underflow may take, at a direction of size 1
 
   /// In front is where a, b and the direction are positively oriented.
   Rounded_plane(const Triple& a, const Triple& b);
   /// The side of a direction of that kind: 1, -1, or 0 where doubles do not tell. Products of two are off by 3 x 2^-53
   /// of their size, their difference by 4, a product with the direction by 6, the sum of three by 8: 2^-49 covers that;
-  /// the last term is for underflow. What is beyond doubles is not told. Proof: P-33
+  /// the last term is for underflow, which costs the more the larger the other two are. What is beyond doubles is not
+  /// told. Proof: P-33
   int side(const Triple& d) const;
 };
 

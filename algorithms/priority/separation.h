@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <set>
@@ -87,17 +88,24 @@ class Separation_finder {
     if (!std::isfinite(4 * range_)) return std::nullopt;
     candidates_.clear();
     collect_directions(members, directions);
-    for (const Triple& direction : directions_) sweep(members, direction, least);
+    for (const Triple& direction : directions_) {
+      if (tick) tick();
+      sweep(members, direction, least);
+    }
     std::stable_sort(candidates_.begin(), candidates_.end(),
                      [](const Candidate& a, const Candidate& b) { return a.larger < b.larger; });
     if (candidates_.size() > tried) candidates_.resize(tried);
-    for (const Candidate& candidate : candidates_)
+    for (const Candidate& candidate : candidates_) {
+      if (tick) tick();
       if (std::optional<Separation> found = candidate.plane.is_free() ? divided_by_gap(members, candidate)
                                                                       : divided_by_face(members, candidate, counts);
           found && std::min(found->sides[1].size(), found->sides[2].size()) >= least)
         return found;
+    }
     return std::nullopt;
   }
+
+  std::function<void()> tick = {};  ///< called before each direction and each candidate; what it throws ends find()
 
  private:
   static constexpr std::size_t tried = 16;  // candidates that are decided exactly

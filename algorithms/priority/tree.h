@@ -117,6 +117,10 @@ class Tree_builder {
   Polygon_store<Traits>& store() { return store_; }
 
   Tree build() {
+    if (options_.progress) {
+      tick_ = [this](std::size_t, std::size_t) { options_.progress(done_, tree_.polygons.size() - gone_); };
+      finder_.tick = [this] { tick_(0, 0); };
+    }
     tree_.two_sided = options_.two_sided;
     tree_.counters.pieces = tree_.polygons.size();
     Job root;
@@ -216,12 +220,12 @@ class Tree_builder {
     const Priority_relation<Traits> relation(traits_, polygons);
     ++tree_.counters.graphs;
     if (members.size() <= few) {
-      const Explicit_priority_graph graph(relation);
+      const Explicit_priority_graph graph(relation, tick_);
       tree_.counters.search.relation += graph.counters();
       return components(graph);
     }
     Implicit_priority_graph<Priority_relation<Traits>> graph(relation);
-    Priority_components found = components(graph);
+    Priority_components found = graph.find_components(nullptr, tick_);
     tree_.counters.search += graph.counters();
     return found;
   }
@@ -255,6 +259,7 @@ class Tree_builder {
     for (std::size_t t = 0; t < tries; ++t) {
       const Plane plane = tree_.polygons[members[t * n / tries]].support;
       if (!seen.insert(plane.id()).second) continue;
+      if (tick_) tick_(0, 0);
       const auto cutter = traits_.prepare(plane);
       std::array<std::size_t, 4> at{};
       for (std::size_t k = 0; k < n && split_cost * at[3] < best_cost; ++k) {
@@ -296,6 +301,7 @@ class Tree_builder {
   const Traits& traits_;
   Priority_tree_options options_;
   Separation_finder<Traits> finder_;
+  std::function<void(std::size_t, std::size_t)> tick_;  // the tree's own progress, from within a long step
   Tree tree_;
   Polygon_store<Traits> store_;
   Split_scratch<Traits> scratch_;

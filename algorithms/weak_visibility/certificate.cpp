@@ -1,6 +1,7 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 
 #include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/weak_visibility/weak_source.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -15,7 +16,7 @@ namespace sightline {
 Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vector<Exact_point>>& sources,
                                   bool two_sided, const Weakly_visible& found) {
   Weak_certificate certificate;
-  certificate.sources = sources;
+  for (const std::vector<Exact_point>& points : sources) certificate.sources.push_back(strict_corners(points));
   certificate.two_sided = two_sided;
   std::set_union(found.undecided.begin(), found.undecided.end(), found.unproved.begin(), found.unproved.end(),
                  std::back_inserter(certificate.undecided));

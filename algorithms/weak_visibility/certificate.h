@@ -11,8 +11,8 @@
 namespace sightline {
 
 /// What verify_weak() checks, in the file's coordinates. Lines of all proofs are numbered together. What is unproved
-/// counts as undecided there: nothing is claimed about it. Pre: `sources` are the points that the answers are for.
-/// Exact: yes
+/// counts as undecided there: nothing is claimed about it. Sources are named by their strict corners. Pre: `sources`
+/// are the points that the answers are for. Exact: yes
 Weak_certificate weak_certificate(const Scene& scene, const std::vector<std::vector<Exact_point>>& sources,
                                   bool two_sided, const Weakly_visible& found);
 

@@ -18,12 +18,12 @@ bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_poly
   if (front == 0 || front == both_sides || side(occluders.plane(piece), target) != -front) return false;
   const std::span<const Triple> corners = occluders.corners(piece);
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double a = size(corners[i]), b = size(corners[(i + 1) % corners.size()]);
+    const Ends of_edge = ends(size(corners[i]), size(corners[(i + 1) % corners.size()]));
     std::optional<Exact_pluecker> edge;  // once doubles do not tell
     for (std::size_t c = 0; c < pairs.size(); ++c) {
       const Near_point &p = source[c / target.size()], &q = target[c % target.size()];
       const double value = front * dot(pairs[c], occluders.edges(piece)[i]),
-                   bound = side_error(size(p.near), size(q.near), a, b);
+                   bound = side_error(ends(size(p.near), size(q.near)), of_edge);
       if (value < -bound) return false;
       if (value > bound) continue;
       if (!edge) edge = occluders.exact_pluecker_of(occluders.edge_points(piece, i));

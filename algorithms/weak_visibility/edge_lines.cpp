@@ -39,8 +39,7 @@ Edge_lines::Edge Edge_lines::edge(std::uint32_t piece, std::size_t corner) {
                       points,
                       flipped,
                       occluders_->edges(piece)[corner],
-                      a + b,
-                      a * b,
+                      ends(a, b),
                       occluders_->exact_pluecker_of(points)});
   }
   return {name, flipped == lines_[name].flipped ? 1 : -1};

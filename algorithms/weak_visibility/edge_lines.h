@@ -23,7 +23,7 @@ class Edge_lines {
     std::array<std::uint32_t, 2> points;  ///< that edge's ends
     bool flipped;                         ///< runs against the canonical direction
     Pluecker near;
-    double ends_sum, ends_product;  ///< of the largest coordinates of its two points
+    Ends ends;  ///< of its two points
     Exact_pluecker exact;
   };
   /// An edge's line: `sense` -1 where it runs the other way.

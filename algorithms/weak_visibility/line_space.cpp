@@ -1,5 +1,7 @@
 #include <sightline/algorithms/weak_visibility/line_space.h>
 
+#include <utility>
+
 namespace sightline {
 
 double near_quotient(const Integer& p, const Integer& w, long exponent) {
@@ -19,11 +21,16 @@ double near_quotient(const Integer& p, const Integer& w, long exponent) {
   return sgn(p) < 0 ? -size : size;
 }
 
+Rational times_power(Rational x, long exponent) {
+  if (exponent >= 0) mpq_mul_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
+  else mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
+  return x;
+}
+
 Rational Near_frame::near_cubic(const Integer& p, const Integer& w) const {
   Rational value(p, divisor_ == 1 ? w : Integer(w * divisor_ * divisor_ * divisor_));
   value.canonicalize();
-  mpq_div_2exp(value.get_mpq_t(), value.get_mpq_t(), static_cast<mp_bitcnt_t>(3 * shift_));
-  return value;
+  return times_power(std::move(value), -3 * shift_);
 }
 
 Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact) {
@@ -43,13 +50,14 @@ Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exa
 }
 
 int side(const Near_plane& h, const Near_point& p) {
-  double value = h.near[3], size = std::fabs(h.near[3]);
+  double value = h.near[3], size = std::fabs(h.near[3]), reach = 1;
   for (std::size_t k = 0; k < 3; ++k) {
     const double product = h.near[k] * p.near[k];
     value += product;
     size += std::fabs(product);
+    reach += std::fabs(p.near[k]);
   }
-  const double bound = 0x1p-49 * size + 0x1p-1000;
+  const double bound = 0x1p-49 * size + 0x1p-1000 * reach;
   if (value > bound) return 1;
   if (value < -bound) return -1;
   thread_local Integer sum;

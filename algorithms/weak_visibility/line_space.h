@@ -10,48 +10,51 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace sightline {
 
-/// p / (w 2^exponent) within a relative 2^-52: a quotient of 63 or 64 bits, rounded. Pre: w > 0.
+/// p / (w 2^exponent) within a relative 2^-52, and within 2^-1074 where it underflows; infinite beyond doubles: a
+/// quotient of 63 or 64 bits, rounded. Pre: w > 0.
 double near_quotient(const Integer& p, const Integer& w, long exponent);
 
-/// Coordinates near [-1, 1] for doubles: the grid divided by a scale of the scene's own.
+/// x 2^exponent. Exact: yes.
+Rational times_power(Rational x, long exponent);
+
+/// Coordinates for doubles: the grid divided by a scale of the scene's own, a divisor and a power of two, so that those
+/// of the scene's points are at most 1/2, and the bound of them at least 1/8. Those of a source are what they are.
 class Near_frame {
  public:
   explicit Near_frame(const Scene& scene) : divisor_(scene.points().divisor()) {
-    exponent_ = std::max(0, std::ilogb(std::max(1.0, scene.points().range())) + 1);
+    exponent_ = scene.points().bits() - scene.points().shift() + 2 - static_cast<long>(bit_length(divisor_));
     shift_ = scene.points().shift() + exponent_;
   }
-  /// A coordinate p / w of the grid, within a relative 2^-52.
+  /// A coordinate p / w of the grid, within a relative 2^-52 and 2^-1074.
   double near(const Integer& p, const Integer& w) const {
     return divisor_ == 1 ? near_quotient(p, w, shift_) : near_quotient(p, Integer(w * divisor_), shift_);
   }
   double near(const Scene& scene, std::uint32_t point, int axis) const {
-    return std::ldexp(scene.points().approximate(point, axis), -exponent_);
+    // Where it is made larger, so would be what the approximate coordinate lost to underflow.
+    return exponent_ < 0 ? near(scene.points().integer(point, axis), 1)
+                         : std::ldexp(scene.points().approximate(point, axis), -static_cast<int>(exponent_));
   }
   /// A form of degree three in coordinates of the grid, over w, as it would be in near ones.
   Rational near_cubic(const Integer& p, const Integer& w) const;
   /// What a plane's last coefficient is multiplied by less than the others.
-  Rational unit() const {
-    Rational one(divisor_);
-    mpq_mul_2exp(one.get_mpq_t(), one.get_mpq_t(), static_cast<mp_bitcnt_t>(shift_));
-    return one;
-  }
-  /// From these coordinates to those of boxes (Grid_points::approximate).
-  double to_boxes() const { return std::ldexp(1.0, exponent_); }
+  Rational unit() const { return times_power(Rational(divisor_), shift_); }
+  /// From these coordinates to those of boxes (Grid_points::approximate). It may underflow, even to 0.
+  double to_boxes() const { return std::ldexp(1.0, static_cast<int>(exponent_)); }
 
  private:
   Integer divisor_;
-  int exponent_;
-  long shift_;
+  long exponent_, shift_;
 };
 
 using Triple = std::array<double, 3>;
 
 /// A point in homogeneous grid coordinates, the last one positive, reduced; and in doubles, each within a relative
-/// 2^-52.
+/// 2^-52 and 2^-1074, infinite beyond doubles.
 struct Near_point {
   std::array<Integer, 4> exact;
   Triple near;
@@ -63,13 +66,13 @@ Near_point near_point(const Near_frame& frame, std::array<Integer, 4> exact);
 /// An oriented plane in grid coordinates.
 struct Near_plane {
   std::array<Integer, 4> exact;
-  std::array<double, 4> near;  ///< a positive multiple, each within a relative 2^-52
+  std::array<double, 4> near;  ///< a positive multiple, the largest of the normal 1, each within 2^-52 and 2^-1074
 };
 
 Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact);
 
 /// The side of a point: doubles where they tell, integers where not. The bound: four products of factors each within
-/// 2^-52, and their sum. Exact: yes.
+/// 2^-52, and their sum; and what underflows, the more the farther the point is. Exact: yes. Proof: P-70
 int side(const Near_plane& h, const Near_point& p);
 
 inline constexpr int both_sides = 2;
@@ -115,11 +118,18 @@ inline Integer dot(const Exact_pluecker& a, const Exact_pluecker& b) {
 
 inline double size(const Triple& p) { return std::max({std::fabs(p[0]), std::fabs(p[1]), std::fabs(p[2])}); }
 
+/// The largest coordinates of two points, their sum and their product.
+struct Ends {
+  double sum, product;
+};
+inline Ends ends(double a, double b) { return {a + b, a * b}; }
+
 /// Bounds the error of dot(pluecker_of_pair(p, q), pluecker_of_edge(a, b)): at most 6 products of three coordinates for
-/// each of four choices, each factor within 2^-52 of the truth, and eight roundings: (3 x 2 + 8) x 6 u < 2^7 u. `p`,
-/// `q`, `a`, `b`: largest coordinates. Proof: P-70
-inline double side_error(double p, double q, double a, double b) {
-  return 0x1p-46 * ((p + q) * a * b + p * q * (a + b)) + 0x1p-1000;
+/// each of four choices, each factor within 2^-52 of the truth, and nine roundings: (3 x 2 + 9) x 6 u < 2^7 u; and what
+/// underflows. Infinite where a coordinate is 2^64 or more. Proof: P-70
+inline double side_error(const Ends& pq, const Ends& ab) {
+  if (!(pq.sum + ab.sum < 0x1p64)) return std::numeric_limits<double>::infinity();
+  return 0x1p-46 * (pq.sum * ab.product + pq.product * ab.sum) + 0x1p-900;
 }
 
 }  // namespace sightline

@@ -11,10 +11,13 @@ namespace sightline {
 namespace {
 
 /// Planes with both polygons on them or in front: through an edge of one and a corner of the other, and around all of
-/// them; less a little.
+/// them; less a little of their distance.
 std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Near_polygon& t) {
   std::vector<std::array<double, 4>> planes;
-  constexpr double little = 1e-9;
+  double reach = 1;
+  for (const Near_polygon* polygon : {&s, &t})
+    for (const Near_point& p : *polygon) reach = std::max(reach, size(p.near));
+  const double little = 1e-9 * reach;
   const auto add = [&](Triple n, const Triple& through) {
     const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(length > 1e-150)) return;
@@ -55,19 +58,24 @@ std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Nea
   return planes;
 }
 
+/// What underflow may take from a coordinate, in those of boxes. Proof: P-70
+double lost_in_boxes(double to_boxes) { return 0x1p-1000 * (1 + to_boxes); }
+
 /// Whether a segment certainly misses a box that its own box meets: a plane along it and an axis has the box on one
-/// side.
+/// side. Proof: P-70
 bool misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, double to_boxes) {
+  const double lost = lost_in_boxes(to_boxes);
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
     const double nu = q[v] - p[v], nv = p[u] - q[u], pu = p[u] * to_boxes, pv = p[v] * to_boxes;
     const double middle = nu * ((box.low[u] + box.high[u]) / 2 - pu) + nv * ((box.low[v] + box.high[v]) / 2 - pv);
     const double reach =
         std::fabs(nu) * (box.high[u] - box.low[u]) / 2 + std::fabs(nv) * (box.high[v] - box.low[v]) / 2;
-    const double scale = (std::fabs(p[u]) + std::fabs(q[u]) + std::fabs(p[v]) + std::fabs(q[v])) *
-                         (std::fabs(pu) + std::fabs(pv) + std::fabs(box.low[u]) + std::fabs(box.high[u]) +
-                          std::fabs(box.low[v]) + std::fabs(box.high[v]));
-    if (std::fabs(middle) > reach + 0x1p-46 * scale + 0x1p-1000) return true;
+    const double of_segment = std::fabs(p[u]) + std::fabs(q[u]) + std::fabs(p[v]) + std::fabs(q[v]),
+                 of_box = std::fabs(pu) + std::fabs(pv) + std::fabs(box.low[u]) + std::fabs(box.high[u]) +
+                          std::fabs(box.low[v]) + std::fabs(box.high[v]);
+    if (std::fabs(middle) > reach + 0x1p-49 * (8 * of_segment * of_box) + lost * (1 + of_segment) * (1 + of_box))
+      return true;
   }
   return false;
 }
@@ -172,7 +180,8 @@ std::optional<std::uint32_t> Occluders::blocker(const Near_point& p, const Near_
   for (std::size_t k = 0; k < 3; ++k) {
     around.low[k] = std::min(p.near[k], q.near[k]) * to_boxes;
     around.high[k] = std::max(p.near[k], q.near[k]) * to_boxes;
-    const double slack = 0x1p-50 * std::max(std::fabs(around.low[k]), std::fabs(around.high[k])) + 0x1p-1000;
+    const double slack =
+        0x1p-50 * std::max(std::fabs(around.low[k]), std::fabs(around.high[k])) + lost_in_boxes(to_boxes);
     around.low[k] -= slack;
     around.high[k] += slack;
   }
@@ -214,12 +223,12 @@ bool Occluders::meets(std::uint32_t piece, const Near_point& p, const Near_point
   if (at_p * at_q > 0) return false;
   if ((at_p == 0 && same_plane(planes_[piece], of_p)) || (at_q == 0 && same_plane(planes_[piece], of_q))) return false;
   const int from = at_p != 0 ? at_p : -at_q;
-  const double ps = sightline::size(p.near), qs = sightline::size(q.near);
+  const Ends of_pair = ends(sightline::size(p.near), sightline::size(q.near));
   const std::span<const Triple> polygon = corners(piece);
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const double value = from * sightline::dot(near_pair, edges(piece)[i]);
     const double bound =
-        side_error(ps, qs, sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()]));
+        side_error(of_pair, ends(sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()])));
     if (value < -bound) return false;
     if (value > bound) continue;
     if (from * sgn(sightline::dot(pair, exact_pluecker_of(edge_points(piece, i)))) < 0) return false;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 namespace sightline {
@@ -91,6 +92,7 @@ Events_answer open_pair_by_events(const Occluders& occluders, const Weak_source&
           return same(parts.source, cell.source) && same(parts.target, cell.target);
         }))
       continue;
+    if (options.out_of_time && options.out_of_time()) return {};
     if (edges_between(occluders, cell.source, cell.target) > most_edges) return {};
     all.push_back({std::move(cell.source), std::move(cell.target)});
   }
@@ -112,6 +114,40 @@ Weak_answer weak_answer(const Events_answer& found) {
   return answer;
 }
 
+Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Weak_source>& sources, Weak_options search,
+                               std::size_t most_edges, Events_options events, Weakly_visible& found) {
+  std::size_t all_edges = 0;
+  for (std::uint32_t piece = 0; piece < occluders.scene().pieces().size(); ++piece) all_edges += occluders.size(piece);
+  events.events = std::numeric_limits<std::size_t>::max();
+  Event_counters counters;
+  while (!found.undecided.empty() && !(events.out_of_time && events.out_of_time())) {
+    // 1. More cells.
+    search.search.cells *= 4;
+    search.search.open *= 4;
+    search.search.bisections += 4;
+    search.faces = found.undecided;
+    Weakly_visible more = weakly_visible(occluders, sources, search);
+    for (const Weak_status status : {Weak_status::visible, Weak_status::hidden}) {
+      std::vector<Face_id>&all = found.of(status), &own = more.of(status);
+      const auto middle = all.insert(all.end(), own.begin(), own.end());
+      std::inplace_merge(all.begin(), middle, all.end());
+    }
+    std::move(more.pairs.begin(), more.pairs.end(), std::back_inserter(found.pairs));
+    std::stable_sort(found.pairs.begin(), found.pairs.end(),
+                     [](const auto& a, const auto& b) { return a.piece < b.piece; });
+    found.undecided = std::move(more.undecided);
+    found.open = std::move(more.open);
+    found.counters += more.counters;
+
+    // 2. Events among more edges.
+    const bool all = most_edges >= all_edges;
+    most_edges *= 2;
+    counters += settle_by_events(occluders, sources, most_edges, events, found);
+    if (all) break;
+  }
+  return counters;
+}
+
 Event_counters settle_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources,
                                 std::size_t most_edges, const Events_options& options, Weakly_visible& found) {
   struct Settled {
@@ -120,6 +156,7 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
     std::vector<Weakly_visible::Pair> pairs;  // those that stay open, or the one with a sightline
     Event_counters counters;
   };
+  if (options.out_of_time && options.out_of_time()) return {};
   // 1. The pairs of each face.
   std::vector<Settled> faces;
   for (Weakly_visible::Pair& pair : found.open) {
@@ -135,7 +172,9 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
     for (Weakly_visible::Pair& pair : face.pairs) {
       if (options.progress) options.progress(done.load(), faces.size());
       const Events_answer answer =
-          open_pair_by_events(occluders, sources[pair.source], pair, most_edges, options, face.counters);
+          options.out_of_time && options.out_of_time()
+              ? Events_answer{}
+              : open_pair_by_events(occluders, sources[pair.source], pair, most_edges, options, face.counters);
       if (answer.status == Weak_status::hidden) continue;
       if (answer.status == Weak_status::visible) {
         open.clear();

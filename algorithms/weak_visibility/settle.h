@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/weak_visibility/events/event_search.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
@@ -61,5 +62,12 @@ inline constexpr std::size_t usual_event_edges = 300;
 /// Proof: P-73
 Event_counters settle_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources,
                                 std::size_t most_edges, const Events_options& options, Weakly_visible& found);
+
+/// Goes on with what a search and events left undecided, for as long as it takes: in each round four times the cells
+/// and cells that may stay open, and then events where twice the edges are near. It ends when nothing is undecided,
+/// time runs out, or events that looked at all edges leave something. `search`, `most_edges`: what was tried before.
+/// Post: as of settle_by_events. Exact: yes. Proof: P-71, P-73
+Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Weak_source>& sources, Weak_options search,
+                               std::size_t most_edges, Events_options events, Weakly_visible& found);
 
 }  // namespace sightline

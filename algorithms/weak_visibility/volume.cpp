@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -167,9 +168,13 @@ void Weak_volume::add_surface(const Polygon& polygon, const Exact_plane& plane) 
 }
 
 std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided,
-                                          Weakly_visible& found) {
-  std::vector<Face_id> within;
+                                          Weakly_visible& found, const std::function<bool()>& out_of_time) {
+  std::vector<Face_id> within, unasked;
   for (const Piece& piece : scene.pieces()) {
+    if (!unasked.empty() || (out_of_time && out_of_time())) {
+      unasked.push_back(piece.face);
+      continue;
+    }
     if ((!within.empty() && within.back() == piece.face) ||
         std::binary_search(found.visible.begin(), found.visible.end(), piece.face))
       continue;
@@ -178,6 +183,18 @@ std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume&
     if (volume.sees_from_within(polygon, false) || (two_sided && volume.sees_from_within(polygon, true)))
       within.push_back(piece.face);
   }
+  std::vector<Face_id> left;  // hidden from the surface, as far as that was found
+  std::copy_if(found.hidden.begin(), found.hidden.end(), std::back_inserter(left), [&](Face_id face) {
+    return std::binary_search(unasked.begin(), unasked.end(), face) &&
+           !std::binary_search(within.begin(), within.end(), face);
+  });
+  const auto is_left = [&](Face_id face) { return std::binary_search(left.begin(), left.end(), face); };
+  std::erase_if(found.hidden, is_left);
+  std::erase_if(found.unproved, is_left);
+  std::erase_if(found.pairs, [&](const auto& pair) { return is_left(scene.pieces()[pair.piece].face); });
+  found.undecided.insert(found.undecided.end(), left.begin(), left.end());
+  std::sort(found.undecided.begin(), found.undecided.end());
+
   const auto is_within = [&](Face_id face) { return std::binary_search(within.begin(), within.end(), face); };
   const auto of_face = [&](const Weakly_visible::Pair& pair) { return is_within(scene.pieces()[pair.piece].face); };
   std::erase_if(found.hidden, is_within);

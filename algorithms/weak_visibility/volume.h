@@ -7,13 +7,15 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
 namespace sightline {
 
 /// A solid that the faces of a scene bound; inside is where their winding number is not zero, so fronts may look
-/// outwards or inwards. Bodies may be several, concave, nested, touch or overlap. What some point of its inside sees is
+/// outwards or inwards. Bodies may be several, concave, nested, touch, overlap or have faces in common: a face counts
+/// as often as it is given. What some point of its inside sees is
 /// what its surface sees outwards, and the faces of which it sees a part right in front, from within. Faces of the
 /// scene that lie in the surface hide nothing from it, as a source that is a face does not hide what is in front of it.
 /// Cost: a tree of its faces; where its faces cross one another's planes nearby, a point location for each part that
@@ -58,9 +60,9 @@ class Weak_volume {
 };
 
 /// Adds the faces that a volume sees from within to those that its surface was found to see; they are unproved, as they
-/// need no sightline. Returns them, sorted. Cost: Weak_volume::sees_from_within() of the pieces that are not found
-/// visible. Exact: yes. Proof: P-74
+/// need no sightline. Returns them, sorted. Once out of time, what was found hidden and is not asked is undecided.
+/// Cost: Weak_volume::sees_from_within() of the pieces that are not found visible. Exact: yes. Proof: P-74
 std::vector<Face_id> add_seen_from_within(const Scene& scene, const Weak_volume& volume, bool two_sided,
-                                          Weakly_visible& found);
+                                          Weakly_visible& found, const std::function<bool()>& out_of_time = {});
 
 }  // namespace sightline

@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace sightline {
@@ -16,13 +17,20 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
   const std::vector<Piece>& pieces = occluders.scene().pieces();
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Result> results(first.size());
+  const auto& wanted = options.faces;
+  const auto is_wanted = [&](std::size_t f) {
+    return wanted.empty() || std::binary_search(wanted.begin(), wanted.end(), pieces[first[f]].face);
+  };
   const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
     Result& result = results[f];
+    if (!is_wanted(f)) return;
     for (std::uint32_t piece = begin; piece < end && result.status != Weak_status::visible; ++piece)
       for (std::uint32_t s = 0; s < sources.size(); ++s) {
-        Weak_answer answer = Line_search(occluders, sources[s].polygon, sources[s].plane, occluders.polygon(piece),
-                                         piece, options.search)
-                                 .run(result.counters);
+        const auto& out_of_time = options.search.out_of_time;
+        Weak_answer answer = out_of_time && out_of_time() ? nothing_known()
+                                                          : Line_search(occluders, sources[s].polygon, sources[s].plane,
+                                                                        occluders.polygon(piece), piece, options.search)
+                                                                .run(result.counters);
         if (answer.status == Weak_status::visible) {
           result.status = Weak_status::visible;
           result.pairs.clear();
@@ -37,6 +45,7 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
 
   Weakly_visible all;
   for (std::size_t f = 0; f < first.size(); ++f) {
+    if (!is_wanted(f)) continue;
     Result& result = results[f];
     all.of(result.status).push_back(pieces[first[f]].face);
     all.counters += result.counters;

@@ -13,6 +13,7 @@ namespace sightline {
 
 struct Weak_options {
   Weak_search_options search;
+  std::vector<Face_id> faces = {};                                  ///< to look at, sorted; none: all
   int threads = 0;                                                  ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };

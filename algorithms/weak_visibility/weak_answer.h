@@ -87,6 +87,13 @@ struct Weak_answer {
   std::vector<Weak_line> lines;
 };
 
+/// An answer that says nothing: all lines are open.
+inline Weak_answer nothing_known() {
+  Weak_answer answer;
+  answer.proof.push_back({Weak_step::Kind::open, 0, {}, {}});
+  return answer;
+}
+
 struct Weak_search_options {
   bool two_sided = false;
   std::size_t cells = 200000;  ///< that a search may take; then `undecided`
@@ -95,7 +102,7 @@ struct Weak_search_options {
   int bisections = 12;  ///< how often, one in another, a cell is halved that has neither a line nor a proof
   int rays = 24;        ///< lines that are tried before the search
   std::uint64_t seed = 1;
-  std::function<bool()> out_of_time;  ///< asked now and then
+  std::function<bool()> out_of_time;  ///< asked before each cell; then what is left is undecided
 };
 
 // ---- Of all faces

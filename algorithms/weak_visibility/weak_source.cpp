@@ -9,7 +9,7 @@
 
 namespace sightline {
 
-Weak_source weak_source(const Occluders& occluders, const std::vector<Exact_point>& points) {
+std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points) {
   std::vector<Exact_point> corners;
   for (const Exact_point& p : points)
     if (corners.empty() || corners.back() != p) corners.push_back(p);
@@ -46,9 +46,12 @@ Weak_source weak_source(const Occluders& occluders, const std::vector<Exact_poin
     for (const Exact_point& p : strict)
       if (sgn(dot(normal, cross(minus(strict[(i + 1) % strict.size()], strict[i]), minus(p, strict[i])))) < 0)
         throw std::invalid_argument(not_convex);
+  return strict;
+}
 
+Weak_source weak_source(const Occluders& occluders, const std::vector<Exact_point>& points) {
   Weak_source source;
-  for (const Exact_point& p : strict) {
+  for (const Exact_point& p : strict_corners(points)) {
     const Located_point at = occluders.scene().locate(p);
     source.polygon.push_back(near_point(occluders.frame(), {at.x, at.y, at.z, at.w}));
   }

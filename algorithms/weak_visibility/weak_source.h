@@ -17,8 +17,11 @@ struct Weak_source {
   Near_plane plane;
 };
 
-/// A source from points in the file's coordinates. Straight corners and repeated points are dropped. Exact: yes.
+/// The corners of a source: without repeated points and straight corners. What a certificate names. Exact: yes.
 /// Errors: std::invalid_argument where it has no inside, is not planar or not convex, saying what to do.
+std::vector<Exact_point> strict_corners(const std::vector<Exact_point>& points);
+
+/// A source from points in the file's coordinates: of their strict_corners(). Exact: yes. Errors: as there.
 Weak_source weak_source(const Occluders& occluders, const std::vector<Exact_point>& points);
 
 /// A piece that a face of the scene consists of, as a source: it looks to the face's front.

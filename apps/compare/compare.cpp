@@ -125,7 +125,9 @@ void add_compare(Command program) {
       .delimiter(',')
       .check(whole_number())
       .show_default();
-  command.add_option("--cells", a->weak.cells, "weak: how many cells a search may take before its face is undecided")
+  command
+      .add_option("--cells", a->weak.cells,
+                  "weak: how many cells a search may take before its face is undecided; 0: as many as it takes")
       .check(whole_number())
       .show_default();
   command

@@ -45,6 +45,7 @@ Outcome run_traits(const Scene& scene, const Traits& traits, const Task& task, B
   }
   outcome.drawn.reserve(order.size());
   for (const auto& [fragment, side] : order) {
+    if (options.progress && outcome.drawn.size() % 64 == 0) options.progress(outcome.drawn.size(), order.size());
     if (behind_begin != nullptr && fragment >= behind_begin && fragment < behind_end) continue;
     const Piece& piece = scene.pieces()[fragment->polygon.piece];
     Drawn drawn{{piece.face, piece.number, {}}, fragment->number, side};

@@ -104,12 +104,14 @@ static Weak_outcome by_lines(const Occluders& occluders, const Sources& sources,
   options.progress = task.progress;
   options.search.two_sided = task.two_sided;
   options.search.seed = task.seed;
-  options.search.cells = task.cells;
+  if (task.cells > 0) options.search.cells = task.cells;
   options.search.out_of_time = task.out_of_time;
   Weak_outcome outcome{weakly_visible(occluders, sources.polygons, options), {}, {}, {}, {}};
   if (task.event_edges == 0) return outcome;
   const std::vector<Face_id> before = outcome.found.undecided;
   outcome.events = settle_by_events(occluders, sources.polygons, task.event_edges, events, outcome.found);
+  if (task.cells == 0 && task.event_edges == usual_event_edges)
+    outcome.events += decide_the_rest(occluders, sources.polygons, options, task.event_edges, events, outcome.found);
   const std::vector<Face_id>& after = outcome.found.undecided;
   std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(outcome.by_events));
   return outcome;
@@ -171,7 +173,8 @@ Weak_outcome run_weak_method(const std::string& method, const Occluders& occlude
     outcome = by_events(occluders, sources, events);
   }
   for (const Weak_volume& volume : sources.volumes) {
-    const std::vector<Face_id> within = add_seen_from_within(occluders.scene(), volume, task.two_sided, outcome.found);
+    const std::vector<Face_id> within =
+        add_seen_from_within(occluders.scene(), volume, task.two_sided, outcome.found, task.out_of_time);
     outcome.within.insert(outcome.within.end(), within.begin(), within.end());
   }
   std::sort(outcome.within.begin(), outcome.within.end());

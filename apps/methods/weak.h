@@ -35,7 +35,7 @@ struct Weak_task {
   bool two_sided = false;
   int threads = 0;
   std::uint64_t seed = 1;
-  std::size_t cells = Weak_search_options{}.cells;
+  std::size_t cells = 0;  ///< lines: that a search may take; 0: so many at first, and more where event_edges is usual
   std::size_t event_edges = usual_event_edges;  ///< lines: what stays undecided goes to events where no more are near
   std::size_t rays = 100000;                    ///< sample
   bool surfaces = false;                        ///< events: whether to keep them

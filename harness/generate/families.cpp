@@ -1,5 +1,6 @@
 #include <sightline/harness/generate/families.h>
 
+#include <sightline/harness/generate/exponents.h>
 #include <sightline/harness/generate/gap_drafts.h>
 #include <sightline/harness/generate/projective.h>
 #include <sightline/harness/generate/tangles.h>
@@ -180,6 +181,13 @@ const std::vector<Family>& families() {
         faces, 0, 38,
         [](const Family_parameters& parameters, Random& random) { return with_twisted_holes(parameters, random); });
     list.back().holes = true;
+    add("exponents", "faces and a source whose coordinates have exponents from -1070 to 1020, mixed", faces, 0, 39,
+        [](const Family_parameters& parameters, Random& random) {
+          Faces_and_source made = exponents(random);
+          Posed_scene scene = nudged(view_drafts::with_some_eyes(std::move(made.faces), random), parameters, random);
+          scene.source = std::move(made.source);
+          return scene;
+        });
     for (std::size_t k = 0; k < kinds().size(); ++k) {
       const Kind& kind = kinds()[k];
       add(std::string(kind.name), std::string(kind.what), std::string(kind.size_means), kind.small_size, 42 + k,

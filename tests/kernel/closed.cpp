@@ -13,6 +13,12 @@ bool closed(const Polygon_soup& soup) {
   const Scene scene(soup);
   Chain chain;
   for (const Piece& piece : scene.pieces()) chain.add(corners_of(scene, piece));
+  for (const Set_aside& entry : scene.set_aside()) {  // as the file has them
+    if (entry.reason != Set_aside_reason::duplicate) continue;
+    std::vector<Exact_point> loop;
+    for (const Point_id p : soup.loop(entry.face)) loop.push_back(soup.point(p));
+    chain.add(loop);
+  }
   EXPECT_EQ(result.closed, chain.empty());
   return result.closed;
 }
@@ -39,15 +45,52 @@ TEST(Closure, a_single_face_is_not_closed_but_with_its_back_it_is) {
   soup.add_face({3, 2, 1, 0});
   EXPECT_TRUE(closed(soup));
 }
-TEST(Closure, an_exact_duplicate_changes_nothing_and_any_other_doubled_face_opens) {
+TEST(Closure, a_doubled_face_opens_also_where_it_is_set_aside_as_a_duplicate) {
   Polygon_soup soup;
   add_cube(soup, 0, 0, 0, 2);
   soup.add_face({4, 5, 7, 6});
-  EXPECT_TRUE(closed(soup));  // set aside
+  EXPECT_EQ(Scene(soup).set_aside().size(), 1u);
+  EXPECT_FALSE(closed(soup));
   Polygon_soup halves;
   add_cube(halves, 0, 0, 0, 2);
   halves.add_face({4, 5, 7}), halves.add_face({4, 7, 6});
   EXPECT_FALSE(closed(halves));
+}
+TEST(Closure, all_faces_doubled_or_tripled_close_as_they_do_once) {
+  Polygon_soup soup;
+  for (int times = 1; times <= 3; ++times) {
+    add_cube(soup, 0, 0, 0, 2);
+    EXPECT_TRUE(closed(soup));
+    EXPECT_EQ(times_given(Scene(soup)), std::vector<int>(6, times));
+  }
+}
+TEST(Closure, nested_solids_may_share_a_face) {
+  // A cube of 2 on the floor, and a tower of height 6 over the same square, each with its own floor: one is a
+  // duplicate.
+  const auto with_tower = [](bool shared) {
+    Polygon_soup soup;
+    add_cube(soup, 0, 0, 0, 2);
+    const Polygon_soup cube = soup;
+    Polygon_soup both = soup;
+    std::vector<Point_id> tall;
+    for (Point_id p = 0; p < cube.point_count(); ++p) {
+      const Exact_point q = cube.point(p);
+      tall.push_back(both.add_point(q[0], q[1], Rational(3 * q[2])));
+    }
+    for (Face_id f = 0; f < cube.face_count(); ++f) {
+      std::vector<Point_id> loop;
+      bool floor = true;
+      for (const Point_id p : cube.loop(f)) {
+        loop.push_back(tall[p]);
+        floor = floor && cube.point(p)[2] == 0;
+      }
+      if (!floor || shared) both.add_face(loop);
+    }
+    return both;
+  };
+  EXPECT_TRUE(closed(with_tower(true)));
+  EXPECT_EQ(Scene(with_tower(true)).set_aside().size(), 1u);
+  EXPECT_FALSE(closed(with_tower(false))) << "one floor for two";
 }
 TEST(Closure, a_turned_face_opens) {
   Polygon_soup soup;

@@ -392,6 +392,46 @@ TEST(Volume, sees_from_within_what_passes_through_it_and_what_lies_in_its_surfac
   EXPECT_EQ(both.within, (Ids{0, 2, 4, 5}));
 }
 
+TEST(Volume, of_nested_boxes_that_share_a_face_closes_and_counts_it_twice) {
+  // A box of height 3 and one of height 1 on the same floor, once each: the inside winds once above 1 and twice below.
+  const Faces solid = joined(box(0, 2, 0, 2, 0, 3), box(0, 2, 0, 2, 0, 1));
+  EXPECT_EQ(Scene(generate::soup_of(solid)).set_aside().size(), 1u);
+  const Weak_volume volume(generate::soup_of(solid));
+  const auto level = [](const Rational& z) { return rectangle(Rational(1, 2), 1, Rational(1, 2), 1, z); };
+  for (const Rational& z : {Rational(1, 2), Rational(2)})
+    EXPECT_TRUE(volume.sees_from_within(level(z), false) && volume.sees_from_within(level(z), true)) << z;
+  EXPECT_TRUE(volume.sees_from_within(level(0), false));
+  EXPECT_FALSE(volume.sees_from_within(level(0), true)) << "below the floor";
+  EXPECT_FALSE(volume.sees_from_within(level(4), true));
+  for (const Points& part : volume.surface())
+    EXPECT_FALSE(std::all_of(part.begin(), part.end(), [](const Exact_point& p) { return p[2] == 1; }))
+        << "the lower lid has the inside on both sides";
+  const Seen seen = seen_from(solid, {rectangle(-1, 3, -1, 3, -1), rectangle(-1, 3, -1, 3, 4), level(2)});
+  EXPECT_EQ(seen.answer.visible, (Ids{0, 2}));
+  EXPECT_EQ(seen.within, (Ids{2}));
+
+  Faces open = joined(box(0, 2, 0, 2, 0, 3), {box(0, 2, 0, 2, 0, 3)[0]});
+  EXPECT_THROW(Weak_volume(generate::soup_of(open)), std::invalid_argument) << "one face twice, and no other";
+}
+
+TEST(Sources, are_named_by_their_strict_corners_in_certificates) {
+  const Polygon_soup soup = generate::soup_of({rectangle(-2, 2, -2, 2, 0), reversed(rectangle(-1, 1, -1, 1, 1))});
+  const Scene scene(soup);
+  const Occluders occluders(scene);
+  // Looks down; the first corner is there three times, and one edge has a point inside.
+  const Points lamp{at(-1, -1, 4), at(-1, -1, 4), at(-1, 1, 4), at(0, 1, 4), at(1, 1, 4), at(1, -1, 4), at(-1, -1, 4)};
+  EXPECT_EQ(strict_corners(lamp), (Points{at(-1, -1, 4), at(-1, 1, 4), at(1, 1, 4), at(1, -1, 4)}));
+  for (const bool two_sided : {false, true}) {
+    Weak_options options;
+    options.search.two_sided = two_sided;
+    const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, lamp)}, options);
+    const Weak_certificate certificate = weak_certificate(scene, {lamp}, two_sided, found);
+    EXPECT_EQ(certificate.sources[0].size(), 4u);
+    const Verdict verdict = verify_weak(soup, certificate);
+    EXPECT_TRUE(verdict.accepted) << verdict.why;
+  }
+}
+
 TEST(Volume, that_is_concave_or_hollow_has_its_inside_where_its_faces_wind_around_it) {
   // An L: [0, 3] x [0, 3] less [1, 3] x [1, 3], of height 1, from two boxes that share a face, and with a cavity.
   const Faces ell = joined(box(0, 3, 0, 1, 0, 1), box(0, 1, 1, 3, 0, 1));

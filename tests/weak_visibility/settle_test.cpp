@@ -3,10 +3,16 @@
 #include "scenes.h"
 #include "../sample.h"
 
+#include <sightline/algorithms/verify/weak.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/events/events.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>
+
+#include <ctime>
 
 namespace weak_settle {
 namespace {
@@ -53,6 +59,68 @@ TEST(Settled_by_events, also_between_the_open_parts_alone) {
     }
   }
   EXPECT_GT(by_parts, test_scenes::is_sanitized() ? 0u : 2u);
+}
+
+/// What is undecided with so few cells and edges, over and over, and after all of it.
+TEST(Decided_to_the_end, leaves_nothing_undecided_and_says_what_a_long_search_says) {
+  std::size_t undecided = 0;
+  for (std::uint64_t seed = 0; seed < some(24); ++seed) {
+    generate::Random random(seed);
+    const weak_scenes::Weak_scene scene =
+        weak_scenes::finished(weak_scenes::drafters[seed % 12].draft(random, Rational(0)), random);
+    const Scene read(scene.soup);
+    const Occluders occluders(read);
+    const std::vector<Weak_source> sources{weak_source(occluders, scene.source)};
+    Weakly_visible whole = weakly_visible(occluders, sources);
+    settle_by_events(occluders, sources, usual_event_edges, {}, whole);
+    Weak_options few;
+    few.search.cells = 1;
+    few.search.rays = 0;
+    Weakly_visible found = weakly_visible(occluders, sources, few);
+    undecided += found.undecided.size();
+    decide_the_rest(occluders, sources, few, 4, {}, found);
+    EXPECT_TRUE(found.undecided.empty() && found.open.empty()) << seed;
+    if (whole.undecided.empty()) {
+      EXPECT_EQ(found.visible, whole.visible) << seed;
+      EXPECT_EQ(found.hidden, whole.hidden) << seed;
+    }
+    const Verdict verdict = verify_weak(scene.soup, weak_certificate(read, {scene.source}, false, found));
+    EXPECT_TRUE(verdict.accepted) << seed << ": " << verdict.why;
+  }
+  EXPECT_GT(undecided, some(24));
+}
+
+/// In processor time, on one thread: other programs run beside this one.
+TEST(Budget, bounds_the_time_of_lines_events_and_of_going_on) {
+  const auto now = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  const Polygon_soup soup = generate::triangles_between_squares(250, 3);
+  const Scene scene(soup);
+  const Occluders occluders(scene);
+  const std::vector<Weak_source> sources{weak_source(occluders, 0), weak_source(occluders, 1)};
+  for (const double budget : {0.0, 0.02, 0.2})
+    for (const bool by_lines : {true, false}) {
+      const double begin = now();
+      const std::function<bool()> out_of_time = [&] { return now() - begin > budget; };
+      Weak_options lines;
+      lines.threads = 1;
+      lines.search.out_of_time = out_of_time;
+      lines.search.rays = 1;
+      lines.search.cells = 3;  // so that events get most
+      Events_options events;
+      events.threads = 1;
+      events.rays = 1;
+      events.out_of_time = out_of_time;
+      std::size_t undecided;
+      if (by_lines) {
+        Weakly_visible found = weakly_visible(occluders, sources, lines);
+        settle_by_events(occluders, sources, 1000000, events, found);
+        decide_the_rest(occluders, sources, lines, 1000000, events, found);
+        undecided = found.undecided.size();
+        EXPECT_EQ(undecided + found.visible.size() + found.hidden.size(), scene.counters().faces);
+      } else undecided = weakly_visible_by_events(occluders, sources, events).undecided.size();
+      EXPECT_LE(now() - begin, (1.1 * budget + 0.05) * (test_scenes::is_sanitized() ? 10 : 1)) << budget << by_lines;
+      EXPECT_GT(undecided, 0u) << budget << by_lines;
+    }
 }
 
 TEST(Settled_by_events, ends_with_what_progress_throws) {

@@ -126,7 +126,8 @@ bool Event_search::pencils() {
   };
   // 1. Planes of two edges, and vertices where two edges meet.
   std::set<std::uint32_t> vertices, faces;
-  for (std::size_t i = 0; i < lines().size(); ++i)
+  for (std::size_t i = 0; i < lines().size(); ++i) {
+    if (out_of_time()) return true;
     for (std::size_t j = i + 1; j < lines().size(); ++j) {
       const Event_line &a = lines()[i], &b = lines()[j];
       if (!a.real || !b.real || (a.in_source && b.in_source) || sgn(side(a.pluecker, b.pluecker)) != 0) continue;
@@ -141,20 +142,25 @@ bool Event_search::pencils() {
       vertices.insert(point);
       add(point, plane, Event_kind::horizon);
     }
+  }
   // 2. Where such a plane meets another edge.
-  for (const std::uint32_t plane : faces)
+  for (const std::uint32_t plane : faces) {
+    if (out_of_time()) return true;
     for (const Event_line& line : lines()) {
       if (!line.real || line.in_source) continue;
       const Homogeneous at = meet(planes.all[plane], line.pluecker);
       if (!all_zero(at) && Event_lines::in_hull(line, at)) add(points(at), plane, Event_kind::horizon);
     }
+  }
   // 3. Planes through such a vertex and an edge.
-  for (const std::uint32_t point : vertices)
+  for (const std::uint32_t point : vertices) {
+    if (out_of_time()) return true;
     for (const Event_line& line : lines()) {
       if (!line.real) continue;
       const Homogeneous plane = join(points.all[point], line.pluecker);
       if (!all_zero(plane)) add(point, planes(plane), Event_kind::edge_vertex);
     }
+  }
   // 4. The lines through the point, in the plane.
   for (const auto& [pencil, kind] : found) {
     ++(kind == Event_kind::horizon ? counters_->horizon : counters_->edge_vertex);
@@ -225,13 +231,15 @@ bool Event_search::reguli() {
     if (lines()[k].real) real.push_back(k);
   // Which pairs are skew, and touched by some line from the source to the target.
   std::vector<std::vector<char>> usable(real.size(), std::vector<char>(real.size()));
-  for (std::size_t i = 0; i < real.size(); ++i)
+  for (std::size_t i = 0; i < real.size(); ++i) {
+    if (out_of_time()) return true;
     for (std::size_t j = i + 1; j < real.size(); ++j) {
       const Event_line &a = lines()[real[i]], &b = lines()[real[j]];
       if (sgn(side(a.pluecker, b.pluecker)) == 0) continue;
       const std::array<Exact_pluecker, 4> extreme = extreme_lines(a, b);
       usable[i][j] = can_pass(extreme, scene_->from()) && can_pass(extreme, scene_->to());
     }
+  }
   for (std::size_t i = 0; i < real.size(); ++i)
     for (std::size_t j = i + 1; j < real.size(); ++j) {
       if (!usable[i][j]) continue;
@@ -359,6 +367,7 @@ bool Event_search::search_curve(const Curve& curve, const Parameter_range& range
     (touched ? grazed : crossed).push_back(&blocker);
   }
   for (const Blocker* blocker : crossed) {
+    if (out_of_time()) return true;
     subtract(curve, *blocker, active);
     if (active.empty()) {
       ++counters_->covered;
@@ -396,6 +405,7 @@ bool Event_search::look_beside(const Curve& curve, const Active& active, const s
   for (const Blocker* blocker : grazed)
     for (const Literal& literal : blocker->literals) ends.push_back(polynomial(curve, literal.line));
   for (const Parameter_range& part : divided(active.range, ends)) {
+    if (out_of_time()) return true;
     ++counters_->subranges;
     // Not one of the lines that touch a piece for an instant.
     Rational s;
@@ -444,6 +454,7 @@ bool Event_search::look_around(const Curve& curve, const Rational& s, int turn,
     if (!is_past(curve, *blocker, s, turn)) append_touched(blocker->literals, blocked.emplace_back());
   const auto visit = [&](const std::vector<int>& signs, const Event_move& move) {
     ++counters_->cells;
+    if (out_of_time()) return true;
     const auto holds = [&](const Literal& literal) { return signs[literal.line] == literal.sense; };
     if (!std::all_of(needed.begin(), needed.end(), holds)) return false;
     if (std::any_of(blocked.begin(), blocked.end(),
@@ -503,9 +514,7 @@ void Event_search::keep_surface(const Curve& curve, const Parameter_range& range
   if (surface.rulings.size() > 1) surfaces_.push_back(std::move(surface));
 }
 
-bool Event_search::out_of_budget() {
-  const bool out =
-      ++events_ > options_->events || (options_->out_of_time && events_ % 64 == 0 && options_->out_of_time());
+bool Event_search::ends_if(bool out) {
   if (out && answer_.status != Weak_status::visible) answer_.status = Weak_status::undecided;
   return out;
 }

@@ -62,7 +62,7 @@ struct Events_options {
   std::size_t events = 20000000;  ///< potential events that a pair may have; then `undecided`
   bool surfaces = false;  ///< whether to keep event surfaces: then all of them, also where a line is free before
   int threads = 0;        ///< 0: as many as there are processors
-  std::function<bool()> out_of_time;                                ///< asked now and then
+  std::function<bool()> out_of_time;                                ///< asked before each event, and more often
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
 
@@ -171,7 +171,10 @@ class Event_search {
 
   void keep_surface(const Curve& curve, const Parameter_range& range);
 
-  bool out_of_budget();
+  /// Whether the search ends here: too many events, or no time. Then it is undecided, unless it has a line.
+  bool out_of_budget() { return ends_if(++events_ > options_->events) || out_of_time(); }
+  bool out_of_time() { return ends_if(options_->out_of_time && options_->out_of_time()); }
+  bool ends_if(bool out);
 
   static constexpr std::uint32_t none = 0xffffffff;
   const Occluders* occluders_;

@@ -27,6 +27,7 @@ Events_answer part_visible_by_events(const Occluders& occluders, const Weak_sour
     }
     return near_point(occluders.frame(), sum);
   };
+  const auto out_of_time = [&] { return options.out_of_time && options.out_of_time(); };
   Events_answer answer;
   answer.status = Weak_status::hidden;
   std::size_t sides = 0;
@@ -35,11 +36,15 @@ Events_answer part_visible_by_events(const Occluders& occluders, const Weak_sour
     const Near_polygon from = clip(occluders.frame(), source.polygon, target_plane, beside > 0);
     if (from.size() < 3 || target.size() < 3) continue;
     ++sides;
-    for (int k = 0; k < options.rays && !options.surfaces; ++k) {
+    for (int k = 0; k < options.rays && !options.surfaces && !out_of_time(); ++k) {
       const std::array<Near_point, 2> line{inner_point(from), inner_point(target)};
       if (occluders.blocker(line[0], line[1], source.plane, target_plane)) continue;
       ++counters.by_rays;
       return {Weak_status::visible, line};
+    }
+    if (out_of_time()) {
+      if (answer.status == Weak_status::hidden) answer.status = Weak_status::undecided;
+      break;
     }
     const Event_lines lines(occluders, from, source.plane, target, target_plane, beside);
     Event_search search(occluders, lines, options, counters);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 namespace sightline {
 
@@ -36,6 +37,15 @@ std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occ
           return Cell_cut{source, *plane};
   return {};
 }
+
+namespace {
+
+/// False beyond doubles, where numbers propose nothing.
+bool all_finite(std::span<const double> numbers) {
+  return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+}  // namespace
 
 Triple inward_of(const Near_polygon& polygon, std::size_t e) {
   const Triple &a = polygon[e].near, &b = polygon[(e + 1) % polygon.size()].near;
@@ -83,7 +93,7 @@ std::vector<Cell_cut> shaves(const Line_cell& cell, Matrix_game<double>& game, c
         heights.push_back(inward[0] * p.near[0] + inward[1] * p.near[1] + inward[2] * p.near[2]);
       const double low = *std::min_element(heights.begin(), heights.end()),
                    high = *std::max_element(heights.begin(), heights.end());
-      if (!(high - low > 1e-12)) continue;
+      if (!(high - low > 1e-12) || !all_finite(heights)) continue;
       double empty = 0;  // the share of the height that is known to hold no line
       for (const double share : {0.5, 0.25, 0.75, 0.125, 0.875}) {
         if (share < empty || (empty == 0 && share > 0.5) || (empty == 0.5 && share < 0.5) ||
@@ -125,7 +135,7 @@ std::optional<Cell_cut> bisector(const Line_domain& domain, const Near_frame& fr
                    &b = source ? domain.source[s[1]] : domain.target[t[1]];
   Triple normal{b.near[0] - a.near[0], b.near[1] - a.near[1], b.near[2] - a.near[2]};
   const double scale = size(normal);
-  if (!(scale > 0)) return {};
+  if (!(scale > 0) || !all_finite(a.near) || !all_finite(b.near) || !std::isfinite(scale)) return {};
   for (double& x : normal) x = std::round(x / scale * 16);
   double low = 0, high = 0;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -173,12 +173,13 @@ bool Cell_proofs::conclude(const Line_cell& cell, const std::vector<Weighted>& p
 }
 
 bool Cell_proofs::is_proof_in_doubles(const Line_cell& cell, const std::vector<Weighted>& weights) {
+  const double rounding = 0x1p-52 * static_cast<double>(weights.size() + 2);  // of a product and as many sums
   for (std::size_t c = 0; c < cell.pairs(); ++c) {
     double sum = 0, error = 0x1p-1000;
     for (const Weighted& w : weights) {
       const double v = w.near * cell.value(w.row, c);
       sum += v;
-      error += 1.0001 * (w.near * cell.rows[w.row].sides->error + 0x1p-47 * std::fabs(v));
+      error += 1.0001 * (w.near * cell.rows[w.row].sides->error + rounding * std::fabs(v));
     }
     if (!(sum < -error)) return false;
   }

@@ -76,7 +76,7 @@ class Cell_proofs {
 
   static bool conclude(const Line_cell& cell, const std::vector<Weighted>& proposal, std::vector<Multiplier>& proof);
   /// Whether the weighted sum of rows is negative on all pairs of vertices, for certain: rows within their errors,
-  /// products and sums within 2^-50 of their sizes.
+  /// products and sums within 2^-53 of their sizes, each.
   static bool is_proof_in_doubles(const Line_cell& cell, const std::vector<Weighted>& weights);
   static bool is_proof(const Line_cell& cell, const std::vector<Weighted>& weights);
 

@@ -2,8 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace sightline {
+namespace {
+
+/// e with all numbers less than 2^e in size, one of them at least 2^(e - 2); 0 where all are 0.
+long exponent_of_largest(const std::vector<Rational>& numbers) {
+  const auto largest = std::max_element(numbers.begin(), numbers.end(),
+                                        [](const Rational& a, const Rational& b) { return cmp(abs(a), abs(b)) < 0; });
+  if (sgn(*largest) == 0) return 0;
+  return static_cast<long>(bit_length(largest->get_num())) - static_cast<long>(bit_length(largest->get_den())) + 1;
+}
+
+}  // namespace
 
 Line_domain::Line_domain(Shared_polygon s, Shared_polygon t)
     : shared_source(std::move(s)), shared_target(std::move(t)), source(*shared_source), target(*shared_target) {
@@ -46,20 +58,20 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
     r.values.push_back(dot(pair, line.near));
     most = std::max(most, std::fabs(r.values.back()));
   }
-  r.error = 0x1p-46 * ((source_size + target_size) * line.ends_product + source_size * target_size * line.ends_sum) +
-            0x1p-1000;
-  if (most < 0x1p30 * r.error) {  // small polygons, or a line close to all of them: integers, rounded once
-    most = 0;
-    for (std::size_t c = 0; c < r.values.size(); ++c) {
-      r.values[c] = nearest_double(exact_side(line, c, frame));
-      most = std::max(most, std::fabs(r.values[c]));
-    }
-    r.error = 0x1p-52 * most + 0x1p-1060;
+  r.error = side_error(ends(source_size, target_size), line.ends);
+  if (most >= 0x1p30 * r.error) {
+    r.exponent = -std::ilogb(most) - 1;
+    const double scale = std::ldexp(1.0, static_cast<int>(r.exponent));
+    for (double& v : r.values) v *= scale;
+    r.error *= scale;
+  } else {  // small polygons, a line close to all of them, or far away: integers, scaled and rounded once
+    std::vector<Rational> sides;
+    for (std::size_t c = 0; c < pairs.size(); ++c) sides.push_back(exact_side(line, c, frame));
+    r.exponent = -exponent_of_largest(sides);
+    for (std::size_t c = 0; c < pairs.size(); ++c)
+      r.values[c] = nearest_double(times_power(std::move(sides[c]), r.exponent));
+    r.error = 0x1p-52;
   }
-  r.exponent = most > 0x1p-900 ? -std::ilogb(most) - 1 : 0;
-  const double scale = std::ldexp(1.0, r.exponent);
-  for (double& v : r.values) v *= scale;
-  r.error *= scale;
   // One side on all pairs? Integers are asked only if doubles do not show both signs.
   bool positive = false, negative = false;
   for (const double v : r.values) {
@@ -75,12 +87,6 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
   }
   r.decided = positive == negative ? 0 : positive ? 1 : -1;
   return r;
-}
-
-Rational times_power(Rational x, long exponent) {
-  if (exponent >= 0) mpq_mul_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(exponent));
-  else mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), static_cast<mp_bitcnt_t>(-exponent));
-  return x;
 }
 
 Rational Line_cell::exact_value(std::size_t row, std::size_t c) const {

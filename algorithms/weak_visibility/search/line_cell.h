@@ -14,11 +14,11 @@
 
 namespace sightline {
 
-/// The sides of a line on all pairs of vertices of two polygons, scaled by a power of two to at most 1.
+/// The sides of a line on all pairs of vertices of two polygons, scaled by a power of two to at most 1. Proof: P-70
 struct Side_row {
   std::vector<double> values;
   double error;
-  int exponent;                      ///< of that scale
+  long exponent;                     ///< of that scale
   int decided;                       ///< 1: nowhere negative, -1: nowhere positive, 0: neither
   std::vector<Rational> exact = {};  ///< unscaled, once they are asked for
 };
@@ -62,9 +62,6 @@ struct Line_domain {
   Side_row& row_at(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame);
   Side_row row_of(const Edge_lines::Edge_line& line, const Near_frame& frame);
 };
-
-/// x 2^exponent. Exact: yes.
-Rational times_power(Rational x, long exponent);
 
 /// A line that is passed on the side `sign`.
 struct Literal {

@@ -104,7 +104,7 @@ void Line_search::settle(Line_domain& domain) const {
 bool Line_search::try_rays(std::uint32_t d) {
   const Line_domain& domain = *domains_[d];
   std::vector<Candidate> blockers;
-  for (int k = 0; k < options_->rays; ++k) {
+  for (int k = 0; k < options_->rays && !out_of_time(); ++k) {
     const Line_weights line = k == 0 ? Line_weights::middle(domain) : random_line(domain);
     find_blockers(d, line, blockers, true);
     if (!blockers.empty()) continue;
@@ -143,9 +143,7 @@ Line_weights Line_search::random_line(const Line_domain& domain) {
 
 Line_search::Refutation Line_search::refute(std::uint32_t d, std::size_t depth) {
   counters_->deepest = std::max(counters_->deepest, depth);
-  if (++cells_ > options_->cells || open_ >= options_->open || depth > deepest ||
-      (options_->out_of_time && options_->out_of_time()))
-    return open();
+  if (++cells_ > options_->cells || open_ >= options_->open || depth > deepest || out_of_time()) return open();
   ++counters_->cells;
   Line_weights line;
   Refutation ended;

@@ -83,6 +83,7 @@ class Line_search {
 
   Refutation refute(std::uint32_t d, std::size_t depth);
 
+  bool out_of_time() const { return options_->out_of_time && options_->out_of_time(); }
   Refutation open();
   Refutation leaf(Weak_step step, Used used);
 

@@ -1,0 +1,125 @@
+// Sides in doubles where doubles end: coordinates of all exponents, mixed, against integers.
+
+#include <sightline/algorithms/verify/weak.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/generate/families.h>
+
+#include <gtest/gtest.h>
+
+namespace {
+
+using namespace sightline;
+using generate::power_of_two;
+
+generate::Posed_scene mixed(std::uint64_t seed) {
+  generate::Family_parameters parameters;
+  parameters.seed = seed;
+  return generate::family("exponents").make(parameters);
+}
+
+TEST(Near_coordinates, are_at_most_a_half_and_not_all_of_them_small_at_any_scale) {
+  for (const int power : {-1060, -500, 0, 500, 1000})
+    for (const long odd : {1L, 3L, 999999999999999999L}) {  // the last one: a wide grid
+      Polygon_soup soup;
+      const Rational size = power_of_two(power);
+      soup.add_face({soup.add_point(0, 0, 0), soup.add_point(Rational(size / odd), 0, 0), soup.add_point(0, size, 0)});
+      const Scene scene(soup);
+      const Occluders occluders(scene);
+      double most = 0;
+      for (const Near_point& p : occluders.polygon(0)) most = std::max(most, sightline::size(p.near));
+      EXPECT_LE(most, 0.5) << power << ' ' << odd;
+      EXPECT_GE(most, 1.0 / 16) << power << ' ' << odd;
+      for (const Near_point& p : occluders.polygon(0))
+        for (std::size_t k = 0; k < 3; ++k)
+          EXPECT_NEAR(p.near[k], occluders.frame().near(p.exact[k], p.exact[3]), 0x1p-51 * std::fabs(p.near[k]));
+    }
+}
+
+TEST(Side_of_a_near_plane, is_that_of_integers_for_coordinates_of_all_exponents) {
+  std::size_t asked = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const generate::Posed_scene posed = mixed(seed);
+    const Scene scene(posed.soup);
+    if (scene.pieces().empty()) continue;
+    const Occluders occluders(scene);
+    const Weak_source source = weak_source(occluders, posed.source);
+    for (std::uint32_t f = 0; f < scene.pieces().size(); ++f)
+      for (std::uint32_t g = 0; g <= scene.pieces().size(); ++g)
+        for (const Near_point& p : g < scene.pieces().size() ? occluders.polygon(g) : source.polygon) {
+          ASSERT_EQ(side(occluders.plane(f), p), sgn(value(occluders.plane(f), p))) << seed;
+          ++asked;
+        }
+  }
+  EXPECT_GT(asked, 5000u);
+}
+
+TEST(Side_error, bounds_the_sides_of_edges_for_coordinates_of_all_exponents) {
+  std::size_t told = 0;
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const generate::Posed_scene posed = mixed(seed);
+    const Scene scene(posed.soup);
+    if (scene.pieces().empty()) continue;
+    const Occluders occluders(scene);
+    const Weak_source source = weak_source(occluders, posed.source);
+    for (std::uint32_t f = 0; f < scene.pieces().size(); ++f)
+      for (const Near_point& p : source.polygon)
+        for (const Near_point& q : occluders.polygon(0))
+          for (std::size_t e = 0; e < occluders.size(f); ++e) {
+            const std::span<const Triple> ab = occluders.corners(f);
+            const double near = dot(pluecker_of_pair(p.near, q.near), occluders.edges(f)[e]),
+                         error = side_error(ends(size(p.near), size(q.near)),
+                                            ends(size(ab[e]), size(ab[(e + 1) % ab.size()])));
+            if (!(std::fabs(near) > error)) continue;
+            ++told;
+            const Exact_pluecker edge = occluders.exact_pluecker_of(occluders.edge_points(f, e));
+            ASSERT_EQ(near > 0 ? 1 : -1, sgn(dot(pluecker_of_pair(p.exact, q.exact), edge))) << seed;
+          }
+  }
+  EXPECT_GT(told, 500u);
+}
+
+TEST(Side_error, is_infinite_where_products_might_be) {
+  EXPECT_TRUE(std::isinf(side_error(ends(0x1p64, 0), ends(0, 0))));
+  EXPECT_TRUE(std::isinf(side_error(ends(1, std::numeric_limits<double>::infinity()), ends(1, 1))));
+  EXPECT_LT(side_error(ends(0x1p62, 1), ends(1, 1)), 1e-10 * 0x1p62);
+}
+
+/// A wall that leans by so little that a coefficient of its plane is no double, and a source so far away that it
+/// counts: 2^-1340 times 2^1000 is more than the wall's distance of 2^-360 from the origin.
+TEST(Weakly_visible, is_a_wall_whose_lean_is_below_the_least_double_from_where_it_matters) {
+  const Rational x = power_of_two(-360), leaning = x - power_of_two(-1340), far = power_of_two(1000);
+  Polygon_soup soup;
+  soup.add_face(
+      {soup.add_point(x, 0, 0), soup.add_point(leaning, 1, 0), soup.add_point(leaning, 1, 1), soup.add_point(x, 0, 1)});
+  const Scene scene(soup);
+  const Occluders occluders(scene);
+  for (const Rational& width : {power_of_two(-500), Rational(1)}) {
+    const std::vector<Exact_point> lamp{{0, far, 0}, {width, far, 0}, {0, far, 1}};  // looks to the wall
+    const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, lamp)});
+    EXPECT_EQ(found.visible, std::vector<Face_id>{0});
+    const Verdict verdict = verify_weak(soup, weak_certificate(scene, {lamp}, false, found));
+    EXPECT_TRUE(verdict.accepted) << verdict.why;
+  }
+}
+
+TEST(Weakly_visible, proves_what_it_says_for_coordinates_of_all_exponents) {
+  std::size_t visible = 0, hidden = 0, undecided = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const generate::Posed_scene posed = mixed(seed);
+    const Scene scene(posed.soup);
+    const Occluders occluders(scene);
+    Weak_options options;
+    options.threads = 1;
+    options.search.cells = 300;
+    const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, posed.source)}, options);
+    const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, false, found));
+    EXPECT_TRUE(verdict.accepted) << seed << ": " << verdict.why;
+    visible += found.visible.size(), hidden += found.hidden.size(), undecided += found.undecided.size();
+  }
+  EXPECT_GT(visible, 20u);
+  EXPECT_GT(hidden, 50u);
+  EXPECT_LT(10 * undecided, visible + hidden);
+}
+
+}  // namespace
