@@ -55,6 +55,8 @@ class Hidden_lines {
  public:
   /// Pre: the surface is the view's, and both outlive this.
   Hidden_lines(const Exact_view& view, const Visible_surface<Exact_view>& surface);
+  Hidden_lines(Exact_view&&, const Visible_surface<Exact_view>&) = delete;
+  Hidden_lines(const Exact_view&, Visible_surface<Exact_view>&&) = delete;
 
   /// The parts of an edge within the surface's cones, one after the other. Degenerate: none where the eye is on the
   /// edge's line. Cost: O(depth of the surface) for each region along the edge; edges in the plane of edge-on pieces

@@ -33,6 +33,7 @@ class Edge_lines {
   };
 
   explicit Edge_lines(const Occluders& occluders) : occluders_(&occluders), names_(occluders.scene().points()) {}
+  explicit Edge_lines(Occluders&&) = delete;
 
   std::size_t size() const { return lines_.size(); }
   const Edge_line& operator[](std::uint32_t line) const { return lines_[line]; }

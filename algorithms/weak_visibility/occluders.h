@@ -21,6 +21,7 @@ namespace sightline {
 class Occluders {
  public:
   explicit Occluders(const Scene& scene);
+  explicit Occluders(Scene&&) = delete;
 
   const Scene& scene() const { return *scene_; }
   const Near_frame& frame() const { return frame_; }

@@ -274,8 +274,9 @@ bool Face_graph::Builder::meets(const Ray& ray, const Piece& piece) const {
   const Grid_points& points = scene_->points();
   const std::span<const Piece_corner> corners = scene_->corners(piece);
   // A determinant of three vectors below `size`, each off by `error`: off by less than 18 size^2 error and 2^-49 of 6
-  // size^3, which 2^-50 size <= error covers.
-  const double bound = 64 * ray.size * ray.size * ray.error;
+  // size^3, which 2^-50 size <= error covers. Below 2^-1000 products may underflow; 2^50 error >= size makes the bound
+  // infinite where a value may be. P-04b
+  const double bound = 64 * ray.size * ray.size * (0x1p50 * ray.error) * 0x1p-50 + 0x1p-1000;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const std::uint32_t p = corners[k].point, q = corners[k + 1 == corners.size() ? 0 : k + 1].point;
     std::array<double, 3> a, b;

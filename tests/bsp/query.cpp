@@ -397,10 +397,11 @@ TEST(Query, a_point_whose_first_rays_meet_edges_is_located_all_the_same) {
     for (Points& face : faces) face = reversed(face);
   const Built built(soup_of(faces));
   ASSERT_TRUE(closure(built.scene).closed);
-  ASSERT_FALSE(bsp_detail::winding_along(built.traits, built.tree, {at(0, 0, 0), d})) << "the ray meets an edge";
+  const std::vector<int> once = times_given(built.scene);
+  ASSERT_FALSE(bsp_detail::winding_along(built.traits, built.tree, {at(0, 0, 0), d}, once)) << "the ray meets an edge";
   Predicate_counts counts;
   EXPECT_EQ(locate_point(built.traits, built.tree, at(0, 0, 0), true, counts).location, Location::inside);
-  EXPECT_EQ(bsp_detail::winding_along(built.traits, built.tree, {at(0, 0, 0), at(1000003, 2 * 7919, 104729 + 4)}),
+  EXPECT_EQ(bsp_detail::winding_along(built.traits, built.tree, {at(0, 0, 0), at(1000003, 2 * 7919, 104729 + 4)}, once),
             std::optional<int>(1))
       << "fronts outwards: winding number one";
 }

@@ -4,10 +4,13 @@
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/cutset/update_1977.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/separation.h>
+#include <sightline/algorithms/weak_visibility/edge_lines.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/face_graph.h>
@@ -56,6 +59,10 @@ TEST(Temporaries, are_not_taken_by_what_keeps_a_pointer) {
   // algorithms/
   static_assert(keeps<Exact_view, Scene, Exact_point>);
   static_assert(keeps<Number_view<double>, Scene, Exact_point>);
+  static_assert(keeps<Occluders, Scene>);
+  static_assert(keeps<Edge_lines, Occluders>);
+  static_assert(keeps<Hidden_lines, Exact_view, Visible_surface<Exact_view>> &&
+                keeps_second<Hidden_lines, Exact_view, Visible_surface<Exact_view>>);
   static_assert(keeps<Separation_finder<Exact_traits>, Exact_traits>);
   static_assert(keeps<Relation, Exact_traits>);
   static_assert(keeps<Relation, Exact_traits, std::span<const Relation::Polygon>>);
