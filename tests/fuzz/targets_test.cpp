@@ -72,11 +72,11 @@ TEST(Fuzz_certificates, of_the_corpus_are_accepted_but_for_those_that_are_wrong)
 TEST(Fuzz_forged, certificates_are_accepted_and_rejected_alike) {
   fuzz::Mutator mutator(3);
   std::size_t accepted = 0, rejected = 0;
-  for (std::size_t k = 0; k < 1500 / share; ++k)
+  for (std::size_t k = 0; k < 500 / share; ++k)
     if (const std::optional<sightline::Verdict> verdict = fuzz::judged_forgery(mutator.random_bytes(40)))
       ++(verdict->accepted ? accepted : rejected);
-  EXPECT_GT(accepted, 100 / share);
-  EXPECT_GT(rejected, 200 / share);
+  EXPECT_GT(accepted, 30 / share);
+  EXPECT_GT(rejected, 60 / share);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Fuzz, testing::ValuesIn(fuzz::targets()),

@@ -2,6 +2,7 @@
 
 #include "parallel_planes.h"
 #include "../sample.h"
+#include "../soup.h"
 #include "rays.h"
 #include "scenes.h"
 
@@ -81,6 +82,20 @@ TEST_P(Families, have_the_answers_they_were_built_for_and_certificates) {
 }
 INSTANTIATE_TEST_SUITE_P(All, Families, testing::Range(std::size_t{0}, weak_scenes::families().size()),
                          [](const auto& of) { return weak_scenes::families()[of.param].name; });
+
+TEST(Weak_visibility, counts_a_pair_as_facing_away_once_though_a_plane_cuts_it) {
+  // A square that looks up, and one across its plane that looks away from it, or to it.
+  const auto at = [](long x, long y, long z) { return Exact_point{Rational(x), Rational(y), Rational(z)}; };
+  const std::vector<Exact_point> lamp{at(0, 0, 0), at(1, 0, 0), at(1, 1, 0), at(0, 1, 0)};
+  std::vector<Exact_point> wall{at(5, 0, -1), at(5, 1, -1), at(5, 1, 1), at(5, 0, 1)};
+  for (const bool looks_here : {false, true}) {
+    if (looks_here) std::reverse(wall.begin(), wall.end());
+    const Found found = found_and_verified(test_scenes::soup_of({wall}), {lamp}, small_search(), "a wall");
+    EXPECT_EQ(found.answer.counters.targets, 1u);
+    EXPECT_EQ(found.answer.counters.away, looks_here ? 0u : 1u);
+    EXPECT_EQ(found.answer.visible.size(), looks_here ? 1u : 0u);
+  }
+}
 
 TEST(Weak_visibility, of_boxes_in_which_doubles_end_with_a_wrong_basis_is_proved) {
   for (const std::uint64_t seed :

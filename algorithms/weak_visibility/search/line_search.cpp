@@ -45,6 +45,7 @@ Weak_answer Line_search::run(Weak_counters& counters) {
   counters_ = &counters;
   ++counters.targets;
   const Refutation found = begin(0);
+  counters.away += !facing_;
   Weak_answer answer;
   answer.status = found.status;
   for (const Edge_lines::Edge_line& line : lines_.all()) answer.lines.push_back(line.edge);
@@ -61,9 +62,9 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
     return cut(d, {true, *target_plane_}, [this](std::uint32_t part) { return begin(part); });
   const int q = side(*source_plane_, domains_[d]->target), p = side(*target_plane_, domains_[d]->source);
   if (q <= 0 || p == 0 || (p < 0 && !options_->two_sided)) {
-    ++counters_->away;
     return leaf({Weak_step::Kind::away, 0, {}, {}}, {});
   }
+  facing_ = true;
   Line_domain& domain = *domains_[d];
   for (const std::uint32_t piece : occluders_->near_shaft(domain.source, domain.target))
     domain.candidates.push_back({piece, 0, 0});

@@ -170,6 +170,7 @@ class Line_search {
   std::vector<Lemma> lemmas_;
   std::vector<std::vector<std::uint32_t>> lemmas_of_;
   std::vector<Node> nodes_;
+  bool facing_ = false;  // whether some part of source and target look to each other
   std::array<Near_point, 2> sightline_;
   std::size_t cells_ = 0, open_ = 0;
 };
