@@ -147,6 +147,11 @@ inline void try_claims(const Known_scene& scene, const Order_certificate& claim)
 inline void try_claims(const Known_scene& scene, const Graph_certificate& claim) {
   const std::vector<Flat> fragments = flats(claim);
   try_covering(scene, claim, fragments);
+  for (std::size_t f = 0; f < scene.parts.size(); ++f)
+    require(scene.parts[f].size() != 1 ||
+                std::count_if(claim.fragments.begin(), claim.fragments.end(),
+                              [&](const Order_fragment& fragment) { return fragment.face == f; }) <= 1,
+            "a convex face is one fragment");
   const std::size_t n = fragments.size();
   const auto has_corner = [&](std::size_t of, int side, std::size_t plane) {
     return std::any_of(fragments[of].corners.begin(), fragments[of].corners.end(),
@@ -244,6 +249,20 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
       return hit && hit->first > 0 && hit->first < 1;
     });
   };
+  // Nor does anything touch its ends but in the planes of source and target: else a keel, or a plane that holds the
+  // segment, may make it free alone among all near by.
+  const auto in_plane_of = [](const Flat& flat, const Flat& other) {
+    return std::all_of(flat.corners.begin(), flat.corners.end(),
+                       [&](const Exact_point& c) { return other.side(c) == 0; });
+  };
+  const auto strictly_free = [&](const Exact_point& p, const Flat& source, const Exact_point& q, const Flat& target) {
+    return std::none_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
+      if (other.side(p) == 0 && other.side(q) == 0) return true;
+      const auto hit = other.hit(p, q);
+      if (!hit || hit->first < 0 || hit->first > 1) return false;
+      return !(hit->first == 0 && in_plane_of(other, source)) && !(hit->first == 1 && in_plane_of(other, target));
+    });
+  };
   std::vector<bool> visible(scene.parts.size()), undecided(scene.parts.size());
   for (const Weak_certificate::Sightline& entry : claim.visible) {
     const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
@@ -259,7 +278,7 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
     const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
     for (const Exact_point& p : mixtures(source.corners))
       for (const Exact_point& q : mixtures(fragment.corners))
-        require(!looks(p, source, q, fragment) || blocked(p, q), "what is hidden is not seen");
+        require(!looks(p, source, q, fragment) || !strictly_free(p, source, q, fragment), "what is hidden is not seen");
   }
   for (const Face_id face : claim.undecided) undecided[face] = true;
   for (std::size_t i = 0; i < fragments.size(); ++i) {

@@ -57,9 +57,12 @@ inline Pretence without_a_face(const Posed_scene& truth, Bytes& bytes) {
   return pretence;
 }
 
-/// A face of one loop as the triangles from one of its corners, whichever surface that is.
+/// A face of one loop, one that is not planar if there is such, as the triangles from one of its corners, whichever
+/// surface that is.
 inline Pretence triangulated_otherwise(const Posed_scene& truth, Bytes& bytes) {
-  const Face_id chosen = static_cast<Face_id>(bytes.below(truth.soup.face_count()));
+  const std::vector<Face_id> skew = Scene(truth.soup).non_planar();
+  const Face_id chosen =
+      skew.empty() ? static_cast<Face_id>(bytes.below(truth.soup.face_count())) : skew[bytes.below(skew.size())];
   const auto loop = truth.soup.loop(chosen);
   if (truth.soup.loop_count(chosen) > 1 || loop.size() < 4) return as_it_is(truth);
   Pretence pretence{truth, all_but(truth.soup, chosen), {}};
@@ -124,10 +127,11 @@ inline Pretence pretence_of(const Posed_scene& truth, Bytes& bytes) {
   switch (bytes.below(8)) {
     case 0:
     case 1: return without_a_face(truth, bytes);
-    case 2: return triangulated_otherwise(truth, bytes);
-    case 3: return cut(truth, bytes);
-    case 4: return nudged(truth, bytes);
-    case 5: return turned(truth, bytes);
+    case 2:
+    case 3: return triangulated_otherwise(truth, bytes);
+    case 4: return cut(truth, bytes);
+    case 5: return nudged(truth, bytes);
+    case 6: return turned(truth, bytes);
     default: return as_it_is(truth);
   }
 }
@@ -331,13 +335,22 @@ inline std::optional<Verdict> judged_forgery(std::string_view text) {
   Bytes bytes(text);
   // 1. The scene as it is.
   const std::vector<generate::Family>& families = generate::families();
-  const generate::Family& family = families[bytes.below(families.size())];
+  const generate::Family& family =  // often the one with faces of all kinds
+      bytes.below(3) == 0 ? generate::family("tangle") : families[bytes.below(families.size())];
   generate::Family_parameters parameters;
   parameters.seed = bytes.word() % 100000;
   parameters.size = family.small_size;
   const std::int64_t distances[] = {0, 0, 1, -1, 2, generate::far_ulps};
   parameters.ulps = distances[bytes.below(6)];
-  const Posed_scene truth = family.make(parameters);
+  Posed_scene truth = family.make(parameters);
+  if (truth.soup.point_count() > 0 && bytes.below(2) == 0) {  // a point elsewhere bends its faces
+    const Point_id bent = static_cast<Point_id>(bytes.byte() % truth.soup.point_count());
+    const std::size_t axis = bytes.below(3);
+    truth.soup = generate::mapped(truth.soup, [&](Point_id i, Exact_point p) {
+      if (i == bent) p[axis] += 1;
+      return p;
+    });
+  }
   if (truth.soup.face_count() == 0 || truth.soup.face_count() > 16) return std::nullopt;
   const Kind kind = static_cast<Kind>(bytes.below(4));
   if (kind == Kind::weak && truth.source.empty()) return std::nullopt;
@@ -346,7 +359,7 @@ inline std::optional<Verdict> judged_forgery(std::string_view text) {
   const Pretence pretence = pretence_of(truth, bytes);
   std::optional<Certificate> certificate = answered(kind, pretence.scene);
   if (!certificate) return std::nullopt;
-  const bool silent = bytes.below(2) == 0;
+  const bool silent = bytes.below(4) == 0;
   return std::visit(
       [&](auto& claim) {
         translate(claim, pretence, silent);
