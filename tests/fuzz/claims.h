@@ -54,6 +54,9 @@ struct Flat {
       normal = plus(normal, cross(minus(corners[i], corners[0]), minus(corners[(i + 1) % corners.size()], corners[0])));
   }
   int side(const Exact_point& p) const { return sgn(dot(normal, minus(p, corners[0]))); }
+  bool is_in_plane_of(const Flat& other) const {
+    return std::all_of(corners.begin(), corners.end(), [&](const Exact_point& p) { return other.side(p) == 0; });
+  }
   /// Of a point in the plane: 1 inside, 0 on the boundary, -1 outside.
   int location(const Exact_point& p) const {
     int least = 1;
@@ -99,9 +102,7 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
     require(set_aside[f] == scene.set_aside[f] || (!set_aside[f] && scene.duplicate[f]), "what is set aside has to be");
   const auto is_in = [](const Flat& part, const Exact_point& p) { return part.side(p) == 0 && part.location(p) >= 0; };
   const auto lies_with = [](const Flat& part, const Flat& fragment) {  // in its plane, with its front
-    return dot(part.normal, fragment.normal) > 0 &&
-           std::all_of(fragment.corners.begin(), fragment.corners.end(),
-                       [&](const Exact_point& p) { return part.side(p) == 0; });
+    return dot(part.normal, fragment.normal) > 0 && fragment.is_in_plane_of(part);
   };
   for (std::size_t i = 0; i < fragments.size(); ++i) {
     const std::vector<Flat>& parts = scene.parts[covering.fragments[i].face];
@@ -251,16 +252,12 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
   };
   // Nor does anything touch its ends but in the planes of source and target: else a keel, or a plane that holds the
   // segment, may make it free alone among all near by.
-  const auto in_plane_of = [](const Flat& flat, const Flat& other) {
-    return std::all_of(flat.corners.begin(), flat.corners.end(),
-                       [&](const Exact_point& c) { return other.side(c) == 0; });
-  };
   const auto strictly_free = [&](const Exact_point& p, const Flat& source, const Exact_point& q, const Flat& target) {
     return std::none_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
       if (other.side(p) == 0 && other.side(q) == 0) return true;
       const auto hit = other.hit(p, q);
       if (!hit || hit->first < 0 || hit->first > 1) return false;
-      return !(hit->first == 0 && in_plane_of(other, source)) && !(hit->first == 1 && in_plane_of(other, target));
+      return !(hit->first == 0 && other.is_in_plane_of(source)) && !(hit->first == 1 && other.is_in_plane_of(target));
     });
   };
   std::vector<bool> visible(scene.parts.size()), undecided(scene.parts.size());

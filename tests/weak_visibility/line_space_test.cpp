@@ -18,6 +18,18 @@ generate::Posed_scene mixed(std::uint64_t seed) {
   return generate::family("exponents").make(parameters);
 }
 
+/// Asks `ask` of 300 of them: seed, occluders and source.
+template <class Ask>
+void in_each_mixed_scene(Ask ask) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const generate::Posed_scene posed = mixed(seed);
+    const Scene scene(posed.soup);
+    if (scene.pieces().empty()) continue;
+    const Occluders occluders(scene);
+    ask(seed, occluders, weak_source(occluders, posed.source));
+  }
+}
+
 TEST(Near_coordinates, are_at_most_a_half_and_not_all_of_them_small_at_any_scale) {
   for (const int power : {-1060, -500, 0, 500, 1000})
     for (const long odd : {1L, 3L, 999999999999999999L}) {  // the last one: a wide grid
@@ -38,31 +50,21 @@ TEST(Near_coordinates, are_at_most_a_half_and_not_all_of_them_small_at_any_scale
 
 TEST(Side_of_a_near_plane, is_that_of_integers_for_coordinates_of_all_exponents) {
   std::size_t asked = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const generate::Posed_scene posed = mixed(seed);
-    const Scene scene(posed.soup);
-    if (scene.pieces().empty()) continue;
-    const Occluders occluders(scene);
-    const Weak_source source = weak_source(occluders, posed.source);
-    for (std::uint32_t f = 0; f < scene.pieces().size(); ++f)
-      for (std::uint32_t g = 0; g <= scene.pieces().size(); ++g)
-        for (const Near_point& p : g < scene.pieces().size() ? occluders.polygon(g) : source.polygon) {
+  in_each_mixed_scene([&](std::uint64_t seed, const Occluders& occluders, const Weak_source& source) {
+    for (std::uint32_t f = 0; f < occluders.scene().pieces().size(); ++f)
+      for (std::uint32_t g = 0; g <= occluders.scene().pieces().size(); ++g)
+        for (const Near_point& p : g < occluders.scene().pieces().size() ? occluders.polygon(g) : source.polygon) {
           ASSERT_EQ(side(occluders.plane(f), p), sgn(value(occluders.plane(f), p))) << seed;
           ++asked;
         }
-  }
+  });
   EXPECT_GT(asked, 5000u);
 }
 
 TEST(Side_error, bounds_the_sides_of_edges_for_coordinates_of_all_exponents) {
   std::size_t told = 0;
-  for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    const generate::Posed_scene posed = mixed(seed);
-    const Scene scene(posed.soup);
-    if (scene.pieces().empty()) continue;
-    const Occluders occluders(scene);
-    const Weak_source source = weak_source(occluders, posed.source);
-    for (std::uint32_t f = 0; f < scene.pieces().size(); ++f)
+  in_each_mixed_scene([&](std::uint64_t seed, const Occluders& occluders, const Weak_source& source) {
+    for (std::uint32_t f = 0; f < occluders.scene().pieces().size(); ++f)
       for (const Near_point& p : source.polygon)
         for (const Near_point& q : occluders.polygon(0))
           for (std::size_t e = 0; e < occluders.size(f); ++e) {
@@ -75,7 +77,7 @@ TEST(Side_error, bounds_the_sides_of_edges_for_coordinates_of_all_exponents) {
             const Exact_pluecker edge = occluders.exact_pluecker_of(occluders.edge_points(f, e));
             ASSERT_EQ(near > 0 ? 1 : -1, sgn(dot(pluecker_of_pair(p.exact, q.exact), edge))) << seed;
           }
-  }
+  });
   EXPECT_GT(told, 500u);
 }
 
