@@ -5,8 +5,8 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
-#include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -28,7 +28,7 @@ struct Face {
 
 /// A sum of directed segments as a chain: two sums are the same chain iff on each line, at each point, the net number
 /// of arrivals is the same. A line through a known point is its direction, so the key is (direction up to sign, point).
-/// Proof: P-21b
+/// Segments with the same two ends cancel first. Proof: P-21b
 class Boundary_chain {
  public:
   void add(const Polygon& loop, long multiplicity);
@@ -39,7 +39,17 @@ class Boundary_chain {
   std::optional<Exact_point> nonzero() const;
 
  private:
-  std::map<std::pair<Integer_vector, Exact_point>, long> arrivals_;
+  struct Hash {
+    std::size_t operator()(const Exact_point& p) const;
+    std::size_t operator()(const std::pair<std::size_t, std::size_t>& ends) const {
+      return ends.first * 0x9e3779b97f4a7c15 + ends.second;
+    }
+  };
+  std::size_t number_of(const Exact_point& p);
+
+  std::vector<Exact_point> points_;
+  std::unordered_map<Exact_point, std::size_t, Hash> numbers_;
+  std::unordered_map<std::pair<std::size_t, std::size_t>, long, Hash> net_;  // from the earlier point to the later one
 };
 
 }  // namespace sightline::certificate_check

@@ -4,6 +4,9 @@
 
 #include <sightline/kernel/number.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace sightline::order_check {
 
 void Pair_check::Sides::find(const Cone& a, const Cone& b) {
@@ -22,7 +25,17 @@ void Pair_check::Sides::find(const Cone& a, const Cone& b) {
 }
 
 bool Pair_check::nearer_somewhere(const Cone& a, const Cone& b) {
-  if (a.nearness == b.nearness && a.distance == b.distance) return false;  // one plane: equally far everywhere
+
+  // 1/t of b minus 1/t of a is linear in the direction: a may nowhere be the nearer one. Often it is in all of a cone.
+  Integer_vector farther;
+  for (std::size_t k = 0; k < 3; ++k) {
+    farther[k] = a.distance * b.nearness[k];
+    mpz_submul(farther[k].get_mpz_t(), b.distance.get_mpz_t(), a.nearness[k].get_mpz_t());
+  }
+  const auto nearer = [&](const Integer_vector& d) { return sign_of_dot(farther, d) < 0; };
+  if (std::none_of(b.rays.begin(), b.rays.end(), nearer) || std::none_of(a.rays.begin(), a.rays.end(), nearer))
+    return false;
+
   if (separates(a, b) || separates(b, a)) return false;
   a_sides_.find(a, b);
   b_sides_.find(b, a);
@@ -48,13 +61,66 @@ bool Pair_check::nearer_somewhere(const Cone& a, const Cone& b) {
     for (std::size_t k = 0; k < 3; ++k) middle[k] += d[k];
   for (const Integer_vector& plane : a.edge_planes)
     if (sign_of_dot(plane, middle) <= 0) return false;
+  return std::any_of(common_.begin(), common_.end(), nearer);
+}
 
-  // 1/t of b minus 1/t of a is linear in the direction: a may nowhere be the nearer one.
-  Integer_vector farther;
-  for (std::size_t k = 0; k < 3; ++k) farther[k] = a.distance * b.nearness[k] - b.distance * a.nearness[k];
-  for (const Integer_vector& d : common_)
-    if (sign_of_dot(farther, d) < 0) return true;
-  return false;
+namespace {
+
+/// Leaves of a cone, as rays that span it, the part in which a linear form is not negative; nothing where that has no
+/// inside.
+template <class Value_at>
+void clip(std::vector<Integer_vector>& rays, const Value_at& value_at) {
+  std::vector<Integer> values;
+  bool any_in = false, any_out = false;
+  for (const Integer_vector& ray : rays) {
+    values.push_back(value_at(ray));
+    any_in = any_in || sgn(values.back()) > 0;
+    any_out = any_out || sgn(values.back()) < 0;
+  }
+  if (!any_out && any_in) return;
+  std::vector<Integer_vector> kept;
+  for (std::size_t i = 0; any_in && i < rays.size(); ++i) {
+    const std::size_t next = (i + 1) % rays.size();
+    if (sgn(values[i]) >= 0) kept.push_back(rays[i]);
+    if (sgn(values[i]) * sgn(values[next]) >= 0) continue;
+    Integer_vector d;
+    for (std::size_t k = 0; k < 3; ++k) d[k] = abs(values[next]) * rays[i][k] + abs(values[i]) * rays[next][k];
+    kept.push_back(std::move(d));
+  }
+  rays = std::move(kept);
+}
+
+/// n / d in units of 2^-60, rounded downwards or upwards. Pre: |n| <= d, d > 0.
+std::int64_t rounded(const Integer& n, const Integer& d, bool upwards) {
+  thread_local Integer quotient;
+  mpz_mul_2exp(quotient.get_mpz_t(), n.get_mpz_t(), 60);
+  (upwards ? mpz_cdiv_q : mpz_fdiv_q)(quotient.get_mpz_t(), quotient.get_mpz_t(), d.get_mpz_t());
+  return quotient.get_si();
+}
+
+}  // namespace
+
+std::optional<Window> window_of(const Cone& cone, std::size_t side) {
+  const std::size_t axis = side / 2, others[] = {(axis + 1) % 3, (axis + 2) % 3};
+  const int sense = side % 2 == 0 ? 1 : -1;
+  // 1. The part of the cone in which the coordinate of the side is the largest.
+  std::vector<Integer_vector> rays = cone.rays;
+  for (const std::size_t other : others)
+    for (const int way : {1, -1}) {
+      clip(rays, [&](const Integer_vector& d) { return Integer(sense * d[axis] + way * d[other]); });
+      if (rays.empty()) return std::nullopt;
+    }
+  // 2. The box around where its rays meet the side.
+  Window window;
+  for (std::size_t k = 0; k < 2; ++k) {
+    window.low[k] = std::numeric_limits<std::int64_t>::max(), window.high[k] = std::numeric_limits<std::int64_t>::min();
+    for (const Integer_vector& d : rays) {
+      const Integer depth = abs(d[axis]);
+      window.low[k] = std::min(window.low[k], rounded(d[others[k]], depth, false));
+      window.high[k] = std::max(window.high[k], rounded(d[others[k]], depth, true));
+    }
+  }
+  return window;
 }
 
 std::function<void(double)> share_of(const Verify_options& options, std::size_t total) {

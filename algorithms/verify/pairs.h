@@ -6,8 +6,12 @@
 #include <sightline/algorithms/verify/verdict.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -35,10 +39,23 @@ class Pair_check {
   std::vector<Integer_vector> common_;
 };
 
-/// Hands on pairs of cones, one of each of two lists, but not those with a plane through the eye between them, which
-/// have no open set in common. Planes, of edges of the cones, share out both lists, each part once more by others,
-/// until a part is small or a plane does not help. A pair may be handed on more than once. Cost: about O(n log n) and
-/// the pairs; a plane is tested against all rays of a part. Proof: P-20
+/// What a cone covers of a side of the cube [-1, 1]^3 about the eye, as a box around it, in units of 2^-60, rounded
+/// outwards.
+struct Window {
+  std::size_t cone = 0;
+  std::array<std::int64_t, 2> low{}, high{};  ///< low < high
+};
+
+constexpr std::size_t cube_sides = 6;
+
+/// The window of a cone on one of the six sides; none where they have no open set in common. `cone.cone` is left 0.
+/// Exact: the corners before they are rounded. Proof: P-20
+std::optional<Window> window_of(const Cone& cone, std::size_t side);
+
+/// Hands on pairs of cones, one of each of two lists, but not those that are seen to have no open set in common: on no
+/// side of a cube about the eye their windows overlap, or a plane through the eye is between them. Both lists are cut in
+/// two where windows allow it, else by planes of edges of the cones, each part once more, until a part is small or no
+/// cut helps. A pair may be handed on more than once. Cost: about O(n log n) and the pairs. Proof: P-20
 template <class Take>
 class Pairs {
  public:
@@ -48,57 +65,125 @@ class Pairs {
   Pairs(const std::vector<Cone>& cones, Take take) : cones_(cones), take_(std::move(take)) {}
 
   /// progress(share): of all pairs, those that are done with, in [0, 1]; before each cone of a part.
-  void each(Places a, Places b, const std::function<void(double)>& progress = {}) {
-    const auto edge_on = [&](std::size_t i) { return cones_[i].edge_on; };
-    std::erase_if(a, edge_on);
-    std::erase_if(b, edge_on);
+  void each(const Places& a, const Places& b, const std::function<void(double)>& progress = {}) {
+    std::array<Part, cube_sides> parts;
+    double all = 0;
+    for (std::size_t side = 0; side < cube_sides; ++side) {
+      parts[side] = {windows(a, side), windows(b, side)};
+      all += parts[side].pairs();
+    }
     progress_ = progress;
     done_ = 0;
-    share_out(a, b, 1, 0);
+    for (const Part& part : parts)
+      if (part.pairs() > 0) share_out(part, part.pairs() / all, 0);
   }
 
  private:
-  static constexpr std::size_t small = 16;
+  using Windows = std::vector<Window>;
+
+  static constexpr std::size_t small = 16, crowded = 100;  // below them, cuts by windows and by planes do not pay
   static constexpr unsigned deepest = 64, tries = 6;
 
-  struct Halves {
-    Places front, behind;  // and what is on both sides, in both
+  /// Windows of both lists. Pairs whose lower corners have their join in the region are this part's.
+  struct Part {
+    Windows a, b;
+    Window region{0, {least, least}, {most, most}};
+    double pairs() const { return static_cast<double>(a.size()) * static_cast<double>(b.size()); }
+
+    static constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min(),
+                                  most = std::numeric_limits<std::int64_t>::max();
   };
-  Halves halves(const Places& places, const Integer_vector& plane) const {
-    Halves result;
+  struct Halves {
+    Part front, behind;  // and what is on both sides, in both
+    /// Whether fewer pairs are left, enough fewer to be worth it.
+    bool help(const Part& whole) const { return front.pairs() + behind.pairs() <= 0.75 * whole.pairs(); }
+  };
+
+  Windows windows(const Places& places, std::size_t side) const {
+    Windows result;
     for (const std::size_t i : places) {
-      bool in_front = false, at_back = false;
-      for (const Integer_vector& ray : cones_[i].rays) {
-        const int side = sign_of_dot(plane, ray);
-        in_front = in_front || side > 0;
-        at_back = at_back || side < 0;
-        if (in_front && at_back) break;
+      if (cones_[i].edge_on) continue;
+      if (std::optional<Window> window = window_of(cones_[i], side)) {
+        window->cone = i;
+        result.push_back(*window);
       }
-      if (in_front) result.front.push_back(i);
-      if (at_back) result.behind.push_back(i);
     }
     return result;
   }
-  void share_out(const Places& a, const Places& b, double share, unsigned depth) {
-    const auto pairs = [](const Places& x, const Places& y) {
-      return static_cast<double>(x.size()) * static_cast<double>(y.size());
-    };
-    if (std::min(a.size(), b.size()) > 0 && a.size() + b.size() > small && depth < deepest)
-      for (unsigned k = 0; k < tries; ++k) {
-        const Places& from = k % 2 == 0 ? a : b;
-        const Cone& cone = cones_[from[(2 * k + 1) * from.size() / (2 * tries)]];
-        const Integer_vector& plane = cone.edge_planes[(k + depth) % cone.edge_planes.size()];
-        const Halves first = halves(a, plane), second = halves(b, plane);
-        if (pairs(first.front, second.front) + pairs(first.behind, second.behind) > 0.75 * pairs(a, b)) continue;
-        share_out(first.front, second.front, share / 2, depth + 1);
-        share_out(first.behind, second.behind, share / 2, depth + 1);
-        return;
+
+  static Halves cut_windows(const Part& part, std::size_t axis) {
+    std::vector<std::int64_t> middles;
+    for (const Windows* list : {&part.a, &part.b})
+      for (const Window& w : *list) middles.push_back(w.low[axis] / 2 + w.high[axis] / 2);
+    const auto median = middles.begin() + static_cast<std::ptrdiff_t>(middles.size() / 2);
+    std::nth_element(middles.begin(), median, middles.end());
+    Halves halves;
+    const auto share = [&](const Windows& from, Windows& front, Windows& behind) {
+      for (const Window& w : from) {
+        if (w.high[axis] > *median) front.push_back(w);
+        if (w.low[axis] < *median) behind.push_back(w);
       }
-    for (std::size_t k = 0; k < a.size(); ++k) {
-      if (progress_) progress_(std::min(1.0, done_ + share * static_cast<double>(k) / static_cast<double>(a.size())));
-      for (const std::size_t j : b) take_(a[k], j);
+    };
+    share(part.a, halves.front.a, halves.behind.a);
+    share(part.b, halves.front.b, halves.behind.b);
+    halves.front.region = halves.behind.region = part.region;
+    halves.front.region.low[axis] = halves.behind.region.high[axis] = *median;
+    return halves;
+  }
+  Halves cut_cones(const Part& part, const Integer_vector& plane) const {
+    Halves halves;
+    const auto share = [&](const Windows& from, Windows& front, Windows& behind) {
+      for (const Window& w : from) {
+        bool in_front = false, at_back = false;
+        for (const Integer_vector& ray : cones_[w.cone].rays) {
+          const int side = sign_of_dot(plane, ray);
+          in_front = in_front || side > 0;
+          at_back = at_back || side < 0;
+          if (in_front && at_back) break;
+        }
+        if (in_front) front.push_back(w);
+        if (at_back) behind.push_back(w);
+      }
+    };
+    share(part.a, halves.front.a, halves.behind.a);
+    share(part.b, halves.front.b, halves.behind.b);
+    halves.front.region = halves.behind.region = part.region;
+    return halves;
+  }
+
+  void share_out(const Part& part, double share, unsigned depth) {
+    const auto halves_help = [&](const Halves& halves) {
+      if (!halves.help(part)) return false;
+      for (const Part* half : {&halves.front, &halves.behind}) {
+        if (half->pairs() > 0) share_out(*half, share / 2, depth + 1);
+        else done_ += share / 2;
+      }
+      return true;
+    };
+    if (part.a.size() + part.b.size() > small && depth < deepest) {
+      for (const std::size_t axis : {depth % 2, 1 - depth % 2})
+        if (halves_help(cut_windows(part, axis))) return;
+      for (unsigned k = 0; k < tries && part.a.size() + part.b.size() > crowded; ++k) {
+        const Windows& from = k % 2 == 0 ? part.a : part.b;
+        const Cone& cone = cones_[from[(2 * k + 1) * from.size() / (2 * tries)].cone];
+        if (halves_help(cut_cones(part, cone.edge_planes[(k + depth) % cone.edge_planes.size()]))) return;
+      }
     }
-    done_ += share;
+    const double pairs_of_one = share / static_cast<double>(part.a.size());
+    for (const Window& a : part.a) {
+      if (progress_) progress_(std::min(1.0, done_));
+      for (const Window& b : part.b)
+        if (overlap_here(a, b, part.region)) take_(a.cone, b.cone);
+      done_ += pairs_of_one;
+    }
+  }
+
+  static bool overlap_here(const Window& a, const Window& b, const Window& region) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::int64_t low = std::max(a.low[k], b.low[k]);
+      if (low >= a.high[k] || low >= b.high[k] || low < region.low[k] || low >= region.high[k]) return false;
+    }
+    return true;
   }
 
   const std::vector<Cone>& cones_;

@@ -34,15 +34,15 @@ Integer_vector negated(const Integer_vector& a) { return {Integer(-a[0]), Intege
 
 Integer_vector primitive(const Integer_vector& v) {
   const Integer divisor = gcd(gcd(v[0], v[1]), v[2]);
-  if (sgn(divisor) == 0) return v;
-  return {Integer(v[0] / divisor), Integer(v[1] / divisor), Integer(v[2] / divisor)};
+  if (sgn(divisor) == 0 || divisor == 1) return v;
+  Integer_vector result;
+  for (std::size_t k = 0; k < 3; ++k) mpz_divexact(result[k].get_mpz_t(), v[k].get_mpz_t(), divisor.get_mpz_t());
+  return result;
 }
 
 Integer_vector primitive(const Exact_point& v) {
-  const Integer scale = lcm(lcm(v[0].get_den(), v[1].get_den()), v[2].get_den());
-  Integer_vector scaled;
-  for (std::size_t k = 0; k < 3; ++k) scaled[k] = v[k].get_num() * (scale / v[k].get_den());
-  return primitive(scaled);
+  const Homogeneous h = homogeneous(v);
+  return primitive(Integer_vector{h[0], h[1], h[2]});
 }
 
 Integer_vector newell_normal(const Polygon& loop) {
@@ -55,21 +55,33 @@ Integer_vector newell_normal(const Polygon& loop) {
 }
 
 Homogeneous homogeneous(const Exact_point& p) {
-  const Integer scale = lcm(lcm(p[0].get_den(), p[1].get_den()), p[2].get_den());
   Homogeneous h;
-  for (std::size_t k = 0; k < 3; ++k) h[k] = p[k].get_num() * (scale / p[k].get_den());
-  h[3] = scale;
+  h[3] = lcm(lcm(p[0].get_den(), p[1].get_den()), p[2].get_den());
+  for (std::size_t k = 0; k < 3; ++k) {
+    mpz_divexact(h[k].get_mpz_t(), h[3].get_mpz_t(), p[k].get_den_mpz_t());
+    h[k] *= p[k].get_num();
+  }
   return h;
 }
 
-Homogeneous plane_of(const Polygon& polygon) {
-  const Integer_vector normal = newell_normal(polygon);
-  const Rational offset = -dot(normal, polygon[0]);
-  Homogeneous plane;
-  for (std::size_t k = 0; k < 3; ++k) plane[k] = normal[k] * offset.get_den();
-  plane[3] = offset.get_num();
-  return plane;
+Integer_vector minus(const Homogeneous& a, const Homogeneous& b) {
+  Integer_vector difference;
+  for (std::size_t k = 0; k < 3; ++k) {
+    difference[k] = a[k] * b[3];
+    mpz_submul(difference[k].get_mpz_t(), b[k].get_mpz_t(), a[3].get_mpz_t());
+  }
+  return difference;
 }
+
+Homogeneous plane_of(const Plane& plane) {
+  const Rational offset = -dot(plane.normal, plane.origin);
+  Homogeneous result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = plane.normal[k] * offset.get_den();
+  result[3] = offset.get_num();
+  return result;
+}
+
+Homogeneous plane_of(const Polygon& polygon) { return plane_of(Plane{newell_normal(polygon), polygon[0]}); }
 
 int side(const Homogeneous& plane, const Homogeneous& p) {
   thread_local Integer sum;
@@ -78,44 +90,87 @@ int side(const Homogeneous& plane, const Homogeneous& p) {
   return sgn(sum);
 }
 
+namespace {
+
+/// The axis along which a vector is longest.
+std::size_t longest(const Integer_vector& v) {
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (mpz_cmpabs(v[k].get_mpz_t(), v[axis].get_mpz_t()) > 0) axis = k;
+  return axis;
+}
+
+/// The sign of a b - c d.
+int sign_of_difference(const Integer& a, const Integer& b, const Integer& c, const Integer& d) {
+  thread_local Integer difference;
+  mpz_mul(difference.get_mpz_t(), a.get_mpz_t(), b.get_mpz_t());
+  mpz_submul(difference.get_mpz_t(), c.get_mpz_t(), d.get_mpz_t());
+  return sgn(difference);
+}
+
+/// Around which a convex polygon runs counterclockwise: of its first corner that is not straight. Pre: it has area.
+Integer_vector normal_of_convex(const std::vector<Homogeneous>& corners) {
+  const Integer_vector first = minus(corners[1], corners[0]);
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    if (Integer_vector normal = cross(first, minus(corners[i], corners[0])); !is_zero(normal)) return normal;
+  return {};
+}
+
+}  // namespace
+
 std::string not_convex(const Polygon& polygon, const Plane& plane) {
   const std::size_t n = polygon.size();
   if (n < 3) return "has fewer than three vertices";
+  // 1. In the plane, and each vertex another one than the next.
+  const Homogeneous supporting = plane_of(plane);
+  std::vector<Homogeneous> corners;
   for (const Exact_point& p : polygon)
-    if (plane.side(p) != 0) return "has a vertex off the plane of its face";
-  std::vector<Integer_vector> edges(n);
+    if (side(supporting, corners.emplace_back(homogeneous(p))) != 0) return "has a vertex off the plane of its face";
+  std::vector<Integer_vector> edges(n);  // positive multiples
   for (std::size_t i = 0; i < n; ++i) {
-    edges[i] = primitive(minus(polygon[(i + 1) % n], polygon[i]));
+    edges[i] = minus(corners[(i + 1) % n], corners[i]);
     if (is_zero(edges[i])) return "has a repeated vertex";
   }
-  const int area = sign_of_dot(newell_normal(polygon), plane.normal);
-  if (area <= 0) return area == 0 ? "has zero area" : "is clockwise as seen from the front of its face";
-  // Every corner turns left by less than 180 degrees, and the edges turn once around in all.
+  // 2. Every corner turns left by less than 180 degrees, and the edges turn once around in all. Seen along the axis in
+  // which the normal is longest.
+  const std::size_t axis = longest(plane.normal), x = (axis + 1) % 3, y = (axis + 2) % 3;
+  const int sense = sgn(plane.normal[axis]);
   const auto turn = [&](const Integer_vector& a, const Integer_vector& b) {
-    return sign_of_dot(cross(a, b), plane.normal);
+    return sense * sign_of_difference(a[x], b[y], a[y], b[x]);
   };
   const auto upper = [&](const Integer_vector& edge) {  // angle to edge 0 in [0, 180)
     const int left = turn(edges[0], edge);
     return left > 0 || (left == 0 && sign_of_dot(edges[0], edge) > 0);
   };
+  bool turns_left = true;
   std::size_t rounds = 0;
-  for (std::size_t i = 0; i < n; ++i) {
+  bool in_upper = upper(edges[0]);
+  for (std::size_t i = 0; i < n && turns_left; ++i) {
     const Integer_vector &in = edges[i], &out = edges[(i + 1) % n];
     const int left = turn(in, out);
-    if (left < 0 || (left == 0 && sign_of_dot(in, out) < 0)) return "is not convex";
-    rounds += !upper(in) && upper(out);
+    turns_left = left > 0 || (left == 0 && sign_of_dot(in, out) > 0);
+    const bool out_upper = upper(out);
+    rounds += !in_upper && out_upper;
+    in_upper = out_upper;
   }
-  return rounds == 1 ? "" : "is not convex (it turns more than once around)";
+  if (turns_left && rounds == 1) return "";
+  // 3. What is wrong with it.
+  const int area = sign_of_dot(newell_normal(polygon), plane.normal);
+  if (area <= 0) return area == 0 ? "has zero area" : "is clockwise as seen from the front of its face";
+  return turns_left ? "is not convex (it turns more than once around)" : "is not convex";
 }
 
 Cone::Cone(const Polygon& polygon, const Exact_point& eye) {
-  const Integer_vector normal = newell_normal(polygon);
+  const Homogeneous from = homogeneous(eye);
+  std::vector<Homogeneous> corners;
+  for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
+  const Integer_vector normal = primitive(normal_of_convex(corners));
   const Rational height = dot(normal, minus(eye, polygon[0]));
   edge_on = sgn(height) == 0;
   if (edge_on) return;
   const bool front = sgn(height) > 0;
   std::vector<Integer_vector> all;
-  for (const Exact_point& p : polygon) all.push_back(primitive(minus(p, eye)));
+  for (const Homogeneous& p : corners) all.push_back(primitive(minus(p, from)));
   const auto edge_plane = [&](std::size_t i) {
     const Integer_vector plane = primitive(cross(all[i], all[(i + 1) % all.size()]));
     return front ? negated(plane) : plane;

@@ -50,8 +50,13 @@ using Homogeneous = std::array<Integer, 4>;
 
 Homogeneous homogeneous(const Exact_point& p);
 
+/// A positive multiple of a - b, of points.
+Integer_vector minus(const Homogeneous& a, const Homogeneous& b);
+
 /// Pre: the polygon has area. Post: it runs counterclockwise as seen from the front.
 Homogeneous plane_of(const Polygon& polygon);
+/// Post: in front where the plane is.
+Homogeneous plane_of(const Plane& plane);
 
 int side(const Homogeneous& plane, const Homogeneous& p);
 

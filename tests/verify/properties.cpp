@@ -246,4 +246,62 @@ TEST(Pairs, of_squares_side_by_side_are_few) {
   EXPECT_LT(taken, 20 * cones.size());  // of 901 x 901
 }
 
+/// A cone by its rays, and where it meets a side of the cube by planes: the oracle of a window.
+std::array<Rational, 4> extent_on(const Points& polygon, std::size_t axis, int sense) {
+  Points part = polygon;  // from the origin; clipped where the coordinate of the side is the largest
+  for (const std::size_t other : {(axis + 1) % 3, (axis + 2) % 3})
+    for (const int way : {1, -1}) {
+      Points kept;
+      for (std::size_t i = 0; i < part.size(); ++i) {
+        const Exact_point &p = part[i], &q = part[(i + 1) % part.size()];
+        const auto height = [&](const Exact_point& r) { return Rational(sense * r[axis] + way * r[other]); };
+        const Rational at_p = height(p), at_q = height(q);
+        if (sgn(at_p) >= 0) kept.push_back(p);
+        if (sgn(at_p) * sgn(at_q) >= 0) continue;
+        const Rational t = at_p / (at_p - at_q);
+        Exact_point cut;
+        for (std::size_t k = 0; k < 3; ++k) cut[k] = p[k] + t * (q[k] - p[k]);
+        kept.push_back(cut);
+      }
+      part = kept;
+    }
+  if (part.size() < 3 || !has_area(part)) return {1, 0, 1, 0};
+  std::array<Rational, 4> extent{2, -2, 2, -2};
+  for (const Exact_point& p : part)
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Rational at_side = p[(axis + 1 + k) % 3] / (sense * p[axis]);
+      extent[2 * k] = std::min(extent[2 * k], at_side), extent[2 * k + 1] = std::max(extent[2 * k + 1], at_side);
+    }
+  return extent;
+}
+
+TEST(Window, is_the_box_around_what_a_cone_covers_of_a_side) {
+  Dice dice(9);
+  std::size_t there = 0, cut = 0;
+  const Rational unit = Rational(1) / (Integer(1) << 60);
+  for (int trial = 0; trial < sample(2000); ++trial) {
+    Points polygon = random_polygon(dice, 1 + trial % 4, trial % 3 == 0);
+    const long far = trial % 5 == 0 ? 1000 : 0, axis_of_far = trial % 3;
+    for (Exact_point& p : polygon) p[static_cast<std::size_t>(axis_of_far)] += far;
+    const order_check::Cone cone(polygon, at(0, 0, 0));
+    if (cone.edge_on) continue;
+    std::size_t sides = 0;
+    for (std::size_t side = 0; side < order_check::cube_sides; ++side) {
+      const auto extent = extent_on(polygon, side / 2, side % 2 == 0 ? 1 : -1);
+      const auto window = order_check::window_of(cone, side);
+      ASSERT_EQ(window.has_value(), extent[0] < extent[1]) << trial << ' ' << side;
+      if (!window) continue;
+      ++sides;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const Rational low = window->low[k] * unit, high = window->high[k] * unit;
+        ASSERT_TRUE(low <= extent[2 * k] && extent[2 * k] < low + unit) << trial << ' ' << side;
+        ASSERT_TRUE(high - unit < extent[2 * k + 1] && extent[2 * k + 1] <= high) << trial << ' ' << side;
+      }
+    }
+    there += sides, cut += sides > 1;
+  }
+  EXPECT_GT(there, least(2000u));
+  EXPECT_GT(cut, least(500u));
+}
+
 }  // namespace
