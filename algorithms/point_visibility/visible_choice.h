@@ -13,7 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
+#include <initializer_list>
 #include <limits>
 #include <vector>
 
@@ -26,44 +26,57 @@ class Cut_choice {
 
   explicit Cut_choice(const Chunks<V>& chunks) : chunks_(chunks), view_(chunks.view()) {}
 
-  /// The plane to cut a region by: of the edges of the piece that is nearest in the middle of it, or in the middle of
-  /// the pile that this one is in, the one that shares out the rest best; where nothing but pieces that cover the
-  /// region is left, and two of them cross, their line. Pre: there are items.
+  /// The plane to cut a region by: of the edges of the piece that is nearest in the middle of it and of one more in its
+  /// plane, or of the piece in the middle of the pile that it is in, the one that shares out the rest best; where
+  /// nothing but pieces that cover the region is left, and two of them cross, their line. Pre: there are items.
   Plane choose(const Task<V>& task, Visible_counters& counters) const {
     if (const Item* nearest = nearest_in_the_middle(task)) {
-      std::vector<Item> pile = pile_of(*nearest, task);
-      if (pile.empty()) return cheapest_edge(*nearest, false, task, counters.predicates);
+      std::vector<Item> beside = beside_of(*nearest, task), pile = pile_of(*nearest, beside);
+      if (pile.empty()) {
+        const Item other = beside[beside.size() / 2];  // of pieces in one plane none is the nearest
+        return cheapest_edge({*nearest, other}, nullptr, task, counters.predicates);
+      }
       const auto middle = pile.begin() + static_cast<std::ptrdiff_t>(pile.size() / 2);
       std::nth_element(pile.begin(), middle, pile.end(),
                        [&](const Item& f, const Item& g) { return !chunks_.comes_first(g.chunk, f.chunk); });
-      return cheapest_edge(*middle, true, task, counters.predicates);
+      return cheapest_edge({*middle}, &*middle, task, counters.predicates);
     }
     ++counters.crossings;
     return view_.crossing(chunks_.piece_of(task.cover),
                           chunks_.piece_of(task.items.front().chunk));  // no boxes are left
   }
 
-  /// Whether most of the items are one pile: then a cut wants to know the rest of it. Pre: there are items.
-  bool is_pile(const Task<V>& task) const {
+  /// Whether a cut wants to know more of the region than this: most of the items are in one plane, and few, or one pile.
+  /// Pre: there are items.
+  bool wants_more(const Task<V>& task) const {
     const Item* nearest = nearest_in_the_middle(task);
-    return nearest != nullptr && 4 * pile_of(*nearest, task).size() >= 3 * task.items.size();
+    if (nearest == nullptr) return false;
+    const auto are_most = [&](const std::vector<Item>& items) { return 4 * items.size() >= 3 * task.items.size(); };
+    const std::vector<Item> beside = beside_of(*nearest, task);
+    return are_most(beside) && (task.items.size() < few || are_most(pile_of(*nearest, beside)));
   }
 
  private:
-  /// The items of one plane that a direction inside one of them meets; none where these are few. They do not hide each
-  /// other. A cut by an edge of the first in their order would leave all others in both parts; in the middle of it half
-  /// of them are done with inside, and the other half outside.
-  std::vector<Item> pile_of(const Item& item, const Task<V>& task) const {
-    constexpr std::ptrdiff_t least = 5;
-    const auto is_beside = [&](const Item& other) {
-      return !other.covers() && chunks_.same_plane(item.chunk, other.chunk);
-    };
-    std::vector<Item> pile;
-    if (std::count_if(task.items.begin(), task.items.end(), is_beside) < least) return pile;
-    const Approximate_vector middle = chunks_.middle_of(item.chunk);
+  static constexpr std::size_t few = 64;
+
+  /// The items in the plane of one of them that do not cover the region, this one among them.
+  std::vector<Item> beside_of(const Item& item, const Task<V>& task) const {
+    std::vector<Item> beside;
     for (const Item& other : task.items)
-      if (is_beside(other) && chunks_.holds(other.chunk, middle)) pile.push_back(other);
-    if (std::ssize(pile) < least) pile.clear();
+      if (!other.covers() && chunks_.same_plane(item.chunk, other.chunk)) beside.push_back(other);
+    return beside;
+  }
+  /// Of items in one plane those that a direction inside one of them meets; none where these are few. They do not hide
+  /// each other. A cut by an edge of the first in their order would leave all others in both parts; in the middle of it
+  /// half of them are done with inside, and the other half outside.
+  std::vector<Item> pile_of(const Item& item, const std::vector<Item>& beside) const {
+    constexpr std::size_t least = 5;
+    std::vector<Item> pile;
+    if (beside.size() < least) return pile;
+    const Approximate_vector middle = chunks_.middle_of(item.chunk);
+    for (const Item& other : beside)
+      if (chunks_.holds(other.chunk, middle)) pile.push_back(other);
+    if (pile.size() < least) pile.clear();
     return pile;
   }
 
@@ -82,15 +95,20 @@ class Cut_choice {
     }
     return best;
   }
-  Plane cheapest_edge(const Item& item, bool of_pile, const Task<V>& task, Predicate_counts& counts) const {
+  /// Of the edges of the items. `shown`: as in cost_of().
+  Plane cheapest_edge(std::initializer_list<Item> items, const Item* shown, const Task<V>& task,
+                      Predicate_counts& counts) const {
     const Plane* cheapest = nullptr;
     double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t bits = item.active; bits != 0; bits &= bits - 1) {
-      const Plane& w = chunks_.edges_of(item.chunk)[std::countr_zero(bits)];
-      const double cost = cost_of(w, of_pile ? &item : nullptr, task, counts);
-      if (cheapest == nullptr || cost < least) {
-        least = cost;
-        cheapest = &w;
+    for (const Item& item : items) {
+      if (cheapest != nullptr && item.chunk == items.begin()->chunk) continue;
+      for (std::uint32_t bits = item.active; bits != 0; bits &= bits - 1) {
+        const Plane& w = chunks_.edges_of(item.chunk)[std::countr_zero(bits)];
+        const double cost = cost_of(w, shown, task, counts);
+        if (cheapest == nullptr || cost < least) {
+          least = cost;
+          cheapest = &w;
+        }
       }
     }
     return *cheapest;

@@ -100,7 +100,7 @@ class Solver {
       checked = task.items.size();
       if (task.boxes.empty()) break;
       if (has_edges(task, enough)) {
-        if (!cuts_.is_pile(task)) break;
+        if (!cuts_.wants_more(task)) break;
         enough = 2 * std::ssize(task.items);
       }
       open_nearest(task, hiding, counters);

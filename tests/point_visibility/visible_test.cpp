@@ -221,6 +221,23 @@ TEST(Faces_of_many_corners, are_seen_as_brute_force_sees_them) {
   }
 }
 
+TEST(Faces_of_many_corners, may_be_stars) {
+  for (const long inner : {5000L, 9900L}) {  // needles around a disc, and a rough disc
+    constexpr long count = 2000;
+    Points star;
+    for (long k = 0; k < count; ++k) {
+      const double angle = 2 * std::acos(-1.0) * static_cast<double>(k) / count;
+      const double radius = static_cast<double>(k % 2 == 0 ? 10000 : inner);
+      star.push_back({std::lround(1000 * radius * std::cos(angle)), std::lround(1000 * radius * std::sin(angle)), 0});
+    }
+    const Scene scene(view_scenes::soup_of({star}));
+    ASSERT_TRUE(scene.set_aside().empty());
+    const auto surface = visible_surface(Exact_view(scene, {1000, 1000, 5000000}), Piece_boxes(scene));
+    EXPECT_LT(surface.counters.regions, 4 * scene.pieces().size()) << inner;
+    EXPECT_LT(surface.counters.opened, 4 * scene.pieces().size()) << inner;
+  }
+}
+
 TEST(Faces_of_many_corners, take_time_as_their_number) {
   Points curve;
   for (long k = -1000; k < 1000; ++k) curve.push_back({k, k * k, 0});
