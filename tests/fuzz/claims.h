@@ -67,14 +67,21 @@ struct Flat {
     return least;
   }
   /// Where the line p + t (q - p) meets the polygon: t, and the location there. Nothing where it is parallel to the
-  /// plane or passes the polygon by.
+  /// plane or passes the polygon by. By the sides of the edges on which the line is, without fractions.
   std::optional<std::pair<Rational, int>> hit(const Exact_point& p, const Exact_point& q) const {
     const Rational at_p = dot(normal, minus(p, corners[0])), at_q = dot(normal, minus(q, corners[0]));
-    if (at_p == at_q) return std::nullopt;
-    const Rational t = at_p / (at_p - at_q);
-    const int where = location(plus(p, times(t, minus(q, p))));
-    if (where < 0) return std::nullopt;
-    return std::pair(t, where);
+    const int upwards = cmp(at_q, at_p);
+    if (upwards == 0) return std::nullopt;
+    const Exact_point along = minus(q, p);
+    int where = 1;
+    Exact_point from = minus(corners.back(), p);
+    for (const Exact_point& corner : corners) {
+      const Exact_point to = minus(corner, p);
+      where = std::min(where, upwards * sgn(dot(along, cross(from, to))));
+      if (where < 0) return std::nullopt;
+      from = to;
+    }
+    return std::pair(Rational(at_p / (at_p - at_q)), where);
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include "certificate.h"
 #include "claims.h"
+#include "mutate.h"
 
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/transform.h>
@@ -330,8 +331,15 @@ inline void compare_with_engine(const Polygon_soup& soup, const Weak_certificate
 
 // ---- One forgery
 
-/// The verdict on what the bytes say; nothing where they say nothing.
-inline std::optional<Verdict> judged_forgery(std::string_view text) {
+/// What became of the certificates that bytes stand for.
+struct Judged {
+  std::size_t accepted = 0, rejected = 0;
+};
+
+/// Shows certificates of another scene, the right one and some that lie about what is shown, as those of the first: what
+/// passes is true. Nothing where the bytes say nothing.
+inline Judged judged_forgeries(std::string_view text) {
+  constexpr std::size_t forgeries = 24, bytes_of_lies = 24;
   Bytes bytes(text);
   // 1. The scene as it is.
   const std::vector<generate::Family>& families = generate::families();
@@ -351,33 +359,45 @@ inline std::optional<Verdict> judged_forgery(std::string_view text) {
       return p;
     });
   }
-  if (truth.soup.face_count() == 0 || truth.soup.face_count() > 16) return std::nullopt;
+  if (truth.soup.face_count() == 0 || truth.soup.face_count() > 16) return {};
   const Kind kind = static_cast<Kind>(bytes.below(4));
-  if (kind == Kind::weak && truth.source.empty()) return std::nullopt;
+  if (kind == Kind::weak && truth.source.empty()) return {};
 
-  // 2. What the forger shows.
+  // 2. What the forger has.
   const Pretence pretence = pretence_of(truth, bytes);
-  std::optional<Certificate> certificate = answered(kind, pretence.scene);
-  if (!certificate) return std::nullopt;
+  std::optional<Certificate> answer = answered(kind, pretence.scene);
+  if (!answer) return {};
   const bool silent = bytes.below(4) == 0;
+  Mutator lies(bytes.word());
+  std::optional<Known_scene> scene;
   return std::visit(
-      [&](auto& claim) {
-        translate(claim, pretence, silent);
-        if constexpr (std::is_same_v<std::decay_t<decltype(claim)>, Weak_certificate>)
-          for (Face_id& face : claim.undecided) face = pretence.face_of[face];
-        for (std::size_t lies = bytes.below(3); lies > 0; --lies) lie(claim, truth, bytes);
+      [&](auto& right) {
+        translate(right, pretence, silent);
+        if constexpr (std::is_same_v<std::decay_t<decltype(right)>, Weak_certificate>)
+          for (Face_id& face : right.undecided) face = pretence.face_of[face];
+        Judged judged;
+        for (std::size_t k = 0; k < forgeries; ++k) {
+          // 3. What is shown: the right one first.
+          auto claim = right;
+          const std::string words = lies.random_bytes(bytes_of_lies);
+          Bytes told(words);
+          for (std::size_t left = k == 0 ? 0 : 1 + told.below(2); left > 0; --left) lie(claim, truth, told);
 
-        // 3. Whether it passes; then it is true.
-        const Verdict verdict = verdict_on(truth.soup, claim);
-        if (verdict.accepted) {
-          try_claims(known(truth.soup), claim);
+          // 4. Whether it passes; then it is true.
+          if (!verdict_on(truth.soup, claim).accepted) {
+            ++judged.rejected;
+            continue;
+          }
+          ++judged.accepted;
+          if (!scene) scene = known(truth.soup);
+          try_claims(*scene, claim);
           compare_with_engine(truth.soup, claim);
         }
-        return verdict;
+        return judged;
       },
-      *certificate);
+      *answer);
 }
 
-inline void forged(std::string_view bytes) { judged_forgery(bytes); }
+inline void forged(std::string_view bytes) { judged_forgeries(bytes); }
 
 }  // namespace fuzz
