@@ -22,9 +22,9 @@ struct Fronts {
   std::size_t points = 0, outwards = 0, inwards = 0;
   static constexpr std::size_t rays = 24;  // from each side of a point
   double share(std::size_t count) const { return static_cast<double>(count) / static_cast<double>(points); }
-  /// Whether a side is enclosed at most points, and nearly always this one.
+  /// Whether one side alone is enclosed at three points of five, and nearly always this one.
   bool nearly_all(std::size_t count) const {
-    return 2 * (outwards + inwards) >= points && 20 * count >= 19 * (outwards + inwards);
+    return 5 * (outwards + inwards) >= 3 * points && 20 * count >= 19 * (outwards + inwards);
   }
 };
 
@@ -96,9 +96,13 @@ std::string text_of(const Fronts& fronts) {
       fmt::format("{:.0f}% of the area looks out of what the faces enclose, {:.0f}% into it (a sample of {} points)",
                   100 * fronts.share(fronts.outwards), 100 * fronts.share(fronts.inwards), fronts.points);
   if (fronts.nearly_all(fronts.outwards))
-    text += ": right for solids; of rooms to look at from within all is turned away, and --flip turns it round";
+    text +=
+        ": right where one looks from outside, as at solids; rooms to look at from within are turned away, and --flip "
+        "turns them";
   if (fronts.nearly_all(fronts.inwards))
-    text += ": right for rooms; of solids to look at from outside all is turned away, and --flip turns it round";
+    text +=
+        ": right where one looks from within, as in rooms; solids to look at from outside are turned away, and --flip "
+        "turns them";
   return text;
 }
 
@@ -147,7 +151,8 @@ static Exit run(const Common& common) {
   Json counters = counters_json(c);
   counters["bits"] = {
       {"coordinate", budget.coordinate}, {"normal", budget.normal}, {"offset", budget.offset}, {"side", budget.side()}};
-  if (write_json(common, "info", scene, result, counters, {{"read", reading}, {"prepare", preparing}, {"fronts", sampling}}))
+  if (write_json(common, "info", scene, result, counters,
+                 {{"read", reading}, {"prepare", preparing}, {"fronts", sampling}}))
     return Exit::done;
 
   row("scene", scene.file());

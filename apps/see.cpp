@@ -39,7 +39,7 @@ struct Drawn_line {
 struct Seen {
   std::vector<Drawn_line> lines;
   std::vector<Drawn> parts;  ///< fragment.piece: the convex piece; no vertices where nobody asks for them
-  std::vector<Face_id> visible, from_behind;  ///< from_behind: those that no front shows
+  std::vector<Face_id> visible, from_behind;       ///< from_behind: those that no front shows
   std::optional<Visible_certificate> certificate;  ///< where it is asked for; exact only
   Visible_counters counters;
   std::size_t edge_on = 0,
@@ -212,12 +212,14 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
 static Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
+  arguments.view.check_usage();
   if (arguments.kernel != "exact" &&
       (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum || arguments.lines))
     throw Usage_error("--certificate, --svg, --lines and --frustum are exact: leave out --kernel");
   const Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
-  const View view = arguments.view.view(eye, scene);
+  const bool has_view = !arguments.svg.empty() || arguments.frustum;
+  const View view = has_view ? arguments.view.view(eye, scene) : View{eye};
   const bool empty = scene.counters().faces == 0;
   Progress progress("looking");
   Visible_options options;
@@ -260,7 +262,10 @@ static Exit run(const See_arguments& arguments) {
   counters["parts"] = seen.parts.size();
   counters["not_finite"] = seen.not_finite;
   counters["predicates"] = predicates_json(c.predicates);
-  Json result{{"eye", point_json(eye)}, {"visible", seen.visible}, {"from_behind", seen.from_behind}, {"pieces", std::move(pieces)}},
+  Json result{{"eye", point_json(eye)},
+              {"visible", seen.visible},
+              {"from_behind", seen.from_behind},
+              {"pieces", std::move(pieces)}},
       seconds{{"see", seen.seconds}};
   if (arguments.lines) {
     if (!common.json.empty()) result["lines"] = lines_json(scene, seen.lines);
@@ -321,9 +326,11 @@ void add_see(Command program) {
                    "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
   command.add_flag("--lines", a->lines,
                    "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
-                   "in the picture solid and dashed");
+                   "in the picture solid and, next to what is seen, dashed; what is farther behind is faint");
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
-  command.add_option("--svg", a->svg, "draw the visible parts").writes_file().check(ending(".svg"));
+  command.add_option("--svg", a->svg, "draw the visible parts; the n-th polygon of face 7 has the id face-7-n")
+      .writes_file()
+      .check(ending(".svg"));
   a->view.add_to(command);
   command.footer(
       "Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

@@ -37,6 +37,7 @@ std::vector<std::string> names_of(const Scene& scene, const Weak_faces& found, s
 struct Picture_eye {
   Exact_point at;
   std::optional<std::array<Rational, 4>> cut;  ///< only what is in front of this plane, which the sources lie in
+  std::string up;                              ///< as --up, where that is not given
 };
 
 Rational value(const std::array<Rational, 4>& h, const Exact_point& p) {
@@ -59,7 +60,8 @@ bool is_enclosed(const Occluders& occluders, const Weak_source& source) {
     const double size = std::sqrt(dot(u, u));
     for (std::size_t k = 0; k < 3; ++k) u[k] /= size;
     v = cross(n, u);
-    for (std::size_t k = 0; k < 3; ++k) direction[k] = around[0] * u[k] + around[1] * v[k] / length + around[2] * n[k] / length;
+    for (std::size_t k = 0; k < 3; ++k)
+      direction[k] = around[0] * u[k] + around[1] * v[k] / length + around[2] * n[k] / length;
     hits += occluders.first_hit(p, direction).has_value();
   }
   return 4 * hits >= 3 * rays;
@@ -89,9 +91,10 @@ Picture_eye picture_eye(const Weak_arguments& arguments, const Occluders& occlud
                         const std::vector<Exact_point>& visible) {
   const Scene& scene = occluders.scene();
   const std::optional<std::array<Rational, 4>> plane = arguments.eye.empty() ? plane_of(sources) : std::nullopt;
-  if (!plane || visible.empty() || std::none_of(sources.polygons.begin(), sources.polygons.end(),
-                                                [&](const Weak_source& source) { return is_enclosed(occluders, source); }))
-    return {eye_of(arguments.eye, scene), std::nullopt};
+  if (!plane || visible.empty() ||
+      std::none_of(sources.polygons.begin(), sources.polygons.end(),
+                   [&](const Weak_source& source) { return is_enclosed(occluders, source); }))
+    return {eye_of(arguments.eye, scene), std::nullopt, ""};
 
   // 1. A frame on the source: its middle, its normal, and upwards or, where that is the normal, to the south.
   const std::vector<Exact_point>& polygon = sources.points[0];
@@ -111,7 +114,8 @@ Picture_eye picture_eye(const Weak_arguments& arguments, const Occluders& occlud
   const auto& h = *plane;
   const Rational largest = std::max({Rational(abs(h[0])), Rational(abs(h[1])), Rational(abs(h[2]))});
   const Direction3 n = unit(rounded({Rational(h[0] / largest), Rational(h[1] / largest), Rational(h[2] / largest)}));
-  Direction3 aside = std::fabs(n[2]) < 0.9 ? Direction3{0, 0, 1} : Direction3{0, -1, 0};
+  const bool upright = std::fabs(n[2]) < 0.9;
+  Direction3 aside = upright ? Direction3{0, 0, 1} : Direction3{0, -1, 0};
   const double along = dot(aside, n);
   for (std::size_t k = 0; k < 3; ++k) aside[k] -= along * n[k];
   aside = unit(aside);
@@ -126,7 +130,7 @@ Picture_eye picture_eye(const Weak_arguments& arguments, const Occluders& occlud
   }
   const double size = nearest_double(Rational(scene.box()[1][0] - scene.box()[0][0]));
   behind = std::max(behind, 0.01 * size);
-  Picture_eye eye{middle, plane};
+  Picture_eye eye{middle, plane, upright ? "" : "0,1,0"};
   for (std::size_t k = 0; k < 3; ++k) eye.at[k] += exact(behind * (lean * aside[k] - n[k]));
   return eye;
 }
@@ -163,22 +167,30 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Occluders& o
   // 1. The camera.
   const auto is_visible = [&](const Piece& piece) { return names[piece.face] == "visible"; };
   const std::optional<std::array<Rational, 4>> plane = plane_of(sources);
-  const Picture_eye eye =
-      picture_eye(arguments, occluders, sources, corners_of(occluders.scene(), plane, is_visible));
-  std::vector<Exact_point> shown = corners_of(occluders.scene(), eye.cut, [&](const Piece& piece) {
-    return eye.cut ? is_visible(piece) : value(occluders.scene().file_coefficients(piece.support), eye.at) > 0;
-  });
+  const Picture_eye eye = picture_eye(arguments, occluders, sources, corners_of(occluders.scene(), plane, is_visible));
+  const auto is_shown = [&](const Piece& piece) {
+    return value(occluders.scene().file_coefficients(piece.support), eye.at) > 0;
+  };
+  std::vector<Exact_point> shown = corners_of(occluders.scene(), eye.cut, is_shown),
+                           lit = corners_of(occluders.scene(), eye.cut, is_visible);
   for (const std::vector<Exact_point>& polygon : sources.points) {
     std::vector<Point_id> loop;
     for (const Exact_point& p : polygon) {
       loop.push_back(soup.add_point(p[0], p[1], p[2]));
       shown.push_back(p);
+      lit.push_back(p);
     }
     soup.add_face(loop);
   }
   Scene scene(soup);
   constexpr double room_for_the_legend = 36;
-  const View view = arguments.view.view(eye.at, scene, shown, room_for_the_legend);
+  View_arguments camera = arguments.view;
+  if (camera.up.empty()) camera.up = eye.up;
+  View view = camera.view(eye.at, scene, shown, room_for_the_legend);
+  if (eye.cut) {  // a large building is shown as far as it takes to show what is visible
+    const View of_lit = camera.view(eye.at, scene, lit, room_for_the_legend);
+    if (view.field > 1.4 * of_lit.field) view = of_lit;
+  }
 
   // 2. What is in front of the cut, or of the near plane, farthest first.
   Task task;
@@ -188,7 +200,8 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Occluders& o
     const Piece& source = scene.pieces().back();
     std::array<std::array<Integer, 3>, 3> p;
     for (std::size_t i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k) p[i][static_cast<std::size_t>(k)] = scene.points().integer(scene.corners(source)[i].point, k);
+      for (int k = 0; k < 3; ++k)
+        p[i][static_cast<std::size_t>(k)] = scene.points().integer(scene.corners(source)[i].point, k);
     const std::array<Integer, 3> n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
     task.near = {n[0], n[1], n[2], Integer(-dot(n, p[0]))};
   } else task.near = near_plane(view, scene);
@@ -331,6 +344,8 @@ Exit run_weak(const Weak_arguments& arguments) {
     throw Usage_error("--surfaces are those of events: add --method events");
   if (!arguments.surfaces.empty() && !as_obj && !arguments.surfaces.ends_with(".json"))
     throw Usage_error("--surfaces wants a file that ends with .json or .obj, not " + arguments.surfaces);
+  arguments.view.check_usage();
+  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
   const Polygon_soup soup = common.read();
   const Scene scene(soup);
   Stopwatch watch;
@@ -477,8 +492,11 @@ void add_weak(Command program) {
   command.add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided")
       .writes_file()
       .check(ending(".obj"));
-  command.add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default behind a source that looks into a room, and what is behind it "
-                  "is cut away, or else outside the scene")
+  command
+      .add_option(
+          "--eye", a->eye,
+          "the eye X,Y,Z of the picture; by default behind a source that looks into a room, and what is behind it "
+          "is cut away, or else outside the scene")
       .check(not_empty());
   a->view.add_to(command);
   command.footer(

@@ -13,8 +13,8 @@ namespace sightline {
 /// Series of points by name, joined in the order of x; both axes are logarithmic. Points with y = 0 stand on a line of
 /// their own, marked 0, below the others. A series has the colour that was set for it, or else one that follows from
 /// its name, so that it keeps it from plot to plot; where two names of a plot share theirs, the later one in order of
-/// the alphabet takes the next that is free. Pre: words without characters that XML reserves. Degenerate: points with x <=
-/// 0 or y < 0, and what is no number, are left out; without points there are only axes. Exact: no, it is a picture.
+/// the alphabet takes the next that is free. Pre: words without characters that XML reserves. Degenerate: points with x
+/// <= 0 or y < 0, and what is no number, are left out; without points there are only axes. Exact: no, it is a picture.
 class Log_plot {
  public:
   Log_plot(std::string title, std::string x, std::string y)

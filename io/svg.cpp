@@ -19,7 +19,8 @@ void Svg::polygon(std::vector<Flat_point> points, std::string_view fill, std::st
   for (const Flat_point& p : points) body_ += number(p[0]) + ',' + number(p[1]) + ' ';
   body_.back() = '"';
   body_ += " fill=\"" + std::string(fill) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
-           number(stroke_width) + (title.empty() ? "\"/>\n" : "\"><title>" + std::string(title) + "</title></polygon>\n");
+           number(stroke_width) +
+           (title.empty() ? "\"/>\n" : "\"><title>" + std::string(title) + "</title></polygon>\n");
 }
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view fill) {

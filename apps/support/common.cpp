@@ -78,7 +78,8 @@ Exact_point eye_of(const std::string& text, const Scene& scene) {
     if (k == 0 || size < side) size = side;
     eye[k] = (box[0][k] + box[1][k]) / 2;
   }
-  const std::array<Rational, 3> away{Rational(-3, 5), Rational(-11, 10), Rational(7, 10)};
+  const bool is_flat = 5 * (box[1][2] - box[0][2]) < size;  // to be looked at from higher up
+  const std::array<Rational, 3> away{Rational(-3, 5), Rational(-11, 10), is_flat ? Rational(3, 2) : Rational(7, 10)};
   for (std::size_t k = 0; k < 3; ++k) eye[k] += size * away[k];
   return eye;
 }

@@ -112,7 +112,8 @@ struct Projection {
   void fit(double width, double height) {
     const double scale = 0.94 * std::min(width / wide(), height / high());
     for (Flat_point& p : flat)
-      p = {width / 2 + scale * (p[0] - (least[0] + most[0]) / 2), height / 2 + scale * (p[1] - (least[1] + most[1]) / 2)};
+      p = {width / 2 + scale * (p[0] - (least[0] + most[0]) / 2),
+           height / 2 + scale * (p[1] - (least[1] + most[1]) / 2)};
   }
 };
 
@@ -187,8 +188,9 @@ std::string painted(const Face_graph& graph, const std::vector<Outline>& outline
   const auto whole = [&](double wide) {  // the picture's size, of frames so wide
     double steepest = 0.3;
     for (const Projection& frame : frames) steepest = std::max(steepest, frame.high() / frame.wide());
-    return std::array<int, 2>{static_cast<int>(static_cast<double>(columns) * wide),
-                              static_cast<int>(static_cast<double>(rows) * (std::min(1.2, steepest) * wide + title) + legend)};
+    return std::array<int, 2>{
+        static_cast<int>(static_cast<double>(columns) * wide),
+        static_cast<int>(static_cast<double>(rows) * (std::min(1.2, steepest) * wide + title) + legend)};
   };
   const std::array<int, 2> size = canvas.size_or(whole(300));
   const double wide = static_cast<double>(size[0]) / static_cast<double>(columns),
@@ -241,7 +243,7 @@ std::string painted(const Face_graph& graph, const std::vector<Outline>& outline
     svg.label(left + 6, top - 22, 12, outline.title, "start", ink);
     svg.label(left + 6, top - 7, 12,
               number == 0 ? "the first frame"
-                          : fmt::format("since {}: {} faces became on-view, {} off-view", outlines[number - 1].number,
+                          : fmt::format("since {}: {} became on-view, {} off-view", outlines[number - 1].number,
                                         born.size(), gone.size()),
               "start", ink);
   }

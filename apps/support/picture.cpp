@@ -45,10 +45,10 @@ std::array<int, 2> parse_size(const std::string& text, const std::string& option
 
 /// Names of colours, and their red, green and blue.
 static const std::map<std::string, std::array<int, 3>> named_colours{
-    {"black", {0, 0, 0}},   {"white", {255, 255, 255}}, {"gray", {128, 128, 128}}, {"silver", {192, 192, 192}},
-    {"red", {255, 0, 0}},   {"maroon", {128, 0, 0}},    {"green", {0, 128, 0}},    {"lime", {0, 255, 0}},
-    {"blue", {0, 0, 255}},  {"navy", {0, 0, 128}},      {"yellow", {255, 255, 0}}, {"olive", {128, 128, 0}},
-    {"aqua", {0, 255, 255}}, {"teal", {0, 128, 128}},   {"purple", {128, 0, 128}}, {"fuchsia", {255, 0, 255}}};
+    {"black", {0, 0, 0}},    {"white", {255, 255, 255}}, {"gray", {128, 128, 128}}, {"silver", {192, 192, 192}},
+    {"red", {255, 0, 0}},    {"maroon", {128, 0, 0}},    {"green", {0, 128, 0}},    {"lime", {0, 255, 0}},
+    {"blue", {0, 0, 255}},   {"navy", {0, 0, 128}},      {"yellow", {255, 255, 0}}, {"olive", {128, 128, 0}},
+    {"aqua", {0, 255, 255}}, {"teal", {0, 128, 128}},    {"purple", {128, 0, 128}}, {"fuchsia", {255, 0, 255}}};
 
 static bool is_colour(const std::string& text) {
   if (text == "none" || named_colours.contains(text)) return true;
@@ -60,9 +60,9 @@ constexpr int least_size = 16, most_size = 16384;
 
 void Canvas_arguments::add_to(Command command, const std::string& usual) {
   command
-      .add_option("--size", size,
-                  fmt::format("WIDTHxHEIGHT of the picture in pixels, each from {} to {}; {}", least_size, most_size,
-                              usual))
+      .add_option(
+          "--size", size,
+          fmt::format("WIDTHxHEIGHT of the picture in pixels, each from {} to {}; {}", least_size, most_size, usual))
       .check(none_of([](const std::string& text) -> std::string {
         try {
           parse_size(text, "it", least_size, most_size);
@@ -108,6 +108,11 @@ void View_arguments::add_to(Command command) {
                   "picture, 90 where it is all around the eye")
       .check(range(1.0, 170.0) & finite_number());
   canvas.add_to(command, "by default 960 wide, and as high as what there is to see");
+}
+
+void View_arguments::check_usage() const {
+  if (!look.empty()) parse_direction(look, "--look");
+  if (!up.empty()) parse_direction(up, "--up");
 }
 
 // ---- The camera
@@ -190,7 +195,8 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, const std:
       const Axes axes = axes_of(view);
       View next = view;
       for (std::size_t k = 0; k < 3; ++k)
-        next.look[k] += (span->least[0] + span->half(0)) * axes.right[k] + (span->least[1] + span->half(1)) * axes.up[k];
+        next.look[k] +=
+            (span->least[0] + span->half(0)) * axes.right[k] + (span->least[1] + span->half(1)) * axes.up[k];
       next = aimed(next, scene);
       const std::optional<Span> there = span_of(next, rays);
       if (!there) break;
@@ -213,8 +219,7 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, const std:
   const double inner_width = std::max(view.width - 2 * margin, view.width * 0.5),
                inner_height = std::max(view.height - 2 * margin, view.height * 0.5),
                a_pixel = std::max(half[0] / inner_width, half[1] / inner_height);  // in tangents, twice
-  if (field == 0 && a_pixel > 0)
-    view.field = std::min(150.0, std::atan(a_pixel * view.width) * 360 / 3.14159265358979);
+  if (field == 0 && a_pixel > 0) view.field = std::min(150.0, std::atan(a_pixel * view.width) * 360 / 3.14159265358979);
   return view;
 }
 

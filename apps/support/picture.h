@@ -58,6 +58,7 @@ struct View_arguments {
   Canvas_arguments canvas;
 
   void add_to(Command command);
+  void check_usage() const;  ///< before a long read. Errors: Usage_error
   /// Fitted to the points that are shown, or to all of the scene: what is not given of direction, field and height is
   /// such that these fill the picture but for so many pixels along its sides. Where they are all around the eye, it
   /// looks to the middle of the scene, 90 degrees wide. Aimed, unless the scene is empty. Errors: Usage_error.
