@@ -160,6 +160,19 @@ std::vector<Exact_point> corners_of(const Scene& scene, const std::optional<std:
   return points;
 }
 
+/// A plane in grid coordinates, on the same side of which are the same points.
+std::array<Integer, 4> on_grid(const std::array<Rational, 4>& h, const Scene& scene) {
+  // A point of the grid is at origin + step times its coordinates.
+  const Exact_point origin = scene.position({0, 0, 0, 1});
+  const Rational step = scene.position({1, 0, 0, 1})[0] - origin[0];
+  const std::array<Rational, 4> there{h[0] * step, h[1] * step, h[2] * step, value(h, origin)};
+  Integer denominators = 1;
+  for (const Rational& x : there) denominators = lcm(denominators, x.get_den());
+  std::array<Integer, 4> grid;
+  for (std::size_t k = 0; k < 4; ++k) grid[k] = Rational(there[k] * denominators).get_num();
+  return grid;
+}
+
 /// The fronts of faces, as a painter paints them: what has its back to the eye is left out, so that one looks into
 /// rooms.
 void draw(const Weak_arguments& arguments, Polygon_soup soup, const Occluders& occluders, const Sources& sources,
@@ -196,15 +209,7 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Occluders& o
   Task task;
   task.eye = eye.at;
   task.bsp.threads = arguments.common.threads;
-  if (eye.cut) {
-    const Piece& source = scene.pieces().back();
-    std::array<std::array<Integer, 3>, 3> p;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (int k = 0; k < 3; ++k)
-        p[i][static_cast<std::size_t>(k)] = scene.points().integer(scene.corners(source)[i].point, k);
-    const std::array<Integer, 3> n = cross(minus(p[1], p[0]), minus(p[2], p[0]));
-    task.near = {n[0], n[1], n[2], Integer(-dot(n, p[0]))};
-  } else task.near = near_plane(view, scene);
+  task.near = eye.cut ? on_grid(*eye.cut, scene) : near_plane(view, scene);
   std::vector<Drawn> drawn = run_method("exact", scene, task).drawn;
 
   // 3. Sources are drawn last where one looks through them, and else where they are.

@@ -191,7 +191,7 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, const std:
   if (view.look != Direction3{}) {
     view = aimed(view, scene);
     span = span_of(view, rays);
-    for (int step = 0; to_aim && span && step < 8; ++step) {
+    for (int step = 0; to_aim && span && step < 20; ++step) {
       const Axes axes = axes_of(view);
       View next = view;
       for (std::size_t k = 0; k < 3; ++k)
@@ -209,10 +209,10 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, const std:
     return aimed(view, scene);
   }
 
-  // 3. Height and field: the span, or as much to both sides as the longer one where the direction is given.
-  std::array<double, 2> half{span->half(0), span->half(1)};
-  if (!to_aim)
-    for (std::size_t k = 0; k < 2; ++k) half[k] = std::max(-span->least[k], span->most[k]);
+  // 3. Height and field: to both sides as much as the longer one needs, since the direction may be given, or the steps
+  // have not come to their end.
+  std::array<double, 2> half;
+  for (std::size_t k = 0; k < 2; ++k) half[k] = std::max(-span->least[k], span->most[k]);
   if (canvas.size.empty() && field == 0 && half[0] > 0)
     view.height = static_cast<int>(std::lround(
         std::clamp(2 * margin + (view.width - 2 * margin) * half[1] / half[0], view.width * 0.4, view.width * 1.0)));
@@ -301,6 +301,25 @@ Look pale_look(const Drawn& item, double shade) {
           title_of(item)};
 }
 
+/// The unit normal of a polygon, of whatever size: arms from its first corner are scaled before they are multiplied.
+static Direction3 normal_of(const std::vector<Direction3>& corners) {
+  std::vector<Direction3> arms;
+  double size = 0;
+  for (const Direction3& corner : corners) {
+    arms.push_back(minus(corner, corners[0]));
+    for (const double x : arms.back()) size = std::max(size, std::fabs(x));
+  }
+  Direction3 normal{};
+  if (!(size > 0) || !std::isfinite(size)) return normal;
+  for (Direction3& arm : arms)
+    for (double& x : arm) x /= size;
+  for (std::size_t i = 2; i < arms.size(); ++i) {
+    const Direction3 part = cross(arms[i - 1], arms[i]);
+    for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
+  }
+  return unit(normal);
+}
+
 void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines, const Look_of& look) {
   const Direction3 light = unit({0.3, -0.5, 0.8});
   std::map<Face_id, std::size_t> polygons;  // of each face, so far
@@ -312,15 +331,7 @@ void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool out
       corners.push_back(difference(p, view.eye));
       points.push_back(projected(view, axes, corners.back()));
     }
-    Direction3 normal{};
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      const auto arm = [&](std::size_t k) {
-        return Direction3{corners[k][0] - corners[0][0], corners[k][1] - corners[0][1], corners[k][2] - corners[0][2]};
-      };
-      const Direction3 part = cross(arm(i - 1), arm(i));
-      for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
-    }
-    const auto [fill, title] = look(item, dot(unit(normal), light));
+    const auto [fill, title] = look(item, dot(normal_of(corners), light));
     svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4,
                 fmt::format("face-{}-{}", item.fragment.face, ++polygons[item.fragment.face]), title);
   }

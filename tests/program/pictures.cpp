@@ -112,6 +112,16 @@ TEST_F(Pictures, are_filled_by_a_flat_scene_far_from_the_origin) {
   EXPECT_EQ(picture.polygons.size(), 2u);
 }
 
+TEST_F(Pictures, of_coordinates_from_tiny_to_huge_hold_numbers_alone) {
+  const std::string scene = path("exponents.qoff").string();
+  for (const char* seed : {"2", "3", "8"}) {
+    ASSERT_EQ(run({"generate", "exponents", "--seed", seed, "--out", scene}).code, done);
+    const std::string text = drawn({"see", scene}).text;
+    EXPECT_EQ(text.find("nan"), std::string::npos) << seed;
+    EXPECT_EQ(text.find("inf"), std::string::npos) << seed;
+  }
+}
+
 TEST_F(Pictures, keep_what_is_given_of_direction_and_field) {
   const std::vector<std::string> eye{"see", cube, "--eye", "0.5,-10,0.5"};
   const auto with = [&](std::vector<std::string> more) {
@@ -241,6 +251,15 @@ TEST_F(Pictures, of_weak_in_a_room_are_from_behind_the_source_and_elsewhere_from
   for (const auto& p : inside.polygons.back().points) x += p[0] / 4;
   EXPECT_NEAR(x, inside.width / 2, inside.width / 6);
   expect_filled(inside);
+
+  // A face of the scene as the source cuts away what is behind it as well: here the wall, and a post outside.
+  std::string with_post = read_file(room);
+  with_post.replace(with_post.find("8 6 0"), 5, "11 7 0");
+  with_post.insert(with_post.find("4 0 1 2 3"), "-1 -2 0\n1 -2 0\n0 -2 9\n");
+  const Picture by_wall = drawn({"weak", file("post.off", with_post + "3 8 10 9\n"), "--from-face", "2"});
+  EXPECT_EQ(by_wall.polygons.size(), 6u) << "five walls, and the source";
+  for (const Polygon& polygon : by_wall.polygons) EXPECT_EQ(polygon.id.find("face-6-"), std::string::npos);
+  expect_filled(by_wall);
 
   // Without a roof the lamp of the town is seen from outside, and the source is where the painter puts it.
   const std::string plate = file("plate.off", "OFF\n4 1 0\n-5 -5 0\n5 -5 0\n5 5 0\n-5 5 0\n4 0 1 2 3\n");
