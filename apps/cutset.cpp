@@ -17,6 +17,7 @@ struct Cutset_arguments {
   Common common;
   Path_arguments path;
   Decision_arguments decisions;
+  Canvas_arguments canvas;
   std::string method = "tracker", svg;
   bool faces = false, check = false;
 };
@@ -196,9 +197,9 @@ static Exit run(const Cutset_arguments& arguments) {
     for (const Frame& frame : frames)
       if (!frame.nodes.empty())
         outlines.push_back(
-            {frame.view, frame.nodes,
+            {frame.view, frame.nodes, frame.number,
              fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
-    write_file(arguments.svg, painted(graph, outlines));
+    write_file(arguments.svg, painted(graph, outlines, arguments.canvas));
   }
 
   const std::size_t later = count - 1;
@@ -264,9 +265,13 @@ void add_cutset(Command program) {
                   "1977-literal: the same to the letter, which loses edges of the cut-set")
       .check(one_of({"tracker", "1977", "1977-literal"}))
       .show_default();
-  command.add_option("--svg", a->svg, "draw up to twelve of the frames: on-view faces, and the cut-set as an outline")
+  command
+      .add_option("--svg", a->svg,
+                  "draw up to twelve of the frames: on-view faces, those green that became on-view since the frame "
+                  "drawn before, and the cut-set as an outline")
       .writes_file()
       .check(ending(".svg"));
+  a->canvas.add_to(command, "by default each frame is 300 wide");
   command.footer(
       "Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"
       "         sightline cutset box.off --decision-tree\n"

@@ -197,7 +197,7 @@ std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& trait
       image.changed = static_cast<double>(changed) / static_cast<double>(now.size());
     }
     if (!arguments.pixels.pictures.empty())
-      write_file(fmt::format("{}/image_{:04}.svg", arguments.pixels.pictures, images.size() + 1), painted(image));
+      write_file(picture_file(arguments.pixels, images.size() + 1), painted(image));
     image.by_tree.image = std::vector<std::uint32_t>{};
     images.push_back(std::move(image));
   }
@@ -288,6 +288,12 @@ static Exit run(const Graph_arguments& arguments) {
         "--eye");
 
   const std::vector<View> views = arguments.pixels.size.empty() ? std::vector<View>{} : read_views(arguments.pixels);
+  if (!arguments.pixels.pictures.empty()) {
+    std::vector<Named_file> pictures;
+    for (std::size_t k = 1; k <= views.size(); ++k)
+      pictures.push_back({"--pictures", picture_file(arguments.pixels, k)});
+    common.command->check_outputs(pictures);
+  }
 
   const Scene scene(common.read());
   const Report in_time = common.within_budget([](std::size_t, std::size_t) {});

@@ -89,13 +89,14 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
+  arguments.view.check_usage();
   const bool by_graph = arguments.by_graph();
   if (by_graph && arguments.kernel != "exact") throw Usage_error("--method graph is exact: leave out --kernel");
   if (!by_graph && arguments.two_sided)
     throw Usage_error("--two-sided is for --method graph: a tree draws both sides anyway");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
-  const View view = arguments.view.view(eye, scene);
+  const View view = arguments.svg.empty() ? View{eye} : arguments.view.view(eye, scene);
   const std::optional<std::array<Integer, 4>> near =
       arguments.svg.empty() || scene.counters().faces == 0 ? std::nullopt : near_plane(view, scene);
   Progress progress("building");

@@ -14,6 +14,7 @@
 
 #include <iostream>
 #include <optional>
+#include <set>
 
 namespace sightline::app {
 
@@ -38,7 +39,7 @@ struct Drawn_line {
 struct Seen {
   std::vector<Drawn_line> lines;
   std::vector<Drawn> parts;  ///< fragment.piece: the convex piece; no vertices where nobody asks for them
-  std::vector<Face_id> visible;
+  std::vector<Face_id> visible, from_behind;       ///< from_behind: those that no front shows
   std::optional<Visible_certificate> certificate;  ///< where it is asked for; exact only
   Visible_counters counters;
   std::size_t edge_on = 0,
@@ -56,6 +57,8 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, const Wanted& wan
   Seen seen;
   for (std::uint32_t i = 0; i < view.scene().pieces().size(); ++i) seen.edge_on += view.eye_side(i) == CGAL::ZERO;
   seen.visible = surface.visible;
+  std::set_difference(surface.from_behind.begin(), surface.from_behind.end(), surface.visible.begin(),
+                      surface.visible.end(), std::back_inserter(seen.from_behind));
   seen.counters = surface.counters;
   if (wanted.two_sided) {
     seen.visible.clear();
@@ -118,22 +121,53 @@ Json lines_json(const Scene& scene, const std::vector<Drawn_line>& lines) {
   }
   return all;
 }
-/// Hidden parts dashed, then visible ones: outlines heavier, edges between faces of one plane not at all.
-void draw(Svg& svg, const View& view, const std::vector<Drawn_line>& lines) {
-  for (const bool visible : {false, true})
-    for (const Drawn_line& line : lines) {
+/// Hidden parts dashed, then visible ones: outlines heavier, edges between faces of one plane not at all. Dashes are
+/// of edges that are next to what is seen, at a face or at an end; others are behind it for good, and faint.
+void draw(Svg& svg, const View& view, const Seen& seen) {
+  std::set<Exact_point> ends;
+  std::vector<bool> shown;
+  for (const Drawn& part : seen.parts) {
+    shown.resize(std::max<std::size_t>(shown.size(), part.fragment.face + 1));
+    shown[part.fragment.face] = true;
+  }
+  for (const Drawn_line& line : seen.lines)
+    for (const Line_part& part : line.parts)
+      if (part.hidden_by == Line_part::nothing) {
+        if (part.from == 0) ends.insert(line.ends[0]);
+        if (part.to == 1) ends.insert(line.ends[1]);
+      }
+  const auto is_near = [&](const Drawn_line& line) {
+    return ends.contains(line.ends[0]) || ends.contains(line.ends[1]) ||
+           std::any_of(line.faces.begin(), line.faces.end(),
+                       [&](Face_id face) { return face < shown.size() && shown[face]; });
+  };
+  enum class Pass { behind, dashed, visible };
+  for (const Pass pass : {Pass::behind, Pass::dashed, Pass::visible})
+    for (const Drawn_line& line : seen.lines) {
       const std::string_view kind = line.kind;
       if (kind == "smooth") continue;
       for (const Line_part& part : line.parts) {
-        if ((part.hidden_by == Line_part::nothing) != visible) continue;
+        const Pass its = part.hidden_by == Line_part::nothing ? Pass::visible
+                         : is_near(line)                      ? Pass::dashed
+                                                              : Pass::behind;
+        if (its != pass) continue;
         const Flat_point from = projected(view, point_on(line, part.from)),
                          to = projected(view, point_on(line, part.to));
-        if (visible)
+        if (pass == Pass::visible)
           svg.line(from, to, kind == "intersection" ? "#b0281c" : "#1c1c1c",
-                   kind == "boundary" || kind == "silhouette" ? 1.4 : 0.8);
-        else svg.line(from, to, "#00000050", 0.6, true);
+                   kind == "boundary" || kind == "silhouette" ? 1.6 : 1);
+        else if (pass == Pass::dashed) svg.line(from, to, "#00000090", 0.8, true);
+        else svg.line(from, to, "#00000018", 0.5);
       }
     }
+}
+
+/// Faces that show their front.
+std::size_t fronts_of(const Seen& seen) {
+  std::size_t behind = 0;  // `visible` may count these too
+  for (const Face_id face : seen.from_behind)
+    behind += std::binary_search(seen.visible.begin(), seen.visible.end(), face);
+  return seen.visible.size() - behind;
 }
 
 /// The whole sphere, or the given field of view.
@@ -178,12 +212,14 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
 static Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
+  arguments.view.check_usage();
   if (arguments.kernel != "exact" &&
       (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum || arguments.lines))
     throw Usage_error("--certificate, --svg, --lines and --frustum are exact: leave out --kernel");
   const Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
-  const View view = arguments.view.view(eye, scene);
+  const bool has_view = !arguments.svg.empty() || arguments.frustum;
+  const View view = has_view ? arguments.view.view(eye, scene) : View{eye};
   const bool empty = scene.counters().faces == 0;
   Progress progress("looking");
   Visible_options options;
@@ -199,8 +235,8 @@ static Exit run(const See_arguments& arguments) {
     Svg svg = empty_picture(view);
     if (!empty) {
       const Seen picture = see(scene, eye, "exact", corner_rays(view), {true, true, false, arguments.lines}, options);
-      paint(svg, view, picture.parts, false);
-      draw(svg, view, picture.lines);
+      paint(svg, view, picture.parts, false, arguments.lines ? pale_look : look_by_face);
+      if (arguments.lines) draw(svg, view, picture);
     }
     write_file(arguments.svg, svg.text());
   }
@@ -226,7 +262,10 @@ static Exit run(const See_arguments& arguments) {
   counters["parts"] = seen.parts.size();
   counters["not_finite"] = seen.not_finite;
   counters["predicates"] = predicates_json(c.predicates);
-  Json result{{"eye", point_json(eye)}, {"visible", seen.visible}, {"pieces", std::move(pieces)}},
+  Json result{{"eye", point_json(eye)},
+              {"visible", seen.visible},
+              {"from_behind", seen.from_behind},
+              {"pieces", std::move(pieces)}},
       seconds{{"see", seen.seconds}};
   if (arguments.lines) {
     if (!common.json.empty()) result["lines"] = lines_json(scene, seen.lines);
@@ -240,6 +279,12 @@ static Exit run(const See_arguments& arguments) {
                  seen.edge_on > 0 ? fmt::format(", in the planes of {} pieces, which are edge-on", seen.edge_on) : ""));
   row("visible", fmt::format("{} of {} faces, in {} parts{}", seen.visible.size(), scene.counters().faces, parts,
                              arguments.two_sided ? "" : "; --two-sided counts back sides too"));
+  const std::size_t fronts = fronts_of(seen), backs = seen.from_behind.size();
+  if (backs > 0 && fronts * 9 <= backs)
+    row("turned round?",
+        fmt::format("{} of the {} faces that are seen show their backs: the eye is on their wrong side, or they are "
+                    "turned round; --flip turns the scene, --two-sided counts backs",
+                    backs, fronts + backs));
   row("looked at",
       fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others",
                   c.looked_at, c.opened, c.hidden, c.hidden_boxes));
@@ -281,9 +326,11 @@ void add_see(Command program) {
                    "only what is in the picture's view (--look, --up, --field), not the whole sphere of directions");
   command.add_flag("--lines", a->lines,
                    "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
-                   "in the picture solid and dashed");
+                   "in the picture solid and, next to what is seen, dashed; what is farther behind is faint");
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
-  command.add_option("--svg", a->svg, "draw the visible parts").writes_file().check(ending(".svg"));
+  command.add_option("--svg", a->svg, "draw the visible parts; the n-th polygon of face 7 has the id face-7-n")
+      .writes_file()
+      .check(ending(".svg"));
   a->view.add_to(command);
   command.footer(
       "Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

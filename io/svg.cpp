@@ -7,16 +7,20 @@
 
 namespace sightline {
 
-void Svg::polygon(std::vector<Flat_point> points, std::string_view fill, std::string_view stroke, double stroke_width) {
+void Svg::polygon(std::vector<Flat_point> points, std::string_view fill, std::string_view stroke, double stroke_width,
+                  std::string_view id, std::string_view title) {
   for (const Flat_point& p : points)
     if (!std::isfinite(p[0]) || !std::isfinite(p[1])) return;
   points = clipped(std::move(points));
   if (points.size() < 3) return;
-  body_ += "<polygon points=\"";
+  body_ += "<polygon ";
+  if (!id.empty()) body_ += "id=\"" + std::string(id) + "\" ";
+  body_ += "points=\"";
   for (const Flat_point& p : points) body_ += number(p[0]) + ',' + number(p[1]) + ' ';
   body_.back() = '"';
   body_ += " fill=\"" + std::string(fill) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
-           number(stroke_width) + "\"/>\n";
+           number(stroke_width) +
+           (title.empty() ? "\"/>\n" : "\"><title>" + std::string(title) + "</title></polygon>\n");
 }
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view fill) {
@@ -33,9 +37,11 @@ void Svg::line(const Flat_point& from, const Flat_point& to, std::string_view st
            (dashed ? "\" stroke-dasharray=\"3 3" : "") + "\" stroke-linecap=\"round\"/>\n";
 }
 
-void Svg::label(double x, double y, double size, std::string_view words, std::string_view anchor) {
+void Svg::label(double x, double y, double size, std::string_view words, std::string_view anchor,
+                std::string_view fill) {
   body_ += "<text x=\"" + number(x) + "\" y=\"" + number(y) + "\" font-family=\"sans-serif\" font-size=\"" +
            number(size) + "\"";
+  if (fill != "#000000") body_ += " fill=\"" + std::string(fill) + '"';
   if (anchor != "start") body_ += " text-anchor=\"" + std::string(anchor) + '"';
   body_ += '>' + std::string(words) + "</text>\n";
 }

@@ -19,9 +19,11 @@ class Svg {
     body_ = "<rect width=\"100%\" height=\"100%\" fill=\"" + std::string(background) + "\"/>\n";
   }
 
-  /// A filled convex polygon with a thin outline. Degenerate: what lies outside the frame, or has coordinates that are
-  /// no numbers, is left out.
-  void polygon(std::vector<Flat_point> points, std::string_view fill, std::string_view stroke, double stroke_width);
+  /// A filled convex polygon with a thin outline; with an id, which no other shape has, and a title, which browsers
+  /// show under the pointer, unless they are empty. Pre: as label(). Degenerate: what lies outside the frame, or has
+  /// coordinates that are no numbers, is left out.
+  void polygon(std::vector<Flat_point> points, std::string_view fill, std::string_view stroke, double stroke_width,
+               std::string_view id = {}, std::string_view title = {});
 
   /// A filled rectangle without an outline, its edges sharp. Pre: finite numbers.
   void rectangle(double x, double y, double width, double height, std::string_view fill);
@@ -31,7 +33,8 @@ class Svg {
             bool dashed = false);
   /// A line of text that begins at a place, or has it as its middle or end ("start", "middle", "end"). Pre: no
   /// character that XML reserves.
-  void label(double x, double y, double size, std::string_view words, std::string_view anchor = "start");
+  void label(double x, double y, double size, std::string_view words, std::string_view anchor = "start",
+             std::string_view fill = "#000000");
 
   std::string text() const;
 

@@ -137,6 +137,7 @@ void add_compare(Command program) {
       .check(whole_number())
       .show_default();
   command.add_option("--svg", a->svg, "weak: plot the seconds and the errors").writes_file().check(ending(".svg"));
+  a->canvas.add_to(command, "by default 860x560");
   command.footer(
       "order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of "
       "inexact kernels).\n"

@@ -22,6 +22,7 @@ struct Compare_arguments {
   std::vector<std::size_t> rays{100, 1000, 10000, 100000};
   Weak_task weak;
   std::string svg;
+  Canvas_arguments canvas;
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.

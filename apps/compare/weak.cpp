@@ -50,13 +50,18 @@ static void print_weak(const Json& rows) {
   }
 }
 
-static std::string weak_plot(const Json& rows) {
+static std::string weak_plot(const Json& rows, const Canvas_arguments& canvas) {
   Log_plot plot("Faces seen from polygons: what methods cost, and get wrong", "seconds",
                 "faces wrongly visible, wrongly hidden, or undecided");
+  const auto [width, height] = canvas.size_or({860, 560});
+  const std::string background = canvas.background_or("#ffffff");
+  plot.set_canvas(width, height, background, ink_on(background));
   for (const Json& r : rows) {
     if (r["status"] != "done") continue;
     const Json& e = r["errors"];
-    plot.add(r["method"].get<std::string>(), r["seconds"].get<double>(),
+    const std::string method = r["method"];
+    plot.set_colour(method, colour_of_method(method));
+    plot.add(method, r["seconds"].get<double>(),
              e["wrongly_visible"].get<double>() + e["wrongly_hidden"].get<double>() + e["undecided"].get<double>());
   }
   return plot.text();
@@ -120,7 +125,7 @@ Exit compare_weak(const Compare_arguments& arguments) {
     return r["errors"]["wrongly_hidden"] == 0 && (r["method"] == "conservative" || r["errors"]["wrongly_visible"] == 0);
   });
   if (exit == Exit::done && !exact.undecided.empty()) exit = Exit::undecided;
-  if (!arguments.svg.empty()) write_file(arguments.svg, weak_plot(rows));
+  if (!arguments.svg.empty()) write_file(arguments.svg, weak_plot(rows, arguments.canvas));
   Json result{{"question", "weak"},
               {"visible", exact.visible.size()},
               {"hidden", exact.hidden.size()},

@@ -8,6 +8,7 @@
 #include <sightline/io/read.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
 
+#include <map>
 #include <sstream>
 
 namespace sightline::app {
@@ -86,6 +87,7 @@ Sources sources_of(const Source_arguments& arguments, const Common& common, cons
   for (const std::string& file : arguments.volumes) {
     Common of_file = common;
     of_file.scene = file;
+    of_file.flip = false;  // that turns SCENE alone
     add_volume(sources, occluders, of_file.read(), "--from-volume " + file);
   }
   if (!arguments.solid.empty()) {
@@ -147,6 +149,15 @@ static Weak_faces by_samples(const Occluders& occluders, const Sources& sources,
     if (!std::binary_search(faces.visible.begin(), faces.visible.end(), pieces[first].face))
       faces.hidden.push_back(pieces[first].face);
   return faces;
+}
+
+std::string colour_of_method(const std::string& method) {
+  static const std::map<std::string, std::string> colours{{"lines", "#1f5fa8"},
+                                                          {"events", "#2f8f3a"},
+                                                          {"conservative", "#7a4fb0"},
+                                                          {"doubles", "#d1620b"},
+                                                          {"sample", "#b3262e"}};
+  return colours.at(method);
 }
 
 Weak_outcome run_weak_method(const std::string& method, const Occluders& occluders, const Sources& sources,

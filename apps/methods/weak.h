@@ -51,6 +51,9 @@ struct Weak_outcome {
   std::vector<Face_id> within;     ///< faces that volumes see from within
 };
 
+/// The colour of a method in plots.
+std::string colour_of_method(const std::string& method);
+
 /// `method`: lines, which ends with events where that helps; events, conservative, doubles, sample.
 Weak_outcome run_weak_method(const std::string& method, const Occluders& occluders, const Sources& sources,
                              const Weak_task& task);

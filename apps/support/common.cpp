@@ -1,5 +1,6 @@
 #include "common.h"
 
+#include <sightline/harness/generate/transform.h>
 #include <sightline/io/input.h>
 #include <sightline/io/number_lines.h>
 #include <sightline/io/read.h>
@@ -23,6 +24,9 @@ void Common::add_to(Command of) {
                 "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
       .check(one_of({"exact", "double"}))
       .show_default();
+  of.add_flag("--flip", flip,
+              "turn the scene round: all corners backwards, so that backs become fronts. For faces that run clockwise, "
+              "as those of Quake's .bsp; `verify` takes it too, for what was made with it");
   of.add_option("--threads", threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))
       .show_default();
@@ -44,7 +48,8 @@ std::function<void(std::size_t, std::size_t)> Common::within_budget(
 Polygon_soup Common::read() const {
   Read_options options;
   options.round_to_double = coordinates == "double";
-  return read_scene(input_path(scene), options);
+  Polygon_soup soup = read_scene(input_path(scene), options);
+  return flip ? generate::faces_reversed(soup) : soup;
 }
 
 std::vector<Rational> parse_numbers(const std::string& text, const std::string& wanted) {
@@ -73,7 +78,8 @@ Exact_point eye_of(const std::string& text, const Scene& scene) {
     if (k == 0 || size < side) size = side;
     eye[k] = (box[0][k] + box[1][k]) / 2;
   }
-  const std::array<Rational, 3> away{Rational(-3, 5), Rational(-11, 10), Rational(7, 10)};
+  const bool is_flat = 5 * (box[1][2] - box[0][2]) < size;  // to be looked at from higher up
+  const std::array<Rational, 3> away{Rational(-3, 5), Rational(-11, 10), is_flat ? Rational(3, 2) : Rational(7, 10)};
   for (std::size_t k = 0; k < 3; ++k) eye[k] += size * away[k];
   return eye;
 }
@@ -123,6 +129,7 @@ bool write_json(const Common& common, const std::string& command, const Scene& s
   Json document;
   document["command"] = command;
   document["scene"] = scene_json(scene);
+  if (common.flip) document["scene"]["flipped"] = true;
   document["result"] = std::move(result);
   document["counters"] = std::move(counters);
   document["seconds"] = std::move(seconds);

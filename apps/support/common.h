@@ -23,6 +23,7 @@ struct Common {
   std::string scene;
   std::string json;  ///< a file, "-" for standard output, or empty
   std::string coordinates = "exact";
+  bool flip = false;  ///< each loop of the scene backwards
   int threads = 0;
   std::uint64_t seed = 1;
   double budget = 0;  ///< seconds; 0: none

@@ -11,6 +11,7 @@
 #include <csignal>
 #include <fstream>
 #include <iostream>
+#include <map>
 
 namespace sightline::app {
 
@@ -39,22 +40,33 @@ static bool clash(const Named_file& a, const Named_file& b) {
   return a.name == "-" || b.name == "-" ? a.name == b.name : same_file(a.name, b.name);
 }
 
-void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs) {
+/// Errors: Usage_error where an output is one of the inputs, or one of the first so many of the others.
+static void check_output(const Named_file& output, const std::vector<Named_file>& inputs,
+                         const std::vector<Named_file>& others, std::size_t count) {
+  for (const Named_file& input : inputs)
+    if (output.name != "-" && clash(output, input))
+      throw Usage_error(fmt::format("{} {}: that is the file that {} reads, which would be lost; name another one",
+                                    output.option, output.name, input.option));
+  for (std::size_t j = 0; j < count; ++j)
+    if (clash(output, others[j]))
+      throw Usage_error(fmt::format("{} {}: that is where {} writes to already; name another file", output.option,
+                                    output.name, others[j].option));
+}
+
+void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs,
+                 const std::vector<Named_file>& many) {
   for (std::size_t i = 0; i < inputs.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (inputs[i].name == "-" && inputs[j].name == "-")
         throw Usage_error(
             fmt::format("{} -: {} reads standard input already; name a file", inputs[i].option, inputs[j].option));
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    const Named_file& output = outputs[i];
-    for (const Named_file& input : inputs)
-      if (output.name != "-" && clash(output, input))
-        throw Usage_error(fmt::format("{} {}: that is the file that {} reads, which would be lost; name another one",
-                                      output.option, output.name, input.option));
-    for (std::size_t j = 0; j < i; ++j)
-      if (clash(output, outputs[j]))
-        throw Usage_error(fmt::format("{} {}: that is where {} writes to already; name another file", output.option,
-                                      output.name, outputs[j].option));
+  for (std::size_t i = 0; i < outputs.size(); ++i) check_output(outputs[i], inputs, outputs, i);
+  std::map<fs::path, std::string> places;  // of the many: two are one only by a link
+  for (const Named_file& output : many) {
+    check_output(output, inputs, outputs, outputs.size());
+    if (const auto [found, is_new] = places.emplace(place_of(output.name), output.name); !is_new)
+      throw Usage_error(fmt::format("{} {}: that is {} by a link; remove it, or name another folder", output.option,
+                                    output.name, found->second));
   }
 }
 

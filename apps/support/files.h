@@ -15,8 +15,10 @@ struct Named_file {
 };
 
 /// Errors: Usage_error where an output is a file that is read or another output, whatever names they have (links too),
-/// and where two are "-". Devices and pipes may be named twice.
-void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs);
+/// and where two are "-". Devices and pipes may be named twice. `many` are outputs too, in any number: files of a
+/// folder. Cost: a look at the disk for each pair but those of two of the many.
+void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs,
+                 const std::vector<Named_file>& many = {});
 
 /// All bytes of an input. Errors: Input_error.
 std::string read_input(const std::string& name);

@@ -67,6 +67,10 @@ Check finite_number() {
                ""});
 }
 
+Check none_of(std::function<std::string(const std::string&)> wrong) {
+  return made({[wrong = std::move(wrong)](std::string& text) { return wrong(text); }, ""});
+}
+
 // ---- Options
 
 Option Option::required() const { return Option(*option_->required()); }
@@ -127,6 +131,10 @@ static std::vector<Named_file> files_of(const CLI::App& app, std::string_view ki
 bool Command::writes_standard_output() const {
   const std::vector<Named_file> outputs = files_of(*app_, output_file);
   return std::any_of(outputs.begin(), outputs.end(), [](const Named_file& output) { return output.name == "-"; });
+}
+
+void Command::check_outputs(const std::vector<Named_file>& more) const {
+  check_files(files_of(*app_, input_file), files_of(*app_, output_file), more);
 }
 
 void Command::set_action(std::function<Exit()> action) const {

@@ -19,6 +19,8 @@ class Validator;
 
 namespace sightline::app {
 
+struct Named_file;
+
 /// What the program's exit code says.
 enum class Exit : int {
   done = 0,
@@ -57,6 +59,8 @@ Check ending(const std::string& wanted);
 /// What CLI11's own conversions leave out: they wrap -1 to 2^64 - 1, and let nan through every range.
 Check whole_number();
 Check finite_number();
+/// Holds where `wrong` finds nothing to say of the text.
+Check none_of(std::function<std::string(const std::string&)> wrong);
 
 /// An option of a command, as a handle: copies are the same option. Each change returns the option.
 class Option {
@@ -103,6 +107,9 @@ class Command {
   Option add_flag(std::string_view name, std::string& variable, std::string_view description) const;
   void footer(std::string_view text) const;  ///< of its help
   bool writes_standard_output() const;       ///< once the command line is read: an output is "-"
+  /// Holds outputs that no option names to the files of the command line and to each other, as check_files does. Once
+  /// the command line is read. Errors: Usage_error.
+  void check_outputs(const std::vector<Named_file>& more) const;
 
   /// Lets a command do its work after the whole command line is read; what `action` returns becomes the program's exit
   /// code. Pre: called once for a command.

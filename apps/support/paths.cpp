@@ -5,6 +5,9 @@
 #include <sightline/io/svg.h>
 #include <sightline/io/decimal.h>
 
+#include <map>
+#include <set>
+
 namespace sightline::app {
 
 void add_to(Command command, Path_arguments& arguments) {
@@ -97,16 +100,27 @@ Path path_of(const Path_arguments& arguments, const Scene& scene) {
 
 // ---- Pictures
 
-/// Points on a picture of a size, and how deep they are.
+/// Points on a picture, in units of their own, and how deep they are; and the part of the picture that shows them.
 struct Projection {
   std::vector<Flat_point> flat;
   std::vector<double> depth;
+  Flat_point least{-1, -1}, most{1, 1};
+
+  double wide() const { return std::max(1e-9, most[0] - least[0]); }
+  double high() const { return std::max(1e-9, most[1] - least[1]); }
+  /// Moves all into a picture of a size.
+  void fit(double width, double height) {
+    const double scale = 0.94 * std::min(width / wide(), height / high());
+    for (Flat_point& p : flat)
+      p = {width / 2 + scale * (p[0] - (least[0] + most[0]) / 2),
+           height / 2 + scale * (p[1] - (least[1] + most[1]) / 2)};
+  }
 };
 
-/// The points as seen from a viewpoint; all of them fill the picture where all are in front of it. `points` and `eye`
-/// are from the scene's centre, its longest side two long.
+/// The points as seen from a viewpoint; the part that shows them is all of them where they are in front of it. `points`
+/// and `eye` are from the scene's centre, its longest side two long.
 static Projection projected(const std::vector<Direction3>& points, const Viewpoint& viewpoint, const Direction3& eye,
-                            const Scene& scene, double wide, double high) {
+                            const Scene& scene) {
   const bool parallel = viewpoint.at_infinity;
   View view;
   view.eye = viewpoint.at;
@@ -123,57 +137,84 @@ static Projection projected(const std::vector<Direction3>& points, const Viewpoi
     to.flat.push_back({dot(v, axes.right) / over, -dot(v, axes.up) / over});
     reach = std::max(reach, std::sqrt(dot(p, p)));
   }
-  std::array<double, 2> least{-1, -1}, most{1, 1};
   if (parallel || std::sqrt(dot(eye, eye)) > 1.01 * reach) {
-    least = {1e300, 1e300};
-    most = {-1e300, -1e300};
+    to.least = {1e300, 1e300};
+    to.most = {-1e300, -1e300};
     for (const Flat_point& p : to.flat)
       for (std::size_t k = 0; k < 2; ++k) {
-        least[k] = std::min(least[k], p[k]);
-        most[k] = std::max(most[k], p[k]);
+        to.least[k] = std::min(to.least[k], p[k]);
+        to.most[k] = std::max(to.most[k], p[k]);
       }
   }
-  const double scale =
-      0.94 * std::min(wide / std::max(1e-9, most[0] - least[0]), high / std::max(1e-9, most[1] - least[1]));
-  for (Flat_point& p : to.flat)
-    p = {wide / 2 + scale * (p[0] - (least[0] + most[0]) / 2), high / 2 + scale * (p[1] - (least[1] + most[1]) / 2)};
   return to;
 }
 
-std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines) {
+/// The faces of nodes that are on-view in one frame and not in another.
+static std::set<Face_id> faces_of(const Face_graph& graph, const std::vector<bool>& on, const std::vector<bool>& off) {
+  std::set<Face_id> faces;
+  const std::vector<Piece>& pieces = graph.scene().pieces();
+  for (std::uint32_t i = 0; i < pieces.size(); ++i)
+    if (on[graph.node(i)] && !off[graph.node(i)]) faces.insert(pieces[i].face);
+  return faces;
+}
+
+std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas) {
+  // 1. All frames, each as high as the highest needs.
   const Scene& scene = graph.scene();
-  constexpr int wide = 300, high = 240, title = 20;
-  const int columns = static_cast<int>(std::min<std::size_t>(4, std::max<std::size_t>(1, outlines.size()))),
-            rows = (static_cast<int>(outlines.size()) + columns - 1) / columns;
-  Svg svg(columns * wide, std::max(1, rows) * (high + title), "#ffffff");
-  if (scene.counters().faces == 0) return svg.text();
-  const auto box = scene.box();
-  Exact_point centre;
-  Rational half = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    centre[k] = (box[0][k] + box[1][k]) / 2;
-    half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
-  }
-  const auto place = [&](const Exact_point& p) {
-    return Direction3{nearest_double(Rational((p[0] - centre[0]) / half)),
-                      nearest_double(Rational((p[1] - centre[1]) / half)),
-                      nearest_double(Rational((p[2] - centre[2]) / half))};
-  };
+  const bool empty = scene.counters().faces == 0;
   std::vector<Direction3> points;
-  for (std::uint32_t p = 0; p < scene.points().size(); ++p) points.push_back(place(scene.position(p)));
+  std::vector<Projection> frames;
+  if (!empty) {
+    const auto box = scene.box();
+    Exact_point centre;
+    Rational half = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      centre[k] = (box[0][k] + box[1][k]) / 2;
+      half = std::max(half, Rational((box[1][k] - box[0][k]) / 2));
+    }
+    const auto place = [&](const Exact_point& p) {
+      return Direction3{nearest_double(Rational((p[0] - centre[0]) / half)),
+                        nearest_double(Rational((p[1] - centre[1]) / half)),
+                        nearest_double(Rational((p[2] - centre[2]) / half))};
+    };
+    for (std::uint32_t p = 0; p < scene.points().size(); ++p) points.push_back(place(scene.position(p)));
+    for (const Outline& outline : outlines)
+      frames.push_back(
+          projected(points, outline.view, outline.view.at_infinity ? Direction3{} : place(outline.view.at), scene));
+  }
+  constexpr double title = 38, legend = 28;
+  const std::size_t columns = std::min<std::size_t>(4, std::max<std::size_t>(1, outlines.size())),
+                    rows = std::max<std::size_t>(1, (outlines.size() + columns - 1) / columns);
+  const auto whole = [&](double wide) {  // the picture's size, of frames so wide
+    double steepest = 0.3;
+    for (const Projection& frame : frames) steepest = std::max(steepest, frame.high() / frame.wide());
+    return std::array<int, 2>{
+        static_cast<int>(static_cast<double>(columns) * wide),
+        static_cast<int>(static_cast<double>(rows) * (std::min(1.2, steepest) * wide + title) + legend)};
+  };
+  const std::array<int, 2> size = canvas.size_or(whole(300));
+  const double wide = static_cast<double>(size[0]) / static_cast<double>(columns),
+               high = std::max(1.0, (size[1] - legend) / static_cast<double>(rows) - title);
+  const std::string background = canvas.background_or("#ffffff"), ink = ink_on(background);
+  Svg svg(size[0], size[1], background);
+  if (empty) return svg.text();
 
   for (std::size_t number = 0; number < outlines.size(); ++number) {
     const Outline& outline = outlines[number];
-    const Projection to = projected(
-        points, outline.view, outline.view.at_infinity ? Direction3{} : place(outline.view.at), scene, wide, high);
-    const double left = static_cast<double>(static_cast<int>(number) % columns * wide),
-                 top = static_cast<double>(static_cast<int>(number) / columns * (high + title) + title);
+    Projection& to = frames[number];
+    to.fit(wide, high);
+    const double left = static_cast<double>(number % columns) * wide,
+                 top = static_cast<double>(number / columns) * (high + title) + title;
     const auto at = [&](std::uint32_t p) { return Flat_point{left + to.flat[p][0], top + to.flat[p][1]}; };
     const auto shown = [&](std::uint32_t p) {
       return to.depth[p] > 1e-3 && to.flat[p][0] >= 0 && to.flat[p][0] <= wide && to.flat[p][1] >= 0 &&
              to.flat[p][1] <= high;
     };
-    // On-view faces, the far ones first; then the cut-set.
+    // 2. What changed.
+    const std::vector<bool>& before = outlines[number == 0 ? 0 : number - 1].on_view;
+    const std::set<Face_id> born = faces_of(graph, outline.on_view, before),
+                            gone = faces_of(graph, before, outline.on_view);
+    // 3. On-view faces, the far ones first; then the cut-set.
     std::vector<std::pair<double, std::uint32_t>> order;
     for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
       const auto corners = scene.corners(scene.pieces()[i]);
@@ -185,16 +226,31 @@ std::string painted(const Face_graph& graph, const std::vector<Outline>& outline
       order.emplace_back(-sum / static_cast<double>(corners.size()), i);
     }
     std::sort(order.begin(), order.end());
+    std::map<Face_id, std::size_t> polygons;  // of each face, so far
     for (const auto& [far, i] : order) {
+      const Face_id face = scene.pieces()[i].face;
+      const bool is_born = number > 0 && !before[graph.node(i)];
       std::vector<Flat_point> polygon;
       for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) polygon.push_back(at(corner.point));
-      svg.polygon(std::move(polygon), "#e3e8ee", "#9aa7b5", scene.pieces().size() > 3000 ? 0.15 : 0.4);
+      svg.polygon(std::move(polygon), is_born ? "#a9d6a0" : "#e3e8ee", is_born ? "#5b9e6f" : "#9aa7b5",
+                  scene.pieces().size() > 3000 ? 0.15 : 0.4,
+                  fmt::format("frame-{}-face-{}-{}", outline.number, face, ++polygons[face]),
+                  fmt::format("face {}{}", face, is_born ? ", became on-view" : ""));
     }
     for (const Face_graph::Edge& edge : graph.edges())
       if (outline.on_view[edge.first] != outline.on_view[edge.second] && shown(edge.from) && shown(edge.to))
         svg.line(at(edge.from), at(edge.to), "#c0392b", 1.2);
-    svg.label(left + 6, top - 6, 12, outline.title);
+    svg.label(left + 6, top - 22, 12, outline.title, "start", ink);
+    svg.label(left + 6, top - 7, 12,
+              number == 0 ? "the first frame"
+                          : fmt::format("since {}: {} became on-view, {} off-view", outlines[number - 1].number,
+                                        born.size(), gone.size()),
+              "start", ink);
   }
+  svg.label(6, size[1] - 10, 12,
+            "grey: on-view faces; green: those that became on-view since the frame drawn before; red: edges of the "
+            "cut-set, between on-view and off-view",
+            "start", ink);
   return svg.text();
 }
 

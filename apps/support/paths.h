@@ -37,11 +37,13 @@ Path path_of(const Path_arguments& arguments, const Scene& scene);
 struct Outline {
   Viewpoint view;
   std::vector<bool> on_view;
+  std::size_t number;  ///< of the frame
   std::string title;
 };
 inline constexpr std::size_t pictures_in_a_strip = 12;
 /// The frames beside each other: on-view faces, the far ones first by the distance of their middle (a sketch: `order`
-/// is exact), and the edges of the cut-set.
-std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines);
+/// is exact), and the edges of the cut-set; under each frame how many faces became on-view and off-view since the
+/// frame before it in the picture, those that became on-view green. Face 7 of frame 2 has the ids frame-2-face-7-n.
+std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas);
 
 }  // namespace sightline::app

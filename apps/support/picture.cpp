@@ -1,5 +1,11 @@
 #include "picture.h"
 
+#include <sightline/kernel/quoted.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
 namespace sightline::app {
 
 static Direction3 unit(const Direction3& a) {
@@ -23,20 +29,198 @@ static Direction3 parse_direction(const std::string& text, const std::string& op
   return direction;
 }
 
-void View_arguments::add_to(Command command) {
-  command.add_option("--look", look, "direction X,Y,Z of the picture; by default to the centre of the scene");
-  command.add_option("--up", up, "up direction X,Y,Z of the picture (0,0,1)");
-  command.add_option("--field", field, "width of the picture's view in degrees")
-      .check(range(1.0, 170.0) & finite_number())
-      .show_default();
+// ---- Options
+
+std::array<int, 2> parse_size(const std::string& text, const std::string& option, int least, int most) {
+  std::istringstream in(text);
+  std::array<int, 2> size{};
+  char times = 0;
+  const auto good = [&](int x) { return x >= least && x <= most; };
+  if (text.find_first_not_of("0123456789x") != std::string::npos || !(in >> size[0] >> times >> size[1]) ||
+      times != 'x' || !in.eof() || !good(size[0]) || !good(size[1]))
+    throw Usage_error(fmt::format("{0} wants WIDTHxHEIGHT from {1}x{1} to {2}x{2}, not {3}", option, least, most,
+                                  sightline::quoted(text)));
+  return size;
 }
 
-View View_arguments::view(const Exact_point& eye, const Scene& scene) const {
+/// Names of colours, and their red, green and blue.
+static const std::map<std::string, std::array<int, 3>> named_colours{
+    {"black", {0, 0, 0}},    {"white", {255, 255, 255}}, {"gray", {128, 128, 128}}, {"silver", {192, 192, 192}},
+    {"red", {255, 0, 0}},    {"maroon", {128, 0, 0}},    {"green", {0, 128, 0}},    {"lime", {0, 255, 0}},
+    {"blue", {0, 0, 255}},   {"navy", {0, 0, 128}},      {"yellow", {255, 255, 0}}, {"olive", {128, 128, 0}},
+    {"aqua", {0, 255, 255}}, {"teal", {0, 128, 128}},    {"purple", {128, 0, 128}}, {"fuchsia", {255, 0, 255}}};
+
+static bool is_colour(const std::string& text) {
+  if (text == "none" || named_colours.contains(text)) return true;
+  return (text.size() == 4 || text.size() == 7) && text[0] == '#' &&
+         text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+}
+
+constexpr int least_size = 16, most_size = 16384;
+
+void Canvas_arguments::add_to(Command command, const std::string& usual) {
+  command
+      .add_option(
+          "--size", size,
+          fmt::format("WIDTHxHEIGHT of the picture in pixels, each from {} to {}; {}", least_size, most_size, usual))
+      .check(none_of([](const std::string& text) -> std::string {
+        try {
+          parse_size(text, "it", least_size, most_size);
+          return "";
+        } catch (const Usage_error& error) {
+          return error.what();
+        }
+      }));
+  command
+      .add_option("--background", background,
+                  "of the picture: #rgb or #rrggbb in hexadecimal digits, a name of HTML's sixteen, or none, which is "
+                  "transparent")
+      .check(none_of([](const std::string& text) -> std::string {
+        if (is_colour(text)) return "";
+        std::string names;
+        for (const auto& [name, value] : named_colours) names += name + ", ";
+        return sightline::quoted(text) + " is no colour: give #rgb, #rrggbb, " + names + "or none";
+      }));
+}
+
+std::array<int, 2> Canvas_arguments::size_or(const std::array<int, 2>& usual) const {
+  return size.empty() ? usual : parse_size(size, "--size", least_size, most_size);
+}
+
+std::string ink_on(const std::string& background) {
+  std::array<int, 3> colour{255, 255, 255};
+  if (const auto named = named_colours.find(background); named != named_colours.end()) colour = named->second;
+  else if (background != "none")
+    for (std::size_t k = 0; k < 3; ++k)
+      colour[k] = background.size() == 4 ? 17 * std::stoi(background.substr(1 + k, 1), nullptr, 16)
+                                         : std::stoi(background.substr(1 + 2 * k, 2), nullptr, 16);
+  // How bright each of the three looks.
+  return 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2] > 110 ? "#000000" : "#f4f3ef";
+}
+
+void View_arguments::add_to(Command command) {
+  command.add_option("--look", look,
+                     "direction X,Y,Z of the picture; by default to the middle of what there is to see");
+  command.add_option("--up", up, "up direction X,Y,Z of the picture (0,0,1)");
+  command
+      .add_option("--field", field,
+                  "width of the picture's view in degrees; by default so wide that what there is to see fills the "
+                  "picture, 90 where it is all around the eye")
+      .check(range(1.0, 170.0) & finite_number());
+  canvas.add_to(command, "by default 960 wide, and as high as what there is to see");
+}
+
+void View_arguments::check_usage() const {
+  if (!look.empty()) parse_direction(look, "--look");
+  if (!up.empty()) parse_direction(up, "--up");
+}
+
+// ---- The camera
+
+/// What directions span in a picture: the tangents of their angles to the right and upwards.
+struct Span {
+  std::array<double, 2> least{1e300, 1e300}, most{-1e300, -1e300};
+  double half(std::size_t k) const { return (most[k] - least[k]) / 2; }
+};
+/// None where one of the directions is not well before the eye.
+static std::optional<Span> span_of(const View& view, const std::vector<Direction3>& rays) {
+  constexpr double well_before = 0.2;  // the cosine of 78 degrees
+  const auto [right, up] = axes_of(view);
+  Span span;
+  for (const Direction3& ray : rays) {
+    const double depth = dot(ray, view.look);
+    if (!(depth > well_before)) return std::nullopt;
+    const std::array<double, 2> at{dot(ray, right) / depth, dot(ray, up) / depth};
+    for (std::size_t k = 0; k < 2; ++k) {
+      span.least[k] = std::min(span.least[k], at[k]);
+      span.most[k] = std::max(span.most[k], at[k]);
+    }
+  }
+  return span;
+}
+
+/// The axis of a narrow cone around unit vectors: it goes towards the farthest one, by ever shorter steps.
+static Direction3 middle_of(const std::vector<Direction3>& rays) {
+  Direction3 axis{};
+  for (const Direction3& ray : rays)
+    for (std::size_t k = 0; k < 3; ++k) axis[k] += ray[k];
+  axis = unit(axis);
+  for (int step = 2; step < 40; ++step) {
+    const auto far = std::min_element(rays.begin(), rays.end(), [&](const Direction3& a, const Direction3& b) {
+      return dot(a, axis) < dot(b, axis);
+    });
+    for (std::size_t k = 0; k < 3; ++k) axis[k] += ((*far)[k] - axis[k]) / step;
+    axis = unit(axis);
+  }
+  return axis;
+}
+
+View View_arguments::view(const Exact_point& eye, const Scene& scene, double margin) const {
+  std::vector<Exact_point> all;
+  std::vector<bool> taken(scene.points().size());
+  for (const Piece& piece : scene.pieces())
+    for (const Piece_corner& corner : scene.corners(piece))
+      if (!taken[corner.point]) {
+        taken[corner.point] = true;
+        all.push_back(scene.position(corner.point));
+      }
+  return view(eye, scene, all, margin);
+}
+
+View View_arguments::view(const Exact_point& eye, const Scene& scene, const std::vector<Exact_point>& shown,
+                          double margin) const {
+  // 1. What is given.
   View view{eye};
   if (!look.empty()) view.look = parse_direction(look, "--look");
   if (!up.empty()) view.up = parse_direction(up, "--up");
-  view.field = field;
-  return scene.counters().faces > 0 ? aimed(view, scene) : view;
+  const auto [width, height] = canvas.size_or({view.width, view.height});
+  view.width = width;
+  view.height = height;
+  view.background = canvas.background_or(view.background);
+  view.field = field > 0 ? field : 90;
+  if (scene.counters().faces == 0) return view;
+
+  // 2. The direction: to the middle of what is shown, which each step brings nearer.
+  std::vector<Direction3> rays;
+  for (const Exact_point& p : shown)
+    if (const Direction3 ray = unit(difference(p, eye)); ray != Direction3{}) rays.push_back(ray);
+  if (rays.empty()) return aimed(view, scene);
+  const bool to_aim = look.empty();
+  if (to_aim) view.look = middle_of(rays);
+  std::optional<Span> span;
+  if (view.look != Direction3{}) {
+    view = aimed(view, scene);
+    span = span_of(view, rays);
+    for (int step = 0; to_aim && span && step < 20; ++step) {
+      const Axes axes = axes_of(view);
+      View next = view;
+      for (std::size_t k = 0; k < 3; ++k)
+        next.look[k] +=
+            (span->least[0] + span->half(0)) * axes.right[k] + (span->least[1] + span->half(1)) * axes.up[k];
+      next = aimed(next, scene);
+      const std::optional<Span> there = span_of(next, rays);
+      if (!there) break;
+      view = next;
+      span = there;
+    }
+  }
+  if (!span) {
+    if (to_aim) view.look = {};
+    return aimed(view, scene);
+  }
+
+  // 3. Height and field: to both sides as much as the longer one needs, since the direction may be given, or the steps
+  // have not come to their end.
+  std::array<double, 2> half;
+  for (std::size_t k = 0; k < 2; ++k) half[k] = std::max(-span->least[k], span->most[k]);
+  if (canvas.size.empty() && field == 0 && half[0] > 0)
+    view.height = static_cast<int>(std::lround(
+        std::clamp(2 * margin + (view.width - 2 * margin) * half[1] / half[0], view.width * 0.4, view.width * 1.0)));
+  const double inner_width = std::max(view.width - 2 * margin, view.width * 0.5),
+               inner_height = std::max(view.height - 2 * margin, view.height * 0.5),
+               a_pixel = std::max(half[0] / inner_width, half[1] / inner_height);  // in tangents, twice
+  if (field == 0 && a_pixel > 0) view.field = std::min(150.0, std::atan(a_pixel * view.width) * 360 / 3.14159265358979);
+  return view;
 }
 
 View aimed(View view, const Scene& scene) {
@@ -97,16 +281,48 @@ Flat_point projected(const View& view, const Exact_point& p) {
   return projected(view, axes_of(view), difference(p, view.eye));
 }
 
-Svg empty_picture(const View& view) { return {view.width, view.height, "#f4f3ef"}; }
+// ---- Polygons
 
-std::string colour_by_face(const Drawn& item, double shade) {
+Svg empty_picture(const View& view) { return {view.width, view.height, view.background}; }
+
+static std::string title_of(const Drawn& item) {
+  return fmt::format("face {}{}", item.fragment.face, item.side == CGAL::NEGATIVE ? ", from behind" : "");
+}
+static double hue_of(const Drawn& item) { return std::fmod(item.fragment.face * 137.50776405, 360.0); }
+
+Look look_by_face(const Drawn& item, double shade) {
   const bool front = item.side == CGAL::POSITIVE;
-  return fmt::format("hsl({:.0f},{}%,{:.0f}%)", std::fmod(item.fragment.face * 137.50776405, 360.0), front ? 45 : 12,
-                     (front ? 62 : 55) + 18 * shade);
+  return {fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue_of(item), front ? 45 : 12, (front ? 62 : 55) + 18 * shade),
+          title_of(item)};
+}
+Look pale_look(const Drawn& item, double shade) {
+  const bool front = item.side == CGAL::POSITIVE;
+  return {fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue_of(item), front ? 30 : 6, (front ? 88 : 80) + 7 * shade),
+          title_of(item)};
 }
 
-void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines, const Colour& colour) {
+/// The unit normal of a polygon, of whatever size: arms from its first corner are scaled before they are multiplied.
+static Direction3 normal_of(const std::vector<Direction3>& corners) {
+  std::vector<Direction3> arms;
+  double size = 0;
+  for (const Direction3& corner : corners) {
+    arms.push_back(minus(corner, corners[0]));
+    for (const double x : arms.back()) size = std::max(size, std::fabs(x));
+  }
+  Direction3 normal{};
+  if (!(size > 0) || !std::isfinite(size)) return normal;
+  for (Direction3& arm : arms)
+    for (double& x : arm) x /= size;
+  for (std::size_t i = 2; i < arms.size(); ++i) {
+    const Direction3 part = cross(arms[i - 1], arms[i]);
+    for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
+  }
+  return unit(normal);
+}
+
+void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines, const Look_of& look) {
   const Direction3 light = unit({0.3, -0.5, 0.8});
+  std::map<Face_id, std::size_t> polygons;  // of each face, so far
   const Axes axes = axes_of(view);
   for (const Drawn& item : drawn) {
     std::vector<Flat_point> points;
@@ -115,16 +331,9 @@ void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool out
       corners.push_back(difference(p, view.eye));
       points.push_back(projected(view, axes, corners.back()));
     }
-    Direction3 normal{};
-    for (std::size_t i = 2; i < corners.size(); ++i) {
-      const auto arm = [&](std::size_t k) {
-        return Direction3{corners[k][0] - corners[0][0], corners[k][1] - corners[0][1], corners[k][2] - corners[0][2]};
-      };
-      const Direction3 part = cross(arm(i - 1), arm(i));
-      for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
-    }
-    const std::string fill = colour(item, dot(unit(normal), light));
-    svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4);
+    const auto [fill, title] = look(item, dot(normal_of(corners), light));
+    svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4,
+                fmt::format("face-{}-{}", item.fragment.face, ++polygons[item.fragment.face]), title);
   }
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// A perspective picture of an order, drawn as a painter would.
+// Perspective pictures of polygons, drawn as a painter would: the canvas, the camera, colours and names.
 
 #include "common.h"
 
@@ -25,6 +25,22 @@ struct Drawn {
   Sign side = CGAL::ZERO;    ///< of the eye to the face's front, as the kernel saw it
 };
 
+/// Two whole numbers, as in 960x720. Errors: Usage_error naming the option, where it is something else, or one of them
+/// is not between least and most.
+std::array<int, 2> parse_size(const std::string& text, const std::string& option, int least, int most);
+
+/// What a picture is drawn on: the options of every command that draws one.
+struct Canvas_arguments {
+  std::string size, background;
+
+  /// `usual`: what the help says of the size where none is given.
+  void add_to(Command command, const std::string& usual);
+  std::array<int, 2> size_or(const std::array<int, 2>& usual) const;
+  std::string background_or(const std::string& usual) const { return background.empty() ? usual : background; }
+};
+/// The colour of words on a background: dark, or light where that is dark. Pre: one that --background takes.
+std::string ink_on(const std::string& background);
+
 /// Where one looks from, and where to.
 struct View {
   Exact_point eye;
@@ -32,16 +48,22 @@ struct View {
   std::array<double, 3> up{0, 0, 1};
   double field = 60;  ///< degrees, of the picture's width
   int width = 960, height = 720;
+  std::string background = "#f4f3ef";
 };
 
 /// The options of a picture's view.
 struct View_arguments {
   std::string look, up;
-  double field = 60;
+  double field = 0;  ///< 0: so that what is shown fills the picture
+  Canvas_arguments canvas;
 
   void add_to(Command command);
-  /// Aimed, unless the scene is empty. Errors: Usage_error.
-  View view(const Exact_point& eye, const Scene& scene) const;
+  void check_usage() const;  ///< before a long read. Errors: Usage_error
+  /// Fitted to the points that are shown, or to all of the scene: what is not given of direction, field and height is
+  /// such that these fill the picture but for so many pixels along its sides. Where they are all around the eye, it
+  /// looks to the middle of the scene, 90 degrees wide. Aimed, unless the scene is empty. Errors: Usage_error.
+  View view(const Exact_point& eye, const Scene& scene, double margin = 24) const;
+  View view(const Exact_point& eye, const Scene& scene, const std::vector<Exact_point>& shown, double margin) const;
 };
 
 /// Unit vectors to the right and upwards in the picture.
@@ -59,14 +81,20 @@ std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& 
 std::vector<Exact_point> corner_rays(const View& view);
 /// A point of the scene in the picture. Pre: in front of the eye.
 Flat_point projected(const View& view, const Exact_point& p);
-/// A colour that SVG knows, for a polygon and a shade from -1 to 1 by the way that it faces.
-using Colour = std::function<std::string(const Drawn&, double)>;
-/// A hue for each face; back sides are duller.
-std::string colour_by_face(const Drawn& item, double shade);
-/// Paints each polygon over those before it, with thin outlines or without. Pre: nothing drawn is behind the near
-/// plane.
+/// How a polygon is drawn.
+struct Look {
+  std::string fill;   ///< a colour that SVG knows
+  std::string title;  ///< what it is, in words
+};
+/// For a polygon and a shade from -1 to 1 by the way that it faces.
+using Look_of = std::function<Look(const Drawn&, double shade)>;
+/// A hue for each face; back sides are duller. Pale ones are paper for lines.
+Look look_by_face(const Drawn& item, double shade);
+Look pale_look(const Drawn& item, double shade);
+/// Paints each polygon over those before it, with thin outlines or without. The n-th polygon of face 7 has the id
+/// face-7-n, from 1. Pre: nothing drawn is behind the near plane.
 void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines,
-           const Colour& colour = colour_by_face);
+           const Look_of& look = look_by_face);
 Svg empty_picture(const View& view);
 
 }  // namespace sightline::app

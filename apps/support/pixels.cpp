@@ -10,33 +10,25 @@
 
 namespace sightline::app {
 
-static std::array<std::uint32_t, 2> parse_size(const std::string& text) {
-  std::istringstream in(text);
-  std::uint32_t width = 0, height = 0;
-  char times = 0;
-  constexpr std::uint32_t most = 4096;
-  if (text.find_first_not_of("0123456789x") != std::string::npos || !(in >> width >> times >> height) || times != 'x' ||
-      !in.eof() || width == 0 || height == 0 || width > most || height > most)
-    throw Usage_error(
-        fmt::format("--pixels wants WIDTHxHEIGHT from 1x1 to {0}x{0}, not {1}", most, sightline::quoted(text)));
-  return {width, height};
-}
-
 std::vector<View> read_views(const Pixel_arguments& arguments) {
-  const auto [width, height] = parse_size(arguments.size);
+  const auto [width, height] = parse_size(arguments.size, "--pixels", 1, 4096);
   std::vector<View> views;
   read_lines(arguments.eyes,
              "an eye X,Y,Z, or X,Y,Z,DX,DY,DZ with the direction it looks in, not zero and in the range of doubles",
-             [&, width = width, height = height](const std::vector<Rational>& n) {
+             [&, wide = width, high = height](const std::vector<Rational>& n) {
                if (n.size() != 3 && n.size() != 6) return false;
                View& view = views.emplace_back(View{{n[0], n[1], n[2]}});
-               view.width = static_cast<int>(width);
-               view.height = static_cast<int>(height);
+               view.width = wide;
+               view.height = high;
                if (n.size() == 3) return true;
                view.look = {nearest_double(n[3]), nearest_double(n[4]), nearest_double(n[5])};
                return view.look != Direction3{} && std::isfinite(view.look[0] + view.look[1] + view.look[2]);
              });
   return views;
+}
+
+std::string picture_file(const Pixel_arguments& arguments, std::size_t number) {
+  return fmt::format("{}/image_{:04}.svg", arguments.pictures, number);
 }
 
 Pixel_view pixel_view(const View& view) {

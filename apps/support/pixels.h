@@ -21,6 +21,8 @@ struct Pixel_image {
 /// The views of a file: a line X,Y,Z for the eye, or X,Y,Z,DX,DY,DZ with the direction it looks in. Errors: Usage_error
 /// for the size; those of read_lines for the file.
 std::vector<View> read_views(const Pixel_arguments& arguments);
+/// Where the picture of an image goes, numbered from 1.
+std::string picture_file(const Pixel_arguments& arguments, std::size_t number);
 Pixel_view pixel_view(const View& view);
 /// Both images beside each other, pixels with one face left green, with more from yellow to red.
 std::string painted(const Pixel_image& image);

@@ -85,6 +85,29 @@ TEST_F(Outputs, never_take_the_place_of_one_another) {
       << "a device takes them all";
 }
 
+TEST_F(Outputs, of_a_folder_of_pictures_are_held_to_all_others) {
+  const std::string eyes = "3,4,5\n4,5,6\n", one = file("image_0001.svg", cube), other = file("image_0002.svg", eyes);
+  const auto words = [&](const std::string& scene, const std::string& file) {
+    return std::vector<std::string>{"graph", scene, "--pixels", "8x6", "--eyes", file, "--pictures", path("").string()};
+  };
+  const std::string scene = file("s.off", cube), numbers = file("eyes.csv", eyes);
+  expect_refused(words(one, numbers),
+                 "--pictures " + path("").string() + "/image_0001.svg: that is the file that SCENE");
+  expect_refused(words(scene, other), "/image_0002.svg: that is the file that --eyes reads, which would be lost");
+  for (const char* option : {"--json", "--dot", "--certificate"}) {
+    std::vector<std::string> both = words(scene, numbers);
+    both.insert(both.end(), {option, path("./image_0002.svg").string()});
+    expect_refused(both, "writes to already");
+  }
+  fs::remove(other);
+  fs::create_symlink("image_0001.svg", other);
+  expect_refused(words(scene, numbers), "by a link");
+  EXPECT_EQ(read_file(one), cube);
+  fs::remove(other);
+  EXPECT_EQ(run(words(scene, numbers)).code, done);
+  EXPECT_NE(read_file(one).find("<svg"), std::string::npos);
+}
+
 TEST_F(Outputs, and_inputs_without_a_name_are_refused) {
   const std::string scene = file("s.off", cube), off = path("a.off").string();
   const std::vector<std::string> judge{"judge", "--program", "true", "--query", "see", "--contract", "exact"};
