@@ -1,5 +1,5 @@
 #pragma once
-// What certificates claim, tried at a few points by plain rationals: a claim that a checker accepted and that a sample
+// What certificates claim, tried at a few points by integers: a claim that a checker accepted and that a sample
 // contradicts is a finding. Samples prove nothing right; they share no code with the checkers.
 
 #include "support.h"
@@ -21,67 +21,131 @@ namespace fuzz {
 
 using Points = std::vector<Exact_point>;
 
-inline Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Exact_point plus(const Exact_point& a, const Exact_point& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Exact_point times(const Rational& r, const Exact_point& a) { return {r * a[0], r * a[1], r * a[2]}; }
-inline Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+/// A point (x, y, z, w) of positive w, a direction of w = 0, or a plane, where that is said. Integers, so that nothing
+/// is ever reduced.
+using Place = std::array<Integer, 4>;
+using Places = std::vector<Place>;
+
+inline Place place(const Exact_point& p) {
+  Integer w = 1;
+  for (const Rational& x : p) w = lcm(w, x.get_den());
+  return {Integer(p[0] * w), Integer(p[1] * w), Integer(p[2] * w), w};
+}
+inline Places places(const Points& points) {
+  Places all;
+  for (const Exact_point& p : points) all.push_back(place(p));
+  return all;
+}
+inline Place direction_to(const Place& q, const Place& from) {
+  Place d;
+  for (std::size_t k = 0; k < 3; ++k) d[k] = q[k] * from[3] - from[k] * q[3];
+  return d;
+}
+inline Place direction(const Exact_point& d) {
+  Place result = place(d);
+  result[3] = 0;
+  return result;
+}
+inline Place cross(const Place& a, const Place& b) {  // of directions
+  return {Integer(a[1] * b[2] - a[2] * b[1]), Integer(a[2] * b[0] - a[0] * b[2]), Integer(a[0] * b[1] - a[1] * b[0]),
+          0};
+}
+/// Of directions, or of a plane and a place: on which side of it that is.
+inline int sign_of_dot(const Place& a, const Place& b) {
+  Integer sum = a[0] * b[0];
+  for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[k].get_mpz_t());
+  return sgn(sum);
 }
 
-/// Points strictly inside the convex hull, or the cone, of others: positive mixtures. Pre: there are some.
-inline Points mixtures(const Points& of, bool sum_one = true) {
-  Points result;
+/// A line by the 2 x 2 minors of two places on it.
+using Line = std::array<Integer, 6>;
+inline Line line(const Place& p, const Place& q) {
+  const std::size_t columns[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+  Line minors;
+  for (std::size_t k = 0; k < 6; ++k) {
+    const auto [i, j] = columns[k];
+    minors[k] = p[i] * q[j];
+    mpz_submul(minors[k].get_mpz_t(), p[j].get_mpz_t(), q[i].get_mpz_t());
+  }
+  return minors;
+}
+/// Whether one line runs counterclockwise around the other: 1, 0 where they meet, -1.
+inline int turns(const Line& l, const Line& m) {
+  Integer sum = l[1] * m[4] + l[4] * m[1];
+  for (const std::size_t k : {0, 2, 3, 5}) mpz_submul(sum.get_mpz_t(), l[k].get_mpz_t(), m[5 - k].get_mpz_t());
+  return sgn(sum);
+}
+
+/// Places strictly inside the convex hull, or the cone, of others: positive mixtures. Pre: there are some.
+inline Places mixtures(const Places& of) {
+  Places result;
   for (std::size_t k = 0; k < 4; ++k) {
-    Exact_point sum{0, 0, 0};
-    Rational all = 0;
-    for (std::size_t i = 0; i < of.size(); ++i) {
-      const Rational weight = 1 + static_cast<long>((7 * i * i + 5 * k * i + 3 * k) % 11 * k);
-      sum = plus(sum, times(weight, of[i])), all += weight;
-    }
-    result.push_back(sum_one ? times(1 / all, sum) : sum);
+    Place sum{0, 0, 0, 0};
+    for (std::size_t i = 0; i < of.size(); ++i)
+      for (std::size_t j = 0; j < 4; ++j)
+        mpz_addmul_ui(sum[j].get_mpz_t(), of[i][j].get_mpz_t(), 1 + (7 * i * i + 5 * k * i + 3 * k) % 11 * k);
+    result.push_back(std::move(sum));
   }
   return result;
 }
 
 /// A convex polygon. Pre: of area.
 struct Flat {
-  Points corners;
-  Exact_point normal;  // by Newell, towards its front
+  Places corners;
+  Place normal{0, 0, 0, 0}, plane;  // towards its front
+  std::vector<Line> edges;
 
-  explicit Flat(Points of) : corners(std::move(of)), normal{0, 0, 0} {
+  explicit Flat(const Points& of) : corners(places(of)) {
+    const Place first = direction_to(corners[1], corners[0]);
+    for (std::size_t i = 2; i < corners.size() && normal == Place{0, 0, 0, 0}; ++i)
+      normal = cross(first, direction_to(corners[i], corners[0]));
+    for (std::size_t k = 0; k < 3; ++k) {
+      plane[k] = normal[k] * corners[0][3];
+      plane[3] -= normal[k] * corners[0][k];
+    }
     for (std::size_t i = 0; i < corners.size(); ++i)
-      normal = plus(normal, cross(minus(corners[i], corners[0]), minus(corners[(i + 1) % corners.size()], corners[0])));
+      edges.push_back(line(corners[i], corners[(i + 1) % corners.size()]));
   }
-  int side(const Exact_point& p) const { return sgn(dot(normal, minus(p, corners[0]))); }
+  int side(const Place& p) const { return sign_of_dot(plane, p); }
   bool is_in_plane_of(const Flat& other) const {
-    return std::all_of(corners.begin(), corners.end(), [&](const Exact_point& p) { return other.side(p) == 0; });
+    return std::all_of(corners.begin(), corners.end(), [&](const Place& p) { return other.side(p) == 0; });
   }
-  /// Of a point in the plane: 1 inside, 0 on the boundary, -1 outside.
-  int location(const Exact_point& p) const {
+  /// Where a line towards the front passes: 1 inside, 0 through the boundary, -1 outside.
+  int passed(const Line& towards_front, int way = 1) const {
     int least = 1;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Exact_point& from = corners[i];
-      least = std::min(least, sgn(dot(normal, cross(minus(corners[(i + 1) % corners.size()], from), minus(p, from)))));
+    for (const Line& edge : edges) {
+      least = std::min(least, way * turns(towards_front, edge));
+      if (least < 0) break;
     }
     return least;
   }
-  /// Where the line p + t (q - p) meets the polygon: t, and the location there. Nothing where it is parallel to the
-  /// plane or passes the polygon by. By the sides of the edges on which the line is, without fractions.
-  std::optional<std::pair<Rational, int>> hit(const Exact_point& p, const Exact_point& q) const {
-    const Rational at_p = dot(normal, minus(p, corners[0])), at_q = dot(normal, minus(q, corners[0]));
-    const int upwards = cmp(at_q, at_p);
-    if (upwards == 0) return std::nullopt;
-    const Exact_point along = minus(q, p);
-    int where = 1;
-    Exact_point from = minus(corners.back(), p);
-    for (const Exact_point& corner : corners) {
-      const Exact_point to = minus(corner, p);
-      where = std::min(where, upwards * sgn(dot(along, cross(from, to))));
-      if (where < 0) return std::nullopt;
-      from = to;
-    }
-    return std::pair(Rational(at_p / (at_p - at_q)), where);
+  /// Of a point in the plane.
+  int location(const Place& p) const { return passed(line(p, normal)); }
+  bool is_convex() const {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](const Place& p) { return side(p) == 0 && location(p) == 0; });
+  }
+  /// Where the segment from p to q meets the polygon: between its ends or at one of them. Or the line elsewhere.
+  enum class At { before, p, between, q, behind };
+  struct Hit {
+    At at;
+    int location;
+  };
+  /// Nothing where the line is parallel to the plane or passes the polygon by. q may be a direction: then nothing is
+  /// behind it.
+  std::optional<Hit> hit(const Place& p, const Place& q) const {
+    const int from = side(p), to = side(q);
+    // Towards which side it goes; where both ends are on one side, towards the nearer one is away.
+    const int way = from != to ? (to > from ? 1 : -1) : sign_of_dot(normal, direction_to(q, p));
+    if (way == 0) return std::nullopt;
+    const int where = passed(line(p, q), way);
+    if (where < 0) return std::nullopt;
+    const At at = from == 0     ? At::p
+                  : to == 0     ? At::q
+                  : from != to  ? At::between
+                  : from == way ? At::before
+                                : At::behind;
+    return Hit{at, where};
   }
 };
 
@@ -102,19 +166,20 @@ inline std::vector<Flat> flats(const Covering& covering) {
 /// Each fragment is in its face, and each point of a face is in one fragment; faces that the eye is not in front of may
 /// have none.
 inline void try_covering(const Known_scene& scene, const Covering& covering, const std::vector<Flat>& fragments,
-                         const Exact_point* eye = nullptr) {
+                         const std::optional<Place>& eye = std::nullopt) {
   std::vector<bool> set_aside(scene.parts.size());
   for (const Covering::Set_aside& entry : covering.set_aside) set_aside[entry.face] = true;
   for (std::size_t f = 0; f < set_aside.size(); ++f)
     require(set_aside[f] == scene.set_aside[f] || (!set_aside[f] && scene.duplicate[f]), "what is set aside has to be");
-  const auto is_in = [](const Flat& part, const Exact_point& p) { return part.side(p) == 0 && part.location(p) >= 0; };
+  const auto is_in = [](const Flat& part, const Place& p) { return part.side(p) == 0 && part.location(p) >= 0; };
   const auto lies_with = [](const Flat& part, const Flat& fragment) {  // in its plane, with its front
-    return dot(part.normal, fragment.normal) > 0 && fragment.is_in_plane_of(part);
+    return sign_of_dot(part.normal, fragment.normal) > 0 && fragment.is_in_plane_of(part);
   };
   for (std::size_t i = 0; i < fragments.size(); ++i) {
+    require(fragments[i].is_convex(), "a fragment is convex");
     const std::vector<Flat>& parts = scene.parts[covering.fragments[i].face];
     if (parts.empty()) continue;
-    for (const Exact_point& p : mixtures(fragments[i].corners))
+    for (const Place& p : mixtures(fragments[i].corners))
       require(std::any_of(parts.begin(), parts.end(),
                           [&](const Flat& part) { return lies_with(part, fragments[i]) && is_in(part, p); }),
               "a fragment is in its face, with its front");
@@ -124,8 +189,8 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
     const bool planar = std::all_of(scene.parts[f].begin(), scene.parts[f].end(),
                                     [&](const Flat& part) { return lies_with(scene.parts[f][0], part); });
     for (const Flat& part : scene.parts[f]) {
-      const bool is_meant = eye == nullptr || part.side(*eye) > 0;
-      for (const Exact_point& p : mixtures(part.corners)) {
+      const bool is_meant = !eye || part.side(*eye) > 0;
+      for (const Place& p : mixtures(part.corners)) {
         std::size_t inside = 0, touching = 0;
         for (std::size_t i = 0; i < fragments.size(); ++i) {
           if (covering.fragments[i].face != f || !lies_with(part, fragments[i])) continue;
@@ -142,13 +207,14 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
 
 inline void try_claims(const Known_scene& scene, const Order_certificate& claim) {
   const std::vector<Flat> fragments = flats(claim);
-  try_covering(scene, claim, fragments, claim.on_view ? &claim.eye : nullptr);
+  const Place eye = place(claim.eye);
+  try_covering(scene, claim, fragments, claim.on_view ? std::optional(eye) : std::nullopt);
   for (std::size_t later = 0; later < fragments.size(); ++later) {
-    if (fragments[later].side(claim.eye) == 0) continue;
-    for (const Exact_point& p : mixtures(fragments[later].corners))
+    if (fragments[later].side(eye) == 0) continue;
+    for (const Place& p : mixtures(fragments[later].corners))
       for (std::size_t earlier = 0; earlier < later; ++earlier)
-        if (const auto hit = fragments[earlier].hit(claim.eye, p))
-          require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing that is drawn earlier is nearer");
+        if (const auto hit = fragments[earlier].hit(eye, p))
+          require(hit->at != Flat::At::between || hit->location == 0, "nothing that is drawn earlier is nearer");
   }
 }
 
@@ -163,7 +229,7 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
   const std::size_t n = fragments.size();
   const auto has_corner = [&](std::size_t of, int side, std::size_t plane) {
     return std::any_of(fragments[of].corners.begin(), fragments[of].corners.end(),
-                       [&](const Exact_point& p) { return fragments[plane].side(p) == side; });
+                       [&](const Place& p) { return fragments[plane].side(p) == side; });
   };
   std::vector<std::vector<char>> reaches(n, std::vector<char>(n));
   std::vector<std::size_t> component;
@@ -184,60 +250,70 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
 
 /// A convex cone.
 struct Tile {
-  Points rays, inward;  // normals of its sides
+  Places rays, inward;  // normals of its sides
 
-  explicit Tile(Points of) : rays(std::move(of)) {
-    const Exact_point middle = mixtures(rays, false)[0];
+  explicit Tile(Places of) : rays(std::move(of)) {
+    const Place middle = mixtures(rays)[0];
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Exact_point side = cross(rays[i], rays[(i + 1) % rays.size()]);
-      inward.push_back(times(sgn(dot(side, middle)), side));
+      Place side = cross(rays[i], rays[(i + 1) % rays.size()]);
+      const int sense = sign_of_dot(side, middle);
+      for (Integer& x : side) x *= sense;
+      inward.push_back(std::move(side));
     }
   }
   /// Of a direction: 1 strictly inside, 0 on the boundary, -1 outside.
-  int location(const Exact_point& direction) const {
+  int location(const Place& direction) const {
     int least = 1;
-    for (const Exact_point& side : inward) {
-      least = std::min(least, sgn(dot(side, direction)));
+    for (const Place& side : inward) {
+      least = std::min(least, sign_of_dot(side, direction));
       if (least < 0) break;
     }
     return least;
   }
 };
 
+inline Places directions(const Points& cone) {
+  Places all;
+  for (const Exact_point& d : cone) all.push_back(direction(d));
+  return all;
+}
+
 inline void try_claims(const Known_scene& scene, const Visible_certificate& claim) {
   const std::vector<Flat> fragments = flats(claim);
+  const Place eye = place(claim.eye);
   try_covering(scene, claim, fragments);
   std::vector<Tile> tiles;
-  for (const Points& cone : claim.empty) tiles.emplace_back(cone);
+  for (const Points& cone : claim.empty) tiles.emplace_back(directions(cone));
   std::optional<Tile> field;
-  if (!claim.field.empty()) field.emplace(claim.field);
+  if (!claim.field.empty()) field.emplace(directions(claim.field));
   for (const Visible_certificate::Part& part : claim.parts) {
-    Points rays;
-    for (const Exact_point& p : part.vertices) rays.push_back(minus(p, claim.eye));
+    const Places corners = places(part.vertices);
+    Places rays;
+    for (const Place& p : corners) rays.push_back(direction_to(p, eye));
     tiles.emplace_back(std::move(rays));
-    for (const Exact_point& p : mixtures(part.vertices)) {
+    for (const Place& p : mixtures(corners)) {
       require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0,
               "a part is in its fragment");
       for (const Flat& other : fragments)
-        if (const auto hit = other.hit(claim.eye, p))
-          require(hit->first <= 0 || hit->first >= 1 || hit->second == 0, "nothing is before a visible part");
+        if (const auto hit = other.hit(eye, p))
+          require(hit->at != Flat::At::between || hit->location == 0, "nothing is before a visible part");
     }
   }
   for (const Points& cone : claim.empty)
-    for (const Exact_point& d : mixtures(cone, false))
+    for (const Place& d : mixtures(directions(cone)))
       for (const Flat& other : fragments)
-        if (const auto hit = other.hit(claim.eye, plus(claim.eye, d)))
-          require(hit->first <= 0 || hit->second == 0, "nothing is in an empty cone");
+        if (const auto hit = other.hit(eye, d))
+          require(hit->at != Flat::At::between || hit->location == 0, "nothing is in an empty cone");
   for (const Tile& tile : tiles)
-    for (const Exact_point& d : mixtures(tile.rays, false)) {
+    for (const Place& d : mixtures(tile.rays)) {
       require(!field || field->location(d) >= 0, "what is seen is in the field");
       require(std::count_if(tiles.begin(), tiles.end(), [&](const Tile& other) { return other.location(d) > 0; }) == 1,
               "a direction is in one cone");
     }
   for (const Flat& fragment : fragments)
-    for (const Exact_point& p : mixtures(fragment.corners)) {
-      const Exact_point d = minus(p, claim.eye);
-      if (fragment.side(claim.eye) == 0 || (field && field->location(d) <= 0)) continue;
+    for (const Place& p : mixtures(fragment.corners)) {
+      const Place d = direction_to(p, eye);
+      if (fragment.side(eye) == 0 || (field && field->location(d) <= 0)) continue;
       require(std::any_of(tiles.begin(), tiles.end(), [&](const Tile& tile) { return tile.location(d) >= 0; }),
               "a direction of the field is in a cone");
     }
@@ -248,40 +324,42 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
   try_covering(scene, claim, fragments);
   std::vector<Flat> sources;
   for (const Points& source : claim.sources) sources.emplace_back(source);
-  const auto looks = [&](const Exact_point& p, const Flat& source, const Exact_point& q, const Flat& fragment) {
+  const auto looks = [&](const Place& p, const Flat& source, const Place& q, const Flat& fragment) {
     return source.side(q) > 0 && (fragment.side(p) > 0 || (claim.two_sided && fragment.side(p) < 0));
   };
-  const auto blocked = [&](const Exact_point& p, const Exact_point& q) {
+  const auto blocked = [&](const Place& p, const Place& q) {
     return std::any_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
       const auto hit = other.hit(p, q);
-      return hit && hit->first > 0 && hit->first < 1;
+      return hit && hit->at == Flat::At::between;
     });
   };
   // Nor does anything touch its ends but in the planes of source and target: else a keel, or a plane that holds the
   // segment, may make it free alone among all near by.
-  const auto strictly_free = [&](const Exact_point& p, const Flat& source, const Exact_point& q, const Flat& target) {
+  const auto strictly_free = [&](const Place& p, const Flat& source, const Place& q, const Flat& target) {
     return std::none_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
       if (other.side(p) == 0 && other.side(q) == 0) return true;
       const auto hit = other.hit(p, q);
-      if (!hit || hit->first < 0 || hit->first > 1) return false;
-      return !(hit->first == 0 && other.is_in_plane_of(source)) && !(hit->first == 1 && other.is_in_plane_of(target));
+      if (!hit || hit->at == Flat::At::before || hit->at == Flat::At::behind) return false;
+      return !(hit->at == Flat::At::p && other.is_in_plane_of(source)) &&
+             !(hit->at == Flat::At::q && other.is_in_plane_of(target));
     });
   };
   std::vector<bool> visible(scene.parts.size()), undecided(scene.parts.size());
   for (const Weak_certificate::Sightline& entry : claim.visible) {
     const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
-    require(source.side(entry.from) == 0 && source.location(entry.from) > 0, "a sightline begins inside its source");
-    require(fragment.side(entry.to) == 0 && fragment.location(entry.to) > 0, "a sightline ends inside its fragment");
-    require(looks(entry.from, source, entry.to, fragment), "both ends of a sightline look to each other");
-    require(!blocked(entry.from, entry.to), "nothing is on a sightline");
+    const Place from = place(entry.from), to = place(entry.to);
+    require(source.side(from) == 0 && source.location(from) > 0, "a sightline begins inside its source");
+    require(fragment.side(to) == 0 && fragment.location(to) > 0, "a sightline ends inside its fragment");
+    require(looks(from, source, to, fragment), "both ends of a sightline look to each other");
+    require(!blocked(from, to), "nothing is on a sightline");
     visible[claim.fragments[entry.fragment].face] = true;
   }
   std::set<std::pair<std::size_t, std::size_t>> hidden;
   for (const Weak_certificate::Hidden& entry : claim.hidden) {
     hidden.insert({entry.fragment, entry.source});
     const Flat &source = sources[entry.source], &fragment = fragments[entry.fragment];
-    for (const Exact_point& p : mixtures(source.corners))
-      for (const Exact_point& q : mixtures(fragment.corners))
+    for (const Place& p : mixtures(source.corners))
+      for (const Place& q : mixtures(fragment.corners))
         require(!looks(p, source, q, fragment) || !strictly_free(p, source, q, fragment), "what is hidden is not seen");
   }
   for (const Face_id face : claim.undecided) undecided[face] = true;

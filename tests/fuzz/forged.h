@@ -237,7 +237,8 @@ inline void lie(Visible_certificate& claim, const Posed_scene& truth, Bytes& byt
       if (!claim.parts.empty()) {  // what is seen there is called empty
         const std::size_t k = bytes.below(std::min<std::size_t>(256, claim.parts.size()));
         Points& rays = claim.empty.emplace_back();
-        for (const Exact_point& p : claim.parts[k].vertices) rays.push_back(minus(p, claim.eye));
+        for (const Exact_point& p : claim.parts[k].vertices)
+          rays.push_back({p[0] - claim.eye[0], p[1] - claim.eye[1], p[2] - claim.eye[2]});
         claim.parts.erase(claim.parts.begin() + static_cast<std::ptrdiff_t>(k));
       }
       break;
@@ -313,7 +314,7 @@ inline void compare_with_engine(const Polygon_soup& soup, const Visible_certific
   const std::vector<Flat> fragments = flats(claim);
   Face_set front, back;
   for (const Visible_certificate::Part& part : claim.parts)
-    (fragments[part.fragment].side(claim.eye) > 0 ? front : back).insert(claim.fragments[part.fragment].face);
+    (fragments[part.fragment].side(place(claim.eye)) > 0 ? front : back).insert(claim.fragments[part.fragment].face);
   const Seen found = see(Model(soup), claim.eye, in_one_thread());
   Face_set found_front, found_back;  // of the parts, as of faces in one plane one has the part
   for (const Seen::Visible_part& part : found.parts) (part.from_front ? found_front : found_back).insert(part.face);
@@ -336,8 +337,8 @@ struct Judged {
   std::size_t accepted = 0, rejected = 0;
 };
 
-/// Shows certificates of another scene, the right one and some that lie about what is shown, as those of the first: what
-/// passes is true. Nothing where the bytes say nothing.
+/// Shows certificates of another scene, the right one and some that lie about what is shown, as those of the first:
+/// what passes is true. Nothing where the bytes say nothing.
 inline Judged judged_forgeries(std::string_view text) {
   constexpr std::size_t forgeries = 24, bytes_of_lies = 24;
   Bytes bytes(text);
