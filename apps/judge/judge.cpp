@@ -132,11 +132,14 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
   return json;
 }
 
+/// An answer that lists nothing supports no reading, though it be right under some.
+bool lists_faces(const Answer& answer) { return !answer.visible.empty() || !answer.order.empty(); }
+
 /// What a wrong case looks like once it is moved, and under other readings of the question.
 std::vector<std::string> guesses(const Judge_arguments& arguments, const Court& court, const Case_group& group,
                                  const Judge_case& asked, const Judged& broken) {
   std::vector<std::string> guesses;
-  for (const Reading reading : readings_of(asked.query.question))
+  for (const Reading reading : lists_faces(broken.answer) ? readings_of(asked.query.question) : std::vector<Reading>())
     if (is_right(reading, asked.soup, asked.query, broken.answer, arguments.court_options().truth))
       guesses.push_back("the answer is right read otherwise, " + words_of(reading, asked.query.two_sided));
   std::vector<Neighbour> neighbours{{group.ulps, true}};
@@ -160,6 +163,7 @@ class Common_guess {
 
   void add(const Judge_case& asked, const Judged& wrong, const Truth_options& options) {
     ++wrong_;
+    supported_ = supported_ || lists_faces(wrong.answer);
     std::erase_if(readings_,
                   [&](Reading reading) { return !is_right(reading, asked.soup, asked.query, wrong.answer, options); });
   }
@@ -169,8 +173,7 @@ class Common_guess {
   }
   std::vector<std::string> words() const {
     std::vector<std::string> all;
-    if (wrong_ == 0) return all;
-    for (const Reading reading : readings_)
+    for (const Reading reading : supported_ ? readings_ : std::vector<Reading>())
       all.push_back(fmt::format("in {} the answer is right read otherwise, {}",
                                 wrong_ == 1 ? "the one wrong case" : fmt::format("all {} wrong cases", wrong_),
                                 words_of(reading, two_sided_)));
@@ -182,6 +185,7 @@ class Common_guess {
   std::vector<Reading> readings_;  // under which all wrong answers are right
   bool two_sided_;
   std::size_t wrong_ = 0;
+  bool supported_ = false;
   Kinds kinds_;
 };
 

@@ -46,7 +46,8 @@ Direction3 best_look(const Direction3& line, const Direction3& normal) {
       for (const double z : {-1.2, -0.7, 0.7}) {
         const Direction3 look = unit({x, y, z});
         const double along = dot(look, line);
-        const double value = std::sqrt(std::max(0.0, 1 - along * along)) * (0.3 + std::fabs(dot(look, normal))) *
+        const double value = std::sqrt(std::max(0.0, 1 - along * along)) *
+                             (0.4 + std::min(0.7, std::fabs(dot(look, normal)))) *
                              (z < 0 ? 1.1 : 1.0);  // rather from above
         if (value > most) most = value, best = look;
       }

@@ -241,7 +241,14 @@ TEST_F(Judge, guesses_a_turned_side_and_faces_that_are_dropped) {
                  disagreement)["result"]["guess"]
         .dump();
   };
-  EXPECT_NE(guess(tower(), above, "").find("as if the front of a face were where it is clockwise"), std::string::npos);
+  // A square over another one, and one beside them that looks down.
+  const std::string turned = file("turned.off",
+                                  "OFF\n12 3 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 "
+                                  "0\n4 0 0\n4 1 0\n5 1 0\n5 0 0\n4 0 1 2 3\n4 4 5 6 7\n4 8 9 10 11\n");
+  EXPECT_EQ(guess(turned, above, "2\\n"),
+            R"(["in the one wrong case the answer is right read otherwise, as if the front of a face were where it is )"
+            R"(clockwise"])");
+  EXPECT_EQ(guess(tower(), above, ""), "[]") << "nothing that is listed is no sign of anything";
   EXPECT_NE(guess(tower(), below, "0\\n").find("as if faces seen from behind counted too"), std::string::npos);
   // An L and a square beside it.
   const std::string concave = file("concave.off",
