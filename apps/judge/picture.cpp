@@ -143,15 +143,18 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
   paint(svg, view, drawn, true, [&](const Drawn& item, double shade) {
     const Face_id face = item.fragment.face;
     const auto [hue, strength, light, opacity] = weak && face == source             ? std::tuple(50, 85, 60, 0.9)
-                                                 : holds(grade.wrong_hidden, face)  ? std::tuple(20, 90, 58, 0.8)
-                                                 : holds(grade.wrong_visible, face) ? std::tuple(285, 60, 62, 0.8)
+                                                 : holds(grade.wrong_hidden, face)  ? std::tuple(20, 90, 58, 0.6)
+                                                 : holds(grade.wrong_visible, face) ? std::tuple(285, 60, 62, 0.6)
                                                  : why.refutation && why.refutation->by == face
-                                                     ? std::tuple(205, 55, 58, 0.7)
-                                                     : std::tuple(140, 12, 72, 0.6);
+                                                     ? std::tuple(205, 55, 58, 0.55)
+                                                     : std::tuple(140, 12, 72, 0.45);
     return fmt::format("hsla({},{}%,{:.0f}%,{})", hue, strength, light + 12 * shade, opacity);
   });
 
-  // 3. The line over them.
+  // 3. The line over them; and the source's outline, which may be that of a face.
+  for (std::size_t k = 0; weak && k < query.source.size(); ++k)
+    svg.line(projected(view, query.source[k]), projected(view, query.source[(k + 1) % query.source.size()]), "#c09000",
+             2);
   if (why.refutation) {
     const Flat_point p = projected(view, from), q = projected(view, to);
     constexpr std::string_view red = "#c01818";
