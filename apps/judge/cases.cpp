@@ -54,6 +54,17 @@ void prepare(Judge_case& made, const Case_options& options) {
       (options.question == judge::Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye);
 }
 
+/// What looks, moved by so many ulps of the scene's size, askew to the axes.
+void move(const Polygon_soup& scene, judge::Query& query, std::int64_t ulps) {
+  const Rational ulp = generate::ulps_of_size(1, generate::size_bits(scene));
+  const std::array<long, 3> askew{3, -2, 1};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational by = ulp * static_cast<long>(ulps) * askew[k];
+    query.eye[k] += by;
+    for (Exact_point& p : query.source) p[k] += by;
+  }
+}
+
 /// Runs `make`; what cannot be made, or is beyond the range of doubles, is not asked.
 template <class Make>
 Judge_case attempted(Make make) {
@@ -165,8 +176,14 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
       return query ? case_of(read_scene(file), *query, options) : case_of(read_scene(file), seed, options);
     };
     groups.push_back({file.filename().string(), "-",
-                      "--scenes " + shell_word(file.string()) + (query ? " --ask " + shell_word(choice.ask) : ""),
-                      make});
+                      "--scenes " + shell_word(file.string()) + (query ? " --ask " + shell_word(choice.ask) : ""), make,
+                      0, "as it is given", [make, options](std::uint64_t seed, std::int64_t ulps) {
+                        const Judge_case given = make(seed);
+                        if (!given.not_asked.empty()) return given;
+                        judge::Query moved = given.query;
+                        move(given.soup, moved, ulps);
+                        return case_of(given.soup, moved, options);
+                      }});
   }
   return groups;
 }
@@ -198,7 +215,11 @@ std::vector<Case_group> groups_of_families(const Case_choice& choice, const Case
                                                : fmt::format("{:+} ulps", parameters.ulps),
                         fmt::format("--families {} --ulps {}{}", shell_word(name), distance,
                                     choice.size > 0 ? fmt::format(" --size {}", choice.size) : ""),
-                        make});
+                        make, parameters.ulps, "exactly degenerate",
+                        [family, parameters, options](std::uint64_t seed, std::int64_t ulps) mutable {
+                          parameters.seed = seed, parameters.ulps = ulps;
+                          return case_of(*family, parameters, options);
+                        }});
     }
   return groups;
 }

@@ -28,6 +28,23 @@ static std::string in_words(const judge::Grade& grade) {
   return text + (all.size() > 4 ? fmt::format(", and {} more", all.size() - 4) : "");
 }
 
+/// Of faces that are judged one by one: not in orders.
+static void count_kinds(const Judge_case& asked, const judge::Truth& truth, Judged& judged) {
+  const Scene scene(asked.soup);
+  const auto holds = [](const std::vector<Face_id>& faces, Face_id f) {
+    return std::find(faces.begin(), faces.end(), f) != faces.end();
+  };
+  const judge::Grade& grade = judged.grade;
+  for (const std::vector<Face_id>* faces : {&truth.visible, &truth.hidden})
+    for (const Face_id face : *faces) {
+      if (holds(grade.abstained, face)) continue;
+      const bool wrong = holds(grade.wrong_visible, face) || holds(grade.wrong_hidden, face);
+      judge::Kinds& kinds = judged.kinds;
+      ++(holds(scene.concave(), face) ? (wrong ? kinds.concave_wrong : kinds.concave_right)
+                                      : (wrong ? kinds.convex_wrong : kinds.convex_right));
+    }
+}
+
 Court::Court(Court_options options) : options_(std::move(options)) {
   try {
     words_ = split_words(options_.program);
@@ -109,8 +126,8 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
     if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
-    judged.grade =
-        judge::grade(truth, judge::read_answer(read_bytes(answer()), asked.query.question, asked.soup.face_count()));
+    judged.answer = judge::read_answer(read_bytes(answer()), asked.query.question, asked.soup.face_count());
+    judged.grade = judge::grade(truth, judged.answer);
   } catch (const std::runtime_error& error) {  // no file that can be read
     judged.mark = judge::Mark::invalid;
     judged.why = error.what();
@@ -122,6 +139,7 @@ void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Jud
   }
   judged.mark = judge::mark_of(judged.grade);
   judged.why = in_words(judged.grade);
+  count_kinds(asked, truth, judged);
 }
 
 std::vector<std::string> Court::keep_files(const std::string& folder, const std::string& stem) const {

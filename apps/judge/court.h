@@ -5,6 +5,8 @@
 #include "cases.h"
 #include "../support/limited_process.h"
 
+#include <sightline/harness/judge/guess.h>
+
 namespace sightline::app {
 
 /// What is asked of a program, and what it is allowed.
@@ -25,6 +27,8 @@ struct Judged {
   bool breaks = false;  ///< the contract
   std::string why;
   judge::Grade grade;
+  judge::Answer answer;  ///< where it is one
+  judge::Kinds kinds;    ///< of the faces that are judged
   double seconds = 0;
   std::uint64_t bytes = 0;
 };

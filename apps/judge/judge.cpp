@@ -1,6 +1,7 @@
 // sightline judge: somebody else's program, asked many cases and graded against the exact truth.
 
 #include "page.h"
+#include "picture.h"
 #include "table.h"
 
 #include <sightline/harness/laws/reduce.h>
@@ -65,6 +66,32 @@ bool broken_alike(const Judged& judged, const Judged& broken) {
          (judged.grade.wrong_hidden.empty() || !broken.grade.wrong_hidden.empty());
 }
 
+/// Why a case is wrong, for people: the line that refutes, the share that is wrong, and a picture. Pre: its mark is
+/// `wrong`.
+Json explained(const Judge_arguments& arguments, const Judge_case& asked, const Judged& broken) {
+  const Explanation why = explain(asked.soup, asked.query, broken.answer, broken.grade,
+                                  arguments.court_options().contract, arguments.budget);
+  Json json{{"share", why.share}, {"share_words", why.share_words}, {"line", Json()}};
+  if (why.refutation) {
+    const Refutation& line = *why.refutation;
+    json["line"] = {{"face", line.face},
+                    {"from", point_json(line.from)},
+                    {"to", point_json(line.to)},
+                    {"by", line.by ? Json(*line.by) : Json()},
+                    {"words", line.words}};
+  }
+  json["picture"] = picture_of(asked.soup, asked.query, broken.grade, why);
+  return json;
+}
+
+/// Writes the picture of an explained case beside its scene, where files are kept.
+void keep_picture(const Judge_arguments& arguments, Json& explained_case, const std::string& stem) {
+  if (arguments.keep.empty()) return;
+  const std::string file = (std::filesystem::path(arguments.keep) / (stem + ".svg")).string();
+  write_file(file, explained_case["explained"]["picture"].get<std::string>());
+  explained_case["files"].push_back(file);
+}
+
 /// A case made smaller as long as the program breaks the contract in the same way: how far, and the files that are
 /// kept. Faces stay planar, their corners apart, and coordinates doubles where these are wanted.
 Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
@@ -87,9 +114,10 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
   scene.eye = asked.query.eye;
   scene.source = asked.query.source;
   const harness::Reduced reduced = harness::reduce(scene, fails, options);
-  const Judged last = court.judge(case_of_smaller(reduced.scene), broken.seed);
+  const Judge_case left = case_of_smaller(reduced.scene);
+  const Judged last = court.judge(left, broken.seed);
   const std::vector<std::string> files = court.keep_files(arguments.keep, "reduced");
-  return {
+  Json json{
       {"faces", last.faces},
       {"runs", reduced.tests},
       {"finished", reduced.finished},
@@ -97,7 +125,69 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
       {"why", last.why},
       {"files", files},
       {"again", command_again(arguments, "--scenes " + shell_word(files.at(0)) + " --ask " + shell_word(files.at(1)))}};
+  if (last.mark == Mark::wrong) {
+    json["explained"] = explained(arguments, left, last);
+    keep_picture(arguments, json, "reduced");
+  }
+  return json;
 }
+
+/// An answer that lists nothing supports no reading, though it be right under some.
+bool lists_faces(const Answer& answer) { return !answer.visible.empty() || !answer.order.empty(); }
+
+/// What a wrong case looks like once it is moved, and under other readings of the question.
+std::vector<std::string> guesses(const Judge_arguments& arguments, const Court& court, const Case_group& group,
+                                 const Judge_case& asked, const Judged& broken) {
+  std::vector<std::string> guesses;
+  for (const Reading reading : lists_faces(broken.answer) ? readings_of(asked.query.question) : std::vector<Reading>())
+    if (is_right(reading, asked.soup, asked.query, broken.answer, arguments.court_options().truth))
+      guesses.push_back("the answer is right read otherwise, " + words_of(reading, asked.query.two_sided));
+  std::vector<Neighbour> neighbours{{group.ulps, true}};
+  std::vector<std::int64_t> places{0};
+  for (const int bits : {0, 12, 22, 32, 44})  // one ulp, 2^-40, 2^-30, 2^-20 and 2^-8 of the size
+    for (const std::int64_t sign : {1, -1}) places.push_back(sign * (std::int64_t{1} << bits));
+  for (const std::int64_t place : places) {
+    if (place == group.ulps) continue;
+    const Judged moved = court.judge(group.moved(broken.seed, place), broken.seed);
+    if (moved.not_asked.empty() && (moved.mark == Mark::right || moved.mark == Mark::wrong))
+      neighbours.push_back({place, moved.mark == Mark::wrong});
+  }
+  if (neighbours.size() > 1) guesses.push_back(words_of(neighbours, group.exactly));
+  return guesses;
+}
+
+/// What all wrong cases have in common.
+class Common_guess {
+ public:
+  Common_guess(Question question, bool two_sided) : readings_(readings_of(question)), two_sided_(two_sided) {}
+
+  void add(const Judge_case& asked, const Judged& wrong, const Truth_options& options) {
+    ++wrong_;
+    supported_ = supported_ || lists_faces(wrong.answer);
+    std::erase_if(readings_,
+                  [&](Reading reading) { return !is_right(reading, asked.soup, asked.query, wrong.answer, options); });
+  }
+  void add(const Kinds& kinds) {
+    kinds_.concave_right += kinds.concave_right, kinds_.concave_wrong += kinds.concave_wrong;
+    kinds_.convex_right += kinds.convex_right, kinds_.convex_wrong += kinds.convex_wrong;
+  }
+  std::vector<std::string> words() const {
+    std::vector<std::string> all;
+    for (const Reading reading : supported_ ? readings_ : std::vector<Reading>())
+      all.push_back(fmt::format("in {} the answer is right read otherwise, {}",
+                                wrong_ == 1 ? "the one wrong case" : fmt::format("all {} wrong cases", wrong_),
+                                words_of(reading, two_sided_)));
+    if (const std::string kinds = words_of(kinds_); !kinds.empty()) all.push_back(kinds);
+    return all;
+  }
+
+ private:
+  std::vector<Reading> readings_;  // under which all wrong answers are right
+  bool two_sided_;
+  std::size_t wrong_ = 0;
+  bool supported_ = false;
+  Kinds kinds_;
+};
 
 /// What --keep writes is neither read nor written by another option.
 void check_kept(const Judge_arguments& arguments) {
@@ -112,9 +202,52 @@ void check_kept(const Judge_arguments& arguments) {
   std::erase_if(inputs, is_left_out);
   std::erase_if(outputs, is_left_out);
   for (const std::string stem : {"smallest.", "reduced."})
-    for (const std::string& ending : {arguments.format, std::string("json"), std::string("answer")})
+    for (const std::string& ending : {arguments.format, std::string("json"), std::string("answer"), std::string("svg")})
       outputs.push_back({"--keep", (std::filesystem::path(arguments.keep) / (stem + ending)).string()});
   check_files(inputs, outputs);
+}
+
+/// Explains the smallest of the wrong cases that broke the contract, for the page: as many as one looks at.
+void explain_some(const Judge_arguments& arguments, const std::vector<Case_group>& groups,
+                  const std::vector<std::vector<Judged>>& judged, Json& failures) {
+  constexpr std::size_t most = 12;
+  if (arguments.html.empty()) return;
+  struct Wrong {
+    const Case_group* group;
+    const Judged* judged;
+    std::size_t failure;
+  };
+  std::vector<Wrong> wrong;
+  std::size_t failure = 0;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Judged& c : judged[g]) {
+      if (c.breaks && c.mark == Mark::wrong) wrong.push_back({&groups[g], &c, failure});
+      failure += c.breaks;
+    }
+  std::stable_sort(wrong.begin(), wrong.end(),
+                   [](const Wrong& a, const Wrong& b) { return a.judged->faces < b.judged->faces; });
+  for (std::size_t i = 0; i < std::min(wrong.size(), most); ++i)
+    failures[wrong[i].failure]["explained"] =
+        explained(arguments, wrong[i].group->make(wrong[i].judged->seed), *wrong[i].judged);
+}
+
+/// The sums of all cases at one distance, in the order in which these were asked.
+Json by_distance(const std::vector<Case_group>& groups, const std::vector<std::vector<Judged>>& judged) {
+  std::vector<std::string> distances;
+  for (const Case_group& group : groups)
+    if (std::find(distances.begin(), distances.end(), group.distance) == distances.end())
+      distances.push_back(group.distance);
+  Json rows = Json::array();
+  for (const std::string& distance : distances) {
+    std::vector<const Judged*> cases;
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (const Judged& c : judged[g])
+        if (groups[g].distance == distance) cases.push_back(&c);
+    Json row{{"distance", distance}};
+    row.update(sums_of(cases));
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 Exit run(const Judge_arguments& arguments) {
@@ -141,14 +274,18 @@ Exit run(const Judge_arguments& arguments) {
   Json rows = Json::array(), failures = Json::array(), smallest, reasons = Json::object();
   const Case_group* smallest_of = nullptr;
   Judged smallest_case;
+  Common_guess common(arguments.case_options().question, arguments.two_sided);
   std::vector<std::vector<Judged>> judged(groups.size());
   std::size_t done = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Case_group& group = groups[g];
     for (std::uint64_t k = 0; k < cases; ++k) {
-      const Judged& c = judged[g].emplace_back(court.judge(group.make(arguments.seed + k), arguments.seed + k));
+      const Judge_case asked = group.make(arguments.seed + k);
+      const Judged& c = judged[g].emplace_back(court.judge(asked, arguments.seed + k));
       progress(++done, groups.size() * cases);
       if (!c.not_asked.empty()) reasons[c.not_asked] = reasons.value(c.not_asked, std::size_t{0}) + 1;
+      common.add(c.kinds);
+      if (c.mark == Mark::wrong) common.add(asked, c, arguments.court_options().truth);
       if (!c.breaks) continue;
       failures.push_back(
           {{"family", group.family},
@@ -176,6 +313,13 @@ Exit run(const Judge_arguments& arguments) {
     row.update(sums_of(pointers(judged[g])));
     rows.push_back(std::move(row));
   }
+  explain_some(arguments, groups, judged, failures);
+  if (smallest_of != nullptr && smallest["mark"] == "wrong") {
+    const Judge_case asked = smallest_of->make(smallest_case.seed);
+    smallest["explained"] = explained(arguments, asked, smallest_case);
+    smallest["guess"] = guesses(arguments, court, *smallest_of, asked, smallest_case);
+    keep_picture(arguments, smallest, "smallest");
+  }
   if (smallest_of != nullptr && arguments.reduce > 0)
     smallest["reduced"] = made_smaller(arguments, court, smallest_of->make(smallest_case.seed), smallest_case);
   std::vector<const Judged*> all;
@@ -185,7 +329,9 @@ Exit run(const Judge_arguments& arguments) {
   total.update(sums_of(all));
   result["holds"] = total["breaches"] == 0;
   result["rows"] = std::move(rows);
+  result["by_distance"] = by_distance(groups, judged);
   result["total"] = total;
+  result["guess"] = common.words();
   result["not_asked"] = std::move(reasons);
   result["smallest"] = std::move(smallest);
   result["failures"] = std::move(failures);

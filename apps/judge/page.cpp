@@ -23,20 +23,21 @@ constexpr Mark_colour colours[] = {{"right", "#3a923a"},         {"abstained", "
                                    {"crashed", "#c22f2f"}};
 
 constexpr const char* style = R"(
-body { font: 14px/1.4 sans-serif; margin: 24px auto; max-width: 1500px; color: #222 }
+body { font: 14px/1.4 sans-serif; margin: 24px auto; max-width: 1340px; color: #222 }
 h1 { font-size: 22px; margin-bottom: 4px } h2 { font-size: 17px; margin-top: 28px }
 code { background: #f2f2f2; padding: 1px 4px; font-size: 13px; overflow-wrap: anywhere }
 .verdict { font-size: 17px; font-weight: bold; padding: 8px 12px; border-radius: 4px; display: inline-block }
 .holds { background: #dff0df } .broken { background: #f7dcd5 }
-table { border-collapse: collapse } td, th { padding: 2px 8px; text-align: right; border-bottom: 1px solid #e4e4e4; white-space: nowrap }
-th { background: #fafafa; font-weight: 600 } td.name, th.name { text-align: left } td.why { text-align: left; white-space: normal }
+table { border-collapse: collapse } td, th { padding: 2px 5px; text-align: right; border-bottom: 1px solid #e4e4e4; white-space: nowrap }
+th { background: #fafafa; font-weight: 600; white-space: normal; vertical-align: bottom } td.name, th.name { text-align: left } td.why { text-align: left; white-space: normal; overflow-wrap: anywhere } td.name { max-width: 220px; overflow-wrap: anywhere; white-space: normal }
+svg.scene, .why svg, .smallest svg { display: block; margin: 6px 0; max-width: 100%; height: auto }
 tr.total td { font-weight: 600; border-top: 2px solid #888 } td.bad { color: #b02a1a; font-weight: 600 }
 .key span { display: inline-block; width: 12px; height: 12px; margin: 0 4px 0 14px; vertical-align: -1px }
 )";
 
 /// The shares of what became of the cases of a row.
 std::string bar(const Json& row) {
-  constexpr double width = 150;
+  constexpr double width = 100;
   const double asked = row["asked"].get<double>();
   std::string svg =
       fmt::format("<svg width=\"{:.0f}\" height=\"12\"><rect width=\"100%\" height=\"12\" fill=\"#f0f0f0\"/>", width);
@@ -49,6 +50,18 @@ std::string bar(const Json& row) {
     at += share;
   }
   return svg + "</svg>";
+}
+
+/// The line that refutes, the share that is wrong, the picture: where they are known.
+std::string explained(const Json& of) {
+  if (!of.contains("explained")) return "";
+  const Json& why = of["explained"];
+  std::string html = "<p>";
+  if (!why["line"].is_null()) html += text_of(why["line"]["words"]) + ".<br>";
+  std::string picture = why["picture"].get<std::string>();
+  constexpr std::string_view name_space = " xmlns=\"http://www.w3.org/2000/svg\"";  // within a page it is known
+  if (const std::size_t at = picture.find(name_space); at != std::string::npos) picture.erase(at, name_space.size());
+  return html + text_of(why["share_words"]) + ".</p>\n" + picture;
 }
 
 std::string table_row(const Json& row, bool is_total) {
@@ -95,14 +108,19 @@ std::string judge_page(const Json& document) {
   if (!result["smallest"].is_null()) {
     const Json& s = result["smallest"];
     html += fmt::format(
-        "<p>The smallest that breaks it: {} ({}), seed {}, {} faces: {}: {}.<br>Again: <code>{}</code></p>\n",
+        "<div class=\"smallest\"><p>The smallest that breaks it: {} ({}), seed {}, {} faces: {}: {}.<br>Again: "
+        "<code>{}</code></p>\n{}",
         text_of(s["family"]), text_of(s["distance"]), s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(),
-        text_of(s["mark"]), text_of(s["why"]), text_of(s["again"]));
+        text_of(s["mark"]), text_of(s["why"]), text_of(s["again"]), explained(s));
+    if (s.contains("guess"))
+      for (const Json& guess : s["guess"]) html += "<p>A guess: " + text_of(guess) + ".</p>\n";
     if (s.contains("reduced"))
-      html += fmt::format("<p>Made smaller, it has {} faces: {}: {}.<br>Again: <code>{}</code></p>\n",
+      html += fmt::format("<p>Made smaller, it has {} faces: {}: {}.<br>Again: <code>{}</code></p>\n{}",
                           s["reduced"]["faces"].get<std::size_t>(), text_of(s["reduced"]["mark"]),
-                          text_of(s["reduced"]["why"]), text_of(s["reduced"]["again"]));
+                          text_of(s["reduced"]["why"]), text_of(s["reduced"]["again"]), explained(s["reduced"]));
+    html += "</div>\n";
   }
+  for (const Json& guess : result["guess"]) html += "<p>A guess: " + text_of(guess) + ".</p>\n";
 
   // 2. The table.
   html += "<h2>Cases</h2>\n<p class=\"key\">";
@@ -116,6 +134,16 @@ std::string judge_page(const Json& document) {
   html += "</tr>\n";
   for (const Json& row : result["rows"]) html += table_row(row, false);
   html += table_row(total, true) + "</table>\n";
+  if (result["by_distance"].size() > 1) {
+    html +=
+        "<h2>By distance from degeneracy</h2>\n<table><tr><th class=\"name\">distance</th><th></th><th>asked</th>"
+        "<th>right</th><th>wrong</th></tr>\n";
+    for (const Json& row : result["by_distance"])
+      html += fmt::format("<tr><td class=\"name\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
+                          text_of(row["distance"]), bar(row), to_text(row["asked"]), to_text(row["cases"]["right"]),
+                          to_text(row["cases"]["wrong"]));
+    html += "</table>\n";
+  }
   for (const auto& [reason, count] : result["not_asked"].items())
     html += fmt::format("<p>Not asked: {} cases, as {}.</p>\n", count.get<std::size_t>(), escaped(reason));
 
@@ -134,9 +162,9 @@ std::string judge_page(const Json& document) {
     const Json& f = *failures[i];
     html += fmt::format(
         "<tr><td class=\"name\">{}</td><td class=\"name\">{}</td><td>{}</td><td>{}</td><td class=\"name\">{}</td><td "
-        "class=\"why\">{}<br><code>{}</code></td></tr>\n",
+        "class=\"why\">{}<br><code>{}</code>{}</td></tr>\n",
         text_of(f["family"]), text_of(f["distance"]), f["seed"].get<std::uint64_t>(), f["faces"].get<std::size_t>(),
-        text_of(f["mark"]), text_of(f["why"]), text_of(f["again"]));
+        text_of(f["mark"]), text_of(f["why"]), text_of(f["again"]), explained(f));
   }
   if (!failures.empty()) html += "</table>\n";
   if (failures.size() > shown)

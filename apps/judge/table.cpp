@@ -67,6 +67,32 @@ void print_table(const Json& document) {
   print(document["result"]["total"]);
 }
 
+/// What refutes a case, and how much of it is wrong.
+static void print_explained(const Json& of) {
+  if (!of.contains("explained")) return;
+  const Json& why = of["explained"];
+  if (!why["line"].is_null()) std::cout << fmt::format("  refuted: {}\n", why["line"]["words"].get<std::string>());
+  std::cout << fmt::format("  wrong: {}\n", why["share_words"].get<std::string>());
+}
+
+/// What became of cases at each distance: marks that there are none of have no column.
+static void print_distances(const Json& rows, const Json& total) {
+  std::vector<std::string> marks;
+  for (const char* mark : {"right", "wrong", "abstained", "invalid", "crashed", "timed out", "out of memory"})
+    if (marks.size() < 2 || total["cases"][mark] != 0) marks.push_back(mark);
+  std::cout << fmt::format("{:<8} {:>5}", "distance", "asked");
+  for (const std::string& mark : marks)
+    std::cout << fmt::format(" {:>{}}", mark, std::max<std::size_t>(mark.size(), 5));
+  std::cout << '\n';
+  for (const Json& row : rows) {
+    const auto count = [](const Json& value) { return value == 0 ? std::string("-") : to_text(value); };
+    std::cout << fmt::format("{:<8} {:>5}", row["distance"].get<std::string>(), count(row["asked"]));
+    for (const std::string& mark : marks)
+      std::cout << fmt::format(" {:>{}}", count(row["cases"][mark]), std::max<std::size_t>(mark.size(), 5));
+    std::cout << '\n';
+  }
+}
+
 void print_verdict(const Json& document) {
   const Json &result = document["result"], &total = result["total"];
   for (const auto& [reason, count] : result["not_asked"].items())
@@ -77,6 +103,9 @@ void print_verdict(const Json& document) {
                              s["family"].get<std::string>(), s["distance"].get<std::string>(),
                              s["seed"].get<std::uint64_t>(), s["faces"].get<std::size_t>(),
                              s["mark"].get<std::string>(), s["why"].get<std::string>());
+    print_explained(s);
+    if (s.contains("guess"))
+      for (const Json& guess : s["guess"]) std::cout << fmt::format("  guess: {}\n", guess.get<std::string>());
     for (const Json& file : s["files"]) std::cout << fmt::format("  kept: {}\n", file.get<std::string>());
     std::cout << fmt::format("  again: {}\n", s["again"].get<std::string>());
     if (s.contains("reduced")) {
@@ -85,10 +114,13 @@ void print_verdict(const Json& document) {
                                s["faces"].get<std::size_t>(), r["runs"].get<std::size_t>(),
                                r["finished"] == true ? "" : ", not to the end", r["mark"].get<std::string>(),
                                r["why"].get<std::string>());
+      print_explained(r);
       for (const Json& file : r["files"]) std::cout << fmt::format("  kept: {}\n", file.get<std::string>());
       std::cout << fmt::format("  again: {}\n", r["again"].get<std::string>());
     }
   }
+  if (result["by_distance"].size() > 1) print_distances(result["by_distance"], total);
+  for (const Json& guess : result["guess"]) std::cout << fmt::format("guess: {}\n", guess.get<std::string>());
   const std::string contract = document["contract"].get<std::string>();
   if (total["asked"] == 0) std::cout << "nothing was asked\n";
   else if (total["breaches"] == 0)

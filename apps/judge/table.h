@@ -10,6 +10,7 @@ Json sums_of(const std::vector<const Judged*>& cases);
 
 /// On standard output. Pre: `document` is what --json writes.
 void print_table(const Json& document);
+/// Why, then a table by distance, and the verdict as the last line.
 void print_verdict(const Json& document);
 
 }  // namespace sightline::app

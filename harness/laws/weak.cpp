@@ -11,6 +11,7 @@
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/budget.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
@@ -133,6 +134,7 @@ Subject weak() {
       {"reverse", "source and target in each other's place", weak_subject::reversed},
       front_door_check(weakly_seen_by_front_door)};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
+  subject.checks.push_back(weak_budget_check());  // last: others keep their random choices
   return subject;
 }
 

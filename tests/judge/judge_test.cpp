@@ -7,6 +7,8 @@
 #include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/soups.h>
 #include <sightline/harness/generate/transform.h>
+#include <sightline/harness/judge/explain.h>
+#include <sightline/harness/judge/guess.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
@@ -400,6 +402,134 @@ TEST(Contracts, are_broken_by_what_they_forbid) {
   EXPECT_EQ(mark_of(hides), Mark::wrong);
   open.wrong_hidden = {0};
   EXPECT_EQ(mark_of(open), Mark::wrong);
+}
+
+// ---- Why an answer is wrong
+
+Explanation explained(const Polygon_soup& soup, const Query& query, const std::string& text,
+                      Contract contract = Contract::exact) {
+  const Answer answer = read_answer(text, query.question, soup.face_count());
+  return explain(soup, query, answer, grade(truth_of(soup, query), answer), contract);
+}
+
+TEST(Explanation, of_what_an_eye_sees_names_a_line_and_a_share_of_all_directions) {
+  // A cube's lid is a sixth of all that its middle sees: a square of side 2 at distance 1.
+  const Polygon_soup soup = tower({-1, -2});
+  const Query middle = question(Question::see, {0, 0, 0});
+  const Explanation missing = explained(soup, middle, "");
+  ASSERT_TRUE(missing.refutation);
+  EXPECT_EQ(missing.refutation->face, 0u);
+  EXPECT_EQ(missing.refutation->to[2], -1);
+  EXPECT_FALSE(missing.refutation->by);
+  EXPECT_NEAR(missing.share, 1.0 / 6, 1e-12);
+  EXPECT_EQ(missing.share_words, "16.67 % of all directions show a face that the answer leaves out");
+
+  const Explanation shown = explained(soup, middle, "0\n1\n");
+  ASSERT_TRUE(shown.refutation);
+  EXPECT_EQ(shown.refutation->face, 1u);
+  EXPECT_EQ(shown.refutation->by, Face_id{0});
+  EXPECT_EQ((shown.refutation->at == Exact_point{0, 0, -1}), true);
+  EXPECT_EQ(shown.share, 0);
+
+  const Explanation both = explained(soup, middle, "1\n");
+  EXPECT_EQ(both.refutation->face, 0u);
+  EXPECT_EQ(explained(soup, middle, "1\n", Contract::aggressive).refutation->face, 1u);
+  EXPECT_EQ(explained(soup, question(Question::see, {0, 0, -5}), "0\n").refutation->words, "the eye is behind face 0");
+}
+
+TEST(Explanation, of_faces_in_one_plane_finds_the_part_that_is_anothers) {
+  Polygon_soup soup;
+  add_square(soup, 0, 0), add_square(soup, 1, 0);
+  const Explanation why = explained(soup, question(Question::see, {0, 0, 1}), "0\n");
+  ASSERT_TRUE(why.refutation);
+  EXPECT_EQ(why.refutation->face, 1u);
+  EXPECT_LE(why.refutation->to[0], 2);
+  EXPECT_GE(why.refutation->to[0], 0);
+}
+
+TEST(Explanation, of_an_order_names_a_direction_in_which_it_is_wrong) {
+  const Polygon_soup soup = tower({0, 1});
+  const Explanation why = explained(soup, question(Question::order, {0, 0, 2}), "1\n0\n");
+  ASSERT_TRUE(why.refutation);
+  EXPECT_EQ(why.refutation->face, 1u);
+  EXPECT_EQ((why.refutation->to[2]), 1);
+  // The lower square, at distance 2, is all behind the upper one: half as wide in the view.
+  EXPECT_NEAR(why.share, 4 * std::asin(1.0 / 5) / (4 * 3.14159265358979), 1e-12);
+  EXPECT_EQ(explained(soup, question(Question::order, {0, 0, 2}), "0\n").refutation->words,
+            "face 1 is missing in the order");
+}
+
+TEST(Explanation, of_weak_visibility_is_a_sightline_or_what_stands_in_the_way) {
+  const Polygon_soup soup = tower({0, 1});
+  Query lamp = question(Question::weak, {0, 0, 0});
+  lamp.source = {{-3, -3, 2}, {-3, 3, 2}, {3, 3, 2}, {3, -3, 2}};  // looks down, and past the upper one
+  const Explanation missing = explained(soup, lamp, "1\n");
+  ASSERT_TRUE(missing.refutation);
+  EXPECT_EQ(missing.refutation->face, 0u);
+  EXPECT_EQ(missing.refutation->from[2], 2);
+  EXPECT_EQ(missing.refutation->to[2], 0);
+  EXPECT_NEAR(missing.share, 0.5, 1e-12);
+  lamp.source = {{-1, -1, 2}, {-1, 1, 2}, {1, 1, 2}, {1, -1, 2}};
+  const Explanation shown = explained(soup, lamp, "0\n1\n");
+  ASSERT_TRUE(shown.refutation);
+  EXPECT_EQ(shown.refutation->by, Face_id{1});
+  EXPECT_NE(shown.refutation->words.find("is proved"), std::string::npos);
+}
+
+// ---- Guesses
+
+TEST(Guess, of_a_reading_holds_where_the_answer_is_right_so) {
+  const Polygon_soup soup = tower({0, 1});
+  const auto fits = [&](const Query& query, const std::string& text) {
+    std::vector<Reading> found;
+    for (const Reading reading : readings_of(query.question))
+      if (is_right(reading, soup, query, read_answer(text, query.question, soup.face_count()), {}))
+        found.push_back(reading);
+    return found;
+  };
+  using Readings = std::vector<Reading>;
+  const Query above = question(Question::see, {0, 0, 5}), below = question(Question::see, {0, 0, -5});
+  EXPECT_EQ(fits(above, ""), (Readings{Reading::turned}));
+  EXPECT_EQ(fits(above, "0\n1\n"), (Readings{Reading::nothing_hides}));
+  EXPECT_EQ(fits(above, "0\n"), (Readings{Reading::complement}));
+  EXPECT_EQ(fits(below, "0\n"), (Readings{Reading::turned, Reading::other_sides}));
+  EXPECT_EQ(fits(question(Question::see, {0, 0, -5}, true), "1\n"), (Readings{Reading::complement, Reading::from_one}));
+  EXPECT_EQ(fits(question(Question::order, {0, 0, 5}), "1\n0\n"), (Readings{Reading::reversed}));
+  Query lamp = question(Question::weak, {0, 0, 0});
+  lamp.source = {{-1, -1, 2}, {1, -1, 2}, {1, 1, 2}, {-1, 1, 2}};  // looks up
+  EXPECT_EQ(fits(lamp, "1\n"), (Readings{Reading::source_turned}));
+}
+
+TEST(Guess, of_neighbours_says_no_more_than_they_do) {
+  const std::string exactly = "exactly degenerate";
+  const auto words = [&](std::vector<Neighbour> n) { return words_of(std::move(n), exactly); };
+  constexpr std::int64_t billionth = std::int64_t{1} << 22, millionth = std::int64_t{1} << 32;
+  EXPECT_EQ(words({{0, true}, {1, false}, {-1, false}}),
+            "wrong only where it is exactly degenerate, right when moved by one ulp: contact is decided wrongly, all "
+            "else is right");
+  EXPECT_EQ(words({{1, true}, {0, true}, {-1, false}, {billionth, true}, {-billionth, false}, {millionth, false}}),
+            "wrong when moved by up to 2^-30 of the scene's size to the one side (+), right from 2^-20 of the scene's "
+            "size on: a tolerance of a size between, or rounding");
+  EXPECT_EQ(
+      words({{-1, true}, {1, true}, {0, false}, {billionth, false}}),
+      "wrong when moved by up to one ulp, right from 2^-30 of the scene's size on: a tolerance of a size between, "
+      "or rounding");
+  EXPECT_EQ(words({{0, true}, {1, true}, {millionth, true}}),
+            "wrong wherever it is moved, as far as 2^-20 of the scene's size: no tolerance explains that");
+  EXPECT_EQ(words({{0, true}, {-millionth, true}, {millionth, false}}),
+            "wrong when moved to the other side (-), as far as 2^-20 of the scene's size, right when moved to the "
+            "opposite one: no tolerance explains that");
+  EXPECT_EQ(words({{0, false}, {1, false}, {millionth, true}, {-millionth, true}}),
+            "wrong when moved by 2^-20 of the scene's size, right when moved by nothing: it does not come from being "
+            "exactly degenerate");
+  EXPECT_EQ(words({{0, false}}), "");
+}
+
+TEST(Guess, of_concave_faces_wants_both_kinds) {
+  EXPECT_EQ(words_of(Kinds{1, 2, 5, 0}), "2 of 3 concave faces are wrong, and none of 5 convex ones");
+  EXPECT_EQ(words_of(Kinds{1, 2, 5, 1}), "");
+  EXPECT_EQ(words_of(Kinds{1, 2, 0, 0}), "");
+  EXPECT_EQ(words_of(Kinds{1, 0, 5, 2}), "");
 }
 
 TEST(Example, of_the_page_grades_a_text) {

@@ -208,6 +208,88 @@ TEST_F(Judge, prints_a_table_and_a_verdict) {
   EXPECT_NE(broken.out.find("  again: sightline judge --program "), std::string::npos) << broken;
 }
 
+TEST_F(Judge, explains_a_wrong_answer_in_words_and_pictures) {
+  const std::string query = file("query.json", R"({"query": "see", "eye": [0, 0, 5], "two_sided": false})");
+  const std::vector<std::string> options{"--query",    "see",
+                                         "--contract", "exact",
+                                         "--scenes",   tower(),
+                                         "--ask",      query,
+                                         "--keep",     path("kept").string(),
+                                         "--html",     path("page.html").string()};
+  const Json j = judge(shell("printf \"0\\n1\\n\" > $3"), options, disagreement);
+  const Json& why = j["result"]["smallest"]["explained"];
+  EXPECT_EQ(why["line"]["words"], "on the way from (0, 0, 5) to (0, 0, 0) on face 0, face 1 is met at (0, 0, 1)");
+  EXPECT_EQ(why["line"]["by"], 1);
+  EXPECT_EQ(j["result"]["guess"][0],
+            "in the one wrong case the answer is right read otherwise, as if no face hid another: all are shown that "
+            "the eye is in front of");
+  const std::string svg = read_file(path("kept") / "smallest.svg"), page = read_file(path("page.html"));
+  for (const char* words :
+       {">eye<", ">face 0<", ">face 1<", ">shown but hidden<", ">in the way<", "stroke-dasharray"}) {
+    EXPECT_NE(svg.find(words), std::string::npos) << words;
+    EXPECT_NE(page.find(words), std::string::npos) << words;
+  }
+  EXPECT_NE(page.find("A guess: "), std::string::npos);
+}
+
+TEST_F(Judge, guesses_a_turned_side_and_faces_that_are_dropped) {
+  const std::string above = file("above.json", R"({"query": "see", "eye": [0, 0, 5], "two_sided": false})"),
+                    below = file("below.json", R"({"query": "see", "eye": [0, 0, -5], "two_sided": false})");
+  const auto guess = [&](const std::string& scene, const std::string& query, const std::string& answer) {
+    return judge(shell("printf \"" + answer + "\" > $3"),
+                 {"--query", "see", "--contract", "exact", "--scenes", scene, "--ask", query},
+                 disagreement)["result"]["guess"]
+        .dump();
+  };
+  // A square over another one, and one beside them that looks down.
+  const std::string turned = file("turned.off",
+                                  "OFF\n12 3 0\n-1 -1 1\n1 -1 1\n1 1 1\n-1 1 1\n-1 -1 0\n1 -1 0\n1 1 0\n-1 1 "
+                                  "0\n4 0 0\n4 1 0\n5 1 0\n5 0 0\n4 0 1 2 3\n4 4 5 6 7\n4 8 9 10 11\n");
+  EXPECT_EQ(guess(turned, above, "2\\n"),
+            R"(["in the one wrong case the answer is right read otherwise, as if the front of a face were where it is )"
+            R"(clockwise"])");
+  EXPECT_EQ(guess(tower(), above, ""), "[]") << "nothing that is listed is no sign of anything";
+  EXPECT_NE(guess(tower(), below, "0\\n").find("as if faces seen from behind counted too"), std::string::npos);
+  // An L and a square beside it.
+  const std::string concave = file("concave.off",
+                                   "OFF\n10 2 0\n0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n3 0 0\n4 0 0\n4 1 "
+                                   "0\n3 1 0\n6 0 1 2 3 4 5\n4 6 7 8 9\n");
+  EXPECT_EQ(guess(concave, above, "1\\n"), R"(["1 of 1 concave faces are wrong, and none of 1 convex ones"])");
+}
+
+TEST_F(Judge, guesses_a_tolerance_from_the_scene_moved) {
+  // The program itself, in floats: gaps of 2^-30 are none to it, those of 2^-8 are.
+  const std::string floats = shell(
+      "eye=$(sed \"s/.*eye...//; s/].*//\" $2); " + executable +
+      " see $1 --eye=$eye --kernel float --json - | tr -d \" \\n\" | sed \"s/.*visible..\\[//; s/\\].*//\" | tr , "
+      "\"\\n\" > $3");
+  const Json j =
+      judge(floats, {"--query", "see", "--contract", "exact", "--families", "hinged", "--ulps", "1", "--cases", "1"},
+            disagreement);
+  const std::string guess = j["result"]["smallest"]["guess"].dump();
+  EXPECT_NE(guess.find("a tolerance of a size between, or rounding"), std::string::npos) << guess;
+}
+
+TEST_F(Judge, prints_what_the_page_shows) {
+  if (std::system("python3 -c pass > /dev/null 2>&1") != 0) GTEST_SKIP() << "there is no python3";
+  const std::string page = read_file(fs::path(SIGHTLINE_SOURCE_DIR) / "harness/judge/README.md"), fence = "```python\n";
+  const std::size_t code = page.find(fence) + fence.size();
+  const std::string mine = file("mine.py", page.substr(code, page.find("```", code) - code));
+  const Outcome r = run({"judge", "--program", "python3 " + mine + " {scene} {query} {answer}", "--query", "see",
+                         "--contract", "exact", "--families", "hinged,leaves,boxes", "--cases", "3"});
+  ASSERT_EQ(r.code, disagreement) << r;
+  std::string out = r.out.substr(r.out.find("the smallest"));
+  for (std::size_t at; (at = out.find(mine)) != std::string::npos;) out.replace(at, mine.size(), "mine.py");
+  std::string shown;
+  for (std::size_t at = 0; at < out.size();) {
+    const std::size_t end = out.find('\n', at);
+    shown += "    " + out.substr(at, end + 1 - at);
+    at = end + 1;
+  }
+  for (const char* where : {"README.md", "harness/judge/README.md"})
+    EXPECT_NE(read_file(fs::path(SIGHTLINE_SOURCE_DIR) / where).find(shown), std::string::npos) << where << '\n' << out;
+}
+
 TEST_F(Judge, says_what_is_wrong_with_a_command_line) {
   const auto complains = [&](std::vector<std::string> options, const std::string& about) {
     options.insert(options.begin(), "judge");

@@ -1,0 +1,356 @@
+#include <sightline/harness/judge/explain.h>
+
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/weak.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/judge/truth.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+#include <sightline/sightline.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace sightline::judge {
+namespace {
+
+using Polygon = std::vector<Exact_point>;
+using certificate_check::newell_normal;
+
+// ---- Words
+
+std::string short_number(double x) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.4g", x);
+  return text;
+}
+std::string words_of(const Exact_point& p) {
+  std::string text = "(";
+  for (std::size_t k = 0; k < 3; ++k) text += (k == 0 ? "" : ", ") + short_number(nearest_double(p[k]));
+  return text + ")";
+}
+std::string percent(double share) { return short_number(100 * share) + " %"; }
+std::string face_words(Face_id face) { return "face " + std::to_string(face); }
+
+// ---- Convex polygons
+
+Exact_point middle(const Polygon& polygon) {
+  Exact_point sum{0, 0, 0};
+  for (const Exact_point& p : polygon)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k] / static_cast<long>(polygon.size());
+  return sum;
+}
+
+/// The part where the normal's product with p - origin is not negative.
+Polygon clipped(const Polygon& polygon, const certificate_check::Integer_vector& normal, const Exact_point& origin) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+    const Rational at = certificate_check::dot(normal, minus(p, origin)),
+                   next = certificate_check::dot(normal, minus(q, origin));
+    if (at >= 0) kept.push_back(p);
+    if (sgn(at) * sgn(next) >= 0) continue;
+    const Rational t = at / (at - next);
+    kept.push_back(
+        {Rational(p[0] + t * (q[0] - p[0])), Rational(p[1] + t * (q[1] - p[1])), Rational(p[2] + t * (q[2] - p[2]))});
+  }
+  return kept;
+}
+bool has_area(const Polygon& polygon) {
+  return polygon.size() > 2 && !certificate_check::is_zero(newell_normal(polygon));
+}
+
+double length(const Exact_point& v) { return std::sqrt(nearest_double(dot(v, v))); }
+
+/// In steradians, by Van Oosterom and Strackee's formula for each triangle; the volumes are exact.
+double solid_angle(const Polygon& polygon, const Exact_point& eye) {
+  double sum = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Exact_point a = minus(polygon[0], eye), b = minus(polygon[i], eye), c = minus(polygon[i + 1], eye);
+    const double la = length(a), lb = length(b), lc = length(c);
+    const double below =
+        la * lb * lc + nearest_double(dot(a, b)) * lc + nearest_double(dot(b, c)) * la + nearest_double(dot(c, a)) * lb;
+    const double angle = 2 * std::atan2(std::fabs(nearest_double(dot(a, cross(b, c)))), below);
+    sum += angle < 0 ? angle + 4 * std::numbers::pi : angle;
+  }
+  return sum;
+}
+double share_of_directions(double angle) { return angle / (4 * std::numbers::pi); }
+
+// ---- A scene in convex pieces
+
+struct Flat_piece {
+  Face_id face;
+  Polygon corners;
+  certificate_check::Plane plane;
+};
+
+std::vector<Flat_piece> pieces_of(const Scene& scene) {
+  std::vector<Flat_piece> pieces;
+  for (const Piece& piece : scene.pieces()) {
+    Flat_piece flat{piece.face, {}, {}};
+    for (const Piece_corner& corner : scene.corners(piece)) flat.corners.push_back(scene.position(corner.point));
+    flat.plane = {newell_normal(flat.corners), flat.corners[0]};
+    pieces.push_back(std::move(flat));
+  }
+  return pieces;
+}
+
+/// Where a segment first meets a closed piece strictly between its ends, and that piece's face.
+std::optional<std::pair<Face_id, Exact_point>> first_met(const std::vector<Flat_piece>& pieces, const Exact_point& from,
+                                                         const Exact_point& to) {
+  const Exact_point d = minus(to, from);
+  std::optional<std::pair<Face_id, Exact_point>> found;
+  Rational nearest = 1;
+  for (const Flat_piece& piece : pieces) {
+    const Rational rise = certificate_check::dot(piece.plane.normal, d);
+    if (rise == 0) continue;
+    const Rational t = certificate_check::dot(piece.plane.normal, minus(piece.corners[0], from)) / rise;
+    if (t <= 0 || t >= nearest) continue;
+    const Exact_point at{Rational(from[0] + t * d[0]), Rational(from[1] + t * d[1]), Rational(from[2] + t * d[2])};
+    bool inside = true;
+    for (std::size_t k = 0; k < piece.corners.size() && inside; ++k) {
+      const Exact_point &p = piece.corners[k], &q = piece.corners[(k + 1) % piece.corners.size()];
+      inside = certificate_check::dot(piece.plane.normal, cross(minus(q, p), minus(at, p))) >= 0;
+    }
+    if (!inside) continue;
+    nearest = t;
+    found.emplace(piece.face, at);
+  }
+  return found;
+}
+
+/// A line to a face that is not seen, past its back or something in the way.
+std::optional<Refutation> hidden_face(const std::vector<Flat_piece>& pieces, const Exact_point& from, Face_id face,
+                                      bool two_sided, const std::string& looker) {
+  for (const Flat_piece& piece : pieces) {
+    if (piece.face != face) continue;
+    Refutation line{face, from, middle(piece.corners), {}, {}, {}};
+    const int side = piece.plane.side(from);
+    if (side == 0 || (side < 0 && !two_sided)) {
+      line.words = looker + (side == 0 ? " is in the plane of " : " is behind ") + face_words(face);
+      return line;
+    }
+    // A line may pass along an edge: then one to another point of it tells.
+    for (std::size_t k = 0; k <= piece.corners.size(); ++k) {
+      if (k > 0)
+        for (std::size_t x = 0; x < 3; ++x) line.to[x] = (2 * line.to[x] + piece.corners[k - 1][x]) / 3;
+      const auto met = first_met(pieces, from, line.to);
+      if (!met) continue;
+      line.by = met->first, line.at = met->second;
+      line.words = "on the way from " + words_of(from) + " to " + words_of(line.to) + " on " + face_words(face) + ", " +
+                   face_words(met->first) + " is met at " + words_of(met->second);
+      return line;
+    }
+  }
+  return std::nullopt;
+}
+
+// ---- By question
+
+/// Parts in the plane of a face, cut to the cone that the eye sees the face in.
+std::vector<Polygon> parts_on(const std::vector<Flat_piece>& pieces, Face_id face, const Seen& seen, bool two_sided) {
+  std::vector<Polygon> found;
+  for (const Seen::Visible_part& part : seen.parts) {
+    if (part.face == face) {
+      if (part.from_front || two_sided) found.push_back(part.corners);
+      continue;
+    }
+    for (const Flat_piece& piece : pieces) {  // of faces in one plane the part is one's, and all are visible
+      if (piece.face != face || (piece.plane.side(seen.eye) < 0 && !two_sided)) continue;
+      if (!std::all_of(part.corners.begin(), part.corners.end(),
+                       [&](const Exact_point& p) { return piece.plane.side(p) == 0; }))
+        continue;
+      Polygon common = part.corners;
+      for (const auto& edge : certificate_check::Cone(piece.corners, seen.eye).edge_planes)
+        common = clipped(common, edge, seen.eye);
+      if (has_area(common)) found.push_back(std::move(common));
+    }
+  }
+  return found;
+}
+
+Explanation explain_seen(const Polygon_soup& soup, const Query& query, const Grade& grade, bool missing_first) {
+  const Seen seen = sightline::see(Model(soup), query.eye);
+  const std::vector<Flat_piece> pieces = pieces_of(Scene(soup));
+  Explanation why;
+  double missing = 0, largest = -1;
+  std::optional<Refutation> of_missing;
+  for (const Face_id face : grade.wrong_hidden)
+    for (const Polygon& part : parts_on(pieces, face, seen, query.two_sided)) {
+      const double angle = solid_angle(part, query.eye);
+      missing += angle;
+      if (angle <= largest) continue;
+      largest = angle;
+      const Exact_point to = middle(part);
+      of_missing = {
+          face,
+          query.eye,
+          to,
+          {},
+          {},
+          face_words(face) + " is seen at " + words_of(to) + ": nothing is between it and the eye " + words_of(query.eye)};
+    }
+  double shown = 0;
+  for (const Flat_piece& piece : pieces)
+    if (std::binary_search(grade.wrong_visible.begin(), grade.wrong_visible.end(), piece.face))
+      shown += solid_angle(piece.corners, query.eye);
+  std::optional<Refutation> of_shown;
+  for (std::size_t k = 0; k < grade.wrong_visible.size() && !of_shown; ++k)
+    of_shown = hidden_face(pieces, query.eye, grade.wrong_visible[k], query.two_sided, "the eye");
+  why.refutation = of_missing && (missing_first || !of_shown) ? of_missing : of_shown;
+  why.share = share_of_directions(missing);
+  why.share_words = percent(why.share) + " of all directions show a face that the answer leaves out";
+  if (!grade.wrong_visible.empty())
+    why.share_words += (grade.wrong_hidden.empty() ? "; " : ", and ") +
+                       std::string("hidden faces that it shows would fill ") + percent(share_of_directions(shown)) +
+                       ", each by itself";
+  return why;
+}
+
+/// The directions in which one face is nearer than another, as polygons on the first.
+std::vector<Polygon> nearer(const std::vector<Flat_piece>& pieces, Face_id near, Face_id far, const Exact_point& eye) {
+  std::vector<Polygon> found;
+  for (const Flat_piece& a : pieces)
+    for (const Flat_piece& b : pieces) {
+      if (a.face != near || b.face != far || a.plane.side(eye) == 0 || b.plane.side(eye) == 0) continue;
+      Polygon common = a.corners;
+      for (const auto& edge : certificate_check::Cone(b.corners, eye).edge_planes) common = clipped(common, edge, eye);
+      common = clipped(common, b.plane.side(eye) > 0 ? b.plane.normal : certificate_check::negated(b.plane.normal),
+                       b.corners[0]);
+      if (has_area(common) &&
+          !std::all_of(common.begin(), common.end(), [&](const Exact_point& p) { return b.plane.side(p) == 0; }))
+        found.push_back(std::move(common));
+    }
+  return found;
+}
+
+Explanation explain_order(const Polygon_soup& soup, const Query& query, const Answer& answer, const Grade& grade) {
+  const std::vector<Flat_piece> pieces = pieces_of(Scene(soup));
+  std::vector<bool> in_parts(soup.face_count());
+  for (const Drawn_face& drawn : answer.order)
+    if (!drawn.part.empty()) in_parts[drawn.face] = true;
+  Explanation why;
+  double wrong = 0, largest = -1;
+  bool left_out = false;
+  for (const auto& [earlier, later] : grade.wrong_pairs) {
+    left_out = left_out || in_parts[earlier] || in_parts[later];
+    if (in_parts[earlier] || in_parts[later]) continue;
+    for (const Polygon& part : nearer(pieces, earlier, later, query.eye)) {
+      const double angle = solid_angle(part, query.eye);
+      wrong += angle;
+      if (angle <= largest) continue;
+      largest = angle;
+      const Exact_point to = middle(part);
+      why.refutation = {earlier,
+                        query.eye,
+                        to,
+                        {},
+                        {},
+                        "from " + words_of(query.eye) + " through " + words_of(to) + ", " + face_words(earlier) +
+                            " is nearer than " + face_words(later) + ", which is drawn over it"};
+    }
+  }
+  for (const Face_id face : grade.wrong_hidden)
+    for (const Flat_piece& piece : pieces) {
+      if (why.refutation || piece.face != face || in_parts[face]) continue;
+      why.refutation = {face, query.eye, middle(piece.corners), {}, {}, face_words(face) + " is missing in the order"};
+    }
+  why.share = share_of_directions(wrong);
+  why.share_words = percent(why.share) + " of all directions are drawn in the wrong order, summed over pairs" +
+                    (left_out ? ", without faces drawn in parts" : "");
+  return why;
+}
+
+double area(const Polygon& polygon) {
+  Exact_point twice{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
+    for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
+  }
+  return length(twice) / 2;
+}
+
+/// A sightline to one of the faces, proved.
+std::optional<Refutation> sightline_to(const Scene& scene, const Query& query, const std::vector<Face_id>& faces,
+                                       double seconds) {
+  const Occluders occluders(scene);
+  Weak_options options;
+  options.search.two_sided = query.two_sided;
+  options.faces = faces;
+  options.search.out_of_time = [seconds, start = std::chrono::steady_clock::now()] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
+  };
+  const Weakly_visible found = weakly_visible(occluders, {weak_source(occluders, query.source)}, options);
+  const Weak_certificate proof = weak_certificate(scene, {query.source}, query.two_sided, found);
+  if (proof.visible.empty()) return std::nullopt;
+  const Weak_certificate::Sightline& line = proof.visible.front();
+  const Face_id face = proof.fragments[line.fragment].face;
+  return Refutation{face,
+                    line.from,
+                    line.to,
+                    {},
+                    {},
+                    face_words(face) + " is seen from " + words_of(line.from) + " on the source at " +
+                        words_of(line.to) + ": nothing is between"};
+}
+
+Explanation explain_weak(const Polygon_soup& soup, const Query& query, const Grade& grade, const Answer& answer,
+                         bool missing_first, double seconds) {
+  const Scene scene(soup);
+  const std::vector<Flat_piece> pieces = pieces_of(scene);
+  Explanation why;
+  std::optional<Refutation> of_missing, of_shown;
+  if (!grade.wrong_hidden.empty()) of_missing = sightline_to(scene, query, grade.wrong_hidden, seconds);
+  const Exact_point from = middle(query.source);
+  const certificate_check::Plane plane{newell_normal(query.source), from};
+  for (std::size_t k = 0; k < grade.wrong_visible.size() && !of_shown; ++k) {
+    const Face_id face = grade.wrong_visible[k];
+    bool behind = true;
+    for (const Flat_piece& piece : pieces)
+      for (const Exact_point& p : piece.corners) behind = behind && (piece.face != face || plane.side(p) <= 0);
+    of_shown = hidden_face(pieces, from, face, query.two_sided, "the middle of the source");
+    if (behind && of_shown) {
+      of_shown->words = face_words(face) + " is behind the source, or in its plane";
+      of_shown->by.reset(), of_shown->at.reset();
+    } else if (of_shown) {
+      of_shown->words += "; that no other line reaches it is proved";
+    }
+  }
+  why.refutation = of_missing && (missing_first || !of_shown) ? of_missing : of_shown;
+  double wrong = 0, all = 0;
+  const auto holds = [](const std::vector<Face_id>& faces, Face_id f) {
+    return std::binary_search(faces.begin(), faces.end(), f);
+  };
+  for (const Flat_piece& piece : pieces) {
+    if (holds(answer.abstained, piece.face)) continue;
+    all += area(piece.corners);
+    if (holds(grade.wrong_visible, piece.face) || holds(grade.wrong_hidden, piece.face)) wrong += area(piece.corners);
+  }
+  why.share = all > 0 ? wrong / all : 0;
+  why.share_words = percent(why.share) + " of the area that is answered for is of wrong faces";
+  return why;
+}
+
+}  // namespace
+
+Explanation explain(const Polygon_soup& soup, const Query& query, const Answer& answer, const Grade& grade,
+                    Contract contract, double seconds) {
+  const bool missing_first = contract != Contract::aggressive;
+  switch (query.question) {
+    case Question::order: return explain_order(soup, query, answer, grade);
+    case Question::see: return explain_seen(soup, query, grade, missing_first);
+    case Question::weak: return explain_weak(soup, query, grade, answer, missing_first, seconds);
+  }
+  return {};
+}
+
+}  // namespace sightline::judge

@@ -1,0 +1,152 @@
+#include <sightline/harness/judge/guess.h>
+
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <utility>
+
+namespace sightline::judge {
+namespace {
+
+Polygon_soup turned_round(const Polygon_soup& soup) {
+  Polygon_soup turned;
+  turned.coordinates = soup.coordinates;
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const std::vector<Point_id> loop(soup.loop(f).rbegin(), soup.loop(f).rend());
+    turned.add_face(loop);
+  }
+  return turned;
+}
+
+bool graded_right(const Polygon_soup& soup, const Query& query, const Answer& answer, const Truth_options& options) {
+  const Truth truth = truth_of(soup, query, options);
+  return truth.not_asked.empty() && !grade(truth, answer).wrong();
+}
+
+/// The truth if faces hid nothing.
+Truth with_nothing_hidden(const Polygon_soup& soup, const Query& query) {
+  Truth truth;
+  const Scene scene(soup);
+  std::vector<bool> in_front(soup.face_count()), kept(soup.face_count());
+  for (const Piece& piece : scene.pieces()) {
+    certificate_check::Polygon corners;
+    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    const int side = certificate_check::Plane{certificate_check::newell_normal(corners), corners[0]}.side(query.eye);
+    kept[piece.face] = true;
+    in_front[piece.face] = side > 0 || (query.two_sided && side < 0);
+  }
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    if (kept[f]) (in_front[f] ? truth.visible : truth.hidden).push_back(f);
+  return truth;
+}
+
+std::string distance_words(std::int64_t ulps) {
+  const auto size = static_cast<std::uint64_t>(std::abs(ulps));
+  if (size == 1) return "one ulp";
+  if (!std::has_single_bit(size)) return std::to_string(size) + " ulps";
+  return "2^-" + std::to_string(52 - static_cast<int>(std::bit_width(size) - 1)) + " of the scene's size";
+}
+
+}  // namespace
+
+std::vector<Reading> readings_of(Question question) {
+  switch (question) {
+    case Question::order: return {Reading::reversed, Reading::from_one};
+    case Question::see:
+      return {Reading::turned, Reading::other_sides, Reading::nothing_hides, Reading::complement, Reading::from_one};
+    case Question::weak:
+      return {Reading::turned, Reading::other_sides, Reading::source_turned, Reading::complement, Reading::from_one};
+  }
+  return {};
+}
+
+bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, const Answer& answer,
+              const Truth_options& options) {
+  Query other = query;
+  Answer read = answer;
+  switch (reading) {
+    case Reading::turned: return graded_right(turned_round(soup), query, answer, options);
+    case Reading::other_sides: other.two_sided = !query.two_sided; break;
+    case Reading::source_turned: std::reverse(other.source.begin(), other.source.end()); break;
+    case Reading::nothing_hides: return !grade(with_nothing_hidden(soup, query), answer).wrong();
+    case Reading::complement: {
+      read.visible.clear();
+      for (Face_id f = 0; f < soup.face_count(); ++f)
+        if (!std::binary_search(answer.visible.begin(), answer.visible.end(), f) &&
+            !std::binary_search(answer.abstained.begin(), answer.abstained.end(), f))
+          read.visible.push_back(f);
+    } break;
+    case Reading::reversed: std::reverse(read.order.begin(), read.order.end()); break;
+    case Reading::from_one: {
+      for (const Face_id face : answer.visible)
+        if (face == 0) return false;
+      for (const Drawn_face& drawn : answer.order)
+        if (drawn.face == 0) return false;
+      for (Face_id& face : read.visible) --face;
+      for (Drawn_face& drawn : read.order) --drawn.face;
+    } break;
+  }
+  return graded_right(soup, other, read, options);
+}
+
+std::string words_of(Reading reading, bool two_sided) {
+  switch (reading) {
+    case Reading::turned: return "as if the front of a face were where it is clockwise";
+    case Reading::other_sides:
+      return two_sided ? "as if only fronts counted" : "as if faces seen from behind counted too";
+    case Reading::source_turned: return "as if the source looked to the side from which it is clockwise";
+    case Reading::nothing_hides: return "as if no face hid another: all are shown that the eye is in front of";
+    case Reading::complement: return "as if hidden faces were to be listed, not visible ones";
+    case Reading::reversed: return "as if the nearest face came first";
+    case Reading::from_one: return "as if faces were counted from 1";
+  }
+  return {};
+}
+
+std::string words_of(std::vector<Neighbour> neighbours, const std::string& exactly) {
+  const auto size = [](const Neighbour& n) { return std::abs(n.ulps); };
+  std::stable_sort(neighbours.begin(), neighbours.end(),
+                   [&](const Neighbour& a, const Neighbour& b) { return size(a) < size(b); });
+  std::vector<Neighbour> wrong, right;
+  for (const Neighbour& n : neighbours) (n.wrong ? wrong : right).push_back(n);
+  if (wrong.empty()) return {};
+  const Neighbour &last_wrong = wrong.back(), &farthest = neighbours.back();
+  if (right.empty())
+    return "wrong wherever it is moved, as far as " + distance_words(farthest.ulps) + ": no tolerance explains that";
+  if (last_wrong.ulps == 0)
+    return "wrong only where it is " + exactly + ", right when moved by " + distance_words(right.front().ulps) +
+           ": contact is decided wrongly, all else is right";
+  // Which side all are on that are moved and wrong; none of that side is right then.
+  const auto only_on = [&](bool positive) {
+    return std::all_of(neighbours.begin(), neighbours.end(),
+                       [&](const Neighbour& n) { return n.ulps == 0 || !n.wrong || (n.ulps > 0) == positive; });
+  };
+  const bool one = only_on(true), other = only_on(false);
+  const std::string side = one ? " to the one side (+)" : other ? " to the other side (-)" : "";
+  const auto beyond = std::find_if(right.begin(), right.end(), [&](const Neighbour& n) {
+    return size(n) > size(last_wrong) && (side.empty() || (n.ulps > 0) == one);
+  });
+  if (beyond != right.end())
+    return "wrong when moved by up to " + distance_words(last_wrong.ulps) + side + ", right from " +
+           distance_words(beyond->ulps) + " on: a tolerance of a size between, or rounding";
+  const bool all_of_a_side =
+      std::none_of(right.begin(), right.end(), [&](const Neighbour& n) { return n.ulps != 0 && (n.ulps > 0) == one; });
+  if (!side.empty() && all_of_a_side)
+    return "wrong when moved" + side + ", as far as " + distance_words(last_wrong.ulps) +
+           ", right when moved to the opposite one: no tolerance explains that";
+  return "wrong when moved by " + distance_words(last_wrong.ulps) + ", right when moved by " +
+         (right.front().ulps == 0 ? std::string("nothing") : distance_words(right.front().ulps)) +
+         ": it does not come from being " + exactly;
+}
+
+std::string words_of(const Kinds& kinds) {
+  if (kinds.concave_wrong > 0 && kinds.convex_wrong == 0 && kinds.convex_right > 0)
+    return std::to_string(kinds.concave_wrong) + " of " + std::to_string(kinds.concave_wrong + kinds.concave_right) +
+           " concave faces are wrong, and none of " + std::to_string(kinds.convex_right) + " convex ones";
+  return {};
+}
+
+}  // namespace sightline::judge
