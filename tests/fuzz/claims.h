@@ -197,6 +197,15 @@ struct Tile {
   }
 };
 
+/// The extreme rays of a part, which it has, or its vertices.
+inline Points rays_of(const Visible_certificate& claim, const Visible_certificate::Part& part) {
+  Points rays;
+  for (const std::uint32_t ray : part.rays) rays.push_back(claim.rays[ray]);
+  if (part.rays.empty())
+    for (const Exact_point& p : part.vertices) rays.push_back(minus(p, claim.eye));
+  return rays;
+}
+
 inline void try_claims(const Known_scene& scene, const Visible_certificate& claim) {
   const std::vector<Flat> fragments = flats(claim);
   try_covering(scene, claim, fragments);
@@ -205,10 +214,16 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
   std::optional<Tile> field;
   if (!claim.field.empty()) field.emplace(claim.field);
   for (const Visible_certificate::Part& part : claim.parts) {
-    Points rays;
-    for (const Exact_point& p : part.vertices) rays.push_back(minus(p, claim.eye));
-    tiles.emplace_back(std::move(rays));
-    for (const Exact_point& p : mixtures(part.vertices)) {
+    const Points rays = rays_of(claim, part);
+    tiles.emplace_back(rays);
+    Points vertices = part.vertices;
+    if (!part.rays.empty())
+      for (const Exact_point& ray : rays) {
+        const auto hit = fragments[part.fragment].hit(claim.eye, plus(claim.eye, ray));
+        require(hit && hit->first > 0, "a ray of a part meets its fragment");
+        vertices.push_back(plus(claim.eye, times(hit->first, ray)));
+      }
+    for (const Exact_point& p : mixtures(vertices)) {
       require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0,
               "a part is in its fragment");
       for (const Flat& other : fragments)

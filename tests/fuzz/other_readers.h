@@ -39,7 +39,7 @@ inline void read_certificate(std::string_view bytes) {
     });
   };
   const auto written = [](const Certificate& certificate) {
-    return std::visit([](const auto& claim) { return to_json(claim).dump(); }, certificate);
+    return std::visit([](const auto& claim) { return certificate_text(claim); }, certificate);
   };
   const std::optional<Certificate> certificate = read(bytes);
   if (!certificate) return;
