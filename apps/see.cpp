@@ -193,9 +193,8 @@ static Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  const Seen seen =
-      see(scene, eye, arguments.kernel, field,
-          {arguments.two_sided, !common.json.empty(), arguments.certificate, arguments.lines}, options);
+  const Seen seen = see(scene, eye, arguments.kernel, field,
+                        {arguments.two_sided, !common.json.empty(), arguments.certificate, arguments.lines}, options);
 
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
@@ -284,7 +283,8 @@ void add_see(Command program) {
   command.add_flag("--lines", a->lines,
                    "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
                    "in the picture solid and dashed");
-  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads, unless --budget runs out")
+      .writes_file();
   command.add_option("--svg", a->svg, "draw the visible parts").writes_file().check(ending(".svg"));
   a->view.add_to(command);
   command.footer(

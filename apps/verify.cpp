@@ -33,8 +33,8 @@ static Certificate certificate_of(const std::string& file) {
     if (error.is_no_json && format_of_ending(file))
       throw Input_error::of_file(file,
                                  "is a scene by its name, not a certificate; `verify` wants SCENE, then CERTIFICATE");
-    const std::string what =
-        error.message + (error.is_no_json ? "; write the file again, or fetch it again" : "; make the certificate again");
+    const std::string what = error.message + (error.is_no_json ? "; write the file again, or fetch it again"
+                                                               : "; make the certificate again");
     if (error.line == 0) throw Input_error::of_file(file, what);
     throw Input_error::in_text(file, error.line, error.column, what);
   }

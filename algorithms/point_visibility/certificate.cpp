@@ -23,8 +23,9 @@ class Numbered_rays {
   explicit Numbered_rays(const std::vector<Exact_view::Ray>& rays) : number_(rays.size()) {
     std::vector<std::uint32_t> order(rays.size());
     std::iota(order.begin(), order.end(), std::uint32_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::uint32_t i, std::uint32_t j) { return std::pair(name(rays[i]), i) < std::pair(name(rays[j]), j); });
+    std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+      return std::pair(name(rays[i]), i) < std::pair(name(rays[j]), j);
+    });
     // Numbers go by the first place, so that those of a part are near each other.
     for (std::size_t k = 0; k < order.size(); ++k)
       number_[order[k]] = k > 0 && name(rays[order[k]]) == name(rays[order[k - 1]]) ? number_[order[k - 1]] : order[k];

@@ -1,5 +1,5 @@
-// Reading. From top to bottom: the text as characters with their places; what entries of lists are; certificates, key by
-// key; the events of the parser. certificate_writer.cpp writes.
+// Reading. From top to bottom: the text as characters with their places; what entries of lists are; certificates, key
+// by key; the events of the parser. certificate_writer.cpp writes.
 
 #include <sightline/algorithms/verify/certificate_json.h>
 
@@ -25,13 +25,11 @@
 
 namespace sightline {
 
-Certificate_error::Certificate_error(std::size_t at_line, std::size_t at_column, const std::string& what,
-                                     bool json)
-    : std::invalid_argument("certificate: " +
-                            (at_line == 0 ? ""
-                                          : "line " + std::to_string(at_line) + ", column " +
-                                                std::to_string(at_column) + ": ") +
-                            what),
+Certificate_error::Certificate_error(std::size_t at_line, std::size_t at_column, const std::string& what, bool json)
+    : std::invalid_argument(
+          "certificate: " +
+          (at_line == 0 ? "" : "line " + std::to_string(at_line) + ", column " + std::to_string(at_column) + ": ") +
+          what),
       line(at_line),
       column(at_column),
       message(what),
@@ -293,8 +291,7 @@ Exact_point& Contents::at(const Place& place) {
 /// Few numbers must not become much memory: of large points that are named often.
 void Contents::put(const Table& table, std::uint32_t number, Exact_point& there, const Place& place) {
   const Exact_point& point = table.points[number];
-  for (const Rational& x : point)
-    written_out_ += (bit_length(x.get_num()) + bit_length(x.get_den())) / 8 + 16;
+  for (const Rational& x : point) written_out_ += (bit_length(x.get_num()) + bit_length(x.get_den())) / 8 + 16;
   if (written_out_ > std::max(std::size_t{1} << 28, 64 * text_.count()))
     fail(name_of(place), std::string("points of \"") + table.key +
                              "\" are named so often that they take more than 64 times the file, and 256 MiB; write "
@@ -374,8 +371,7 @@ void Contents::take(const std::string& key, std::size_t number, const Json& entr
   };
   if (key == "points") points_.points.push_back(point(entry, at));
   else if (key == "rays") rays_.points.push_back(point(entry, at));
-  else if (key == "fragments")
-    covering_.fragments.push_back(part<Order_fragment>(entry, at, Place::fragments, number));
+  else if (key == "fragments") covering_.fragments.push_back(part<Order_fragment>(entry, at, Place::fragments, number));
   else if (key == "pieces") covering_.pieces.push_back(part<Covering::Piece>(entry, at, Place::pieces, number));
   else if (key == "set_aside") {
     const Json& why = member(entry, "why", at);
@@ -469,10 +465,11 @@ struct Kind {
   std::vector<std::string_view> needed, optional;
 };
 const std::array<Kind, 4>& kinds() {
-  static const std::array<Kind, 4> all{{{"order", {"eye"}, {"on_view"}},
-                                        {"graph", {"sizes", "arcs"}, {}},
-                                        {"see", {"eye", "parts", "empty"}, {"field", "rays"}},
-                                        {"weak", {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}}}};
+  static const std::array<Kind, 4> all{
+      {{"order", {"eye"}, {"on_view"}},
+       {"graph", {"sizes", "arcs"}, {}},
+       {"see", {"eye", "parts", "empty"}, {"field", "rays"}},
+       {"weak", {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}}}};
   return all;
 }
 
@@ -583,10 +580,10 @@ class Events {
   const Text& text_;
   Contents contents_;
   std::vector<std::pair<std::string, std::optional<Certificate_error>>> keys_;
-  std::size_t depth_ = 0;      // of what is open
-  bool passing_over_ = false;  // what is below the last key
-  bool in_list_ = false;       // of entries, below the last key
-  std::size_t number_ = 0;     // of the entry
+  std::size_t depth_ = 0;              // of what is open
+  bool passing_over_ = false;          // what is below the last key
+  bool in_list_ = false;               // of entries, below the last key
+  std::size_t number_ = 0;             // of the entry
   std::size_t line_ = 0, column_ = 0;  // where it begins, or, of a value that is neither list nor object, ends
   Json entry_;
   std::vector<Json*> open_;  // in the entry

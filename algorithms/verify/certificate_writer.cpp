@@ -86,7 +86,8 @@ struct Hash {
     for (const Rational& number : *p)
       for (const Integer* part : {&number.get_num(), &number.get_den()}) {
         add(static_cast<std::size_t>(mpz_sgn(part->get_mpz_t()) + 1));
-        for (std::size_t i = 0; i < mpz_size(part->get_mpz_t()); ++i) add(mpz_getlimbn(part->get_mpz_t(), static_cast<mp_size_t>(i)));
+        for (std::size_t i = 0; i < mpz_size(part->get_mpz_t()); ++i)
+          add(mpz_getlimbn(part->get_mpz_t(), static_cast<mp_size_t>(i)));
       }
     return h;
   }

@@ -237,8 +237,7 @@ void Check::check_part(std::size_t k) {
   }
   for (const Integer_vector& corner : cones_.back().rays)
     if (side(cones_[own], corner) < 0) reject(what + " is not inside its piece", {own});
-  if (side(cones_.back(), rays_.back()) <= 0)
-    reject(what + " does not have its ray strictly inside its cone", {own});
+  if (side(cones_.back(), rays_.back()) <= 0) reject(what + " does not have its ray strictly inside its cone", {own});
 }
 
 /// The cone of a part that is given by rays: over its fragment's plane.

@@ -64,10 +64,24 @@ struct Sight {
   Verdict verdict() const { return verify_visible(soup, certificate); }
 };
 
+/// The same, its parts given by rays.
+Sight by_rays(Sight sight) {
+  Visible_certificate& c = sight.certificate;
+  for (Visible_certificate::Part& part : c.parts) {
+    for (const Exact_point& p : part.vertices) {
+      part.rays.push_back(static_cast<std::uint32_t>(c.rays.size()));
+      c.rays.push_back(plus(p, -1, c.eye));
+    }
+    part.vertices = {}, part.ray = {};
+  }
+  return sight;
+}
+
 void expect_accepted(const Sight& sight) {
   const Verdict verdict = sight.verdict();
   EXPECT_TRUE(verdict.accepted) << verdict.why;
   EXPECT_TRUE(verdict.fragments.empty());
+  EXPECT_EQ(by_rays(sight).verdict().why, verdict.why);
 }
 void expect_rejected(const Sight& sight, const std::string& words, const std::vector<std::size_t>& fragments = {}) {
   const Verdict verdict = sight.verdict();
@@ -847,6 +861,31 @@ TEST(Visible_by_cutting, pieces_of_one_face_in_one_plane_go_by_their_number) {
   }
 }
 
+// ---- Parts by rays
+
+TEST(Visible, parts_by_rays_that_are_none) {
+  const Sight good = by_rays(one_triangle());
+  expect_accepted(good);
+  const auto with = [&](const std::vector<std::uint32_t>& rays, const Exact_point& more) {
+    Sight sight = good;
+    sight.certificate.parts[0].rays = rays;
+    sight.certificate.rays.push_back(more);
+    return sight;
+  };
+  expect_accepted(with({2, 1, 0}, {}));
+  expect_accepted(with({2, 1, 3}, at(7, 0, 0)));
+  expect_rejected(with({0, 1, 4}, {}), "part 0 (face 0) names ray 4, which there is not", {0});
+  expect_rejected(with({0, 1}, {}), "part 0 (face 0) has fewer than three directions");
+  expect_rejected(with({0, 1, 3}, at(0, 0, 0)), "part 0 (face 0) has a direction that is zero");
+  expect_rejected(with({0, 1, 1, 2}, {}), "part 0 (face 0) has a repeated vertex");
+  expect_rejected(with({0, 1, 3}, at(0, 0, -1)), "part 0 (face 0) is not inside its piece", {0});
+  expect_rejected(with({0, 1, 3}, at(-1, -1, 1)), "part 0 (face 0) is not inside its piece", {0});
+  expect_rejected(with({0, 1, 3}, at(1, 1, 1)), "boundaries do not cancel");
+  Sight unreduced = with({0, 1, 3}, {});
+  mpq_set_si(unreduced.certificate.rays[3][2].get_mpq_t(), 2, 2);
+  expect_rejected(unreduced, "part 0 (face 0) has a direction that is not in canonical numbers");
+}
+
 // ---- JSON
 
 Visible_certificate read_visible(const std::string& text) {
@@ -872,6 +911,9 @@ TEST(Visible_json, what_is_written_is_read_back) {
     Dice dice(seed);
     const Sight sight = random_sight(dice);
     const auto& c = sight.certificate;
+    const Visible_certificate rays = by_rays(sight).certificate;
+    EXPECT_EQ(certificate_text(read_visible(certificate_text(rays))), certificate_text(rays));
+    EXPECT_EQ(read_visible(nlohmann::json::parse(certificate_text(rays)).dump()).rays, rays.rays) << "sorted by name";
     const Visible_certificate again = read_visible(certificate_text(c));
     EXPECT_EQ(again.eye, c.eye);
     EXPECT_EQ(again.field, c.field);
@@ -940,7 +982,23 @@ TEST(Visible_json, faults_are_named_with_their_place) {
   };
   for (const auto& [text, words] : cases)
     EXPECT_NE(fault_of_visible(text).find(words), std::string::npos) << text << " -> " << fault_of_visible(text);
-  EXPECT_THROW(visible_certificate_from_json(nlohmann::ordered_json{{"format", "sightline order 1"}}), std::invalid_argument);
+  const std::string rays =
+      head + R"("rays":[["1","0","0"],["0","1","0"],["0","0","1"]],"parts":[{"fragment":0,"rays":)";
+  EXPECT_EQ(fault_of_visible(rays + R"([0,1,2]}],"empty":[[2,1,["-1","0","0"]]]})"), "nothing");
+  const std::vector<std::pair<std::string, std::string>> more = {
+      {R"([0,1]}],"empty":[]})", "parts[0].rays: expected three or more numbers"},
+      {R"(7}],"empty":[]})", "parts[0].rays: expected an array"},
+      {R"([0,1,3]}],"empty":[]})", "parts[0].rays[2]: expected a number below 3, the size of \"rays\""},
+      {R"([0,1,-3]}],"empty":[]})", "parts[0].rays[2]: expected an integer"},
+      {R"([0,1,["0","0","1"]]}],"empty":[]})", "parts[0].rays[2]: expected an integer"},
+      {R"([0,1,2],"ray":["1","1","1"]}],"empty":[]})",
+       "parts[0]: expected either \"rays\", or \"vertices\" and \"ray\""},
+      {R"([0,1,2]}],"empty":[[0,1,5]]})", "empty[0][2]: expected a number below 3, the size of \"rays\""},
+  };
+  for (const auto& [text, words] : more)
+    EXPECT_NE(fault_of_visible(rays + text).find(words), std::string::npos) << fault_of_visible(rays + text);
+  EXPECT_EQ(fault_of_visible(head + R"("parts":[{"fragment":0,"rays":[0,1,2]}],"empty":[]})"),
+            "certificate: parts[0].rays[0]: is a number, but there is no table \"rays\"");
 }
 
 }  // namespace
