@@ -6,7 +6,7 @@
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/scope.h>
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <functional>

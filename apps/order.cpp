@@ -4,7 +4,7 @@
 
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/verify/order.h>
 #include <sightline/kernel/traits/exact_traits.h>
 

@@ -3,7 +3,7 @@
 #include "methods/methods.h"
 #include "methods/weak.h"
 
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 
 namespace sightline::app {

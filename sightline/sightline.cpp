@@ -9,6 +9,7 @@
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>

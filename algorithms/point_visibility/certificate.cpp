@@ -2,7 +2,7 @@
 
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/point_visibility/visible.h>
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>

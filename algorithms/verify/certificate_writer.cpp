@@ -1,6 +1,6 @@
 // From top to bottom: what parts of certificates are as text; the table of points; certificates of each kind.
 
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 
 #include <sightline/kernel/number.h>
 

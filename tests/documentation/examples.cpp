@@ -116,6 +116,7 @@ bool check(const sightline::Polygon_soup& scene, const char* file) {
 
 #include <gtest/gtest.h>
 
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/kernel/scene/scene.h>
 
 namespace {

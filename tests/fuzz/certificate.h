@@ -5,6 +5,7 @@
 #include "claims.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/io/read.h>
 
 #include <nlohmann/json.hpp>

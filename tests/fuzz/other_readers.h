@@ -6,6 +6,7 @@
 
 #include <sightline/harness/laws/query_json.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/io/number_lines.h>
 #include <sightline/harness/judge/protocol.h>
 

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/harness/generate/buildings.h>
 #include <sightline/harness/generate/soups.h>
 

@@ -3,6 +3,7 @@
 #include "weak_scenes.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 
 #include <nlohmann/json.hpp>
 

@@ -5,6 +5,7 @@
 #include "scenes.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/verify/pairs.h>
 #include <sightline/algorithms/verify/polygons.h>
 
