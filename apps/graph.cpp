@@ -6,7 +6,7 @@
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/pair_code.h>
 #include <sightline/algorithms/priority/scope.h>
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <functional>
@@ -318,9 +318,12 @@ static Exit run(const Graph_arguments& arguments) {
     return find(faces, arguments, in_time);
   }();
 
-  if (!arguments.certificate.empty())
-    write_file(arguments.certificate,
-               to_json(graph_certificate(scene, faces, found.components, found.trees)).dump() + "\n");
+  if (!arguments.certificate.empty()) {
+    in_time(1, 1);  // no certificate once the budget is over
+    write_file(arguments.certificate, [&](std::ostream& out) {
+      write_certificate(out, graph_certificate(scene, faces, found.components, found.trees));
+    });
+  }
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
   std::optional<Clusters> clusters;
   if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments, in_time);

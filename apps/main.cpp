@@ -3,12 +3,49 @@
 #include "support/command.h"
 #include "support/files.h"
 
+#include <gmp.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <new>
+#include <stdexcept>
+#include <string_view>
 
 using namespace sightline::app;
+
+// ---- Where memory runs out
+
+/// Says so and ends, from wherever it is: what is half done is not finished with less memory, and must not be answered.
+[[noreturn]] static void end_without_memory() {
+  static constexpr std::string_view says =
+      "sightline: undecided: out of memory; take a smaller scene or fewer outputs, or a machine (or limit) with more\n";
+  remove_unfinished();
+  if (write(STDERR_FILENO, says.data(), says.size()) < 0) _exit(static_cast<int>(Exit::undecided));
+  _exit(static_cast<int>(Exit::undecided));
+}
+
+// GMP would abort.
+extern "C" {
+static void* allocated(std::size_t size) {
+  void* const memory = std::malloc(size);
+  return memory != nullptr ? memory : (end_without_memory(), nullptr);
+}
+static void* reallocated(void* before, std::size_t, std::size_t size) {
+  void* const memory = std::realloc(before, size);
+  return memory != nullptr ? memory : (end_without_memory(), nullptr);
+}
+}
+
+/// Whether the error says that a container would be longer than any memory; others of its kind have a sentence.
+static bool is_without_end(const std::exception& error) {
+  return dynamic_cast<const std::length_error*>(&error) != nullptr &&
+         std::string_view(error.what()).find("::") != std::string_view::npos;
+}
 
 /// Does what the command line asks for, and says what went wrong.
 static Exit run(int argc, char** argv) {
@@ -17,13 +54,16 @@ static Exit run(int argc, char** argv) {
   program.root().footer(
       "An OUTPUT is written whole or not at all, and is no FILE of the same command; - is standard output or input.\n"
       "Exit codes: 0 done; 1 a check failed, or methods disagree; 2 usage; 3 bad input, or an output that cannot be "
-      "written; 4 undecided, or the budget ran out.");
+      "written; 4 undecided, or the budget or memory ran out.");
   for (const auto add : {add_info, add_bsp, add_order, add_graph, add_cutset, add_see, add_weak, add_verify,
                          add_compare, add_generate, add_fuzz, add_reduce, add_judge})
     add(program.root());
   try {
     return program.run(argc, argv).value_or(Exit::done);
+  } catch (const std::bad_alloc&) {
+    end_without_memory();
   } catch (const std::exception& error) {
+    if (is_without_end(error)) end_without_memory();
     std::cerr << "sightline: " << error.what() << '\n';
     const bool usage = dynamic_cast<const Usage_error*>(&error) != nullptr;
     const bool budget = dynamic_cast<const Out_of_budget*>(&error) != nullptr;
@@ -33,6 +73,8 @@ static Exit run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   watch_for_signals();
+  std::set_new_handler(end_without_memory);
+  mp_set_memory_functions(allocated, reallocated, nullptr);
   const Exit exit = run(argc, argv);
   // An answer that is not all there is none, whatever it was.
   errno = 0;

@@ -4,7 +4,7 @@
 
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/verify/order.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
@@ -110,9 +110,12 @@ static Exit run(const Order_arguments& arguments) {
   const Outcome outcome =
       by_graph ? run_graph(scene, task, arguments.two_sided, graph) : run_method(arguments.kernel, scene, task);
 
-  if (!arguments.certificate.empty())
-    write_file(arguments.certificate,
-               to_json(certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided)).dump() + "\n");
+  if (!arguments.certificate.empty()) {
+    task.bsp.progress(1, 1);  // no certificate once the budget is over
+    write_file(arguments.certificate, [&](std::ostream& out) {
+      write_certificate(out, certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided));
+    });
+  }
   if (!arguments.svg.empty()) {
     if (near && !by_graph) {
       task.near = near;

@@ -5,7 +5,6 @@
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
-#include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/kernels.h>
 #include <sightline/algorithms/point_visibility/visible.h>
@@ -14,6 +13,7 @@
 
 #include <iostream>
 #include <optional>
+#include <ostream>
 #include <set>
 
 namespace sightline::app {
@@ -39,8 +39,7 @@ struct Drawn_line {
 struct Seen {
   std::vector<Drawn_line> lines;
   std::vector<Drawn> parts;  ///< fragment.piece: the convex piece; no vertices where nobody asks for them
-  std::vector<Face_id> visible, from_behind;       ///< from_behind: those that no front shows
-  std::optional<Visible_certificate> certificate;  ///< where it is asked for; exact only
+  std::vector<Face_id> visible, from_behind;  ///< from_behind: those that no front shows
   Visible_counters counters;
   std::size_t edge_on = 0,
               not_finite = 0;  ///< pieces in the eye's plane; parts of an inexact kernel that are no numbers
@@ -49,7 +48,9 @@ struct Seen {
 
 /// What a run is asked for.
 struct Wanted {
-  bool two_sided = false, corners = false, certificate = false, lines = false;  ///< certificate and lines: exact only
+  bool two_sided = false, corners = false;
+  std::string certificate;  ///< the file to write it to, or none; exact only
+  bool lines = false;       ///< exact only
 };
 
 template <sightline::View V>
@@ -189,7 +190,10 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
     const double seconds = watch.seconds();
     seen = seen_by(view, surface, wanted);
     seen.seconds = seconds;
-    if (wanted.certificate) seen.certificate = visible_certificate(view, surface, eye, field);
+    if (!wanted.certificate.empty())
+      write_file(wanted.certificate, [&](std::ostream& out) {
+        write_visible_certificate(out, view, surface, eye, field, options.progress);
+      });
     if (wanted.lines) {
       const Stopwatch more;
       seen.lines = lines_of(view, surface, boxes, options.threads);
@@ -226,15 +230,13 @@ static Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  const Seen seen =
-      see(scene, eye, arguments.kernel, field,
-          {arguments.two_sided, !common.json.empty(), !arguments.certificate.empty(), arguments.lines}, options);
+  const Seen seen = see(scene, eye, arguments.kernel, field,
+                        {arguments.two_sided, !common.json.empty(), arguments.certificate, arguments.lines}, options);
 
-  if (seen.certificate) write_file(arguments.certificate, to_json(*seen.certificate).dump() + "\n");
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
     if (!empty) {
-      const Seen picture = see(scene, eye, "exact", corner_rays(view), {true, true, false, arguments.lines}, options);
+      const Seen picture = see(scene, eye, "exact", corner_rays(view), {true, true, "", arguments.lines}, options);
       paint(svg, view, picture.parts, false, arguments.lines ? pale_look : look_by_face);
       if (arguments.lines) draw(svg, view, picture);
     }
@@ -327,7 +329,8 @@ void add_see(Command program) {
   command.add_flag("--lines", a->lines,
                    "cut the scene's edges into visible and hidden parts: in the JSON with the face that hides them, "
                    "in the picture solid and, next to what is seen, dashed; what is farther behind is faint");
-  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
+  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads, unless --budget runs out")
+      .writes_file();
   command.add_option("--svg", a->svg, "draw the visible parts; the n-th polygon of face 7 has the id face-7-n")
       .writes_file()
       .check(ending(".svg"));

@@ -3,10 +3,11 @@
 #include "support/common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/io/file.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
 
-#include <sstream>
+#include <fstream>
 
 namespace sightline::app {
 
@@ -24,17 +25,18 @@ static Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& clai
 }
 
 static Certificate certificate_of(const std::string& file) {
-  const std::string text = read_input(file);
-  std::istringstream in(text);
+  std::ifstream in = open_bytes(input_path(file));
   try {
     return read_certificate(in);
-  } catch (const std::exception& error) {
-    // What is no JSON is told with its place; the rest has its place in the message.
-    if (!nlohmann::json::accept(text) && format_of_ending(file))
+  } catch (const Certificate_error& error) {
+    if (in.bad()) throw Input_error::of_file(file, "cannot be read to its end; check the file");
+    if (error.is_no_json && format_of_ending(file))
       throw Input_error::of_file(file,
                                  "is a scene by its name, not a certificate; `verify` wants SCENE, then CERTIFICATE");
-    parse_json(text, file);
-    throw Input_error::of_file(file, std::string(error.what()) + "; make the certificate again");
+    const std::string what = error.message + (error.is_no_json ? "; write the file again, or fetch it again"
+                                                               : "; make the certificate again");
+    if (error.line == 0) throw Input_error::of_file(file, what);
+    throw Input_error::in_text(file, error.line, error.column, what);
   }
 }
 

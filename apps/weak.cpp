@@ -3,7 +3,7 @@
 #include "methods/methods.h"
 #include "methods/weak.h"
 
-#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/kernel/vectors.h>
 
@@ -376,8 +376,9 @@ Exit run_weak(const Weak_arguments& arguments) {
   progress.clear();
 
   if (!arguments.certificate.empty())
-    write_file(arguments.certificate,
-               to_json(weak_certificate(scene, sources.points, task.two_sided, found)).dump() + "\n");
+    write_file(arguments.certificate, [&](std::ostream& out) {
+      write_certificate(out, weak_certificate(scene, sources.points, task.two_sided, found));
+    });
   if (!arguments.surfaces.empty())
     write_file(arguments.surfaces,
                as_obj ? surfaces_obj(outcome.surfaces) : surfaces_json(scene, outcome.surfaces).dump() + "\n");

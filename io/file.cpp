@@ -9,9 +9,14 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
+#include <ostream>
 #include <stdexcept>
+#include <streambuf>
 #include <system_error>
+#include <utility>
+#include <vector>
 #if __has_include(<unistd.h>)
 #include <unistd.h>
 #endif
@@ -20,16 +25,41 @@ namespace sightline {
 
 namespace fs = std::filesystem;
 
-std::string read_bytes(const fs::path& path) {
-  const auto fail = [&path](const std::string& message) { throw Input_error::of_file(path.string(), message); };
+namespace {
+
+[[noreturn]] void fail(const fs::path& path, const std::string& message) {
+  throw Input_error::of_file(path.string(), message);
+}
+[[noreturn]] void fail_to_open(const fs::path& path) {
+  fail(path, std::string("cannot be opened: ") + std::strerror(errno) + "; check its permissions");
+}
+
+/// Errors: Input_error where it has no bytes to read.
+fs::file_status status_of_input(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
-  if (!fs::exists(status)) fail("no such file, or it is out of reach; check the path");
-  if (fs::is_directory(status)) fail("is a directory; name a file in it");
-  if (!fs::is_regular_file(status) && !fs::is_fifo(status)) fail("is not a file that has an end; name a regular file");
+  if (!fs::exists(status)) fail(path, "no such file, or it is out of reach; check the path");
+  if (fs::is_directory(status)) fail(path, "is a directory; name a file in it");
+  if (!fs::is_regular_file(status) && !fs::is_fifo(status))
+    fail(path, "is not a file that has an end; name a regular file");
+  return status;
+}
 
+}  // namespace
+
+std::ifstream open_bytes(const fs::path& path) {
+  status_of_input(path);
+  errno = 0;
+  std::ifstream in(path, std::ios::binary);
+  if (!in) fail_to_open(path);
+  return in;
+}
+
+std::string read_bytes(const fs::path& path) {
+  const fs::file_status status = status_of_input(path);
+  std::error_code error;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
-  if (!file) fail(std::string("cannot be opened: ") + std::strerror(errno) + "; check its permissions");
+  if (!file) fail_to_open(path);
   std::string bytes;
   std::size_t used = 0;
   if (fs::is_regular_file(status))
@@ -40,7 +70,7 @@ std::string read_bytes(const fs::path& path) {
     used += got;
     if (got == 0) break;
   }
-  if (std::ferror(file.get())) fail(std::string("cannot be read: ") + std::strerror(errno) + "; check the file");
+  if (std::ferror(file.get())) fail(path, std::string("cannot be read: ") + std::strerror(errno) + "; check the file");
   bytes.resize(used);
   return bytes;
 }
@@ -67,14 +97,54 @@ std::atomic_flag taken;  // by one file at a time
 /// What the last call of the system said.
 std::error_code last_error() { return {errno, std::generic_category()}; }
 
-/// Writes all bytes to a file that is open for writing, and closes it; `flush`: only once they are on the disk.
-std::error_code write_and_close(std::FILE* file, std::string_view bytes, bool flush) {
-  std::error_code error;
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file) != bytes.size() || std::fflush(file) != 0) error = last_error();
+/// Writes to a file that is open for writing, and keeps what went wrong first; no further byte is then taken.
+class Bytes_out final : public std::streambuf {
+ public:
+  explicit Bytes_out(std::FILE* file) : file_(file), buffer_(std::size_t{1} << 16) {
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+  }
+  /// Writes what is left, to the disk where `flush` says so. What went wrong, if anything did.
+  std::error_code finish(bool flush) {
+    if (sync() == 0 && std::fflush(file_) != 0) error_ = last_error();
 #if __has_include(<unistd.h>)
-  if (!error && flush && fsync(fileno(file)) != 0) error = last_error();
+    if (!error_ && flush && fsync(fileno(file_)) != 0) error_ = last_error();
 #endif
-  if (std::fclose(file) != 0 && !error) error = last_error();
+    return error_;
+  }
+
+ protected:
+  int_type overflow(int_type c) override {
+    if (sync() != 0) return traits_type::eof();
+    if (!traits_type::eq_int_type(c, traits_type::eof())) sputc(traits_type::to_char_type(c));
+    return traits_type::not_eof(c);
+  }
+  int sync() override {
+    const auto size = static_cast<std::size_t>(pptr() - pbase());
+    if (!error_ && std::fwrite(pbase(), 1, size, file_) != size) error_ = last_error();
+    setp(buffer_.data(), buffer_.data() + buffer_.size());
+    return error_ ? -1 : 0;
+  }
+
+ private:
+  std::FILE* file_;
+  std::vector<char> buffer_;
+  std::error_code error_;
+};
+
+using Write = std::function<void(std::ostream&)>;
+
+/// Fills a file that is open for writing, and closes it; `flush`: only once it is on the disk.
+std::error_code fill_and_close(std::FILE* file, const Write& write, bool flush) {
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> closed(file, std::fclose);
+  Bytes_out bytes(file);
+  std::ostream out(&bytes);
+  out.exceptions(std::ios::badbit);  // what is long to make is not made for nothing
+  try {
+    write(out);
+  } catch (const std::ios_base::failure&) {
+  }
+  std::error_code error = bytes.finish(flush);
+  if (std::fclose(closed.release()) != 0 && !error) error = last_error();
   return error;
 }
 
@@ -95,28 +165,29 @@ class Aside {
   Aside(const Aside&) = delete;
   ~Aside() {
     std::error_code ignored;
-    if (file_ != nullptr && error_) fs::remove(path_, ignored);
+    if (file_ != nullptr && !became_) fs::remove(path_, ignored);
     if (!registered_) return;
     begun = false;
     taken.clear();
   }
 
-  /// Writes it and puts it in its place, with the permissions of what was there.
-  std::error_code become(std::string_view bytes, const fs::file_status& before) {
-    if (!error_) error_ = write_and_close(file_, bytes, true);
+  /// Fills it and puts it in its place, with the permissions of what was there.
+  std::error_code become(const Write& write, const fs::file_status& before) {
+    if (!error_) error_ = fill_and_close(file_, write, true);
     if (!error_ && fs::exists(before)) fs::permissions(path_, before.permissions(), error_);
     if (!error_) fs::rename(path_, target_, error_);
+    became_ = !error_;
     return error_;
   }
 
  private:
   fs::path target_, path_;
-  bool registered_;
+  bool registered_, became_ = false;
   std::FILE* file_ = nullptr;
   std::error_code error_;
 };
 
-std::error_code write_whole(const fs::path& path, std::string_view bytes) {
+std::error_code write_whole(const fs::path& path, const Write& write) {
   // 1. What is no regular file is written to as it is; a file that is there must let itself be written.
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -125,20 +196,24 @@ std::error_code write_whole(const fs::path& path, std::string_view bytes) {
     const bool direct = !fs::is_regular_file(status);
     std::FILE* const file = std::fopen(path.c_str(), direct ? "wb" : "r+b");
     if (file == nullptr) return last_error();
-    if (direct) return write_and_close(file, bytes, false);
+    if (direct) return fill_and_close(file, write, false);
     std::fclose(file);
   }
 
   // 2. A file is written beside the one that it becomes.
-  return Aside(behind_links(path)).become(bytes, status);
+  return Aside(behind_links(path)).become(write, status);
 }
 
 }  // namespace
 
-void write_bytes(const fs::path& path, std::string_view bytes) {
-  if (const std::error_code error = write_whole(path, bytes))
+void write_stream(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  if (const std::error_code error = write_whole(path, write))
     throw std::runtime_error(printable(path.string(), path.string().size(), false) +
                              ": cannot be written: " + error.message());
+}
+
+void write_bytes(const fs::path& path, std::string_view bytes) {
+  write_stream(path, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
 }
 
 const char* unfinished_file() noexcept { return begun ? unfinished : nullptr; }

@@ -2,6 +2,8 @@
 // Files as bytes, whole: what every reader begins with, and what every output ends in.
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -19,6 +21,14 @@ std::filesystem::path behind_links(const std::filesystem::path& path);
 /// what is no regular file (a device, a pipe) is written to directly. Errors: std::runtime_error that names the path
 /// and says what the system said. Cost: waits for the disk.
 void write_bytes(const std::filesystem::path& path, std::string_view bytes);
+
+/// The same of what `write` writes to a stream, so that it need not be held; where it throws, that is thrown on, and
+/// nothing is there.
+void write_stream(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+
+/// A file (or pipe) to be read once from its beginning, without holding it. Errors: as read_bytes(), when it is opened;
+/// what cannot be read later ends the stream, with badbit.
+std::ifstream open_bytes(const std::filesystem::path& path);
 
 /// The name of a file that write_bytes has begun and not yet renamed, or nullptr: what a signal handler removes before
 /// it ends the process. Of files that are written at the same time, one.

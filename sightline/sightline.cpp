@@ -9,14 +9,13 @@
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/vectors.h>
-
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -188,7 +187,7 @@ Visibility_order order(const Model& model, const Exact_point& eye, const Asking&
     certificate.eye = eye;
     for (const Part& part : parts) certificate.fragments.push_back({part.face, part.piece, part.corners});
     add_pieces(certificate, inside->scene);
-    return to_json(certificate).dump() + '\n';
+    return certificate_text(certificate);
   };
   return answer;
 }
@@ -205,7 +204,7 @@ Priority priority_graph(const Model& model, const Asking& asking) {
   for (std::size_t c = 0; c < found.size(); ++c) answer.components.emplace_back(found[c].begin(), found[c].end());
   answer.cyclic = found.cyclic();
   answer.certificate_ = [inside, faces, found, trees = std::move(trees)] {
-    return to_json(graph_certificate(inside->scene, *faces, found, trees)).dump() + '\n';
+    return certificate_text(graph_certificate(inside->scene, *faces, found, trees));
   };
   return answer;
 }
@@ -291,7 +290,9 @@ Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
     seen.from_front = view->eye_side(part.piece) == CGAL::POSITIVE;
   }
   answer.certificate_ = [inside, view, surface, eye] {
-    return to_json(visible_certificate(*view, *surface, eye)).dump() + '\n';
+    std::ostringstream out;
+    write_visible_certificate(out, *view, *surface, eye);
+    return std::move(out).str();
   };
   return answer;
 }
@@ -332,7 +333,7 @@ Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector
   answer.hidden = found->hidden;
   answer.undecided = found->undecided;
   answer.certificate_ = [inside, sources, found] {
-    return to_json(weak_certificate(inside->scene, sources, false, *found)).dump() + '\n';
+    return certificate_text(weak_certificate(inside->scene, sources, false, *found));
   };
   return answer;
 }

@@ -6,6 +6,9 @@
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <cstddef>
+#include <functional>
+#include <iosfwd>
 #include <vector>
 
 namespace sightline {
@@ -14,5 +17,11 @@ namespace sightline {
 /// `field` are the rays that the view was made with, none for the whole sphere. Exact: yes
 Visible_certificate visible_certificate(const Exact_view& view, const Visible_surface<Exact_view>& surface,
                                         const Exact_point& eye, const std::vector<Exact_point>& field = {});
+
+/// Writes the same without holding it: 8 bytes for each ray of a part, and what the scene's pieces take. `progress` is
+/// called now and then, and may throw to give up.
+void write_visible_certificate(std::ostream& out, const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                               const Exact_point& eye, const std::vector<Exact_point>& field = {},
+                               const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace sightline

@@ -1,5 +1,6 @@
 #pragma once
-// Certificates as JSON text. Who calls what takes or gives a JSON value includes <nlohmann/json.hpp> too.
+// Certificates from JSON text, read as a stream: neither the text nor a JSON value of all of it is held.
+// certificate_writer.h writes it.
 
 #include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/graph.h>
@@ -7,47 +8,35 @@
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/algorithms/verify/weak.h>
 
-#include <nlohmann/json_fwd.hpp>
-
+#include <cstddef>
 #include <iosfwd>
+#include <stdexcept>
+#include <string>
 #include <variant>
 
 namespace sightline {
 
-/// The certificate that a JSON value holds. "on_view" (false), "pieces" and "set_aside" may be left out where there are
-/// none; further keys are passed over. Throws std::invalid_argument, one line that says where, if the value does not
-/// have the format; whether the certificate is right is for verify_order() to say. Exact: yes
-Order_certificate order_certificate_from_json(const nlohmann::json& value);
-
-/// The same for verify_graph().
-Graph_certificate graph_certificate_from_json(const nlohmann::json& value);
-
-/// The same for verify_visible(). "field" may be left out too: all directions.
-Visible_certificate visible_certificate_from_json(const nlohmann::json& value);
-
-/// The same for verify_weak(). "two_sided" (false) and "undecided" may be left out too.
-Weak_certificate weak_certificate_from_json(const nlohmann::json& value);
-
-/// Reads a certificate from JSON text. Throws std::invalid_argument where the text is not JSON or not a certificate of
-/// that kind.
-Order_certificate read_order_certificate(std::istream& in);
+/// What is wrong with the text of a certificate, and where. what() is one line, "certificate: line L, column C: " and
+/// the message, without the place where there is none.
+class Certificate_error : public std::invalid_argument {
+ public:
+  Certificate_error(std::size_t line, std::size_t column, const std::string& message, bool is_no_json = false);
+  std::size_t line, column;  ///< from 1; 0 where no one place is to blame
+  std::string message;
+  bool is_no_json;
+};
 
 using Certificate = std::variant<Order_certificate, Graph_certificate, Visible_certificate, Weak_certificate>;
 
-/// The same for a certificate of whatever kind its "format" says.
+/// Reads a certificate of whatever kind its "format" says, keys in any order. "on_view" (false), "points", "pieces",
+/// "set_aside", "field", "rays", "two_sided" (false) and "undecided" may be left out where there are none; further keys
+/// are passed over. Whether the certificate is right is for verify_order() and its like to say. Errors:
+/// Certificate_error where the text is not JSON, or not a certificate; or where numbers name points of the table so
+/// often that these would take, written out, more than 64 times the text that was read, and 256 MiB. Cost: linear;
+/// memory for the certificate and one entry of its lists. Exact: yes
 Certificate read_certificate(std::istream& in);
 
-/// The certificate as a JSON value, numbers as strings "p" or "p/q". Post: order_certificate_from_json() gives it back.
-/// Exact: yes
-nlohmann::json to_json(const Order_certificate& certificate);
-
-/// The same for graph_certificate_from_json().
-nlohmann::json to_json(const Graph_certificate& certificate);
-
-/// The same for visible_certificate_from_json().
-nlohmann::json to_json(const Visible_certificate& certificate);
-
-/// The same for weak_certificate_from_json(). Pre: each node is of a kind that there is.
-nlohmann::json to_json(const Weak_certificate& certificate);
+/// The same for one kind. Errors: as above, for other kinds too.
+Order_certificate read_order_certificate(std::istream& in);
 
 }  // namespace sightline

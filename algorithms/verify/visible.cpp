@@ -181,6 +181,7 @@ class Check {
 
   void take_pieces();
   void check_part(std::size_t k);
+  Cone cone_over(const std::string& what, const Visible_certificate::Part& part) const;
   void compare_all();
   /// Finds what is wrong with tile k and piece i.
   void compare(std::size_t k, std::size_t i);
@@ -215,20 +216,42 @@ void Check::take_pieces() {
 }
 
 void Check::check_part(std::size_t k) {
-  const auto& [own, vertices, ray] = certificate_.parts[k];
+  const Visible_certificate::Part& part = certificate_.parts[k];
+  const std::size_t own = part.fragment;
   if (own >= pieces_) reject(name("part", k) + " is of fragment " + std::to_string(own) + ", which there is not");
   const std::string what = names_.emplace_back(name("part", k) + " (" + face_of(own) + ")");
-  if (!canonical(vertices) || !canonical(ray))
+  const bool by_vertices = part.rays.empty();
+  if (by_vertices && (!canonical(part.vertices) || !canonical(part.ray)))
     reject(what + " has a vertex or a ray that is not in canonical numbers", {own});
   if (cones_[own].edge_on) reject(what + " is seen edge-on: the eye is in its plane", {own});
-  if (const std::string fault = not_convex(vertices, planes_[own]); !fault.empty()) reject(what + " " + fault, {own});
-  const Cone cone(vertices, certificate_.eye);
-  for (const Integer_vector& corner : cone.rays)
+  if (by_vertices) {
+    if (const std::string fault = not_convex(part.vertices, planes_[own]); !fault.empty())
+      reject(what + " " + fault, {own});
+    cones_.emplace_back(part.vertices, certificate_.eye);
+    rays_.push_back(primitive(part.ray));
+  } else {
+    cones_.push_back(cone_over(what, part));
+    Integer_vector& sum = rays_.emplace_back();
+    for (const Integer_vector& ray : cones_.back().rays)
+      for (std::size_t i = 0; i < 3; ++i) sum[i] += ray[i];
+  }
+  for (const Integer_vector& corner : cones_.back().rays)
     if (side(cones_[own], corner) < 0) reject(what + " is not inside its piece", {own});
-  const Integer_vector direction = primitive(ray);
-  if (side(cone, direction) <= 0) reject(what + " does not have its ray strictly inside its cone", {own});
-  rays_.push_back(direction);
-  cones_.push_back(cone);
+  if (side(cones_.back(), rays_.back()) <= 0) reject(what + " does not have its ray strictly inside its cone", {own});
+}
+
+/// The cone of a part that is given by rays: over its fragment's plane.
+Cone Check::cone_over(const std::string& what, const Visible_certificate::Part& part) const {
+  Visible_certificate::Directions rays;
+  for (const std::uint32_t number : part.rays) {
+    if (number >= certificate_.rays.size())
+      reject(what + " names ray " + std::to_string(number) + ", which there is not", {part.fragment});
+    rays.push_back(certificate_.rays[number]);
+  }
+  Cone cone = cone_of(what, rays);
+  cone.nearness = cones_[part.fragment].nearness;
+  cone.distance = cones_[part.fragment].distance;
+  return cone;
 }
 
 void Check::compare_all() {

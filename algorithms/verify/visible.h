@@ -7,6 +7,7 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace sightline {
@@ -22,12 +23,17 @@ struct Visible_certificate : Covering {
   using Directions = std::vector<Exact_point>;
   Directions field;  ///< none: all directions
 
+  Directions rays;  ///< that parts refer to
+
   /// What is seen of a fragment in one convex cone, from the front or from behind.
   struct Part {
     std::size_t fragment = 0;  ///< its place in the list
     std::vector<Exact_point>
         vertices;     ///< convex, inside the fragment, in its sense: counterclockwise as seen from the face's front
     Exact_point ray;  ///< a direction strictly inside the part's cone, of any length but zero
+    /// Instead of these two, where there are any: places in `rays` of the cone's extreme rays, which meet the fragment
+    /// in the vertices; one after the other in either sense.
+    std::vector<std::uint32_t> rays = {};
   };
   std::vector<Part> parts;
   std::vector<Directions> empty;

@@ -80,6 +80,11 @@ void write_file(const std::string& name, std::string_view text) {
   else write_bytes(name, text);
 }
 
+void write_file(const std::string& name, const std::function<void(std::ostream&)>& write) {
+  if (name == "-") write(std::cout);
+  else write_stream(name, write);
+}
+
 void write_temporary(const fs::path& path, std::string_view text) {
   std::ofstream out(path, std::ios::binary);
   out << text;

@@ -3,6 +3,8 @@
 // whole or not at all.
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +29,8 @@ std::filesystem::path input_path(const std::string& name);
 
 /// Writes an output, whole or not at all. Errors: std::runtime_error; of "-", none: main looks at standard output.
 void write_file(const std::string& name, std::string_view text);
+/// The same of what `write` writes to a stream, so that it need not be held. What `write` throws is thrown on.
+void write_file(const std::string& name, const std::function<void(std::ostream&)>& write);
 /// Writes a file of a temporary folder, without waiting for the disk. Errors: std::runtime_error.
 void write_temporary(const std::filesystem::path& path, std::string_view text);
 

@@ -11,7 +11,7 @@
 namespace sightline::generate {
 
 std::span<const Kind> kinds() {
-  static constexpr std::array<Kind, 15> all{{
+  static constexpr std::array<Kind, 16> all{{
       {"bars", "bars", "flat bars in a cycle, each over the next", 12, 4,
        [](std::size_t n, std::uint64_t) { return bars(n); }},
       {"city", "boxes", "axis-parallel boxes on a plane", 100, 2,
@@ -42,6 +42,9 @@ std::span<const Kind> kinds() {
        [](std::size_t n, std::uint64_t s) { return terrain(n, s); }},
       {"triangles_between_squares", "triangles", "random triangles between two squares that look at each other", 50, 6,
        [](std::size_t n, std::uint64_t s) { return triangles_between_squares(n, s); }},
+      // Later than the others, and last: the random numbers of a kind's family depend on its place.
+      {"slivers", "triangles", "a soup of triangles, a tenth of them slivers across it, of aspect beyond 2^24", 500, 20,
+       [](std::size_t n, std::uint64_t s) { return slivers(n, s); }},
   }};
   return all;
 }

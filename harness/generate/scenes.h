@@ -17,7 +17,7 @@ struct Kind {
   Polygon_soup (*make)(std::size_t size, std::uint64_t seed);
 };
 
-/// All kinds of scene, by name.
+/// All kinds of scene, by name, but for those that came later.
 std::span<const Kind> kinds();
 
 /// The scene of a kind. Post: the same arguments give the same soup on every machine; `file` is the kind.

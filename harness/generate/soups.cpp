@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 #include <vector>
 
@@ -68,6 +69,41 @@ Polygon_soup soup_constant_density(std::size_t n, std::uint64_t seed) {
   const std::uint64_t side = std::max<std::uint64_t>(cube_root(std::uint64_t{n} << 30), 1 << 10);  // 2^10 n^(1/3)
   Polygon_soup result = soup_on_grid(n, static_cast<std::int64_t>((std::uint64_t{1} << 36) / side), seed, 26);
   result.file = "soup_constant_density";
+  return result;
+}
+
+Polygon_soup slivers(std::size_t n, std::uint64_t seed) {
+  require(n <= 1000000000, "slivers: at most 10^9 triangles");
+  constexpr std::int64_t size = std::int64_t{1} << 26;
+  using Corner = std::array<std::int64_t, 3>;
+  Polygon_soup result = soup_constant_density(n - n / 10, seed);
+  result.file = "slivers";
+  Random random(seed);
+  const auto any = [&] { return Corner{random.between(0, size), random.between(0, size), random.between(0, size)}; };
+  for (std::size_t k = 0; k < n / 10; ++k) {
+    Corner a, b, c;
+    for (bool is_long = false, has_area = false; !is_long || !has_area;) {
+      a = any(), b = any();
+      const std::int64_t weight = random.between(1, 15);
+      is_long = has_area = false;
+      Corner off;  // 16 times the way from the line to c
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::int64_t exact = (16 - weight) * a[i] + weight * b[i];
+        c[i] = (exact + 8) / 16;
+        off[i] = 16 * c[i] - exact;
+        is_long = is_long || std::abs(b[i] - a[i]) >= size / 2;
+      }
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        has_area = has_area || off[i] * (b[j] - a[j]) != off[j] * (b[i] - a[i]);
+      }
+    }
+    Point_id last = 0;
+    for (const Corner& p : {a, b, c})
+      last = result.add_point(std::ldexp(static_cast<double>(p[0]), -26), std::ldexp(static_cast<double>(p[1]), -26),
+                              std::ldexp(static_cast<double>(p[2]), -26));
+    result.add_face({last - 2, last - 1, last});
+  }
   return result;
 }
 

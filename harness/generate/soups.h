@@ -25,6 +25,11 @@ Polygon_soup soup(std::size_t n, double edge, std::uint64_t seed, int bits = 26)
 /// meets as many triangles per edge length for any n, and the number of faces seen from a point stays bounded.
 Polygon_soup soup_constant_density(std::size_t n, std::uint64_t seed);
 
+/// n triangles in the unit cube on the grid of step 2^-26, none of zero area: n / 10 slivers, last, and before them a
+/// soup_constant_density(). A sliver runs from a corner to another at least 1/2 away along an axis; its third one is
+/// where the grid comes nearest to a place between them, so its length is beyond 2^24 times its width.
+Polygon_soup slivers(std::size_t n, std::uint64_t seed);
+
 /// The queries that weak visibility is measured with elsewhere: from the square [-1, 1]^2 at z = 0, face 0, looking up,
 /// to the same at z = 10, face 1, looking down, and between them n random triangles, faces 2 to n + 1, about 2 wide.
 /// Query t of size n is drawn from the 32-bit Mersenne twister of seed 1000 n + t (modulo 2^32), in float arithmetic: u

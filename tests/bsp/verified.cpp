@@ -68,6 +68,7 @@ TEST(Verified, orders_of_generated_scenes) {
                                                       {"menger_sponge", 1},
                                                       {"menger_sponge_merged", 1},
                                                       {"rooms", 1},
+                                                      {"slivers", 30},
                                                       {"soup", 60},
                                                       {"soup_constant_density", 50},
                                                       {"stacked", 20},

@@ -5,6 +5,7 @@
 #include "claims.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/io/read.h>
 
 #include <nlohmann/json.hpp>
@@ -65,7 +66,7 @@ inline std::optional<Verdict> checked_certificate(std::string_view bytes) {
         require(!verdict.why.empty() && verdict.why.find('\n') == std::string::npos, "a verdict is one line");
         for (const std::size_t i : verdict.fragments)
           require(i < claim.fragments.size(), "a verdict names fragments that there are");
-        require(certificate_in(to_json(claim).dump()).has_value(), "what is written is read");
+        require(certificate_in(certificate_text(claim)).has_value(), "what is written is read");
         if (verdict.accepted) try_claims(known_scene(), claim);
         return verdict;
       },

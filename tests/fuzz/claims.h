@@ -125,6 +125,15 @@ struct Flat {
     return std::all_of(corners.begin(), corners.end(),
                        [&](const Place& p) { return side(p) == 0 && location(p) == 0; });
   }
+  /// Where a ray meets the plane, strictly before it.
+  std::optional<Place> met(const Place& from, const Place& ray) const {
+    if (side(from) * sign_of_dot(plane, ray) >= 0) return std::nullopt;
+    Integer height = 0, fall = 0;
+    for (std::size_t k = 0; k < 4; ++k) height += plane[k] * from[k], fall += plane[k] * ray[k];
+    Place p;
+    for (std::size_t k = 0; k < 4; ++k) p[k] = abs(fall) * from[k] + abs(height) * ray[k];
+    return p;
+  }
   /// Where the segment from p to q meets the polygon: between its ends or at one of them. Or the line elsewhere.
   enum class At { before, p, between, q, behind };
   struct Hit {
@@ -278,6 +287,16 @@ inline Places directions(const Points& cone) {
   return all;
 }
 
+/// The extreme rays of a part, which it has, or those to its vertices.
+inline Points rays_of(const Visible_certificate& claim, const Visible_certificate::Part& part) {
+  Points rays;
+  for (const std::uint32_t ray : part.rays) rays.push_back(claim.rays[ray]);
+  if (part.rays.empty())
+    for (const Exact_point& p : part.vertices)
+      rays.push_back({p[0] - claim.eye[0], p[1] - claim.eye[1], p[2] - claim.eye[2]});
+  return rays;
+}
+
 inline void try_claims(const Known_scene& scene, const Visible_certificate& claim) {
   const std::vector<Flat> fragments = flats(claim);
   const Place eye = place(claim.eye);
@@ -287,10 +306,15 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
   std::optional<Tile> field;
   if (!claim.field.empty()) field.emplace(directions(claim.field));
   for (const Visible_certificate::Part& part : claim.parts) {
-    const Places corners = places(part.vertices);
-    Places rays;
-    for (const Place& p : corners) rays.push_back(direction_to(p, eye));
-    tiles.emplace_back(std::move(rays));
+    const Places rays = directions(rays_of(claim, part));
+    tiles.emplace_back(rays);
+    Places corners = places(part.vertices);
+    if (!part.rays.empty())
+      for (const Place& ray : rays) {
+        const std::optional<Place> corner = fragments[part.fragment].met(eye, ray);
+        require(corner.has_value(), "a ray of a part meets its fragment's plane");
+        corners.push_back(*corner);
+      }
     for (const Place& p : mixtures(corners)) {
       require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0,
               "a part is in its fragment");

@@ -236,9 +236,7 @@ inline void lie(Visible_certificate& claim, const Posed_scene& truth, Bytes& byt
     case 2:
       if (!claim.parts.empty()) {  // what is seen there is called empty
         const std::size_t k = bytes.below(std::min<std::size_t>(256, claim.parts.size()));
-        Points& rays = claim.empty.emplace_back();
-        for (const Exact_point& p : claim.parts[k].vertices)
-          rays.push_back({p[0] - claim.eye[0], p[1] - claim.eye[1], p[2] - claim.eye[2]});
+        claim.empty.push_back(rays_of(claim, claim.parts[k]));
         claim.parts.erase(claim.parts.begin() + static_cast<std::ptrdiff_t>(k));
       }
       break;

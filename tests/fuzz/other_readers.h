@@ -6,6 +6,7 @@
 
 #include <sightline/harness/laws/query_json.h>
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/io/number_lines.h>
 #include <sightline/harness/judge/protocol.h>
 
@@ -39,7 +40,7 @@ inline void read_certificate(std::string_view bytes) {
     });
   };
   const auto written = [](const Certificate& certificate) {
-    return std::visit([](const auto& claim) { return to_json(claim).dump(); }, certificate);
+    return std::visit([](const auto& claim) { return certificate_text(claim); }, certificate);
   };
   const std::optional<Certificate> certificate = read(bytes);
   if (!certificate) return;

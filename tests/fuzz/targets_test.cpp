@@ -70,6 +70,18 @@ TEST(Fuzz_certificates, of_the_corpus_are_accepted_but_for_those_that_are_wrong)
   EXPECT_GE(rejected, 16u);
 }
 
+TEST(Fuzz_certificates, with_broken_tables_are_refused_in_one_line) {
+  std::size_t refused = 0;
+  for (const fuzz::Seed& seed : fuzz::seeds_of({"read_certificate", fuzz::read_certificate, {"forms/"}})) {
+    const bool broken = seed.file.find("/broken_") != std::string::npos,
+               whole = seed.file.find("_table.json") != std::string::npos && !broken;
+    if (!broken && !whole) continue;
+    EXPECT_EQ(fuzz::certificate_in(seed.bytes).has_value(), whole) << seed.file;
+    refused += broken;
+  }
+  EXPECT_GE(refused, 10u);
+}
+
 TEST(Fuzz_forged, certificates_are_accepted_and_rejected_alike) {
   fuzz::Mutator mutator(3);
   std::size_t accepted = 0, rejected = 0;

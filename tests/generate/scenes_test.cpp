@@ -178,6 +178,7 @@ TEST(Generate, scenes_are_the_same_everywhere_and_differ_by_seed) {
       {"menger_sponge", 7480419304083887745u},
       {"menger_sponge_merged", 7925202077407358754u},
       {"rooms", 11635159072090337317u},
+      {"slivers", 5933622526260200321u},
       {"soup", 5957434815199489955u},
       {"soup_constant_density", 4547890741699796672u},
       {"stacked", 10648042557059944281u},
@@ -301,6 +302,27 @@ TEST(Generate, constant_density_shrinks_edges_with_the_cube_root) {
     return sum.get_d() / static_cast<double>(n);
   };
   EXPECT_NEAR(mean_extent(1000) / mean_extent(8000), 2.0, 0.1);
+}
+
+TEST(Generate, a_tenth_of_slivers_are_slivers) {
+  const Polygon_soup soup = generate::slivers(1000, 7);
+  EXPECT_EQ(soup.face_count(), 1000u);
+  const Integer_soup s(soup);
+  const double step = std::ldexp(1.0, -26);
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const auto loop = soup.loop(f);
+    double longest = 0, area = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto edge = Integer_soup::minus(s.point(loop[i]), s.point(loop[(i + 1) % 3]));
+      double square = 0;
+      for (const auto x : edge) square += std::pow(static_cast<double>(x) * step, 2);
+      longest = std::max(longest, std::sqrt(square));
+    }
+    for (const auto x : s.normal(f)) area += std::pow(static_cast<double>(x) * step * step, 2);
+    const double aspect = longest * longest / std::sqrt(area);
+    if (f < 900) EXPECT_LT(aspect, 1e6) << f;
+    else EXPECT_GT(aspect, 0x1p24) << f;
+  }
 }
 
 TEST(Generate, terrain_is_a_height_field) {

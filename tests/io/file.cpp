@@ -1,6 +1,7 @@
 // Files as bytes: whole or not at all, behind links, and what the system says of them.
 
 #include <sightline/io/file.h>
+#include <sightline/io/input.h>
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,10 @@
 
 #include <fstream>
 #include <functional>
+#include <iterator>
+#include <ostream>
 #include <random>
+#include <stdexcept>
 
 namespace sightline {
 
@@ -53,6 +57,40 @@ TEST_F(Files, beside_which_something_stands_are_written_all_the_same) {
   EXPECT_EQ(read_bytes(path("a.partial")), "mine");
   EXPECT_EQ(read_bytes(path("a.partial1")), "mine too");
   EXPECT_EQ(count(), 3);
+}
+
+TEST_F(Files, written_as_streams_are_whole_or_not_there) {
+  const std::string line = "0123456789\n";
+  write_stream(path("a"), [&](std::ostream& out) {
+    for (int k = 0; k < 100'000; ++k) out << line;
+    EXPECT_NE(unfinished_file(), nullptr);
+  });
+  EXPECT_EQ(read_bytes(path("a")).size(), 1'100'000u);
+  const auto half = [&](std::ostream& out) {
+    out << std::string(200'000, 'y');
+    throw std::domain_error("given up");
+  };
+  EXPECT_THROW(write_stream(path("a"), half), std::domain_error);
+  EXPECT_THROW(write_stream(path("b"), half), std::domain_error);
+  EXPECT_EQ(read_bytes(path("a")).substr(0, 11), line);
+  EXPECT_EQ(count(), 1);
+  EXPECT_EQ(unfinished_file(), nullptr);
+  // What cannot be written is not made to its end.
+  std::size_t made = 0;
+  const auto endless = [&](std::ostream& out) {
+    for (;; ++made) out << line;
+  };
+  EXPECT_THROW(write_stream("/dev/full", endless), std::runtime_error);
+  EXPECT_LT(made, 100'000u);
+}
+
+TEST_F(Files, are_opened_as_streams_or_refused) {
+  const std::string bytes("a\0b\n\xff", 5);
+  write_bytes(path("a"), bytes);
+  std::ifstream in = open_bytes(path("a"));
+  EXPECT_EQ(std::string(std::istreambuf_iterator<char>(in), {}), bytes);
+  for (const char* name : {"", "none"}) EXPECT_THROW(open_bytes(path(name)), Input_error) << name;
+  EXPECT_THROW(open_bytes("/dev/null"), Input_error);
 }
 
 TEST_F(Files, keep_their_permissions) {

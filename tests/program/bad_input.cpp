@@ -269,11 +269,31 @@ TEST_F(Bad_input, certificates_are_refused_with_the_place_and_what_to_do) {
   expect(path("").string(), ": is a directory; name a file in it");
   expect(file("comma.json", "{\n \"format\": \"sightline order 1\",,\n}"), ":2:32: from here on it is no JSON" + again);
   expect(file("short.json", "{\n \"format\": [1, 2"), ":2:17: the JSON ends too early" + again);
-  expect(file("huge.json", "{\"format\": 1e999}"), ": number overflow parsing '1e999'; write the file again");
+  expect(file("huge.json", "{\"format\": 1e999}"), ":1:17: number overflow parsing '1e999'" + again);
+  expect(
+      file("table.json",
+           "{\"format\": \"sightline order 2\", \"eye\": [\"1\",\"2\",\"3\"], \"points\": [],\n \"fragments\": "
+           "[{\"face\": 0, "
+           "\"piece\": 0, \"vertices\": [7]}]}"),
+      ":2:16: fragments[0].vertices[0]: expected a number below 0, the size of \"points\"; make the certificate again");
   expect(scene, ": is a scene by its name, not a certificate; `verify` wants SCENE, then CERTIFICATE");
   for (const Outcome& r :
        {run({"verify", cube, file("list.json", "[]")}), run({"verify", cube, file("none.json", "")})})
     EXPECT_EQ(r.err.find("json.exception"), std::string::npos) << r;
+}
+
+TEST_F(Bad_input, memory_that_runs_out_is_told) {
+  if (sanitized) GTEST_SKIP() << "sanitizers take address space of their own";
+  const std::string soup = path("soup.off").string();
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"generate", "soup", "--size", "100000000", "--out", soup},  // a vector
+        {"generate", "city_rotated", "--size", "4000000", "--out", soup}}) {                 // GMP's numbers
+    const Outcome r = run(words, {60, 512});
+    EXPECT_EQ(r.code, undecided) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find("out of memory; take a smaller scene"), std::string::npos) << r;
+    EXPECT_FALSE(fs::exists(soup));
+  }
 }
 
 }  // namespace program

@@ -41,6 +41,15 @@ class Certificates : public Program {
     EXPECT_FALSE(why.empty() || why.find('\n') != std::string::npos) << why;
     return why;
   }
+  /// A vertex, written out where it stands.
+  static Json& vertex(Json& certificate, const char* list, std::size_t entry, std::size_t corner) {
+    Json& at = certificate[list][entry]["vertices"][corner];
+    if (at.is_number()) {
+      const Json point = certificate["points"][at.get<std::size_t>()];
+      at = point;
+    }
+    return at;
+  }
   std::string expect_rejected_after(const std::string& scene, Json certificate,
                                     const std::function<void(Json&)>& change) {
     change(certificate);
@@ -56,7 +65,7 @@ TEST_F(Certificates, a_vertex_moved_by_two_to_the_minus_sixty_is_rejected) {
     for (std::size_t k = 0; k < 3; ++k)
       for (const bool up : {false, true})
         expect_rejected_after(cornell, made, [&](Json& c) {
-          Json& x = c["fragments"][f]["vertices"][f % 3][k];
+          Json& x = vertex(c, "fragments", f, f % 3)[k];
           x = sightline::to_string(sightline::rational_from_string(x.get<std::string>()) +
                                    (up ? tiny : sightline::Rational(-tiny)));
         });
@@ -151,7 +160,7 @@ TEST_F(Certificates, pieces_of_a_cut_face_that_are_changed_are_rejected) {
   ASSERT_GE(made["pieces"].size(), 2u);
   expect_rejected_after(scene, made, [](Json& c) { c["pieces"].erase(0); });
   expect_rejected_after(scene, made, [](Json& c) { c["pieces"].clear(); });
-  expect_rejected_after(scene, made, [](Json& c) { c["pieces"][0]["vertices"][0][2] = "7"; });
+  expect_rejected_after(scene, made, [](Json& c) { vertex(c, "pieces", 0, 0)[2] = "7"; });
   expect_rejected_after(scene, made,
                         [](Json& c) { std::swap(c["pieces"][0]["vertices"], c["pieces"][1]["vertices"]); });
 }

@@ -42,11 +42,11 @@ TEST_F(Generate, every_kind_in_its_own_size_is_a_scene_of_faces_that_none_is_set
 TEST_F(Generate, every_kind_can_be_ordered_and_the_order_verified) {
   for (const std::string& kind : kinds()) {
     const std::string scene = path(kind + ".qoff").string(), certificate = path("c.json").string();
-    const std::string size = kind == "bars"                                 ? "5"
-                             : kind.starts_with("menger_sponge")            ? "1"
-                             : kind == "convex_sphere" || kind == "terrain" ? "100"
-                             : kind.starts_with("soup")                     ? "40"
-                                                                            : "2";
+    const std::string size = kind == "bars"                                  ? "5"
+                             : kind.starts_with("menger_sponge")             ? "1"
+                             : kind == "convex_sphere" || kind == "terrain"  ? "100"
+                             : kind.starts_with("soup") || kind == "slivers" ? "40"
+                                                                             : "2";
     ASSERT_EQ(run({"generate", kind, "--size", size, "--out", scene}).code, done) << kind << size;
     for (const char* eye : {"7/3,-11,5.3", "0,0,0", "1/2,1/2,1/2"}) {
       if (sanitized && *eye != '1') continue;

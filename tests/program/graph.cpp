@@ -112,7 +112,7 @@ TEST_F(Graph, certificates_are_accepted_and_changed_ones_are_not) {
     };
     EXPECT_EQ(code_after([](Json& c) { c["arcs"].clear(), c["fragments"].erase(0); }), disagreement);
     EXPECT_EQ(code_after([](Json& c) { c["sizes"].push_back(1); }), disagreement);
-    EXPECT_EQ(code_after([](Json& c) { c["fragments"][0]["vertices"][0][0] = "12345678901/7"; }), disagreement);
+    EXPECT_EQ(code_after([](Json& c) { c["points"][0][0] = "12345678901/7"; }), disagreement);
     EXPECT_EQ(code_after([](Json& c) { c.erase("sizes"); }), bad_input);
     EXPECT_EQ(code_after([](Json& c) { c["arcs"].push_back({0, 1, 2}); }), bad_input);
     EXPECT_EQ(code_after([](Json& c) { c["arcs"].push_back({0, 4000000000u, 0, 0}); }), bad_input);

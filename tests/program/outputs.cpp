@@ -188,7 +188,7 @@ TEST_F(Outputs, go_into_pipes_and_through_links) {
   if (r.code != done) std::ofstream(pipe).close();  // or the reader would wait for ever
   reader.join();
   EXPECT_EQ(r.code, done) << r;
-  EXPECT_EQ(Json::parse(piped, nullptr, false)["format"], "sightline order 1");
+  EXPECT_EQ(Json::parse(piped, nullptr, false)["format"], "sightline order 2");
   EXPECT_TRUE(fs::is_fifo(pipe));
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_EQ(Json::parse(read_file(path("behind")), nullptr, false)["command"], "order");
@@ -257,12 +257,12 @@ TEST_F(Outputs, one_of_them_may_be_standard_output_and_then_it_is_all_there_is) 
   EXPECT_EQ(lit("--svg").out.rfind("<svg ", 0), 0u);
   EXPECT_EQ(lit("--obj").out.rfind("v ", 0), 0u);
   EXPECT_EQ(printed({"graph", scene, "--dot", "-"}).out.rfind("digraph priority {", 0), 0u);
-  EXPECT_EQ(printed({"graph", scene, "--certificate", "-"}).json()["format"], "sightline graph 1");
+  EXPECT_EQ(printed({"graph", scene, "--certificate", "-"}).json()["format"], "sightline graph 2");
   EXPECT_EQ(printed({"generate", "rooms", "--out", path("a.off").string(), "--query", "-"}).json()["format"],
             "sightline query 1");
   EXPECT_EQ(printed({"see", scene, "--svg", path("a.svg").string(), "--certificate", "-"}).json()["format"],
-            "sightline see 1");
-  EXPECT_EQ(lit("--certificate").json()["format"], "sightline weak 1");
+            "sightline see 2");
+  EXPECT_EQ(lit("--certificate").json()["format"], "sightline weak 2");
   EXPECT_FALSE(fs::exists("-"));
   expect_refused({"order", scene, "--json", "-", "--certificate", "-"}, "writes to already");
 }
