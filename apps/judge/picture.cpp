@@ -142,13 +142,21 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
   Svg svg = empty_picture(view);
   paint(svg, view, drawn, true, [&](const Drawn& item, double shade) {
     const Face_id face = item.fragment.face;
-    const auto [hue, strength, light, opacity] = weak && face == source             ? std::tuple(50, 85, 60, 0.9)
-                                                 : holds(grade.wrong_hidden, face)  ? std::tuple(20, 90, 58, 0.6)
-                                                 : holds(grade.wrong_visible, face) ? std::tuple(285, 60, 62, 0.6)
-                                                 : why.refutation && why.refutation->by == face
-                                                     ? std::tuple(205, 55, 58, 0.55)
-                                                     : std::tuple(140, 12, 72, 0.45);
-    return fmt::format("hsla({},{}%,{:.0f}%,{})", hue, strength, light + 12 * shade, opacity);
+    struct Kind {
+      std::string_view title;
+      int hue, strength, light;
+      double opacity;
+    };
+    const auto [title, hue, strength, light, opacity] =
+        weak && face == source                         ? Kind{"the source", 50, 85, 60, 0.9}
+        : holds(grade.wrong_hidden, face)              ? Kind{"left out", 20, 90, 58, 0.6}
+        : holds(grade.wrong_visible, face)             ? Kind{"shown wrongly", 285, 60, 62, 0.6}
+        : why.refutation && why.refutation->by == face ? Kind{"in the way", 205, 55, 58, 0.55}
+                                                       : Kind{"", 140, 12, 72, 0.45};
+    return Look{fmt::format("hsla({},{}%,{:.0f}%,{})", hue, strength, light + 12 * shade, opacity),
+                weak && face == source ? std::string(title)
+                : title.empty()        ? fmt::format("face {}", face)
+                                       : fmt::format("face {}: {}", face, title)};
   });
 
   // 3. The line over them; and the source's outline, which may be that of a face.
