@@ -46,8 +46,8 @@ class Cut_choice {
                           chunks_.piece_of(task.items.front().chunk));  // no boxes are left
   }
 
-  /// Whether a cut wants to know more of the region than this: most of the items are in one plane, and few, or one pile.
-  /// Pre: there are items.
+  /// Whether a cut wants to know more of the region than this: most of the items are in one plane, and few, or one
+  /// pile. Pre: there are items.
   bool wants_more(const Task<V>& task) const {
     const Item* nearest = nearest_in_the_middle(task);
     if (nearest == nullptr) return false;

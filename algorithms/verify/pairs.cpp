@@ -25,7 +25,6 @@ void Pair_check::Sides::find(const Cone& a, const Cone& b) {
 }
 
 bool Pair_check::nearer_somewhere(const Cone& a, const Cone& b) {
-
   // 1/t of b minus 1/t of a is linear in the direction: a may nowhere be the nearer one. Often it is in all of a cone.
   Integer_vector farther;
   for (std::size_t k = 0; k < 3; ++k) {

@@ -53,9 +53,9 @@ constexpr std::size_t cube_sides = 6;
 std::optional<Window> window_of(const Cone& cone, std::size_t side);
 
 /// Hands on pairs of cones, one of each of two lists, but not those that are seen to have no open set in common: on no
-/// side of a cube about the eye their windows overlap, or a plane through the eye is between them. Both lists are cut in
-/// two where windows allow it, else by planes of edges of the cones, each part once more, until a part is small or no
-/// cut helps. A pair may be handed on more than once. Cost: about O(n log n) and the pairs. Proof: P-20
+/// side of a cube about the eye their windows overlap, or a plane through the eye is between them. Both lists are cut
+/// in two where windows allow it, else by planes of edges of the cones, each part once more, until a part is small or
+/// no cut helps. A pair may be handed on more than once. Cost: about O(n log n) and the pairs. Proof: P-20
 template <class Take>
 class Pairs {
  public:

@@ -174,8 +174,10 @@ TEST_F(Outputs, that_a_signal_cuts_off_leave_the_old_file_and_nothing_beside_it)
   command += " & p=$!; while kill -0 $p && ! [ -e '" + to + ".partial' ]; do :; done; kill -TERM $p; wait $p";
   const int status = std::system(("exec 2> /dev/null; " + command).c_str());
   EXPECT_TRUE(nothing_is_left_aside());
-  if (WEXITSTATUS(status) == done) EXPECT_GT(fs::file_size(to), 1'000'000u);
-  else EXPECT_EQ(read_file(to), "old") << WEXITSTATUS(status);
+  // The signal may come when the file is in its place already.
+  const std::string text = read_file(to);
+  const bool is_whole = text.size() > 1'000'000 && Json::accept(text);
+  EXPECT_TRUE(is_whole || (text == "old" && WEXITSTATUS(status) != done)) << status << ' ' << text.size();
 }
 
 TEST_F(Outputs, go_into_pipes_and_through_links) {
