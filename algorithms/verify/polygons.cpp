@@ -64,6 +64,12 @@ Homogeneous homogeneous(const Exact_point& p) {
   return h;
 }
 
+std::vector<Homogeneous> homogeneous(const Polygon& polygon) {
+  std::vector<Homogeneous> corners;
+  for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
+  return corners;
+}
+
 Integer_vector minus(const Homogeneous& a, const Homogeneous& b) {
   Integer_vector difference;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -116,16 +122,32 @@ Integer_vector normal_of_convex(const std::vector<Homogeneous>& corners) {
   return {};
 }
 
+/// The sign of the area that a polygon winds around a normal.
+int sign_of_area(const std::vector<Homogeneous>& corners, const Integer_vector& normal) {
+  Polygon polygon;
+  for (const Homogeneous& p : corners) {
+    Exact_point& q = polygon.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      q[k] = Rational(p[k], p[3]);
+      q[k].canonicalize();
+    }
+  }
+  return sign_of_dot(newell_normal(polygon), normal);
+}
+
 }  // namespace
 
 std::string not_convex(const Polygon& polygon, const Plane& plane) {
-  const std::size_t n = polygon.size();
+  return not_convex(homogeneous(polygon), plane_of(plane));
+}
+
+std::string not_convex(const std::vector<Homogeneous>& corners, const Homogeneous& plane) {
+  const std::size_t n = corners.size();
   if (n < 3) return "has fewer than three vertices";
   // 1. In the plane, and each vertex another one than the next.
-  const Homogeneous supporting = plane_of(plane);
-  std::vector<Homogeneous> corners;
-  for (const Exact_point& p : polygon)
-    if (side(supporting, corners.emplace_back(homogeneous(p))) != 0) return "has a vertex off the plane of its face";
+  for (const Homogeneous& p : corners)
+    if (side(plane, p) != 0) return "has a vertex off the plane of its face";
+  const Integer_vector normal{plane[0], plane[1], plane[2]};
   std::vector<Integer_vector> edges(n);  // positive multiples
   for (std::size_t i = 0; i < n; ++i) {
     edges[i] = minus(corners[(i + 1) % n], corners[i]);
@@ -133,8 +155,8 @@ std::string not_convex(const Polygon& polygon, const Plane& plane) {
   }
   // 2. Every corner turns left by less than 180 degrees, and the edges turn once around in all. Seen along the axis in
   // which the normal is longest.
-  const std::size_t axis = longest(plane.normal), x = (axis + 1) % 3, y = (axis + 2) % 3;
-  const int sense = sgn(plane.normal[axis]);
+  const std::size_t axis = longest(normal), x = (axis + 1) % 3, y = (axis + 2) % 3;
+  const int sense = sgn(normal[axis]);
   const auto turn = [&](const Integer_vector& a, const Integer_vector& b) {
     return sense * sign_of_difference(a[x], b[y], a[y], b[x]);
   };
@@ -155,17 +177,17 @@ std::string not_convex(const Polygon& polygon, const Plane& plane) {
   }
   if (turns_left && rounds == 1) return "";
   // 3. What is wrong with it.
-  const int area = sign_of_dot(newell_normal(polygon), plane.normal);
+  const int area = sign_of_area(corners, normal);
   if (area <= 0) return area == 0 ? "has zero area" : "is clockwise as seen from the front of its face";
   return turns_left ? "is not convex (it turns more than once around)" : "is not convex";
 }
 
-Cone::Cone(const Polygon& polygon, const Exact_point& eye) {
-  const Homogeneous from = homogeneous(eye);
-  std::vector<Homogeneous> corners;
-  for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
+Cone::Cone(const Polygon& polygon, const Exact_point& eye) : Cone(homogeneous(polygon), homogeneous(eye)) {}
+
+Cone::Cone(const std::vector<Homogeneous>& corners, const Homogeneous& from) {
   const Integer_vector normal = primitive(normal_of_convex(corners));
-  const Rational height = dot(normal, minus(eye, polygon[0]));
+  Rational height(dot(normal, minus(from, corners[0])), from[3] * corners[0][3]);
+  height.canonicalize();
   edge_on = sgn(height) == 0;
   if (edge_on) return;
   const bool front = sgn(height) > 0;

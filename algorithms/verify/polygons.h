@@ -49,6 +49,7 @@ struct Plane {
 using Homogeneous = std::array<Integer, 4>;
 
 Homogeneous homogeneous(const Exact_point& p);
+std::vector<Homogeneous> homogeneous(const Polygon& polygon);
 
 /// A positive multiple of a - b, of points.
 Integer_vector minus(const Homogeneous& a, const Homogeneous& b);
@@ -66,6 +67,7 @@ int side(const Homogeneous& plane, const Homogeneous& p);
 /// it is. Straight corners are allowed, repeated vertices and spikes are not. Pre: the normal is not zero. Cost:
 /// linear. Proof: P-21a
 std::string not_convex(const Polygon& polygon, const Plane& plane);
+std::string not_convex(const std::vector<Homogeneous>& polygon, const Homogeneous& plane);
 
 // ---- What the eye sees of a polygon
 
@@ -78,6 +80,7 @@ struct Cone {
   Integer distance;         ///< nearness.d > 0 in the cone, distance > 0
 
   Cone(const Polygon& polygon, const Exact_point& eye);
+  Cone(const std::vector<Homogeneous>& polygon, const Homogeneous& eye);
 };
 
 /// Whether an edge plane of a has no ray of b on its inner side: then the cones have no open set in common.

@@ -51,18 +51,16 @@ Cone cone_of(const std::string& what, const Visible_certificate::Directions& dir
     const Integer_vector plane = certificate_check::cross(rays[i], rays[(i + 1) % rays.size()]);
     for (std::size_t k = 0; k < 3; ++k) middle[k] += plane[k];
   }
-  if (sign_of_dot(middle, rays[0]) < 0) middle = negated(middle);
-  Polygon section;  // by the plane where middle.d = 1
+  const int way = sign_of_dot(middle, rays[0]) < 0 ? -1 : 1;
+  std::vector<Homogeneous> section;  // by the plane where the middle, or its opposite, has the product 1 with d
   for (const Integer_vector& ray : rays) {
-    const Integer height = dot(middle, ray);
+    const Integer height = way * dot(middle, ray);
     if (sgn(height) <= 0) reject(what + " is not a convex cone, or not a pointed one");
-    Exact_point& p = section.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) p[k] = Rational(ray[k]) / Rational(height);
+    section.push_back({ray[0], ray[1], ray[2], height});
   }
-  if (const std::string fault = not_convex(section, {newell_normal(section), section[0]}); !fault.empty())
+  if (const std::string fault = not_convex(section, {middle[0], middle[1], middle[2], -way}); !fault.empty())
     reject(what + " " + fault);
-  Exact_point origin;
-  Cone cone(section, origin);
+  Cone cone(section, {0, 0, 0, 1});
   cone.distance = 0;
   return cone;
 }
