@@ -65,29 +65,38 @@ bool Pair_check::nearer_somewhere(const Cone& a, const Cone& b) {
 
 namespace {
 
-/// Leaves of a cone, as rays that span it, the part in which a linear form is not negative; nothing where that has no
-/// inside.
-template <class Value_at>
-void clip(std::vector<Integer_vector>& rays, const Value_at& value_at) {
-  std::vector<Integer> values;
-  bool any_in = false, any_out = false;
-  for (const Integer_vector& ray : rays) {
-    values.push_back(value_at(ray));
-    any_in = any_in || sgn(values.back()) > 0;
-    any_out = any_out || sgn(values.back()) < 0;
+/// Leaves of a cone, as rays that span it, the part in which d[i] +- d[j], or its opposite, is not negative; nothing
+/// where that has no inside.
+struct Half_space {
+  std::size_t i, j;
+  bool minus, opposite;
+
+  void value(Integer& result, const Integer_vector& d) const {
+    (minus ? mpz_sub : mpz_add)(result.get_mpz_t(), d[i].get_mpz_t(), d[j].get_mpz_t());
+    if (opposite) mpz_neg(result.get_mpz_t(), result.get_mpz_t());
   }
-  if (!any_out && any_in) return;
-  std::vector<Integer_vector> kept;
-  for (std::size_t i = 0; any_in && i < rays.size(); ++i) {
-    const std::size_t next = (i + 1) % rays.size();
-    if (sgn(values[i]) >= 0) kept.push_back(rays[i]);
-    if (sgn(values[i]) * sgn(values[next]) >= 0) continue;
-    Integer_vector d;
-    for (std::size_t k = 0; k < 3; ++k) d[k] = abs(values[next]) * rays[i][k] + abs(values[i]) * rays[next][k];
-    kept.push_back(std::move(d));
+  void clip(std::vector<Integer_vector>& rays) const {
+    thread_local Integer at_ray;
+    bool any_in = false, any_out = false;
+    for (const Integer_vector& ray : rays) {
+      value(at_ray, ray);
+      any_in = any_in || sgn(at_ray) > 0;
+      any_out = any_out || sgn(at_ray) < 0;
+    }
+    if (any_in && !any_out) return;
+    std::vector<Integer_vector> kept;
+    Integer here, there;
+    for (std::size_t k = 0; any_in && k < rays.size(); ++k) {
+      const Integer_vector& next = rays[(k + 1) % rays.size()];
+      value(here, rays[k]), value(there, next);
+      if (sgn(here) >= 0) kept.push_back(rays[k]);
+      if (sgn(here) * sgn(there) >= 0) continue;
+      Integer_vector& d = kept.emplace_back();
+      for (std::size_t m = 0; m < 3; ++m) d[m] = abs(there) * rays[k][m] + abs(here) * next[m];
+    }
+    rays = std::move(kept);
   }
-  rays = std::move(kept);
-}
+};
 
 /// n / d in units of 2^-60, rounded downwards or upwards. Pre: |n| <= d, d > 0.
 std::int64_t rounded(const Integer& n, const Integer& d, bool upwards) {
@@ -101,12 +110,14 @@ std::int64_t rounded(const Integer& n, const Integer& d, bool upwards) {
 
 std::optional<Window> window_of(const Cone& cone, std::size_t side) {
   const std::size_t axis = side / 2, others[] = {(axis + 1) % 3, (axis + 2) % 3};
-  const int sense = side % 2 == 0 ? 1 : -1;
+  const bool opposite = side % 2 != 0;
+  const auto is_away = [&](const Integer_vector& ray) { return sgn(ray[axis]) * (opposite ? -1 : 1) <= 0; };
+  if (std::all_of(cone.rays.begin(), cone.rays.end(), is_away)) return std::nullopt;
   // 1. The part of the cone in which the coordinate of the side is the largest.
   std::vector<Integer_vector> rays = cone.rays;
   for (const std::size_t other : others)
-    for (const int way : {1, -1}) {
-      clip(rays, [&](const Integer_vector& d) { return Integer(sense * d[axis] + way * d[other]); });
+    for (const bool minus : {false, true}) {
+      Half_space{axis, other, minus, opposite}.clip(rays);
       if (rays.empty()) return std::nullopt;
     }
   // 2. The box around where its rays meet the side.

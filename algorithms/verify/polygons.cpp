@@ -46,12 +46,29 @@ Integer_vector primitive(const Exact_point& v) {
 }
 
 Integer_vector newell_normal(const Polygon& loop) {
-  Exact_point sum;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const Exact_point part = cross(minus(loop[i], loop[0]), minus(loop[i + 1], loop[0]));
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+  // Over one denominator, unless that would become much longer than those of the points.
+  constexpr std::size_t most_bits = 2048;
+  Integer scale = 1;
+  for (std::size_t i = 0; i < loop.size() && bit_length(scale) <= most_bits; ++i)
+    for (const Rational& x : loop[i]) scale = lcm(scale, x.get_den());
+  const auto sum_of_parts = [&](const auto& arm) {
+    auto sum = arm(0);  // zero
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+      const auto part = cross(arm(i), arm(i + 1));
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+    }
+    return primitive(sum);
+  };
+  if (loop.empty()) return {};
+  if (bit_length(scale) > most_bits) return sum_of_parts([&](std::size_t i) { return minus(loop[i], loop[0]); });
+  std::vector<Integer_vector> points;
+  for (const Exact_point& p : loop) {
+    Integer_vector& q = points.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) q[k] = p[k].get_num() * (scale / p[k].get_den());
   }
-  return primitive(sum);
+  return sum_of_parts([&](std::size_t i) {
+    return Integer_vector{points[i][0] - points[0][0], points[i][1] - points[0][1], points[i][2] - points[0][2]};
+  });
 }
 
 Homogeneous homogeneous(const Exact_point& p) {
