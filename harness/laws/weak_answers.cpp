@@ -1,0 +1,206 @@
+#include <sightline/harness/laws/weak_answers.h>
+
+#include <sightline/algorithms/verify/verdict.h>
+#include <sightline/algorithms/verify/weak.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/conservative.h>
+#include <sightline/algorithms/weak_visibility/events/events.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/laws/labels.h>
+#include <sightline/harness/laws/weak_flats.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sightline::harness {
+namespace weak_answers {
+namespace {
+
+using generate::Points;
+using weak_flats::Level;
+
+/// A search or events with more than these would take minutes.
+constexpr std::size_t most_cells = 3000, most_events = 20000;
+
+Answer labels_of(const Polygon_soup& soup, const Weak_faces& found) {
+  Answer answer;
+  answer.labels.assign(soup.face_count(), Answer::none);
+  label_weakly_seen(found, answer);
+  return answer;
+}
+
+// ---- Conservative
+
+/// Whether all segments from one convex polygon to another meet a third: its plane is between them, and no corner's
+/// segment passes one of its edges outside. By definition: the side of an edge is linear in each end.
+bool hides_all(const Points& piece, const Points& source, const Points& target) {
+  const Level level = weak_flats::level_of(piece);
+  const int front = weak_flats::position(level, source);
+  if (front == 0 || front == 2 || weak_flats::position(level, target) != -front) return false;
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    for (const Exact_point& p : source) {
+      const Exact_point beyond = cross(minus(piece[i], p), minus(piece[(i + 1) % piece.size()], p));
+      for (const Exact_point& q : target)
+        if (front * sgn(dot(beyond, minus(q, p))) > 0) return false;
+    }
+  return true;
+}
+
+/// Whether what two convex polygons have in front of each other is nothing, or is hidden by one piece of some: from
+/// each side of the target's plane that counts.
+bool is_hidden_by_one(const std::vector<Points>& pieces, const Points& source, const Points& piece, bool two_sided) {
+  const Level plane = weak_flats::level_of(piece);
+  const Points target = weak_flats::clipped(piece, weak_flats::level_of(source));
+  if (target.empty()) return true;
+  for (const Level& side : {plane, plane.turned()}) {
+    const Points from = weak_flats::clipped(source, side);
+    if (!from.empty() &&
+        std::none_of(pieces.begin(), pieces.end(), [&](const Points& other) { return hides_all(other, from, target); }))
+      return false;
+    if (!two_sided) break;
+  }
+  return true;
+}
+
+Outcome conservatively(const Posed_scene& posed, const Answer& answer, Random& random) {
+  constexpr std::size_t faces_tried = 6;
+  if (!random.chance(1, 4)) return Outcome::not_applicable();
+  const bool two_sided = random.chance(1, 4);
+  const Scene scene(posed.soup);
+  const Occluders occluders(scene);
+  const std::vector<Points> pieces = weak_flats::polygons(scene);
+  Conservative_options options;
+  options.threads = 1, options.two_sided = two_sided;
+  const Weakly_visible found = possibly_visible(occluders, {weak_source(occluders, posed.source)}, options);
+  // 1. Its proofs.
+  const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, two_sided, found));
+  if (!verdict.accepted) return Outcome::failed("the certificate is rejected: " + verdict.why);
+  if (!found.undecided.empty()) return Outcome::failed("something is undecided");
+  // 2. All that is visible.
+  for (const Face_id face : found.hidden)
+    if (answer.labels[face] == 1) return Outcome::failed(face_name(face) + " is visible, but not possibly");
+  // 3. What one piece hides is hidden, and nothing else.
+  const Answer own = labels_of(posed.soup, found);
+  for (std::size_t k = 0; k < faces_tried && !pieces.empty(); ++k) {
+    const Face_id face = scene.pieces()[random.below(pieces.size())].face;
+    bool hidden = true;
+    for (std::size_t i = 0; i < pieces.size() && hidden; ++i)
+      hidden = scene.pieces()[i].face != face || is_hidden_by_one(pieces, posed.source, pieces[i], two_sided);
+    if (own.labels[face] != (hidden ? 0 : 1))
+      return Outcome::failed(face_name(face) + (hidden ? " is hidden by one piece or looks away, but counts as visible"
+                                                       : " counts as hidden, but no one piece hides it"));
+  }
+  return {};
+}
+
+// ---- Settled by events
+
+Outcome settled(const Posed_scene& posed, const Answer& answer, Random& random) {
+  constexpr std::size_t most_pieces = 12;
+  if (!random.chance(1, 3)) return Outcome::not_applicable();
+  const Scene scene(posed.soup);
+  if (scene.pieces().size() > most_pieces) return Outcome::not_applicable();
+  const Occluders occluders(scene);
+  const std::vector<Weak_source> sources{weak_source(occluders, posed.source)};
+  // 1. A search that leaves much open, some of it in parts.
+  Weak_options options;
+  options.threads = 1;
+  options.search.rays = 0;
+  options.search.cells = 1 + random.below(16);
+  Weakly_visible found = weakly_visible(occluders, sources, options);
+  if (found.open.empty()) return Outcome::not_applicable();
+  // 2. Events, often of fewer edges than are near all of source and target.
+  std::size_t edges = 0;
+  for (const Weakly_visible::Pair& pair : found.open)
+    edges = std::max(edges, edges_between(occluders, sources[0], pair.piece));
+  Events_options events;
+  events.threads = 1;
+  events.events = most_events;
+  events.rays = 0;
+  settle_by_events(occluders, sources, edges - std::min<std::size_t>(edges, random.below(8)), events, found);
+  // 3. The same as otherwise, and proved where it says so.
+  const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, false, found));
+  if (!verdict.accepted) return Outcome::failed("the certificate is rejected: " + verdict.why);
+  return compared(answer, labels_of(posed.soup, found), "the search", "a short search and events");
+}
+
+// ---- A piece along a segment
+
+Outcome with_a_piece_along(const Posed_scene& posed, const Answer&, Random& random) {
+  constexpr std::size_t most_pieces = 8;
+  if (!random.chance(1, 4)) return Outcome::not_applicable();
+  // 1. A triangle or a quadrilateral about a point of a segment from the source to a piece, in a plane of that segment.
+  Posed_scene more = posed;
+  std::optional<Face_id> goal;
+  {
+    const Scene scene(posed.soup);
+    const std::vector<Points> pieces = weak_flats::polygons(scene);
+    if (pieces.empty() || pieces.size() > most_pieces) return Outcome::not_applicable();
+    const std::size_t chosen = random.below(pieces.size());
+    goal = scene.pieces()[chosen].face;
+    const Exact_point p = weak_flats::inner_point(posed.source, random),
+                      q = weak_flats::inner_point(pieces[chosen], random), way = minus(q, p);
+    const Points& beside = random.chance(1, 2) ? posed.source : pieces[chosen];
+    const Exact_point across = minus(beside[random.below(beside.size())], p);
+    if (cross(way, across) == Exact_point{0, 0, 0}) return Outcome::not_applicable();
+    const auto eighth = [&](std::int64_t least, std::int64_t most) {
+      return Rational(generate::integer(random, least, most) / 8);
+    };
+    const auto corner = [&](const Rational& t, const Rational& u) {
+      return generate::along(generate::along(p, t, way), u, across);
+    };
+    const Rational begin = eighth(1, 4), end = eighth(5, 7), left = eighth(1, 16), right = eighth(1, 16);
+    Points piece{corner(begin, -left), corner(end, -left), corner(end, right)};
+    if (random.chance(1, 2)) piece.push_back(corner(begin, right));
+    more.soup.add_face(generate::added(more.soup, piece));
+  }
+  // 2. By lines and by events.
+  const Scene scene(more.soup);
+  const Occluders occluders(scene);
+  const std::vector<Weak_source> sources{weak_source(occluders, more.source)};
+  Weak_options options;
+  options.threads = 1;
+  options.search.cells = most_cells;
+  options.faces = {*goal};
+  Answer lines = labels_of(more.soup, weakly_visible(occluders, sources, options)), by_events = lines;
+  by_events.labels[*goal] = 0;
+  Event_counters counters;
+  Events_options events;
+  events.threads = 1;
+  events.events = most_events;
+  events.rays = 0;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
+    if (scene.pieces()[piece].face != *goal) continue;
+    const Events_answer found = weakly_visible_by_events(occluders, sources[0], piece, events, counters);
+    if (found.status == Weak_status::undecided) return Outcome::undecided();
+    if (found.status == Weak_status::visible) by_events.labels[*goal] = 1;
+  }
+  return compared(lines, by_events, "lines", "events");
+}
+
+}  // namespace
+}  // namespace weak_answers
+
+Check conservative_check() {
+  return {"conservative", "what one piece hides, by brute force, and nothing that is visible",
+          weak_answers::conservatively};
+}
+
+Check settle_check() {
+  return {"settle", "the same by events in what a short search leaves open", weak_answers::settled};
+}
+
+Check along_check() {
+  return {"along", "lines and events agree about one more piece that lies along a segment",
+          weak_answers::with_a_piece_along};
+}
+
+}  // namespace sightline::harness
