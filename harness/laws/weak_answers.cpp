@@ -8,6 +8,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/weak_flats.h>
@@ -70,27 +71,83 @@ bool is_hidden_by_one(const std::vector<Points>& pieces, const Points& source, c
   return true;
 }
 
+/// The convex hull of points of a plane, counterclockwise, without straight corners; empty where it has no inside.
+Points hull_of(const Points& points, const Exact_point& normal) {
+  const auto left_of = [&](const Exact_point& a, const Exact_point& b, const Exact_point& c) {
+    return sgn(dot(cross(minus(b, a), minus(c, a)), normal));
+  };
+  Points hull{*std::min_element(points.begin(), points.end())};
+  do {  // to the outermost point as seen from the last one, the farthest of these
+    const Exact_point at = hull.back();
+    Exact_point next = at;
+    for (const Exact_point& p : points) {
+      const int left = next == at ? -1 : left_of(at, next, p);
+      const Exact_point step = minus(p, at);
+      if (p != at && (left < 0 || (left == 0 && dot(step, step) > dot(minus(next, at), minus(next, at))))) next = p;
+    }
+    hull.push_back(next);
+  } while (hull.back() != hull.front() && hull.size() <= points.size() + 1);
+  hull.pop_back();
+  return hull.size() < 3 || weak_flats::level_of(hull).normal == Exact_point{0, 0, 0} ? Points{} : hull;
+}
+
+/// Just what hides a piece from a source, between them; or a corner of that is a little off.
+Points lid_between(const Points& source, const Points& piece, Random& random) {
+  Level level = weak_flats::level_of(piece);
+  Rational nearest;
+  for (const Exact_point& p : source)
+    if (const Rational height = level.height(p); &p == &source.front() || height < nearest) nearest = height;
+  if (nearest <= 0) return {};
+  level.offset += nearest / static_cast<long>(random.between(2, 4));
+  Points met;
+  for (const Exact_point& p : source)
+    for (const Exact_point& q : piece) {
+      const Rational from = level.height(p), to = level.height(q);
+      met.push_back(generate::along(p, Rational(from / (from - to)), minus(q, p)));
+    }
+  Points lid = hull_of(met, level.normal);
+  if (lid.size() >= 3 && random.chance(2, 3)) {  // towards another corner, or away from it
+    Rational step = generate::power_of_two(-static_cast<int>(random.between(20, 60)));
+    if (random.chance(1, 3)) step = -step;
+    lid[0] = generate::along(lid[0], step, minus(lid[lid.size() / 2], lid[0]));
+  }
+  return lid;
+}
+
 Outcome conservatively(const Posed_scene& posed, const Answer& answer, Random& random) {
   constexpr std::size_t faces_tried = 6;
   if (!random.chance(1, 4)) return Outcome::not_applicable();
-  const bool two_sided = random.chance(1, 4);
-  const Scene scene(posed.soup);
+  const bool two_sided = random.chance(1, 4), lidded = random.chance(1, 2);
+  // 1. The scene, or one piece more that hides one of it, or all but.
+  Polygon_soup soup = posed.soup;
+  std::optional<Face_id> below;
+  if (lidded) {
+    const Scene bare(soup);
+    const std::vector<Points> targets = weak_flats::polygons(bare);
+    if (targets.empty()) return Outcome::not_applicable();
+    const std::size_t target = random.below(targets.size());
+    const Points lid = lid_between(posed.source, targets[target], random);
+    if (lid.empty()) return Outcome::not_applicable();
+    below = bare.pieces()[target].face;
+    soup.add_face(generate::added(soup, lid));
+  }
+  const Scene scene(soup);
   const Occluders occluders(scene);
   const std::vector<Points> pieces = weak_flats::polygons(scene);
   Conservative_options options;
   options.threads = 1, options.two_sided = two_sided;
   const Weakly_visible found = possibly_visible(occluders, {weak_source(occluders, posed.source)}, options);
-  // 1. Its proofs.
-  const Verdict verdict = verify_weak(posed.soup, weak_certificate(scene, {posed.source}, two_sided, found));
+  // 2. Its proofs.
+  const Verdict verdict = verify_weak(soup, weak_certificate(scene, {posed.source}, two_sided, found));
   if (!verdict.accepted) return Outcome::failed("the certificate is rejected: " + verdict.why);
   if (!found.undecided.empty()) return Outcome::failed("something is undecided");
-  // 2. All that is visible.
+  // 3. All that is visible.
   for (const Face_id face : found.hidden)
-    if (answer.labels[face] == 1) return Outcome::failed(face_name(face) + " is visible, but not possibly");
-  // 3. What one piece hides is hidden, and nothing else.
-  const Answer own = labels_of(posed.soup, found);
+    if (!lidded && answer.labels[face] == 1) return Outcome::failed(face_name(face) + " is visible, but not possibly");
+  // 4. What one piece hides is hidden, and nothing else.
+  const Answer own = labels_of(soup, found);
   for (std::size_t k = 0; k < faces_tried && !pieces.empty(); ++k) {
-    const Face_id face = scene.pieces()[random.below(pieces.size())].face;
+    const Face_id face = below && k == 0 ? *below : scene.pieces()[random.below(pieces.size())].face;
     bool hidden = true;
     for (std::size_t i = 0; i < pieces.size() && hidden; ++i)
       hidden = scene.pieces()[i].face != face || is_hidden_by_one(pieces, posed.source, pieces[i], two_sided);

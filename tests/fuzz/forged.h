@@ -314,7 +314,7 @@ inline void move_an_end(Weak_certificate& claim, Bytes& bytes) {
   const Points& own = begins ? claim.sources[sightline.source] : claim.fragments[sightline.fragment].vertices;
   const Flat flat(own);
   Points ends;
-  switch (bytes.below(3)) {
+  switch (bytes.below(6)) {
     case 0:
       ends = own;
       ends.push_back(middle(own[0], own[1]));
@@ -414,7 +414,7 @@ inline void lie_in_a_proof(Weak_certificate& claim, Bytes& bytes) {
 }
 
 inline void lie(Weak_certificate& claim, const Posed_scene& truth, Bytes& bytes) {
-  switch (bytes.below(12)) {
+  switch (bytes.below(16)) {
     case 0: claim.sources = {truth.source}; break;
     case 1: claim.two_sided = !claim.two_sided; break;
     case 2: exchange(claim.hidden, bytes, &Weak_certificate::Hidden::proof); break;
@@ -533,7 +533,10 @@ inline Judged judged_forgeries(std::string_view text) {
     });
   }
   if (truth.soup.face_count() == 0 || truth.soup.face_count() > 16) return {};
-  const Kind kind = static_cast<Kind>(bytes.below(4));
+  const std::size_t drawn = bytes.below(8);  // where there is a source, often from it: much of that is proofs
+  const Kind kind = drawn < 4              ? static_cast<Kind>(drawn)
+                    : truth.source.empty() ? static_cast<Kind>(drawn % 3)
+                                           : Kind::weak;
   if (kind == Kind::weak && truth.source.empty()) return {};
 
   // 2. What the forger has.
