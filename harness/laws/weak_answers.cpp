@@ -191,10 +191,58 @@ Outcome settled(const Posed_scene& posed, const Answer& answer, Random& random) 
 
 // ---- A piece along a segment
 
+/// That lines and events say the same of a face.
+Outcome agreed(const Posed_scene& posed, Face_id goal) {
+  const Scene scene(posed.soup);
+  const Occluders occluders(scene);
+  const std::vector<Weak_source> sources{weak_source(occluders, posed.source)};
+  Weak_options options;
+  options.threads = 1;
+  options.search.cells = most_cells;
+  options.faces = {goal};
+  Answer lines = labels_of(posed.soup, weakly_visible(occluders, sources, options)), by_events = lines;
+  by_events.labels[goal] = 0;
+  Event_counters counters;
+  Events_options events;
+  events.threads = 1;
+  events.events = most_events;
+  events.rays = 0;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
+    if (scene.pieces()[piece].face != goal) continue;
+    const Events_answer found = weakly_visible_by_events(occluders, sources[0], piece, events, counters);
+    if (found.status == Weak_status::undecided) return Outcome::undecided();
+    if (found.status == Weak_status::visible) by_events.labels[goal] = 1;
+  }
+  return compared(lines, by_events, "lines", "events");
+}
+
+/// A channel between two lids, each of two faces, and a face along its diagonal, which is across source and target and
+/// alone keeps all lines from passing.
+Outcome through_a_channel(Random& random) {
+  const auto number = [&](std::int64_t least, std::int64_t most) { return generate::integer(random, least, most); };
+  const Rational width = number(1, 3), low = number(4, 6), high = Rational(low + number(1, 3)), top = number(12, 16);
+  Posed_scene channel;
+  channel.source = generate::rectangle(-20, 20, -2, 2, 0);
+  generate::Faces faces{generate::reversed(generate::rectangle(-20, 20, -2, 2, top))};
+  for (const Rational& height : {low, high}) {
+    faces.push_back(generate::rectangle(-90, 0, -9, 9, height));
+    faces.push_back(generate::rectangle(width, 90, -9, 9, height));
+  }
+  Points diagonal{generate::at(0, -9, low), generate::at(width, -9, high), generate::at(width, 9, high),
+                  generate::at(0, 9, low)};
+  faces.push_back(generate::either_way(diagonal, random));
+  channel.soup = generate::soup_of(faces);
+  const Outcome outcome = agreed(channel, 0);
+  if (outcome.state == Outcome::State::undecided)
+    return Outcome::failed("events leave a channel of six faces undecided");
+  return outcome;
+}
+
 Outcome with_a_piece_along(const Posed_scene& posed, const Answer&, Random& random) {
   constexpr std::size_t most_pieces = 8;
   if (!random.chance(1, 4)) return Outcome::not_applicable();
-  // 1. A triangle or a quadrilateral about a point of a segment from the source to a piece, in a plane of that segment.
+  if (random.chance(1, 8)) return through_a_channel(random);
+  // A triangle or a quadrilateral about a point of a segment from the source to a piece, in a plane of that segment.
   Posed_scene more = posed;
   std::optional<Face_id> goal;
   {
@@ -219,28 +267,7 @@ Outcome with_a_piece_along(const Posed_scene& posed, const Answer&, Random& rand
     if (random.chance(1, 2)) piece.push_back(corner(begin, right));
     more.soup.add_face(generate::added(more.soup, piece));
   }
-  // 2. By lines and by events.
-  const Scene scene(more.soup);
-  const Occluders occluders(scene);
-  const std::vector<Weak_source> sources{weak_source(occluders, more.source)};
-  Weak_options options;
-  options.threads = 1;
-  options.search.cells = most_cells;
-  options.faces = {*goal};
-  Answer lines = labels_of(more.soup, weakly_visible(occluders, sources, options)), by_events = lines;
-  by_events.labels[*goal] = 0;
-  Event_counters counters;
-  Events_options events;
-  events.threads = 1;
-  events.events = most_events;
-  events.rays = 0;
-  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
-    if (scene.pieces()[piece].face != *goal) continue;
-    const Events_answer found = weakly_visible_by_events(occluders, sources[0], piece, events, counters);
-    if (found.status == Weak_status::undecided) return Outcome::undecided();
-    if (found.status == Weak_status::visible) by_events.labels[*goal] = 1;
-  }
-  return compared(lines, by_events, "lines", "events");
+  return agreed(more, *goal);
 }
 
 }  // namespace
