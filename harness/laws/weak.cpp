@@ -15,11 +15,14 @@
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/weak_answers.h>
+#include <sightline/harness/laws/weak_volume.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sightline::harness {
@@ -134,7 +137,9 @@ Subject weak() {
       {"reverse", "source and target in each other's place", weak_subject::reversed},
       front_door_check(weakly_seen_by_front_door)};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
-  subject.checks.push_back(weak_budget_check());  // last: others keep their random choices
+  subject.checks.push_back(weak_budget_check());  // behind the others, which keep their random choices; so are these
+  for (Check check : {conservative_check(), settle_check(), along_check(), volume_check()})
+    subject.checks.push_back(std::move(check));
   return subject;
 }
 

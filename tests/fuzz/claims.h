@@ -125,6 +125,19 @@ struct Flat {
     return std::all_of(corners.begin(), corners.end(),
                        [&](const Place& p) { return side(p) == 0 && location(p) == 0; });
   }
+  /// Whether it meets a closed segment in its plane.
+  bool meets_in_plane(const Place& p, const Place& q) const {
+    const Line along = line(p, q);
+    int least = 1, most = -1;
+    for (const Place& corner : corners) {
+      const int side = turns(along, line(corner, normal));
+      least = std::min(least, side), most = std::max(most, side);
+    }
+    if (least > 0 || most < 0) return false;
+    const Line at_p = line(p, normal), at_q = line(q, normal);
+    return std::none_of(edges.begin(), edges.end(),
+                        [&](const Line& edge) { return turns(at_p, edge) < 0 && turns(at_q, edge) < 0; });
+  }
   /// Where a ray meets the plane, strictly before it.
   std::optional<Place> met(const Place& from, const Place& ray) const {
     if (side(from) * sign_of_dot(plane, ray) >= 0) return std::nullopt;
@@ -185,6 +198,7 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
     return sign_of_dot(part.normal, fragment.normal) > 0 && fragment.is_in_plane_of(part);
   };
   for (std::size_t i = 0; i < fragments.size(); ++i) {
+    require(fragments[i].normal != Place{0, 0, 0, 0}, "a fragment has an area");
     require(fragments[i].is_convex(), "a fragment is convex");
     const std::vector<Flat>& parts = scene.parts[covering.fragments[i].face];
     if (parts.empty()) continue;
@@ -359,13 +373,21 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
   };
   // Nor does anything touch its ends but in the planes of source and target: else a keel, or a plane that holds the
   // segment, may make it free alone among all near by.
+  const auto holds_an_end = [&](const Flat& other, const Place& p, const Flat& source, const Place& q,
+                                const Flat& target) {
+    const auto hit = other.hit(p, q);
+    return hit && ((hit->at == Flat::At::p && !other.is_in_plane_of(source)) ||
+                   (hit->at == Flat::At::q && !other.is_in_plane_of(target)));
+  };
   const auto strictly_free = [&](const Place& p, const Flat& source, const Place& q, const Flat& target) {
-    return std::none_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
-      if (other.side(p) == 0 && other.side(q) == 0) return true;
-      const auto hit = other.hit(p, q);
-      if (!hit || hit->at == Flat::At::before || hit->at == Flat::At::behind) return false;
-      return !(hit->at == Flat::At::p && other.is_in_plane_of(source)) &&
-             !(hit->at == Flat::At::q && other.is_in_plane_of(target));
+    return !blocked(p, q) && std::none_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
+      return (other.side(p) == 0 && other.side(q) == 0) || holds_an_end(other, p, source, q, target);
+    });
+  };
+  const auto touched = [&](const Place& p, const Flat& source, const Place& q, const Flat& target) {
+    return std::any_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
+      if (other.side(p) == 0 && other.side(q) == 0) return other.meets_in_plane(p, q);
+      return holds_an_end(other, p, source, q, target);
     });
   };
   std::vector<bool> visible(scene.parts.size()), undecided(scene.parts.size());
@@ -376,6 +398,7 @@ inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) 
     require(fragment.side(to) == 0 && fragment.location(to) > 0, "a sightline ends inside its fragment");
     require(looks(from, source, to, fragment), "both ends of a sightline look to each other");
     require(!blocked(from, to), "nothing is on a sightline");
+    require(!touched(from, source, to, fragment), "nothing touches a sightline's ends but in their planes");
     visible[claim.fragments[entry.fragment].face] = true;
   }
   std::set<std::pair<std::size_t, std::size_t>> hidden;

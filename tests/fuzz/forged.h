@@ -6,6 +6,7 @@
 #include "certificate.h"
 #include "claims.h"
 #include "mutate.h"
+#include "retold.h"
 
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/transform.h>
@@ -28,6 +29,7 @@ struct Pretence {
   Posed_scene scene;
   std::vector<Face_id> face_of;
   std::vector<Covering::Set_aside> left_out;  ///< faces of the true scene that are not there, and what is said of it
+  bool is_true = false;                       ///< it is the true scene
 };
 
 inline Asking in_one_thread() { return {1, {}}; }
@@ -133,7 +135,11 @@ inline Pretence pretence_of(const Posed_scene& truth, Bytes& bytes) {
     case 4: return cut(truth, bytes);
     case 5: return nudged(truth, bytes);
     case 6: return turned(truth, bytes);
-    default: return as_it_is(truth);
+    default: {
+      Pretence pretence = as_it_is(truth);
+      pretence.is_true = true;
+      return pretence;
+    }
   }
 }
 
@@ -188,6 +194,60 @@ void exchange(Entries& entries, Bytes& bytes, auto member) {
   const std::size_t i = bytes.below(std::min<std::size_t>(256, entries.size())),
                     j = bytes.below(std::min<std::size_t>(256, entries.size()));
   std::swap(entries[i].*member, entries[j].*member);
+}
+
+/// One that there is, if there is one.
+template <class Entries>
+std::size_t any_of_first(const Entries& entries, Bytes& bytes) {
+  return bytes.below(std::min<std::size_t>(256, entries.size()));
+}
+
+// One more fragment, of the same face and piece as the k-th, wherever it disturbs nothing else.
+inline void add_beside(Order_certificate& claim, std::size_t k, const Order_fragment& fragment) {
+  claim.fragments.insert(claim.fragments.begin() + static_cast<std::ptrdiff_t>(k) + 1, fragment);
+}
+inline void add_beside(Graph_certificate& claim, std::size_t, const Order_fragment& fragment) {
+  claim.fragments.push_back(fragment);
+  claim.sizes.push_back(1);
+}
+inline void add_beside(Visible_certificate& claim, std::size_t, const Order_fragment& fragment) {
+  claim.fragments.push_back(fragment);
+}
+inline void add_beside(Weak_certificate& claim, std::size_t k, const Order_fragment& fragment) {
+  for (std::size_t i = 0, entries = claim.hidden.size(); i < entries; ++i)
+    if (claim.hidden[i].fragment == k) {
+      Weak_certificate::Hidden entry = claim.hidden[i];
+      entry.fragment = claim.fragments.size();
+      claim.hidden.push_back(std::move(entry));
+    }
+  claim.fragments.push_back(fragment);
+}
+
+/// Fragments that are none, as polygons: clockwise, with a corner twice or a spike, without area; or the same one again
+/// and once clockwise, so that boundaries cancel.
+template <class Claim>
+void lie_about_fragments(Claim& claim, Bytes& bytes) {
+  if (claim.fragments.empty()) return;
+  const std::size_t k = any_of_first(claim.fragments, bytes);
+  Order_fragment fragment = claim.fragments[k];
+  Points &loop = claim.fragments[k].vertices, &other = fragment.vertices;
+  const std::size_t corner = bytes.below(loop.size());
+  const Exact_point p = loop[corner], q = loop[(corner + 1) % loop.size()];
+  const auto at = loop.begin() + static_cast<std::ptrdiff_t>(corner);
+  switch (bytes.below(5)) {
+    case 0: std::reverse(loop.begin(), loop.end()); break;
+    case 1: loop.insert(at, p); break;
+    case 2: loop.insert(at + 1, {middle(p, middle(loop[0], loop[2])), p}); break;
+    case 3:
+      other = {p, middle(p, q), q};
+      if (bytes.below(2) == 0) other.push_back(other[1]);
+      add_beside(claim, k, fragment);
+      break;
+    default:
+      add_beside(claim, k, fragment);
+      std::reverse(other.begin(), other.end());
+      add_beside(claim, k, fragment);
+  }
 }
 
 inline void lie(Order_certificate& claim, const Posed_scene& truth, Bytes& bytes) {
@@ -245,21 +305,135 @@ inline void lie(Visible_certificate& claim, const Posed_scene& truth, Bytes& byt
         claim.empty.erase(claim.empty.begin() + static_cast<std::ptrdiff_t>(bytes.below(claim.empty.size())));
   }
 }
-inline void lie(Weak_certificate& claim, const Posed_scene& truth, Bytes& bytes) {
+/// A sightline's end moved: to where another fragment meets the plane that it is in, to the boundary of what it is in,
+/// or anywhere inside.
+inline void move_an_end(Weak_certificate& claim, Bytes& bytes) {
+  if (claim.visible.empty()) return;
+  Weak_certificate::Sightline& sightline = claim.visible[any_of_first(claim.visible, bytes)];
+  const bool begins = bytes.below(2) == 0;
+  const Points& own = begins ? claim.sources[sightline.source] : claim.fragments[sightline.fragment].vertices;
+  const Flat flat(own);
+  Points ends;
   switch (bytes.below(6)) {
+    case 0:
+      ends = own;
+      ends.push_back(middle(own[0], own[1]));
+      break;
+    case 1:
+      for (const Place& p : mixtures(flat.corners))
+        ends.push_back({Rational(p[0]) / p[3], Rational(p[1]) / p[3], Rational(p[2]) / p[3]});
+      break;
+    default:
+      for (const Order_fragment& fragment : claim.fragments)
+        for (std::size_t i = 0; i < fragment.vertices.size(); ++i) {
+          const Exact_point &p = fragment.vertices[i], &q = fragment.vertices[(i + 1) % fragment.vertices.size()];
+          Rational from = 0, to = 0;  // heights over the plane
+          for (std::size_t k = 0; k < 3; ++k)
+            from += flat.plane[k] * (p[k] - own[0][k]), to += flat.plane[k] * (q[k] - own[0][k]);
+          if (sgn(from) * sgn(to) > 0) continue;
+          Exact_point end = middle(p, q);
+          for (std::size_t k = 0; k < 3 && from != to; ++k) end[k] = p[k] + from / (from - to) * (q[k] - p[k]);
+          if (flat.location(place(end)) > 0) ends.push_back(end);
+        }
+  }
+  if (!ends.empty()) (begins ? sightline.from : sightline.to) = ends[any_of_first(ends, bytes)];
+}
+
+/// What is seen is hidden, by a proof at random: below the sides of edges of one fragment, it blocks everything; or
+/// some leaf, or terms of lines above it.
+inline void hide_at_random(Weak_certificate& claim, Bytes& bytes) {
+  using Node = Weak_certificate::Node;
+  if (claim.visible.empty()) return;
+  const std::size_t k = any_of_first(claim.visible, bytes);
+  const Weak_certificate::Sightline seen = claim.visible[k];
+  const Flat source(claim.sources[seen.source]), target(claim.fragments[seen.fragment].vertices);
+  // 1. A blocker, one whose plane is between them if the first few have such.
+  std::size_t blocker = any_of_first(claim.fragments, bytes);
+  const auto is_between = [&](const Flat& other) {
+    const auto reaches = [&](const Flat& of, int side) {
+      return std::any_of(of.corners.begin(), of.corners.end(), [&](const Place& p) { return other.side(p) == side; });
+    };
+    const int from = int{reaches(source, 1)} - int{reaches(source, -1)},
+              to = int{reaches(target, 1)} - int{reaches(target, -1)};
+    return from * to < 0;
+  };
+  for (std::size_t i = 0; i < claim.fragments.size() && !is_between(Flat(claim.fragments[blocker].vertices)); ++i)
+    blocker = (blocker + 1) % claim.fragments.size();
+  // 2. A tree over the lines of its edges.
+  const std::size_t first = claim.lines.size(),
+                    edges = std::min<std::size_t>(5, claim.fragments[blocker].vertices.size());
+  for (std::size_t i = 0; i < edges; ++i) claim.lines.push_back({blocker, i});
+  Weak_certificate::Hidden entry{seen.fragment, seen.source, {}};
+  const bool always_blocked = bytes.below(2) == 0;
+  const auto grow = [&](const auto& self, std::size_t depth) -> void {
+    Node node;
+    if (depth < edges) {
+      node.kind = Node::Kind::line, node.index = first + depth;
+      entry.proof.push_back(node);
+      self(self, depth + 1);
+      return self(self, depth + 1);
+    }
+    const std::size_t kind = always_blocked ? 0 : bytes.below(4);
+    node.kind = kind < 2 ? Node::Kind::blocked : kind == 2 ? Node::Kind::away : Node::Kind::empty;
+    node.index = blocker;
+    if (kind > 2)
+      for (std::size_t terms = 1 + bytes.below(3); terms > 0; --terms)
+        node.terms.push_back({first + bytes.below(edges), Rational(static_cast<long>(1 + bytes.below(4))), {}, {}});
+    entry.proof.push_back(std::move(node));
+  };
+  grow(grow, 0);
+  claim.hidden.push_back(std::move(entry));
+  claim.visible.erase(claim.visible.begin() + static_cast<std::ptrdiff_t>(k));
+}
+
+/// A proof with the parts of a node exchanged, or the lines or factors of two terms.
+inline void lie_in_a_proof(Weak_certificate& claim, Bytes& bytes) {
+  using Node = Weak_certificate::Node;
+  if (claim.hidden.empty()) return;
+  std::vector<Node>& proof = claim.hidden[any_of_first(claim.hidden, bytes)].proof;
+  std::vector<std::size_t> inner, leaves;
+  const auto is_inner = [&](std::size_t i) { return proof[i].kind <= Node::Kind::cut_target; };
+  for (std::size_t i = 0; i < proof.size(); ++i)
+    if (is_inner(i)) inner.push_back(i);
+    else if (proof[i].terms.size() > 1) leaves.push_back(i);
+  const std::size_t lie = bytes.below(3);
+  if (lie == 0 && !inner.empty()) {
+    const auto end_of = [&](std::size_t i) {
+      for (std::size_t open = 1; open > 0; ++i) open += is_inner(i) ? 1 : -1;
+      return proof.begin() + static_cast<std::ptrdiff_t>(i);
+    };
+    const std::size_t first = inner[any_of_first(inner, bytes)] + 1;
+    const auto second = end_of(first);
+    const auto end = end_of(static_cast<std::size_t>(second - proof.begin()));
+    std::rotate(proof.begin() + static_cast<std::ptrdiff_t>(first), second, end);
+  } else if (lie != 0 && !leaves.empty()) {
+    auto& terms = proof[leaves[any_of_first(leaves, bytes)]].terms;
+    if (lie == 1) exchange(terms, bytes, &Weak_certificate::Term::line);
+    else exchange(terms, bytes, &Weak_certificate::Term::factor);
+  }
+}
+
+inline void lie(Weak_certificate& claim, const Posed_scene& truth, Bytes& bytes) {
+  switch (bytes.below(16)) {
     case 0: claim.sources = {truth.source}; break;
     case 1: claim.two_sided = !claim.two_sided; break;
     case 2: exchange(claim.hidden, bytes, &Weak_certificate::Hidden::proof); break;
     case 3: exchange(claim.visible, bytes, &Weak_certificate::Sightline::fragment); break;
     case 4: exchange(claim.lines, bytes, &Weak_certificate::Edge::corner); break;
-    default:
+    case 5:
       if (!claim.visible.empty() && !claim.hidden.empty()) {  // what is seen is hidden, by the proof of another
-        const std::size_t k = bytes.below(std::min<std::size_t>(256, claim.visible.size()));
-        Weak_certificate::Hidden entry = claim.hidden[bytes.below(std::min<std::size_t>(256, claim.hidden.size()))];
+        const std::size_t k = any_of_first(claim.visible, bytes);
+        Weak_certificate::Hidden entry = claim.hidden[any_of_first(claim.hidden, bytes)];
         entry.fragment = claim.visible[k].fragment;
         claim.hidden.push_back(std::move(entry));
         claim.visible.erase(claim.visible.begin() + static_cast<std::ptrdiff_t>(k));
       }
+      break;
+    case 6:
+    case 7: lie_in_a_proof(claim, bytes); break;
+    case 8:
+    case 9: hide_at_random(claim, bytes); break;
+    default: move_an_end(claim, bytes);
   }
 }
 
@@ -338,7 +512,7 @@ struct Judged {
 /// Shows certificates of another scene, the right one and some that lie about what is shown, as those of the first:
 /// what passes is true. Nothing where the bytes say nothing.
 inline Judged judged_forgeries(std::string_view text) {
-  constexpr std::size_t forgeries = 24, bytes_of_lies = 24;
+  constexpr std::size_t forgeries = 24, bytes_of_lies = 48, tellings = 6;
   Bytes bytes(text);
   // 1. The scene as it is.
   const std::vector<generate::Family>& families = generate::families();
@@ -359,7 +533,10 @@ inline Judged judged_forgeries(std::string_view text) {
     });
   }
   if (truth.soup.face_count() == 0 || truth.soup.face_count() > 16) return {};
-  const Kind kind = static_cast<Kind>(bytes.below(4));
+  const std::size_t drawn = bytes.below(8);  // where there is a source, often from it: much of that is proofs
+  const Kind kind = drawn < 4              ? static_cast<Kind>(drawn)
+                    : truth.source.empty() ? static_cast<Kind>(drawn % 3)
+                                           : Kind::weak;
   if (kind == Kind::weak && truth.source.empty()) return {};
 
   // 2. What the forger has.
@@ -380,14 +557,24 @@ inline Judged judged_forgeries(std::string_view text) {
           auto claim = right;
           const std::string words = lies.random_bytes(bytes_of_lies);
           Bytes told(words);
-          for (std::size_t left = k == 0 ? 0 : 1 + told.below(2); left > 0; --left) lie(claim, truth, told);
+          for (std::size_t left = k == 0 ? 0 : 1 + told.below(2); left > 0; --left) {
+            if (told.below(4) == 0) lie_about_fragments(claim, told);
+            else lie(claim, truth, told);
+          }
 
-          // 4. Whether it passes; then it is true.
-          if (!verdict_on(truth.soup, claim).accepted) {
+          // 4. Whether it passes; then it is true, and the right one passes however it is told.
+          if (const Verdict verdict = verdict_on(truth.soup, claim); !verdict.accepted) {
+            if (k == 0 && pretence.is_true) throw Finding("a right certificate is rejected: " + verdict.why);
             ++judged.rejected;
             continue;
           }
           ++judged.accepted;
+          for (std::size_t t = 0; k == 0 && t < tellings; ++t) {
+            auto retold = claim;
+            for (std::size_t left = 1 + t % 3; left > 0; --left) retell(retold, lies);
+            if (const Verdict verdict = verdict_on(truth.soup, retold); !verdict.accepted)
+              throw Finding("what is accepted is rejected when it is told otherwise: " + verdict.why);
+          }
           if (!scene) scene = known(truth.soup);
           try_claims(*scene, claim);
           compare_with_engine(truth.soup, claim);
