@@ -42,6 +42,7 @@ int sum(const std::vector<int>& all, int* last) {
       return one - x - 1;
     }
   }
+  x += last ? 1 : -1;
   return x + static_cast<std::pair<int, int>>(all[0]).first * 2 ? 1 : 0;
 }
 
@@ -92,22 +93,25 @@ TEST(Mutants, are_derived_from_what_runs_and_from_nothing_else) {
       "25  return removed: return one - x - 1;",
       "25  - to +: one - x  ->  (one + x)",
       "25  - to +: one - x - 1  ->  (one - x + 1)",
-      "28  condition is true: x + static_cast<std::pair<int, int>>(all[0]).first * 2  ->  true",
-      "28  condition is false: x + static_cast<std::pair<int, int>>(all[0]).first * 2  ->  false",
-      "28  + to -: x + static_cast<std::pair<int, int>>(all[0]).first * 2  ->  "
+      "28  += to -=: x += last ? 1 : -1  ->  x -= last ? 1 : -1",
+      "28  condition is true: last  ->  true",
+      "28  condition is false: last  ->  false",
+      "29  condition is true: x + static_cast<std::pair<int, int>>(all[0]).first * 2  ->  true",
+      "29  condition is false: x + static_cast<std::pair<int, int>>(all[0]).first * 2  ->  false",
+      "29  + to -: x + static_cast<std::pair<int, int>>(all[0]).first * 2  ->  "
       "(x - static_cast<std::pair<int, int>>(all[0]).first * 2)",
-      "31  > to >=: d > 0x1p-50 * 1.5  ->  d >= 0x1p-50 * 1.5",
-      "31  > to <=: d > 0x1p-50 * 1.5  ->  d <= 0x1p-50 * 1.5",
-      "31  constant x 0.5: 0x1p-50  ->  0.5 * 0x1p-50",
-      "31  constant x 2: 0x1p-50  ->  2 * 0x1p-50",
-      "31  constant x 0.5: 1.5  ->  0.5 * 1.5",
-      "31  constant x 2: 1.5  ->  2 * 1.5",
-      "31  || to &&: d > 0x1p-50 * 1.5 || a && b  ->  (d > 0x1p-50 * 1.5) && (a && b)",
-      "31  right of || dropped: d > 0x1p-50 * 1.5 || a && b  ->  static_cast<bool>(d > 0x1p-50 * 1.5)",
-      "31  left of || dropped: d > 0x1p-50 * 1.5 || a && b  ->  static_cast<bool>(a && b)",
-      "31  && to ||: a && b  ->  (a) || (b)",
-      "31  right of && dropped: a && b  ->  static_cast<bool>(a)",
-      "31  left of && dropped: a && b  ->  static_cast<bool>(b)",
+      "32  > to >=: d > 0x1p-50 * 1.5  ->  d >= 0x1p-50 * 1.5",
+      "32  > to <=: d > 0x1p-50 * 1.5  ->  d <= 0x1p-50 * 1.5",
+      "32  constant x 0.5: 0x1p-50  ->  0.5 * 0x1p-50",
+      "32  constant x 2: 0x1p-50  ->  2 * 0x1p-50",
+      "32  constant x 0.5: 1.5  ->  0.5 * 1.5",
+      "32  constant x 2: 1.5  ->  2 * 1.5",
+      "32  || to &&: d > 0x1p-50 * 1.5 || a && b  ->  (d > 0x1p-50 * 1.5) && (a && b)",
+      "32  right of || dropped: d > 0x1p-50 * 1.5 || a && b  ->  static_cast<bool>(d > 0x1p-50 * 1.5)",
+      "32  left of || dropped: d > 0x1p-50 * 1.5 || a && b  ->  static_cast<bool>(a && b)",
+      "32  && to ||: a && b  ->  (a) || (b)",
+      "32  right of && dropped: a && b  ->  static_cast<bool>(a)",
+      "32  left of && dropped: a && b  ->  static_cast<bool>(b)",
   };
   EXPECT_EQ(found, expected);
 }
