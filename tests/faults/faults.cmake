@@ -69,30 +69,5 @@ ${switches}
 ")
 file(WRITE "${PROJECT_BINARY_DIR}/faults.txt" "${hunts}")  # for tests/faults/hunt: a name, and what is to find it
 
-add_library(faulty_library STATIC EXCLUDE_FROM_ALL ${faulty_sources})
-target_include_directories(faulty_library PUBLIC "${faulty_root}")
-target_compile_features(faulty_library PUBLIC cxx_std_20)
-target_compile_options(faulty_library PUBLIC $<TARGET_PROPERTY:sightline_library,INTERFACE_COMPILE_OPTIONS>)
-target_link_libraries(faulty_library PUBLIC sightline::dependencies)
-
-# Found here too: the program and the tests, which find them otherwise, may be left out.
-find_package(CLI11 CONFIG REQUIRED)
-find_package(fmt CONFIG REQUIRED)
-find_package(GTest CONFIG REQUIRED)
-find_package(rapidcheck CONFIG REQUIRED)
-
-add_executable(sightline_faulty EXCLUDE_FROM_ALL tests/faults/program/main.cpp
-               apps/fuzz/fuzz.cpp apps/fuzz/case_watch.cpp apps/fuzz/io.cpp apps/support/query.cpp apps/support/common.cpp
-               apps/support/files.cpp apps/support/options.cpp)
-target_link_libraries(sightline_faulty PRIVATE CLI11::CLI11 fmt::fmt)
-add_executable(fuzz_targets_faulty EXCLUDE_FROM_ALL tests/fuzz/program/main.cpp)
-target_link_libraries(fuzz_targets_faulty PRIVATE GTest::gtest rapidcheck)
-target_compile_definitions(fuzz_targets_faulty PRIVATE SIGHTLINE_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-foreach(target IN ITEMS sightline_faulty fuzz_targets_faulty)
-  target_link_libraries(${target} PRIVATE faulty_library)
-  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
-endforeach()
-foreach(target IN ITEMS faulty_library sightline_faulty fuzz_targets_faulty)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
-endforeach()
-add_custom_target(faulty DEPENDS sightline_faulty fuzz_targets_faulty)
+include(tests/faults/programs.cmake)
+add_programs_with_faults(faulty faulty_library "${faulty_root}" "${faulty_sources}")
