@@ -11,7 +11,7 @@
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/traits/partition_traits.h>
 
-#include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -64,5 +64,9 @@ Exact_point any_point(const Posed_scene& posed, const std::vector<Flat_face>& fa
 /// To such a point, along an edge or an axis; not zero.
 Exact_point any_direction(const Posed_scene& posed, const std::vector<Flat_face>& faces, const Exact_point& from,
                           generate::Random& random);
+
+/// A check of one scene in `share`: what it does takes longer than the rest of its subject's checks.
+Check check_of_a_share(const char* name, const char* what, std::uint64_t share,
+                       Outcome (*run)(const Posed_scene& posed, generate::Random& random));
 
 }  // namespace sightline::harness

@@ -271,22 +271,18 @@ Outcome check_splits(const Posed_scene& posed, Random& random) {
   return {};
 }
 
-Check for_a_share(const char* name, const char* what, std::uint64_t share,
-                  Outcome (*run)(const Posed_scene&, Random&)) {
-  return {name, what, [share, run](const Posed_scene& posed, const Answer&, Random& random) {
-            return random.chance(1, share) ? run(posed, random) : Outcome::not_applicable();
-          }};
-}
-
 }  // namespace
 
 Check region_check() {
-  return for_a_share("region", "arcs from regions, against eyes that see one face over the other", 32, check_region);
+  return check_of_a_share("region", "arcs from regions, against eyes that see one face over the other", 96,
+                          check_region);
 }
-Check rays_check() { return for_a_share("rays", "arcs along rays and codes of pairs, against depths", 16, check_rays); }
+Check rays_check() {
+  return check_of_a_share("rays", "arcs along rays and codes of pairs, against depths", 48, check_rays);
+}
 Check pixels_check() {
-  return for_a_share("pixels", "what pixels pierce, and numbers of trees, against depths", 32, check_pixels);
+  return check_of_a_share("pixels", "what pixels pierce, and numbers of trees, against depths", 96, check_pixels);
 }
-Check splits_check() { return for_a_share("splits", "trees that cut, against depths", 32, check_splits); }
+Check splits_check() { return check_of_a_share("splits", "trees that cut, against depths", 96, check_splits); }
 
 }  // namespace sightline::harness

@@ -414,23 +414,18 @@ Outcome check_face_graph(const Posed_scene& posed, Random& random) {
   return {};
 }
 
-Check for_a_part(const char* name, const char* what, std::uint64_t share, Outcome (*run)(const Posed_scene&, Random&)) {
-  return {name, what, [share, run](const Posed_scene& posed, const Answer&, Random& random) {
-            return random.chance(1, share) ? run(posed, random) : Outcome::not_applicable();
-          }};
-}
-
 }  // namespace
 
 Check points_check() {
-  return for_a_part("points", "cells, faces and solids at points, by brute force", 16, check_points);
+  return check_of_a_share("points", "cells, faces and solids at points, by brute force", 24, check_points);
 }
 Check first_hit_check() {
-  return for_a_part("first hit", "the first points of rays on faces, by brute force", 16, check_first_hit);
+  return check_of_a_share("first hit", "the first points of rays on faces, by brute force", 24, check_first_hit);
 }
-Check parts_check() { return for_a_part("parts", "convex parts make up what loops bound", 16, check_parts); }
+Check parts_check() { return check_of_a_share("parts", "convex parts make up what loops bound", 24, check_parts); }
 Check face_graph_check() {
-  return for_a_part("face graph", "shared edges, components and convex bodies, by brute force", 16, check_face_graph);
+  return check_of_a_share("face graph", "shared edges, components and convex bodies, by brute force", 24,
+                          check_face_graph);
 }
 
 }  // namespace sightline::harness
