@@ -12,6 +12,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/priority_laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -81,6 +82,9 @@ Subject graph() {
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_explicit(posed, answer); }},
       front_door_check(grouped_by_front_door)};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
+  // Last: others keep their random choices.
+  for (const Check& check : {region_check(), rays_check(), pixels_check(), splits_check()})
+    subject.checks.push_back(check);
   return subject;
 }
 

@@ -16,6 +16,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/solid_laws.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -167,6 +168,9 @@ Subject order() {
        }},
       front_door_check(ordered_by_front_door)};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  // Last: others keep their random choices.
+  for (const Check& check : {points_check(), first_hit_check(), parts_check(), face_graph_check()})
+    subject.checks.push_back(check);
   return subject;
 }
 
