@@ -231,6 +231,24 @@ TEST(Pairs, hand_on_all_that_overlap_and_few_others) {
   EXPECT_GT(left_out, apart / 4);
 }
 
+TEST(Pairs, of_needles_across_are_told_apart_by_planes_where_windows_overlap) {
+  const long count = 300;
+  std::vector<Points> polygons;
+  std::vector<order_check::Cone> cones;
+  for (long k = 0; k < count; ++k) {  // from the lower left to the upper right, side by side; each over the next two
+    polygons.push_back({at(k - 1000, -1000, 1000), at(k - 998, -1000, 1000), at(k + 2, 1000, 1000)});
+    cones.emplace_back(polygons.back(), at(0, 0, 0));
+  }
+  std::set<std::pair<std::size_t, std::size_t>> taken;
+  std::vector<std::size_t> all(cones.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) { taken.insert({i, j}); }).each(all, all);
+  for (std::size_t i = 0; i < cones.size(); ++i)
+    for (std::size_t j = i >= 4 ? i - 4 : 0; j < std::min(i + 5, cones.size()); ++j)
+      ASSERT_TRUE(taken.contains({i, j}) || !has_area(clipped(polygons[i], polygons[j]))) << i << ' ' << j;
+  EXPECT_LT(taken.size(), static_cast<std::size_t>(count * count / 2));
+}
+
 TEST(Pairs, of_squares_side_by_side_are_few) {
   // 30 x 30 of them before the eye, and one cone around all.
   std::vector<order_check::Cone> cones;
