@@ -241,7 +241,7 @@ TEST_F(Budget, that_runs_out_in_verify_is_exit_4) {
 
 TEST_F(Budget, of_compare_is_for_each_kernel_and_an_exact_one_that_is_late_is_exit_4) {
   const std::string scene = path("soup.off").string();
-  ASSERT_EQ(run({"generate", "soup", "--size", "1000", "--out", scene}).code, done);
+  ASSERT_EQ(run({"generate", "soup", "--size", "20000", "--out", scene}).code, done);
   const Outcome r = run({"compare", scene, "bsp", "--budget", "0.001", "--json", "-"});
   EXPECT_EQ(r.code, undecided) << r;
   const Json d = r.json();
