@@ -25,7 +25,7 @@ using namespace sightline::app;
   static constexpr std::string_view says =
       "sightline: undecided: out of memory; take a smaller scene or fewer outputs, or a machine (or limit) with more\n";
   remove_unfinished();
-  if (write(STDERR_FILENO, says.data(), says.size()) < 0) _exit(static_cast<int>(Exit::undecided));
+  [[maybe_unused]] const auto written = write(STDERR_FILENO, says.data(), says.size());  // or the exit code says it
   _exit(static_cast<int>(Exit::undecided));
 }
 

@@ -75,6 +75,7 @@ struct Half_space {
     (minus ? mpz_sub : mpz_add)(result.get_mpz_t(), d[i].get_mpz_t(), d[j].get_mpz_t());
     if (opposite) mpz_neg(result.get_mpz_t(), result.get_mpz_t());
   }
+  /// Leaves of a cone, as rays that span it, the part in here; nothing where that has no inside.
   void clip(std::vector<Integer_vector>& rays) const {
     thread_local Integer at_ray;
     bool any_in = false, any_out = false;

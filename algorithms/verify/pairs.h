@@ -69,7 +69,8 @@ class Pairs {
     std::array<Part, cube_sides> parts;
     double all = 0;
     for (std::size_t side = 0; side < cube_sides; ++side) {
-      parts[side] = {windows(a, side), windows(b, side)};
+      parts[side].a = windows(a, side);
+      parts[side].b = &a == &b ? parts[side].a : windows(b, side);
       all += parts[side].pairs();
     }
     progress_ = progress;

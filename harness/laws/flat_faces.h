@@ -47,10 +47,9 @@ std::optional<Rational> met_at(const Flat_face& face, const Exact_point& origin,
 bool sees_over(const Exact_point& eye, const Flat_face& a, const Flat_face& b);
 
 /// Whether sees_over() some point of the points' convex hull. Such eyes p + s (p - q), s > 0, p inside the part A of a
-/// in front of b's plane, q inside the part B of b behind a's, are an open convex set, whose closure is conv A + cone
-/// (A
-/// - B). The hull of points r misses it iff some n != 0 has n (p - r) >= 0 and n (p - q) >= 0 for all corners p, q and
-/// all r; whether there is one, half-spaces say that cut each octant of all n.
+/// in front of b's plane, q inside the part B of b behind a's, are an open convex set, whose closure is
+/// conv A + cone(A - B). The hull of points r misses it iff some n != 0 has n (p - r) >= 0 and n (p - q) >= 0 for all
+/// corners p, q and all r; whether there is one, half-spaces say that cut each octant of all n.
 bool some_eye_sees_over(const generate::Points& hull, const Flat_face& a, const Flat_face& b);
 
 /// Whether the insides of two faces in different planes have a point in common.
