@@ -46,6 +46,7 @@ static Exit run(const Common& common, const std::string& file) {
   const Stopwatch watch;
   Progress progress("verifying");
   Verify_options options;
+  options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Verdict verdict = std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
   const double seconds = watch.seconds();

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/verify/covering.h>
 
 #include <sightline/algorithms/verify/faces.h>
+#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/set_aside.h>
 #include <sightline/algorithms/verify/surface.h>
@@ -11,6 +12,7 @@
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -28,18 +30,31 @@ struct Tile {
   std::vector<std::size_t> fragments;
 };
 
-/// Rejects unless the tiles are convex polygons in the plane that cover once what `target` bounds, and nothing else.
-/// `winds_once`: the target is known to be the boundary of a set, taken once. Proof: P-21
-void check_tiling(const std::string& what, Boundary_chain target, const Plane& plane, bool winds_once,
+bool is_rotation(const Polygon& a, const Polygon& b) {
+  if (a.size() != b.size()) return false;
+  const auto begin = static_cast<std::size_t>(std::find(b.begin(), b.end(), a.front()) - b.begin());
+  for (std::size_t i = 0; i < a.size(); ++i)
+    if (begin == b.size() || a[i] != b[(begin + i) % b.size()]) return false;
+  return true;
+}
+
+/// Rejects unless the tiles are convex polygons in the plane that cover once what the loops bound, and nothing else.
+/// Pre: no loop is empty. Proof: P-21
+void check_tiling(const std::string& what, const std::vector<Polygon>& loops, const Plane& plane,
                   const std::vector<Tile>& tiles) {
   if (tiles.empty()) reject(what + " has no fragment and is not set aside");
-  for (const Tile& tile : tiles) {
-    if (const std::string fault = not_convex(*tile.polygon, plane); !fault.empty())
+  const Homogeneous front = plane_of(plane);
+  for (const Tile& tile : tiles)
+    if (const std::string fault = not_convex(homogeneous(*tile.polygon), front); !fault.empty())
       reject(tile.name + " of " + what + " " + fault, tile.fragments);
-    target.add(*tile.polygon, -1);
-  }
-  if (const auto point = target.nonzero())
+  if (tiles.size() == 1 && loops.size() == 1 && is_rotation(loops[0], *tiles[0].polygon)) return;
+
+  Boundary_chain left;
+  left.add(loops, 1);
+  for (const Tile& tile : tiles) left.add(*tile.polygon, -1);
+  if (const auto point = left.nonzero())
     reject(what + " is not tiled by its parts: boundaries do not cancel near " + name(*point));
+  const bool winds_once = loops.size() == 1 && not_convex(homogeneous(loops[0]), front).empty();
   if (winds_once) return;
   Exact_point eye = plane.origin;
   for (std::size_t k = 0; k < 3; ++k) eye[k] += plane.normal[k];
@@ -65,12 +80,10 @@ void check_pieces(const std::string& what, const Face& face, const std::vector<T
   }
   std::set<Exact_point> own;
   for (const Polygon& loop : face.loops) own.insert(loop.begin(), loop.end());
-  Boundary_chain target;
-  target.add(face.loops, 1);
   for (const Tile& piece : pieces)
     for (const Exact_point& p : *piece.polygon)
       if (!own.count(p)) reject(piece.name + " of " + what + " has a vertex that is not one of the face's");
-  check_tiling(what, target, face.plane, false, pieces);
+  check_tiling(what, face.loops, face.plane, pieces);
 }
 
 }  // namespace
@@ -79,7 +92,8 @@ std::string Covered::text() const {
   return std::to_string(set_aside) + " faces set aside, " + std::to_string(not_planar) + " not planar";
 }
 
-Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye) {
+Covered check_covering(const Polygon_soup& soup, const Covering& covering, int threads, const Exact_point* eye) {
+  constexpr std::size_t faces_worth_a_thread = 100;
   const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
     return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
   };
@@ -124,32 +138,30 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
   Covered covered;
   for (const auto& entry : covering.set_aside) check_set_aside(soup, entry, set_aside);
   covered.set_aside = set_aside.size();
-  for (Face_id f = 0; f < soup.face_count(); ++f) {
-    if (set_aside.count(f)) continue;
+  std::atomic<std::size_t> not_planar = 0;
+  for_each_below(soup.face_count(), faces_worth_a_thread, threads, [&](std::size_t place) {
+    const auto f = static_cast<Face_id>(place);
+    if (set_aside.count(f)) return;
     const std::string what = name("face", f);
     const Face face(soup, f);
-    covered.not_planar += !face.planar;
+    not_planar += !face.planar;
     if (pieces[f].empty()) {
       if (!face.planar) reject(what + " is not planar and has no pieces");
       if (!face.has_front) reject(what + " has no front and is not set aside");
-      Boundary_chain contour;
-      contour.add(face.loops, 1);
-      const bool winds_once = face.loops.size() == 1 && not_convex(face.loops[0], face.plane).empty();
-      if (!left_out(face.plane, tiles[f][0])) check_tiling(what, contour, face.plane, winds_once, tiles[f][0]);
-      continue;
+      if (!left_out(face.plane, tiles[f][0])) check_tiling(what, face.loops, face.plane, tiles[f][0]);
+      return;
     }
     if (face.planar && !face.has_front) reject(what + " has no front and is not set aside");
     std::vector<Tile> parts;
     for (const auto& [number, polygon] : pieces[f]) parts.push_back({polygon, name("piece", number), {}});
     check_pieces(what, face, parts);
     for (const auto& [number, polygon] : pieces[f]) {
-      Boundary_chain contour;
-      contour.add(*polygon, 1);
       const Plane plane{newell_normal(*polygon), polygon->front()};
       if (!left_out(plane, tiles[f][number]))
-        check_tiling(what + ", " + name("piece", number), contour, plane, true, tiles[f][number]);
+        check_tiling(what + ", " + name("piece", number), {*polygon}, plane, tiles[f][number]);
     }
-  }
+  });
+  covered.not_planar = not_planar;
   return covered;
 }
 

@@ -49,7 +49,8 @@ struct Covered {
 
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
 /// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Proof: P-21, P-22
-Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Exact_point* eye = nullptr);
+Covered check_covering(const Polygon_soup& soup, const Covering& covering, int threads,
+                       const Exact_point* eye = nullptr);
 
 }  // namespace certificate_check
 

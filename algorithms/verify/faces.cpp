@@ -17,8 +17,9 @@ Face::Face(const Polygon_soup& soup, Face_id f) {
   plane = {newell_normal(loops[0]), loops[0][0]};
   has_front = !is_zero(plane.normal);
   if (!has_front) plane.normal = some_normal();
+  const Homogeneous front = plane_of(plane);
   for (const Polygon& loop : loops)
-    for (const Exact_point& p : loop) planar = planar && plane.side(p) == 0;
+    for (const Exact_point& p : loop) planar = planar && side(front, homogeneous(p)) == 0;
   if (!planar) return;
   for (std::size_t k = 1; k < loops.size(); ++k)
     if (sgn(dot(plane.normal, newell_normal(loops[k]))) > 0) std::reverse(loops[k].begin(), loops[k].end());

@@ -83,7 +83,7 @@ std::size_t check_whole(const Polygon_soup& soup, const Graph_certificate& certi
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
 std::string check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene, and the components are the fragments.
-  const Covered covered = check_covering(soup, certificate);
+  const Covered covered = check_covering(soup, certificate, options.threads);
   const std::size_t cut = check_whole(soup, certificate);
   const std::size_t n = certificate.fragments.size();
   std::vector<std::size_t> component(n);

@@ -3,9 +3,13 @@
 #include <sightline/algorithms/verify/order.h>
 
 #include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/parallel.h>
+#include <sightline/algorithms/verify/planes_between.h>
 #include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/rounded_cones.h>
 
 #include <cstddef>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -20,16 +24,20 @@ namespace {
 /// nearer somewhere.
 std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones,
                                                                     const Verify_options& options) {
-  Pair_check check;
+  const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
+  const Planes_between planes(cones, rounded);
   std::optional<std::pair<std::size_t, std::size_t>> first;  // (later, earlier)
+  std::mutex mutex;
   Pairs pairs(cones, [&](std::size_t earlier, std::size_t later) {
-    if (earlier < later && (!first || std::pair(later, earlier) < *first) &&
-        check.nearer_somewhere(cones[earlier], cones[later]))
-      first = std::pair(later, earlier);
+    thread_local Pair_check check;
+    if (earlier >= later || planes.in_order(earlier, later) || nowhere_nearer(rounded[earlier], rounded[later])) return;
+    if (!check.nearer_somewhere(cones[earlier], cones[later])) return;
+    const std::lock_guard lock(mutex);
+    if (const std::pair here(later, earlier); !first || here < *first) first = here;
   });
   std::vector<std::size_t> all(cones.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  pairs.each(all, all, share_of(options, cones.size()));
+  pairs.each(all, all, options.threads, share_of(options, cones.size()));
   if (first) std::swap(first->first, first->second);
   return first;
 }
@@ -38,11 +46,13 @@ std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::v
 std::string check(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options) {
   // 1. The eye is a point, and the fragments are the scene.
   if (!canonical(certificate.eye)) reject("the eye is not a point in canonical numbers");
-  const Covered covered = check_covering(soup, certificate, certificate.on_view ? &certificate.eye : nullptr);
+  const Covered covered =
+      check_covering(soup, certificate, options.threads, certificate.on_view ? &certificate.eye : nullptr);
 
   // 2. No fragment is nearer than one that is drawn after it.
-  std::vector<Cone> cones;
-  for (const Order_fragment& fragment : certificate.fragments) cones.emplace_back(fragment.vertices, certificate.eye);
+  std::vector<Cone> cones(certificate.fragments.size());
+  for_each_below(cones.size(), 100, options.threads,
+                 [&](std::size_t i) { cones[i] = Cone(certificate.fragments[i].vertices, certificate.eye); });
   const auto pair = first_misordered(cones, options);
   if (pair) {
     const auto [earlier, later] = *pair;

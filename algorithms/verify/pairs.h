@@ -2,6 +2,7 @@
 // Pairs of cones that an eye sees polygons in: which of two is nearer, and which pairs there are to ask that of. To be
 // read after polygons.h.
 
+#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/verdict.h>
 
@@ -11,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -61,22 +63,29 @@ class Pairs {
  public:
   using Places = std::vector<std::size_t>;
 
-  /// take(i, j): cones to compare. Edge-on ones are left out.
+  /// take(i, j): cones to compare, from any thread. Edge-on ones are left out.
   Pairs(const std::vector<Cone>& cones, Take take) : cones_(cones), take_(std::move(take)) {}
 
-  /// progress(share): of all pairs, those that are done with, in [0, 1]; before each cone of a part.
-  void each(const Places& a, const Places& b, const std::function<void(double)>& progress = {}) {
-    std::array<Part, cube_sides> parts;
+  /// progress(share): of all pairs, those that are done with, in [0, 1]; before each cone of a part, from any thread,
+  /// but never from two at once.
+  void each(const Places& a, const Places& b, int threads, const std::function<void(double)>& progress = {}) {
+    // 1. Windows, and parts that threads can share, in halves.
+    std::vector<Part> parts;
     double all = 0;
     for (std::size_t side = 0; side < cube_sides; ++side) {
-      parts[side].a = windows(a, side);
-      parts[side].b = &a == &b ? parts[side].a : windows(b, side);
-      all += parts[side].pairs();
+      Part part;
+      part.a = windows(a, side, threads);
+      part.b = &a == &b ? part.a : windows(b, side, threads);
+      if (part.pairs() == 0) continue;
+      all += part.pairs();
+      parts.push_back(std::move(part));
     }
+    for (Part& part : parts) part.share = part.pairs() / all;
+    for (std::size_t round = 0; round < rounds_for_threads; ++round) halve_all(parts);
+    // 2. Each part by itself.
     progress_ = progress;
     done_ = 0;
-    for (const Part& part : parts)
-      if (part.pairs() > 0) share_out(part, part.pairs() / all, 0);
+    for_each_below(parts.size(), 1, all < worth_threads ? 1 : threads, [&](std::size_t i) { share_out(parts[i]); });
   }
 
  private:
@@ -84,11 +93,15 @@ class Pairs {
 
   static constexpr std::size_t small = 16, crowded = 100;  // below them, cuts by windows and by planes do not pay
   static constexpr unsigned deepest = 64, tries = 6;
+  static constexpr std::size_t rounds_for_threads = 4, enough_windows = 1000;
+  static constexpr double worth_threads = 1e5;  // pairs
 
   /// Windows of both lists. Pairs whose lower corners have their join in the region are this part's.
   struct Part {
     Windows a, b;
     Window region{0, {least, least}, {most, most}};
+    double share = 0;  // of the work
+    unsigned depth = 0;
     double pairs() const { return static_cast<double>(a.size()) * static_cast<double>(b.size()); }
 
     static constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min(),
@@ -96,19 +109,27 @@ class Pairs {
   };
   struct Halves {
     Part front, behind;  // and what is on both sides, in both
+    void pass_on(const Part& whole) {
+      for (Part* half : {&front, &behind}) {
+        half->region = whole.region;
+        half->share = whole.share / 2;
+        half->depth = whole.depth + 1;
+      }
+    }
     /// Whether fewer pairs are left, enough fewer to be worth it.
     bool help(const Part& whole) const { return front.pairs() + behind.pairs() <= 0.75 * whole.pairs(); }
   };
 
-  Windows windows(const Places& places, std::size_t side) const {
+  Windows windows(const Places& places, std::size_t side, int threads) const {
+    std::vector<std::optional<Window>> all(places.size());
+    for_each_below(places.size(), enough_windows, threads, [&](std::size_t k) {
+      if (cones_[places[k]].edge_on) return;
+      all[k] = window_of(cones_[places[k]], side);
+      if (all[k]) all[k]->cone = places[k];
+    });
     Windows result;
-    for (const std::size_t i : places) {
-      if (cones_[i].edge_on) continue;
-      if (std::optional<Window> window = window_of(cones_[i], side)) {
-        window->cone = i;
-        result.push_back(*window);
-      }
-    }
+    for (const std::optional<Window>& window : all)
+      if (window) result.push_back(*window);
     return result;
   }
 
@@ -127,7 +148,7 @@ class Pairs {
     };
     share(part.a, halves.front.a, halves.behind.a);
     share(part.b, halves.front.b, halves.behind.b);
-    halves.front.region = halves.behind.region = part.region;
+    halves.pass_on(part);
     halves.front.region.low[axis] = halves.behind.region.high[axis] = *median;
     return halves;
   }
@@ -148,35 +169,56 @@ class Pairs {
     };
     share(part.a, halves.front.a, halves.behind.a);
     share(part.b, halves.front.b, halves.behind.b);
-    halves.front.region = halves.behind.region = part.region;
+    halves.pass_on(part);
     return halves;
   }
 
-  void share_out(const Part& part, double share, unsigned depth) {
-    const auto halves_help = [&](const Halves& halves) {
-      if (!halves.help(part)) return false;
-      for (const Part* half : {&halves.front, &halves.behind}) {
-        if (half->pairs() > 0) share_out(*half, share / 2, depth + 1);
-        else done_ += share / 2;
-      }
-      return true;
-    };
-    if (part.a.size() + part.b.size() > small && depth < deepest) {
-      for (const std::size_t axis : {depth % 2, 1 - depth % 2})
-        if (halves_help(cut_windows(part, axis))) return;
-      for (unsigned k = 0; k < tries && part.a.size() + part.b.size() > crowded; ++k) {
-        const Windows& from = k % 2 == 0 ? part.a : part.b;
-        const Cone& cone = cones_[from[(2 * k + 1) * from.size() / (2 * tries)].cone];
-        if (halves_help(cut_cones(part, cone.edge_planes[(k + depth) % cone.edge_planes.size()]))) return;
+  /// Two parts of fewer pairs in all, by windows if they allow it, else by planes; nothing where neither helps.
+  std::optional<Halves> halved(const Part& part) const {
+    const std::size_t size = part.a.size() + part.b.size();
+    if (size <= small || part.depth >= deepest) return std::nullopt;
+    for (const std::size_t axis : {part.depth % 2, 1 - part.depth % 2})
+      if (Halves halves = cut_windows(part, axis); halves.help(part)) return halves;
+    for (unsigned k = 0; k < tries && size > crowded; ++k) {
+      const Windows& from = k % 2 == 0 ? part.a : part.b;
+      const Cone& cone = cones_[from[(2 * k + 1) * from.size() / (2 * tries)].cone];
+      const Integer_vector& plane = cone.edge_planes[(k + part.depth) % cone.edge_planes.size()];
+      if (Halves halves = cut_cones(part, plane); halves.help(part)) return halves;
+    }
+    return std::nullopt;
+  }
+
+  void halve_all(std::vector<Part>& parts) const {
+    std::vector<Part> next;
+    for (Part& part : parts) {
+      if (std::optional<Halves> halves = halved(part)) {
+        next.push_back(std::move(halves->front));
+        next.push_back(std::move(halves->behind));
+      } else {
+        next.push_back(std::move(part));
       }
     }
-    const double pairs_of_one = share / static_cast<double>(part.a.size());
+    parts = std::move(next);
+  }
+
+  void share_out(const Part& part) {
+    if (part.pairs() == 0) return;
+    if (const std::optional<Halves> halves = halved(part)) {
+      share_out(halves->front);
+      share_out(halves->behind);
+      return;
+    }
     for (const Window& a : part.a) {
-      if (progress_) progress_(std::min(1.0, done_));
+      count(part.share / static_cast<double>(part.a.size()));
       for (const Window& b : part.b)
         if (overlap_here(a, b, part.region)) take_(a.cone, b.cone);
-      done_ += pairs_of_one;
     }
+  }
+  void count(double share) {
+    if (!progress_) return;
+    const std::lock_guard lock(of_progress_);
+    progress_(std::min(1.0, done_));
+    done_ += share;
   }
 
   static bool overlap_here(const Window& a, const Window& b, const Window& region) {
@@ -191,6 +233,7 @@ class Pairs {
   Take take_;
   std::function<void(double)> progress_;
   double done_ = 0;
+  std::mutex of_progress_;
 };
 
 /// Calls of Pairs' progress as those of Verify_options, with `total` things in all.

@@ -16,8 +16,20 @@ Rational dot(const Integer_vector& a, const Exact_point& b) {
   return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
 }
 
+Integer_vector cross(const Integer_vector& a, const Integer_vector& b) {
+  Integer_vector result;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
+    mpz_mul(result[k].get_mpz_t(), a[x].get_mpz_t(), b[y].get_mpz_t());
+    mpz_submul(result[k].get_mpz_t(), a[y].get_mpz_t(), b[x].get_mpz_t());
+  }
+  return result;
+}
+
 Integer dot(const Integer_vector& a, const Integer_vector& b) {
-  return Integer(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+  Integer sum;
+  for (std::size_t k = 0; k < 3; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[k].get_mpz_t());
+  return sum;
 }
 
 int sign_of_dot(const Integer_vector& a, const Integer_vector& b) {
@@ -33,7 +45,9 @@ bool is_zero(const Integer_vector& a) { return sgn(a[0]) == 0 && sgn(a[1]) == 0 
 Integer_vector negated(const Integer_vector& a) { return {Integer(-a[0]), Integer(-a[1]), Integer(-a[2])}; }
 
 Integer_vector primitive(const Integer_vector& v) {
-  const Integer divisor = gcd(gcd(v[0], v[1]), v[2]);
+  thread_local Integer divisor;
+  mpz_gcd(divisor.get_mpz_t(), v[0].get_mpz_t(), v[1].get_mpz_t());
+  if (divisor != 1) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), v[2].get_mpz_t());
   if (sgn(divisor) == 0 || divisor == 1) return v;
   Integer_vector result;
   for (std::size_t k = 0; k < 3; ++k) mpz_divexact(result[k].get_mpz_t(), v[k].get_mpz_t(), divisor.get_mpz_t());
@@ -46,34 +60,39 @@ Integer_vector primitive(const Exact_point& v) {
 }
 
 Integer_vector newell_normal(const Polygon& loop) {
+  if (loop.size() < 3) return {};
   // Over one denominator, unless that would become much longer than those of the points.
   constexpr std::size_t most_bits = 2048;
   Integer scale = 1;
   for (std::size_t i = 0; i < loop.size() && bit_length(scale) <= most_bits; ++i)
-    for (const Rational& x : loop[i]) scale = lcm(scale, x.get_den());
-  const auto sum_of_parts = [&](const auto& arm) {
-    auto sum = arm(0);  // zero
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-      const auto part = cross(arm(i), arm(i + 1));
+    for (const Rational& x : loop[i])
+      if (x.get_den() != scale) mpz_lcm(scale.get_mpz_t(), scale.get_mpz_t(), x.get_den_mpz_t());
+  const auto sum_of_parts = [&](const auto& arm) {  // from the first corner
+    auto last = arm(1), sum = cross(last, last);    // zero
+    for (std::size_t i = 2; i < loop.size(); ++i) {
+      auto next = arm(i);
+      const auto part = cross(last, next);
       for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+      last = std::move(next);
     }
     return primitive(sum);
   };
-  if (loop.empty()) return {};
   if (bit_length(scale) > most_bits) return sum_of_parts([&](std::size_t i) { return minus(loop[i], loop[0]); });
-  std::vector<Integer_vector> points;
-  for (const Exact_point& p : loop) {
-    Integer_vector& q = points.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k) q[k] = p[k].get_num() * (scale / p[k].get_den());
-  }
+  const auto scaled = [&](const Rational& x) {
+    return x.get_den() == scale ? x.get_num() : Integer(x.get_num() * (scale / x.get_den()));
+  };
+  const Integer_vector origin{scaled(loop[0][0]), scaled(loop[0][1]), scaled(loop[0][2])};
   return sum_of_parts([&](std::size_t i) {
-    return Integer_vector{points[i][0] - points[0][0], points[i][1] - points[0][1], points[i][2] - points[0][2]};
+    Integer_vector difference;
+    for (std::size_t k = 0; k < 3; ++k) difference[k] = scaled(loop[i][k]) - origin[k];
+    return difference;
   });
 }
 
 Homogeneous homogeneous(const Exact_point& p) {
-  Homogeneous h;
-  h[3] = lcm(lcm(p[0].get_den(), p[1].get_den()), p[2].get_den());
+  Homogeneous h{p[0].get_num(), p[1].get_num(), p[2].get_num(), p[0].get_den()};
+  if (h[3] == p[1].get_den() && h[3] == p[2].get_den()) return h;
+  for (std::size_t k = 1; k < 3; ++k) mpz_lcm(h[3].get_mpz_t(), h[3].get_mpz_t(), p[k].get_den_mpz_t());
   for (std::size_t k = 0; k < 3; ++k) {
     mpz_divexact(h[k].get_mpz_t(), h[3].get_mpz_t(), p[k].get_den_mpz_t());
     h[k] *= p[k].get_num();
@@ -83,6 +102,7 @@ Homogeneous homogeneous(const Exact_point& p) {
 
 std::vector<Homogeneous> homogeneous(const Polygon& polygon) {
   std::vector<Homogeneous> corners;
+  corners.reserve(polygon.size());
   for (const Exact_point& p : polygon) corners.push_back(homogeneous(p));
   return corners;
 }

@@ -23,6 +23,8 @@ std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Num
   return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]), Number(a[0] * b[1] - a[1] * b[0])};
 }
 
+Integer_vector cross(const Integer_vector& a, const Integer_vector& b);
+
 Rational dot(const Integer_vector& a, const Exact_point& b);
 
 Integer dot(const Integer_vector& a, const Integer_vector& b);
@@ -79,6 +81,7 @@ struct Cone {
   Integer_vector nearness;  ///< the polygon's plane is met along d at t where nearness.d x t = distance;
   Integer distance;         ///< nearness.d > 0 in the cone, distance > 0
 
+  Cone() = default;
   Cone(const Polygon& polygon, const Exact_point& eye);
   Cone(const std::vector<Homogeneous>& polygon, const Homogeneous& eye);
 };

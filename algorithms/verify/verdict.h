@@ -22,7 +22,9 @@ struct Verdict {
 };
 
 struct Verify_options {
-  /// The share of pairs that are done with, of all fragments; may be empty.
+  int threads = 0;  ///< 0: as many as there are processors; the verdict is the same for any number
+  /// The share of pairs that are done with, of all fragments; may be empty. It may be called from any thread, but never
+  /// from two at once; what it throws ends the check.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -151,7 +152,7 @@ class Check {
   std::string run(const Polygon_soup& soup) {
     // 1. The eye is a point, and the fragments are the scene.
     if (!canonical(certificate_.eye)) reject("the eye is not a point in canonical numbers");
-    const Covered covered = check_covering(soup, certificate_);
+    const Covered covered = check_covering(soup, certificate_, options_.threads);
     take_pieces();
 
     // 2. Each part is a convex polygon inside its piece, with its ray inside its cone.
@@ -201,8 +202,8 @@ class Check {
       preference_;                    // of pieces equally far: seen from the front, then as in the file
   std::vector<std::string> names_;    // of the tiles
   std::vector<Integer_vector> rays_;  // of the parts
-  Pair_check pair_;
   std::optional<Found> first_;
+  std::mutex of_first_;
 };
 
 void Check::take_pieces() {
@@ -258,7 +259,7 @@ void Check::compare_all() {
   const auto middle = places.begin() + static_cast<std::ptrdiff_t>(pieces_);
   Pairs(cones_, [&](std::size_t tile, std::size_t i) {
     compare(tile - pieces_, i);
-  }).each({middle, places.end()}, {places.begin(), middle}, share_of(options_, tiles_));
+  }).each({middle, places.end()}, {places.begin(), middle}, options_.threads, share_of(options_, tiles_));
   if (first_) refuse(*first_);
   if (options_.progress) options_.progress(tiles_, tiles_);
 }
@@ -266,17 +267,19 @@ void Check::compare_all() {
 void Check::compare(std::size_t k, std::size_t i) {
   const auto found = [&](Fault fault) {
     const Found here(fault != Fault::meets_first, k, i, fault);
+    const std::lock_guard lock(of_first_);
     if (!first_ || here < *first_) first_ = here;
   };
+  thread_local Pair_check pair;
   const Cone &own = cones_[pieces_ + k], &piece = cones_[i];
   if (k >= parts_) {  // at distance 0: nearer than the piece wherever both are
-    if (pair_.nearer_somewhere(own, piece)) found(Fault::is_in);
+    if (pair.nearer_somewhere(own, piece)) found(Fault::is_in);
     return;
   }
   if (side(piece, rays_[k]) >= 0 &&
       piece.distance * dot(own.nearness, rays_[k]) < own.distance * dot(piece.nearness, rays_[k]))
     found(Fault::meets_first);
-  if (pair_.nearer_somewhere(piece, own)) found(Fault::is_nearer);
+  if (pair.nearer_somewhere(piece, own)) found(Fault::is_nearer);
   const bool one_plane = piece.nearness == own.nearness && piece.distance == own.distance;
   if (one_plane && preference_[i] < preference_[certificate_.parts[k].fragment] && !separates(piece, own) &&
       !separates(own, piece))

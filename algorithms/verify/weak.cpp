@@ -474,7 +474,7 @@ std::string described(const std::vector<Polygon>& sources) {
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
 std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene, and the sources are convex polygons.
-  const Covered covered = check_covering(soup, certificate);
+  const Covered covered = check_covering(soup, certificate, options.threads);
   std::vector<Outline> fragments;
   for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
   const std::vector<Outline> sources = outlines_of_sources(certificate);

@@ -71,7 +71,7 @@ void Order_truth::each_pair(const std::vector<order_check::Cone>& cones, Take ta
   std::vector<std::size_t> all(cones.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   order_check::Pairs pairs(cones, std::move(take));
-  pairs.each(all, all);
+  pairs.each(all, all, 1);
 }
 
 void Order_truth::find_cycle() {

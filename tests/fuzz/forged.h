@@ -584,6 +584,12 @@ inline Judged judged_forgeries(std::string_view text) {
       *answer);
 }
 
-inline void forged(std::string_view bytes) { judged_forgeries(bytes); }
+/// How many certificates `forged` has shown to the checkers.
+inline std::size_t certificates_shown = 0;
+
+inline void forged(std::string_view bytes) {
+  const Judged judged = judged_forgeries(bytes);
+  certificates_shown += judged.accepted + judged.rejected;
+}
 
 }  // namespace fuzz

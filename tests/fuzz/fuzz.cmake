@@ -4,6 +4,7 @@
 if(SIGHTLINE_TESTS)
   add_executable(fuzz_targets EXCLUDE_FROM_ALL tests/fuzz/program/main.cpp)
   target_link_libraries(fuzz_targets PRIVATE test_settings)
+  set_source_files_properties(tests/fuzz/program/main.cpp PROPERTIES COMPILE_OPTIONS "$<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O2>")  # oracles take half of the time
 endif()
 
 # Each of them is one executable fuzz_<name>.

@@ -35,5 +35,7 @@ int main(int count, char** words) {
       return 1;
     }
   }
-  std::cout << name << ": nothing in " << inputs << " inputs, " << spent() << " s\n";
+  std::cout << name << ": nothing in " << inputs << " inputs";
+  if (certificates_shown > 0) std::cout << ", " << certificates_shown << " certificates";
+  std::cout << ", " << spent() << " s\n";
 }

@@ -1,0 +1,62 @@
+#include <sightline/algorithms/verify/planes_between.h>
+
+#include <sightline/kernel/number.h>
+
+namespace sightline::order_check {
+
+using namespace certificate_check;
+
+namespace {
+
+/// The side of the plane of b on which ray `ray` of a meets the polygon of a, as side_to_plane(), exactly. It is met at
+/// t where nearness.d t = distance.
+int exact_side_to_plane(const Cone& a, std::size_t ray, const Cone& b) {
+  thread_local Integer_vector height;
+  for (std::size_t k = 0; k < 3; ++k) {
+    mpz_mul(height[k].get_mpz_t(), a.distance.get_mpz_t(), b.nearness[k].get_mpz_t());
+    mpz_submul(height[k].get_mpz_t(), b.distance.get_mpz_t(), a.nearness[k].get_mpz_t());
+  }
+  return sign_of_dot(height, a.rays[ray]);
+}
+
+}  // namespace
+
+Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded)
+    : cones_(cones), rounded_(rounded), paths_(cones.size()) {
+  cut(0, cones.size(), 0);
+}
+
+bool Planes_between::is_apart(std::size_t i, std::size_t at) const {
+  if (cones_[i].edge_on || cones_[at].edge_on) return false;
+  const int own_side = i < at ? 1 : -1;
+  for (std::size_t ray = 0; ray < cones_[i].rays.size(); ++ray) {
+    std::optional<int> side = side_to_plane(rounded_[i], ray, rounded_[at]);
+    if (!side) side = exact_side_to_plane(cones_[i], ray, cones_[at]);
+    if (*side == -own_side) return false;
+  }
+  return true;
+}
+
+void Planes_between::cut(std::size_t begin, std::size_t end, int depth) {
+  constexpr std::size_t candidates = 5, samples = 24;
+  const std::size_t size = end - begin;
+  if (size < 2 || depth == deepest) return;
+  // 1. Of a few polygons about the middle the one whose plane has most of a few others on their sides.
+  std::size_t at = begin + size / 2, most = 0;
+  for (std::size_t c = 0; c < candidates && size > candidates * samples; ++c) {
+    const std::size_t candidate = begin + size / 4 + size / 2 * c / candidates;
+    std::size_t count = 0;
+    for (std::size_t s = 0; s < samples; ++s) count += is_apart(begin + size * s / samples, candidate);
+    if (count > most) most = count, at = candidate;
+  }
+  // 2. Who is on its side. That polygon itself is in its plane, and begins the part behind the cut.
+  const std::uint64_t bit = first >> depth;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i >= at) paths_[i].turns |= bit;
+    if (is_apart(i, at)) paths_[i].apart |= bit;
+  }
+  cut(begin, at, depth + 1);
+  cut(at, end, depth + 1);
+}
+
+}  // namespace sightline::order_check
