@@ -4,14 +4,20 @@
 
 #include "certificate.h"
 #include "decimal.h"
+#include "decisions.h"
 #include "event_cells.h"
+#include "faces.h"
 #include "fixed_integer.h"
 #include "forged.h"
 #include "mutate.h"
 #include "other_readers.h"
+#include "pairs.h"
 #include "quadratic_roots.h"
 #include "readers.h"
+#include "scene_laws.h"
+#include "separations.h"
 #include "side.h"
+#include "weak_claims.h"
 
 #include <filesystem>
 #include <fstream>
@@ -42,7 +48,13 @@ inline const std::vector<Target>& targets() {
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
                                        {"quadratic_roots", quadratic_roots, {}},
-                                       {"event_cells", event_cells, {}}};
+                                       {"event_cells", event_cells, {}},
+                                       {"pairs", pairs, {}},
+                                       {"faces", faces, {}},
+                                       {"weak_claims", weak_claims, {}},
+                                       {"scene_laws", scene_laws, {}},
+                                       {"separations", separations, {}},
+                                       {"decisions", decisions, {}}};
   return all;
 }
 
