@@ -29,6 +29,7 @@ inline Outlines any_outlines(Random& random) {
       {{{0, 0}, {3, 0}, {0, 3}}},
       {{{0, 0}, {3, 0}, {3, 3}, {0, 3}}},
       {{{0, 0}, {1, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 2}}},
+      {{{0, 0}, {3, 0}, {3, 1}, {3, 2}, {3, 3}, {1, 3}, {0, 3}}},
       {{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 4}, {0, 4}}},
       {{{0, 0}, {4, 1}, {8, 0}, {5, 3}, {4, 8}, {3, 3}}},
       {{{1, 0}, {2, 0}, {3, 1}, {3, 2}, {2, 3}, {1, 3}, {0, 2}, {0, 1}}},
@@ -74,6 +75,7 @@ inline void add_outlines(Polygon_soup& soup, const Outlines& outlines, bool bent
       }
       loop.push_back(place->second);
     }
+    std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(random.below(loop.size())), loop.end());
     if (random.chance(1, 8)) std::reverse(loop.begin(), loop.end());
     if (k == 0) soup.add_face(loop);
     else soup.add_hole(loop);
@@ -172,7 +174,7 @@ inline generate::Faces groups(Random& random) {
 
 /// Some of the faces far smaller than others, about the origin or a corner.
 inline generate::Faces of_many_scales(generate::Faces faces, Random& random) {
-  static constexpr std::array powers{-60, -300, -460, -500, -515, -520, -530, -1040, 200};
+  static constexpr std::array powers{-60, -300, -460, -505, -510, -515, -530, -1040, 200};
   const Rational scale = generate::power_of_two(powers[random.below(powers.size())]);
   const bool at_origin = random.chance(1, 2);
   for (generate::Points& face : faces) {

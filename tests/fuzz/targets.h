@@ -2,6 +2,7 @@
 // All targets by name. A target is a function of bytes that throws where something is wrong; whatever the bytes are, it
 // returns soon.
 
+#include "arcs.h"
 #include "certificate.h"
 #include "decimal.h"
 #include "decisions.h"
@@ -54,7 +55,8 @@ inline const std::vector<Target>& targets() {
                                        {"weak_claims", weak_claims, {}},
                                        {"scene_laws", scene_laws, {}},
                                        {"separations", separations, {}},
-                                       {"decisions", decisions, {}}};
+                                       {"decisions", decisions, {}},
+                                       {"arcs", arcs, {}}};
   return all;
 }
 
