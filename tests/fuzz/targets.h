@@ -13,6 +13,7 @@
 #include "mutate.h"
 #include "other_readers.h"
 #include "pairs.h"
+#include "planar_parts.h"
 #include "quadratic_roots.h"
 #include "readers.h"
 #include "scene_laws.h"
@@ -56,7 +57,8 @@ inline const std::vector<Target>& targets() {
                                        {"scene_laws", scene_laws, {}},
                                        {"separations", separations, {}},
                                        {"decisions", decisions, {}},
-                                       {"arcs", arcs, {}}};
+                                       {"arcs", arcs, {}},
+                                       {"planar_parts", planar_parts, {}}};
   return all;
 }
 
