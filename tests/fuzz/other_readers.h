@@ -66,6 +66,28 @@ inline void require_named(const Weak_certificate& claim) {
   }
 }
 
+/// The certificate with one thing that it names one beyond those that there are, for each such thing: none may be
+/// taken.
+template <class Claim>
+std::vector<Claim> naming_too_much(const Claim&) {
+  return {};
+}
+inline std::vector<Weak_certificate> naming_too_much(const Weak_certificate& claim) {
+  std::vector<Weak_certificate> all;
+  for (std::size_t i = 0; i < claim.hidden.size() && all.size() < 8; ++i)
+    for (std::size_t k = 0; k < claim.hidden[i].proof.size() && all.size() < 8; ++k) {
+      using Node = Weak_certificate::Node::Kind;
+      Weak_certificate lie = claim;
+      auto& node = lie.hidden[i].proof[k];
+      if (node.kind == Node::line) node.index = claim.lines.size();
+      else if (node.kind == Node::blocked) node.index = claim.fragments.size();
+      else if (!node.terms.empty()) node.terms.back().line = claim.lines.size();
+      else continue;
+      all.push_back(std::move(lie));
+    }
+  return all;
+}
+
 /// Where the text is wrong; (0, 0) where it is not, or no one place is to blame.
 inline std::array<std::size_t, 2> place_of_error(const std::string& text) {
   std::istringstream in(text);
@@ -104,7 +126,13 @@ inline void read_certificate(std::string_view bytes) {
   };
   const std::optional<Certificate> certificate = read(bytes);
   if (!certificate) return require_place(std::string(bytes));
-  std::visit([](const auto& claim) { require_named(claim); }, *certificate);
+  std::visit(
+      [&](const auto& claim) {
+        require_named(claim);
+        for (const auto& lie : naming_too_much(claim))
+          require(!read(certificate_text(lie)).has_value(), "what names more than there is is refused");
+      },
+      *certificate);
   const std::string text = written(*certificate);
   const std::optional<Certificate> again = read(text);
   require(again.has_value(), "what is written is read");

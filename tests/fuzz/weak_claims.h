@@ -217,6 +217,11 @@ inline void try_hidden(const Weak_scene& scene, bool two_sided) {
     }
 }
 
+inline Rational canonical(Rational value) {
+  value.canonicalize();
+  return value;
+}
+
 inline void try_tree(Random& random) {
   using Node = Weak_certificate::Node::Kind;
   Weak_scene scene{leaning(0, 1, random), {leaning(4, 1, random)}};
@@ -262,6 +267,15 @@ inline void try_tree(Random& random) {
     const bool accepted = accepts(proof);
     if (accepted) try_hidden(scene, two_sided);
     if (cuts_only && truth && k == 0) require(accepted, "what blocks all lines blocks those of a part");
+  }
+
+  // 3. Leaves that say both sides of a line are empty: sums of it, whatever its factors.
+  for (std::size_t k = 0; k < claim.lines.size(); ++k) {
+    const auto empty = [&] {
+      const Rational factor(static_cast<long>(random.between(-2, 2)), 1 + random.below(2));
+      return Weak_certificate::Node{Node::empty, 0, {}, {{k, canonical(factor), {}, {}}}};
+    };
+    if (accepts({{Node::line, k, {}, {}}, empty(), empty()})) try_hidden(scene, two_sided);
   }
 }
 
