@@ -1,9 +1,11 @@
 #pragma once
-// Trees of on-view tests against all trees, by sets of views; and the views of some planes against eyes anywhere.
+// Trees of on-view tests against all trees, by sets of views; the views of some planes against eyes anywhere; and eyes
+// of objects that move.
 
 #include "support.h"
 
 #include <sightline/algorithms/cutset/decision_tree.h>
+#include <sightline/algorithms/cutset/motion.h>
 #include <sightline/algorithms/cutset/view_cells.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace fuzz {
@@ -21,7 +24,26 @@ class Least_tests {
  public:
   explicit Least_tests(std::vector<std::pair<std::uint32_t, Rational>> views) : views_(std::move(views)) {}
 
-  Rational all() { return of((1u << views_.size()) - 1); }
+  std::uint32_t everything() const { return (1u << views_.size()) - 1; }
+  Rational all() { return of(everything()); }
+
+  /// The views of a set that have the face.
+  std::uint32_t with(std::uint32_t set, unsigned face) const {
+    std::uint32_t on = 0;
+    for (std::size_t v = 0; v < views_.size(); ++v) on |= (set >> v & views_[v].first >> face & 1) << v;
+    return on;
+  }
+  /// The lowest face that a best tree of the set may test.
+  unsigned lowest(std::uint32_t set) {
+    std::optional<std::pair<Rational, unsigned>> best;
+    for (unsigned face = 0; face < 32; ++face) {
+      const std::uint32_t on = with(set, face);
+      if (on == 0 || on == set) continue;
+      const std::pair<Rational, unsigned> cost(of(on) + of(set & ~on), face);
+      if (!best || cost < *best) best = cost;
+    }
+    return best->second;
+  }
 
  private:
   const Rational& of(std::uint32_t set) {
@@ -29,8 +51,7 @@ class Least_tests {
     if (!is_new || (set & (set - 1)) == 0) return place->second;
     std::optional<Rational> least;
     for (unsigned face = 0; face < 32; ++face) {
-      std::uint32_t on = 0;
-      for (std::size_t v = 0; v < views_.size(); ++v) on |= (set >> v & views_[v].first >> face & 1) << v;
+      const std::uint32_t on = with(set, face);
       if (on == 0 || on == set) continue;
       const Rational cost = of(on) + of(set & ~on);
       if (!least || cost < *least) least = cost;
@@ -107,8 +128,16 @@ inline void try_tests(Bytes& from) {
   require(tree->views.size() == weights.size(), "each view is one end");
   require(tree->steps.size() + 1 == weights.size(), "each test has two answers");
   require(tree->expected == Rational(expected / total), "the expected number of tests is that of its paths");
-  require(tree->expected == Rational(Least_tests({weights.begin(), weights.end()}).all() / total),
-          "no tree of tests expects fewer");
+  Least_tests least({weights.begin(), weights.end()});
+  require(tree->expected == Rational(least.all() / total), "no tree of tests expects fewer");
+  const auto descend = [&](const auto& self, std::uint32_t at, std::uint32_t set) -> void {
+    if ((at & Decision_tree::leaf) != 0) return;
+    const auto& [face, on, off] = tree->steps[at];
+    require(face == least.lowest(set), "of best trees the one is taken that tests the lowest face");
+    self(self, on, least.with(set, face));
+    self(self, off, set & ~least.with(set, face));
+  };
+  descend(descend, tree->steps.empty() ? Decision_tree::leaf : 0, least.everything());
   require(tree->bound == Rational(least_of_binary_trees(ends) / total), "the bound is that of any binary tree");
 }
 
@@ -170,9 +199,39 @@ inline void try_views(Bytes& from) {
   }
 }
 
+/// Moving the object, by q p q* and a translation, takes what an eye is for it back to the eye.
+inline void try_motion(Bytes& from) {
+  using Quaternion = std::array<Rational, 4>;
+  const auto times = [](const Quaternion& a, const Quaternion& b) {
+    return Quaternion{Rational(a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3]),
+                      Rational(a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2]),
+                      Rational(a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1]),
+                      Rational(a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0])};
+  };
+  Rigid_motion motion;
+  for (Rational& x : motion.quaternion) x = from.integer(3);
+  for (Rational& x : motion.translation) x = from.integer(4);
+  Viewpoint eye{{Rational(from.integer(4)), Rational(from.integer(4)), Rational(from.integer(4))}, from.below(3) == 0};
+  const Quaternion& q = motion.quaternion;
+  const Rational size = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
+  try {
+    const Viewpoint seen = motion.seen_from(eye);
+    require(size != 0, "zero is no rotation");
+    require(seen.at_infinity == eye.at_infinity, "directions stay directions");
+    const Quaternion back = times(times(q, {0, seen.at[0], seen.at[1], seen.at[2]}),
+                                  {q[0], Rational(-q[1]), Rational(-q[2]), Rational(-q[3])});
+    for (std::size_t k = 0; k < 3; ++k)
+      require(Rational(back[k + 1] / size) + (eye.at_infinity ? Rational(0) : motion.translation[k]) == eye.at[k],
+              "what an eye is for a moved object is moved to the eye");
+  } catch (const std::invalid_argument&) {
+    require(size == 0, "any quaternion but zero is a rotation");
+  }
+}
+
 inline void decisions(std::string_view bytes) {
   Bytes from(bytes);
-  if (from.below(2) == 0) try_tests(from);
+  if (from.below(8) == 0) try_motion(from);
+  else if (from.below(2) == 0) try_tests(from);
   else try_views(from);
 }
 
