@@ -10,6 +10,9 @@
 #include <sightline/io/number_lines.h>
 #include <sightline/harness/judge/protocol.h>
 
+#include <algorithm>
+#include <array>
+#include <set>
 #include <sstream>
 
 namespace fuzz {
@@ -31,6 +34,85 @@ auto taken(const char* begin, Read&& read) -> std::optional<decltype(read())> {
   }
 }
 
+/// What a certificate names by places is there: fragments, corners, rays, sources and lines.
+inline void require_named(const Order_certificate&) {}
+inline void require_named(const Graph_certificate& claim) {
+  const auto& fragments = claim.fragments;
+  for (const auto& [from, to, of_from, of_to] : claim.arcs)
+    require(from < fragments.size() && to < fragments.size() && of_from < fragments[from].vertices.size() &&
+                of_to < fragments[to].vertices.size(),
+            "an arc is from corner to corner");
+}
+inline void require_named(const Visible_certificate& claim) {
+  for (const Visible_certificate::Part& part : claim.parts) {
+    require(part.fragment < claim.fragments.size(), "a part is of a fragment");
+    for (const std::uint32_t ray : part.rays) require(ray < claim.rays.size(), "a part has rays that there are");
+  }
+}
+inline void require_named(const Weak_certificate& claim) {
+  const std::size_t fragments = claim.fragments.size(), sources = claim.sources.size(), lines = claim.lines.size();
+  for (const auto& [fragment, corner] : claim.lines)
+    require(fragment < fragments && corner < claim.fragments[fragment].vertices.size(), "a line is of an edge");
+  for (const auto& entry : claim.visible)
+    require(entry.fragment < fragments && entry.source < sources, "a sightline is from a source to a fragment");
+  for (const auto& entry : claim.hidden) {
+    require(entry.fragment < fragments && entry.source < sources, "a proof is of a fragment and a source");
+    for (const Weak_certificate::Node& node : entry.proof) {
+      using Node = Weak_certificate::Node::Kind;
+      require(node.kind != Node::line || node.index < lines, "a node is of a line that there is");
+      require(node.kind != Node::blocked || node.index < fragments, "a leaf is of a fragment that there is");
+      for (const auto& term : node.terms) require(term.line < lines, "a term is of a line that there is");
+    }
+  }
+}
+
+/// The certificate with one thing that it names one beyond those that there are, for each such thing: none may be
+/// taken.
+template <class Claim>
+std::vector<Claim> naming_too_much(const Claim&) {
+  return {};
+}
+inline std::vector<Weak_certificate> naming_too_much(const Weak_certificate& claim) {
+  std::vector<Weak_certificate> all;
+  for (std::size_t i = 0; i < claim.hidden.size() && all.size() < 8; ++i)
+    for (std::size_t k = 0; k < claim.hidden[i].proof.size() && all.size() < 8; ++k) {
+      using Node = Weak_certificate::Node::Kind;
+      Weak_certificate lie = claim;
+      auto& node = lie.hidden[i].proof[k];
+      if (node.kind == Node::line) node.index = claim.lines.size();
+      else if (node.kind == Node::blocked) node.index = claim.fragments.size();
+      else if (!node.terms.empty()) node.terms.back().line = claim.lines.size();
+      else continue;
+      all.push_back(std::move(lie));
+    }
+  return all;
+}
+
+/// Where the text is wrong; (0, 0) where it is not, or no one place is to blame.
+inline std::array<std::size_t, 2> place_of_error(const std::string& text) {
+  std::istringstream in(text);
+  try {
+    sightline::read_certificate(in);
+  } catch (const Certificate_error& error) {
+    return {error.line, error.column};
+  } catch (const std::invalid_argument&) {
+  }
+  return {0, 0};
+}
+/// A place in the text moves with what stands before it: a line, a blank, but no byte order mark.
+inline void require_place(const std::string& text) {
+  const auto [line, column] = place_of_error(text);
+  require((line == 0) == (column == 0), "a place has a line and a column");
+  if (line == 0) return;
+  const auto lines = 1 + std::count_if(text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; });
+  require(line <= static_cast<std::size_t>(lines) && column <= text.size() + 1, "a place is in the text");
+  if (text.starts_with("\xEF")) return;
+  using At = std::array<std::size_t, 2>;
+  require(place_of_error("\xEF\xBB\xBF" + text) == At{line, column}, "a byte order mark takes no column");
+  require(place_of_error("    " + text) == At{line, column + (line == 1 ? 4 : 0)}, "a blank takes a column");
+  require(place_of_error("  \n " + text) == At{line + 1, column + (line == 1 ? 1 : 0)}, "a line is a line");
+}
+
 /// Certificates, which nobody checks.
 inline void read_certificate(std::string_view bytes) {
   const auto read = [](std::string_view text) {
@@ -43,7 +125,14 @@ inline void read_certificate(std::string_view bytes) {
     return std::visit([](const auto& claim) { return certificate_text(claim); }, certificate);
   };
   const std::optional<Certificate> certificate = read(bytes);
-  if (!certificate) return;
+  if (!certificate) return require_place(std::string(bytes));
+  std::visit(
+      [&](const auto& claim) {
+        require_named(claim);
+        for (const auto& lie : naming_too_much(claim))
+          require(!read(certificate_text(lie)).has_value(), "what names more than there is is refused");
+      },
+      *certificate);
   const std::string text = written(*certificate);
   const std::optional<Certificate> again = read(text);
   require(again.has_value(), "what is written is read");

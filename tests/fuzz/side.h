@@ -15,12 +15,14 @@ inline Grid grid_in(Bytes& from, std::vector<std::uint32_t>& points) {
   const int bits = widths[from.below(widths.size())];
   Integer divisor = 1;
   if (bits > 53 && from.below(2) == 1) divisor = 3 * kernel_test::power_of_two(bits - 31);
+  if (bits > 53 && from.below(4) == 1)  // so small that products of doubles underflow
+    divisor = 3 * kernel_test::power_of_two(bits + 900 + static_cast<int>(from.below(120)));
+  const int whole_bits = bits - static_cast<int>(bit_length(divisor));
   Grid grid(bits, divisor);
   for (std::size_t k = 3 + from.below(6); k > 0; --k) {
     std::array<Integer, 3> p;
-    const bool whole = from.below(2) == 1;
-    for (Integer& x : p)
-      x = whole ? Integer(from.integer(bits - static_cast<int>(bit_length(divisor))) * divisor) : from.integer(bits);
+    const bool whole = from.below(2) == 1 && whole_bits > 0;
+    for (Integer& x : p) x = whole ? Integer(from.integer(whole_bits) * divisor) : from.integer(bits);
     points.push_back(grid.point(p));
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> incidences;

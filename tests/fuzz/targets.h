@@ -2,16 +2,24 @@
 // All targets by name. A target is a function of bytes that throws where something is wrong; whatever the bytes are, it
 // returns soon.
 
+#include "arcs.h"
 #include "certificate.h"
 #include "decimal.h"
+#include "decisions.h"
 #include "event_cells.h"
+#include "faces.h"
 #include "fixed_integer.h"
 #include "forged.h"
 #include "mutate.h"
 #include "other_readers.h"
+#include "pairs.h"
+#include "planar_parts.h"
 #include "quadratic_roots.h"
 #include "readers.h"
+#include "scene_laws.h"
+#include "separations.h"
 #include "side.h"
+#include "weak_claims.h"
 
 #include <filesystem>
 #include <fstream>
@@ -42,7 +50,15 @@ inline const std::vector<Target>& targets() {
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
                                        {"quadratic_roots", quadratic_roots, {}},
-                                       {"event_cells", event_cells, {}}};
+                                       {"event_cells", event_cells, {}},
+                                       {"pairs", pairs, {}},
+                                       {"faces", faces, {}},
+                                       {"weak_claims", weak_claims, {}},
+                                       {"scene_laws", scene_laws, {}},
+                                       {"separations", separations, {}},
+                                       {"decisions", decisions, {}},
+                                       {"arcs", arcs, {}},
+                                       {"planar_parts", planar_parts, {}}};
   return all;
 }
 

@@ -1,0 +1,56 @@
+#pragma once
+// The checks of `sightline fuzz order`, `graph` and `cutset` that ask a scene by itself, some of which those commands
+// ask of a share only: here each of every scene, also of such as no family makes (soups.h).
+
+#include "soups.h"
+
+#include <sightline/harness/laws/cutset.h>
+#include <sightline/harness/laws/graph.h>
+#include <sightline/harness/laws/order.h>
+
+#include <set>
+#include <string>
+
+namespace fuzz {
+
+/// What a check says of a scene. One that asks a share of the scenes is asked until it answers.
+inline harness::Outcome asked(const harness::Check& check, const Posed_scene& scene, const harness::Answer& answer,
+                              std::uint64_t seed) {
+  harness::Outcome outcome = harness::Outcome::not_applicable();
+  for (std::uint64_t k = 0; k < 400 && outcome.state == harness::Outcome::State::not_applicable; ++k) {
+    Random random(seed + k);
+    outcome = check.run(scene, answer, random);
+  }
+  return outcome;
+}
+
+inline void scene_laws(std::string_view bytes) {
+  static const std::vector<harness::Subject> subjects{harness::order(), harness::graph(), harness::cutset()};
+  static const std::set<std::string> meant{"definition", "graph",   "graph two-sided", "gmpq",   "points", "first hit",
+                                           "parts",      "path",    "face graph",      "region", "rays",   "pixels",
+                                           "splits",     "explicit"};
+  Bytes from(bytes);
+  Random random(from.word());
+  Posed_scene scene;
+  if (random.chance(1, 3)) {
+    const generate::Family& family = generate::families()[random.below(generate::families().size())];
+    generate::Family_parameters parameters;
+    parameters.seed = random.below(1000000), parameters.size = family.small_size;
+    parameters.ulps = random.chance(1, 2) ? 0 : random.between(-2, 2);
+    scene = family.make(parameters);
+  } else {
+    scene = any_soup(random);
+  }
+  if (scene.soup.face_count() > 24) return;
+  const harness::Subject& subject = subjects[random.below(subjects.size())];
+  const harness::Answer answer = (subject.verified ? subject.verified : subject.answer)(scene);
+  if (!answer.flaw.empty()) throw Finding(subject.name + ": " + answer.flaw);
+  for (const harness::Check& check : subject.checks) {
+    if (meant.count(check.name) == 0) continue;
+    const harness::Outcome outcome = asked(check, scene, answer, random.below(1u << 30));
+    if (outcome.state == harness::Outcome::State::failed)
+      throw Finding(subject.name + ", " + check.name + ": " + outcome.what);
+  }
+}
+
+}  // namespace fuzz
