@@ -1,6 +1,5 @@
 // A user of the front door, and of a kernel and traits of one's own.
 
-#include <headers.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/sightline.h>
