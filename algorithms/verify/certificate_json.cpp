@@ -43,27 +43,42 @@ class Text {
   bool at_end() const { return next_ == end_; }
   char peek() const { return buffer_[next_]; }
   void step() {
-    const char c = buffer_[next_++];
-    if (before_ == '\n' || (before_ == '\r' && c != '\n')) ++line_, column_ = 0;
-    if (++count_ > 3 || byte_order_mark[count_ - 1] != c) ++column_;
-    before_ = c;
-    if (next_ == end_) fill();
+    ++count_;
+    if (++next_ == end_) fill();
   }
   const std::size_t& count() const { return count_; }
-  std::size_t line() const { return line_; }
-  std::size_t column() const { return column_; }
+  std::size_t line() {
+    pass_to_next();
+    return line_;
+  }
+  std::size_t column() {
+    pass_to_next();
+    return column_;
+  }
 
  private:
   static constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   void fill() {
+    pass_to_next();
     in_.read(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
-    next_ = 0;
+    next_ = passed_ = 0;
     end_ = static_cast<std::size_t>(in_.gcount());
+  }
+  /// Counts lines and columns; not at each step, as this is the dearer half of it.
+  void pass_to_next() {
+    std::size_t count = count_ - (next_ - passed_);
+    for (; passed_ < next_; ++passed_) {
+      const char c = buffer_[passed_];
+      if (before_ == '\n' || (before_ == '\r' && c != '\n')) ++line_, column_ = 0;
+      if (++count > byte_order_mark.size() || byte_order_mark[count - 1] != c) ++column_;
+      before_ = c;
+    }
   }
 
   std::istream& in_;
   std::vector<char> buffer_;
   std::size_t next_ = 0, end_ = 0, count_ = 0, line_ = 1, column_ = 0;
+  std::size_t passed_ = 0;  // of the buffer's characters, those that line and column know
   char before_ = 0;
 };
 
@@ -96,7 +111,7 @@ class Character {
 /// passed over: the key may mean nothing in a certificate of this kind.
 class Events {
  public:
-  explicit Events(const Text& text) : text_(text), contents_(text.count()) {}
+  explicit Events(Text& text) : text_(text), contents_(text.count()) {}
   using number_integer_t = Json::number_integer_t;
   using number_unsigned_t = Json::number_unsigned_t;
   using number_float_t = Json::number_float_t;
@@ -140,7 +155,7 @@ class Events {
     passing_over_ = true;
   }
 
-  const Text& text_;
+  Text& text_;
   Contents contents_;
   std::vector<std::pair<std::string, std::optional<Certificate_error>>> keys_;
   std::size_t depth_ = 0;              // of what is open

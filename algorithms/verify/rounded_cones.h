@@ -11,11 +11,12 @@ namespace sightline::order_check {
 
 using namespace certificate_check;
 
-/// A cone's rays, and the form by which they meet its polygon, each rounded and scaled by a power of two so that no
-/// number is beyond [-1, 1]. An edge-on one has no rays. Proof: P-20
+/// A cone in doubles; an edge-on one has no rays. Vectors are scaled by a power of two, so that their longest
+/// coordinate is in [1/2, 1). Proof: P-20
 struct Rounded_cone {
   std::vector<std::array<double, 3>> rays;
-  std::array<double, 4> nearness{};  ///< and the distance
+  std::array<double, 3> nearness{};
+  double distance = 0;  ///< by the same scale as nearness; not a number where that is beyond the range of doubles
 
   explicit Rounded_cone(const Cone& cone);
 };

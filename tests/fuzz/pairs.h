@@ -4,6 +4,8 @@
 #include "support.h"
 
 #include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/planes_between.h>
+#include <sightline/algorithms/verify/rounded_cones.h>
 #include <sightline/harness/laws/flat_faces.h>
 
 #include <algorithm>
@@ -206,7 +208,7 @@ inline void pairs(std::string_view bytes) {
   std::set<std::pair<std::size_t, std::size_t>> taken;
   double last = 0;
   const auto take = [&](std::size_t i, std::size_t j) { taken.insert({i, j}); };
-  order_check::Pairs(cones, take).each(all, others, [&](double share) {
+  order_check::Pairs(cones, take).each(all, others, 1, [&](double share) {
     require(last <= share && share <= 1, "progress goes on, up to 1");
     last = share;
   });
@@ -227,9 +229,46 @@ inline void pairs(std::string_view bytes) {
     const harness::Flat_face a(exact_points(polygons[i])), b(exact_points(polygons[j]));
     require(check.nearer_somewhere(cones[i], cones[j]) == harness::sees_over(eye, a, b),
             "a cone is nearer than another one where a ray says so");
+    const order_check::Rounded_cone rounded_i(cones[i]), rounded_j(cones[j]);
+    require(!nowhere_nearer(rounded_i, rounded_j) || !check.nearer_somewhere(cones[i], cones[j]),
+            "what doubles tell to be nowhere nearer is so");
     require((separates(cones[i], cones[j]) || separates(cones[j], cones[i])) <= is_apart(polygons[i], polygons[j]),
             "what an edge's plane separates is apart");
   }
+
+  // 3. Which pairs need no comparison, as a plane of the sequence is between them; of numbers that doubles do not hold,
+  // which change nothing, too.
+  if (scene.below(2) == 0) {
+    const auto entry = [&] { return static_cast<std::int64_t>(scene.below(std::size_t{1} << 40)) + 1; };
+    const Whole scale{entry(), entry(), entry()};
+    cones.clear();
+    for (const Whole_points& polygon : polygons) {
+      std::vector<Exact_point> points = exact_points(polygon);
+      for (Exact_point& p : points) {
+        for (std::size_t k = 0; k < 3; ++k) p[k] *= Rational(static_cast<long>(scale[k]));
+        p[0] += 3 * p[1] - p[2];
+      }
+      cones.emplace_back(points, eye);
+    }
+  }
+  const auto farther = [](const order_check::Cone& a, const order_check::Cone& b) {  // about
+    return a.distance * abs(b.nearness[0] + b.nearness[1] + b.nearness[2]) >
+           b.distance * abs(a.nearness[0] + a.nearness[1] + a.nearness[2]);
+  };
+  if (scene.below(4) != 0) std::sort(cones.begin(), cones.end(), farther);
+  const std::vector<order_check::Rounded_cone> rounded(cones.begin(), cones.end());
+  const order_check::Planes_between planes(cones, rounded);
+  for (std::size_t later = 0; later < cones.size(); ++later)
+    for (std::size_t earlier = 0; earlier < later; ++earlier) {
+      require(!planes.in_order(earlier, later) || !check.nearer_somewhere(cones[earlier], cones[later]),
+              "what a plane is between is in order");
+      const order_check::Cone &a = cones[earlier], &b = cones[later];
+      for (std::size_t ray = 0; ray < a.rays.size(); ++ray) {
+        const std::optional<int> side = side_to_plane(rounded[earlier], ray, rounded[later]);
+        const Integer height = a.distance * dot(b.nearness, a.rays[ray]) - b.distance * dot(a.nearness, a.rays[ray]);
+        require(!side || *side == sgn(height), "doubles that tell a side are right");
+      }
+    }
 }
 
 }  // namespace fuzz

@@ -1,0 +1,205 @@
+// What spares the comparison of two cones: doubles, and planes of the sequence (P-20); and the checkers' threads.
+
+#include "../sample.h"
+#include "scenes.h"
+
+#include <sightline/algorithms/verify/pairs.h>
+#include <sightline/algorithms/verify/parallel.h>
+#include <sightline/algorithms/verify/planes_between.h>
+#include <sightline/algorithms/verify/rounded_cones.h>
+
+#include <atomic>
+#include <numeric>
+
+namespace {
+
+using namespace verify_test;
+using order_check::Cone;
+using order_check::Planes_between;
+using order_check::Rounded_cone;
+using test_scenes::least;
+using test_scenes::sample;
+
+const Exact_point eye = at(0, 0, 0);
+
+Rational power_of_two(long exponent) {
+  Rational result = 1;
+  (exponent < 0 ? mpq_div_2exp : mpq_mul_2exp)(result.get_mpq_t(), result.get_mpq_t(),
+                                               static_cast<mp_bitcnt_t>(std::abs(exponent)));
+  return result;
+}
+
+/// A triangle some way off, of which a corner is moved by about 2^-exponent, and all scaled.
+Points triangle_near(Dice& dice, const Points& about, long exponent, const Rational& scale) {
+  Points result = about;
+  result[static_cast<std::size_t>(roll(dice, 0, 2))][static_cast<std::size_t>(roll(dice, 0, 2))] +=
+      power_of_two(-exponent) * roll(dice, -3, 3);
+  for (Exact_point& p : result)
+    for (Rational& x : p) x *= scale;
+  return result;
+}
+
+/// On which side of the plane of b, as seen from the origin, corner k of a is: from its definition.
+int side_beyond(const Points& a, std::size_t k, const Points& b) {
+  const Exact_point normal = order_check::cross(order_check::minus(b[1], b[0]), order_check::minus(b[2], b[0]));
+  const auto height = [&](const Exact_point& p) -> Rational {
+    return normal[0] * (p[0] - b[0][0]) + normal[1] * (p[1] - b[0][1]) + normal[2] * (p[2] - b[0][2]);
+  };
+  return -sgn(height(a[k])) * sgn(height(eye));
+}
+
+TEST(Rounded_cones, know_sides_or_say_nothing) {
+  Dice dice(1);
+  std::size_t told = 0, silent = 0, close = 0;
+  for (int trial = 0; trial < sample(20000); ++trial) {
+    const long exponent = roll(dice, 0, 70);
+    Points about;
+    for (int k = 0; k < 3; ++k) about.push_back(at(roll(dice, 5, 900), roll(dice, -9, 900), roll(dice, -9, 9)));
+    const Rational scale = power_of_two(trial % 3 == 0 ? roll(dice, -2000, 2000) : 0);
+    const Points a = triangle_near(dice, about, exponent, scale), b = triangle_near(dice, about, exponent, scale);
+    if (is_zero(order_check::newell_normal(a)) || is_zero(order_check::newell_normal(b))) continue;
+    const Cone cone_a(a, eye), cone_b(b, eye);
+    if (cone_a.edge_on || cone_b.edge_on) continue;
+    const Rounded_cone rounded_a(cone_a), rounded_b(cone_b);
+    for (std::size_t ray = 0; ray < 3; ++ray) {
+      const std::optional<int> side = order_check::side_to_plane(rounded_a, ray, rounded_b);
+      const int expected = side_beyond(a, ray, b);
+      ASSERT_TRUE(!side || *side == expected) << trial;
+      told += side.has_value(), silent += !side && expected != 0, close += side && exponent > 25;
+    }
+    order_check::Pair_check check;
+    ASSERT_FALSE(nowhere_nearer(rounded_a, rounded_b) && check.nearer_somewhere(cone_a, cone_b)) << trial;
+  }
+  EXPECT_GT(told, least(10000u));
+  EXPECT_GT(silent, least(2000u));
+  EXPECT_GT(close, least(200u));
+}
+
+TEST(Rounded_cones, of_squares_over_one_another_tell_which_is_nearer) {
+  const Rounded_cone near(Cone(rectangle(-1, 1, -1, 1, 1), eye)), far(Cone(rectangle(-1, 1, -1, 1, 2), eye));
+  EXPECT_TRUE(nowhere_nearer(far, near));
+  EXPECT_FALSE(nowhere_nearer(near, far));
+  EXPECT_FALSE(nowhere_nearer(near, near));  // as near: doubles cannot tell
+}
+
+TEST(Planes_between, tell_all_pairs_of_a_stack_and_none_of_one_upside_down) {
+  for (const std::size_t count : {2u, 3u, 130u, 500u}) {
+    std::vector<Cone> right, wrong;
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto height = static_cast<long>(k) + 1;
+      wrong.emplace_back(rectangle(-1, 1, -1, 1, height), eye);
+      right.emplace_back(rectangle(-1, 1, -1, 1, static_cast<long>(count) - height + 1), eye);
+    }
+    const std::vector<Rounded_cone> rounded_right(right.begin(), right.end()),
+        rounded_wrong(wrong.begin(), wrong.end());
+    const Planes_between of_right(right, rounded_right), of_wrong(wrong, rounded_wrong);
+    for (std::size_t later = 0; later < count; ++later)
+      for (std::size_t earlier = 0; earlier < later; ++earlier) {
+        ASSERT_TRUE(of_right.in_order(earlier, later)) << earlier << ' ' << later;
+        ASSERT_FALSE(of_wrong.in_order(earlier, later)) << earlier << ' ' << later;
+      }
+  }
+}
+
+TEST(Planes_between, are_right_of_sequences_that_are_nearly_in_order) {
+  std::size_t told = 0, nearer = 0, in_a_plane = 0;
+  for (unsigned seed = 0; seed < sample(40u); ++seed) {
+    Dice dice(seed);
+    std::vector<Points> polygons;
+    for (long k = 0; k < 160; ++k) {  // from far to near, some in the plane of others, some out of order
+      const Rational height = 200 - k / 3 * 3 + (roll(dice, 0, 9) == 0 ? roll(dice, -40, 40) : 0);
+      Points p = rectangle(roll(dice, -9, -1), roll(dice, 1, 9), roll(dice, -9, -1), roll(dice, 1, 9), 0);
+      const bool tilted = roll(dice, 0, 3) == 0;
+      for (Exact_point& q : p) q[2] = height + (tilted ? Rational(q[0] * ratio(roll(dice, 0, 1), 4)) : Rational(0));
+      if (tilted) p.resize(3);  // three points are in a plane
+      polygons.push_back(p);
+    }
+    std::vector<Cone> cones;
+    for (const Points& p : polygons) cones.emplace_back(p, eye);
+    const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
+    const Planes_between planes(cones, rounded);
+    order_check::Pair_check check;
+    for (std::size_t later = 0; later < cones.size(); ++later)
+      for (std::size_t earlier = 0; earlier < later; ++earlier) {
+        if (cones[earlier].edge_on || cones[later].edge_on) continue;
+        const bool is_told = planes.in_order(earlier, later),
+                   is_nearer = check.nearer_somewhere(cones[earlier], cones[later]);
+        ASSERT_FALSE(is_told && is_nearer) << seed << ": " << earlier << ' ' << later;
+        told += is_told, nearer += is_nearer;
+        in_a_plane += is_told && cones[earlier].nearness == cones[later].nearness;
+      }
+  }
+  EXPECT_GT(told, least(10000u));
+  EXPECT_GT(nearer, least(1000u));
+  EXPECT_GT(in_a_plane, 0u);
+}
+
+/// Squares over one another from far to near, of which some are exchanged.
+Scene stack_with_exchanged(const std::vector<std::pair<std::size_t, std::size_t>>& exchanged) {
+  constexpr long count = 500;
+  Scene scene;
+  scene.seen_from(at(0, 0, count + 1));
+  for (long k = 0; k < count; ++k) {
+    const Points square = rectangle(-1, 1, -1, 1, k);
+    scene.face(square);
+    scene.draw(static_cast<Face_id>(k), square);
+  }
+  for (const auto& [i, j] : exchanged) std::swap(scene.certificate.fragments[i], scene.certificate.fragments[j]);
+  return scene;
+}
+
+TEST(Threads_of_checkers, change_no_verdict) {
+  using Pairs_exchanged = std::vector<std::pair<std::size_t, std::size_t>>;
+  for (const Pairs_exchanged& exchanged : {Pairs_exchanged{}, {{3, 4}}, {{490, 499}, {100, 400}, {7, 450}}}) {
+    Scene scene = stack_with_exchanged(exchanged);
+    const auto verdict_with = [&](int threads) {
+      Verify_options options;
+      options.threads = threads;
+      return verify_order(scene.soup, scene.certificate, options);
+    };
+    const Verdict one = verdict_with(1);
+    EXPECT_EQ(one.accepted, exchanged.empty()) << one.why;
+    for (const int threads : {2, 5}) {
+      const Verdict more = verdict_with(threads);
+      EXPECT_EQ(more.accepted, one.accepted);
+      EXPECT_EQ(more.why, one.why);
+      EXPECT_EQ(more.fragments, one.fragments);
+    }
+  }
+  // And with faces at fault, the first of them.
+  Scene scene = stack_with_exchanged({});
+  for (const std::size_t i : {123, 321, 456})
+    std::reverse(scene.certificate.fragments[i].vertices.begin(), scene.certificate.fragments[i].vertices.end());
+  Verify_options options;
+  for (const int threads : {1, 2, 5}) {
+    options.threads = threads;
+    const Verdict verdict = verify_order(scene.soup, scene.certificate, options);
+    EXPECT_FALSE(verdict.accepted);
+    EXPECT_EQ(verdict.fragments, (std::vector<std::size_t>{123})) << verdict.why;
+  }
+}
+
+TEST(Threads_of_checkers, call_all_once_or_throw_what_comes_first) {
+  for (const int threads : {0, 1, 2, 7})
+    for (const std::size_t count : {0u, 1u, 10u, 1000u}) {
+      std::vector<std::atomic<int>> calls(count);
+      certificate_check::for_each_below(count, 1, threads, [&](std::size_t i) { ++calls[i]; });
+      EXPECT_TRUE(std::all_of(calls.begin(), calls.end(), [](const std::atomic<int>& n) { return n == 1; }));
+    }
+  for (const int threads : {1, 2, 7})
+    for (int trial = 0; trial < 50; ++trial) {
+      std::vector<std::atomic<int>> calls(300);
+      try {
+        certificate_check::for_each_below(calls.size(), 1, threads, [&](std::size_t i) {
+          ++calls[i];
+          if (i % 100 == 99) throw i;
+        });
+        ADD_FAILURE() << "nothing was thrown";
+      } catch (const std::size_t i) {
+        EXPECT_EQ(i, 99u);
+      }
+      EXPECT_TRUE(std::all_of(calls.begin(), calls.begin() + 100, [](const std::atomic<int>& n) { return n == 1; }));
+    }
+}
+
+}  // namespace
