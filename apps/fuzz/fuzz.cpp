@@ -23,7 +23,7 @@ struct Fuzz_arguments {
   std::string command, family, only, check, scene, query, out = "sightline-fuzz", json;
   bool quiet = false;  ///< an output takes standard output
   double seconds = 60, case_seconds = 120;
-  std::size_t scenes = 0, most_faces = harness::Fuzz_options{}.most_faces;
+  std::size_t scenes = 0, reduce_seconds = 120, most_faces = harness::Fuzz_options{}.most_faces;
   std::uint64_t seed = 1;
 };
 
@@ -121,7 +121,7 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
     const Stopwatch since;
     limits.out_of_time = [&] {
       begin_case(replay, arguments.case_seconds, "making the case small that this replays");
-      return since.seconds() > 120;
+      return since.seconds() > static_cast<double>(arguments.reduce_seconds);
     };
     reduced = harness::reduce(subject, finding->scene, finding->which.parameters.seed, finding->disagreement, limits);
     end_case();
@@ -252,6 +252,9 @@ void add_fuzz(Command program) {
       .show_default();
   command.add_option("--scenes", a->scenes, "draw so many scenes instead, however long that takes")
       .check(whole_number());
+  command.add_option("--reduce-seconds", a->reduce_seconds, "how long to make small what was found; 0: as it was found")
+      .check(whole_number())
+      .show_default();
   command.add_option("--seed", a->seed, "one seed is one sequence of cases").check(whole_number()).show_default();
   command.add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");
   command.add_option("--max-faces", a->most_faces, "pass over scenes of more faces")

@@ -40,6 +40,61 @@ harness::Outcome round_trip(const Polygon_soup& soup, Format format) {
   return what.empty() ? harness::Outcome{} : harness::Outcome::failed(what);
 }
 
+/// A file of text as others write it, with what readers pass over: numbers behind points and faces, attributes of
+/// corners, blanks, other line ends; as many faces. Pre: `text` as write_scene writes it.
+std::string dressed(const std::string& text, Format format, generate::Random& random) {
+  static constexpr const char* numbers[] = {"0", "1.5", "-2e3", "nan", "-nan", "inf", "+inf", "-1.#IND"};
+  static constexpr const char* kinds[] = {"", "ST", "C", "N", "STC", "STN", "CN", "STCN"};
+  static constexpr const char* attributes[] = {"", "/7", "//7", "/7/-7", "/7/"};
+  const std::string kind = kinds[random.below(8)], attribute = attributes[random.below(5)];
+  const std::string end = random.chance(1, 2) ? "\n" : "\r\n", blank = random.chance(1, 2) ? " " : " \t ";
+  std::istringstream lines(text);
+  std::string result;
+  std::size_t number = 0, points = 0;
+  bool in_header = true;
+  for (std::string line; std::getline(lines, line); ++number) {
+    std::istringstream words(line);
+    std::string head, word;
+    words >> head;
+    std::size_t more = 0;
+    if (format == Format::off) {
+      if (number == 0) head = kind + head;
+      if (number == 1) points = static_cast<std::size_t>(std::stoul(head));
+      if (number > 1) more = random.below(number < points + 2 && !kind.empty() ? 10 : 5);
+    } else if (format == Format::obj) {
+      more = head == "v" && random.chance(1, 2) ? 3 : 0;  // a colour
+    }
+    result += (in_header ? "" : blank) + head;
+    while (words >> word) {
+      if (format == Format::obj && head == "f") word += attribute;
+      if (format == Format::ply && in_header && word == "vertex_indices" && random.chance(1, 2)) word = "vertex_index";
+      if (format == Format::obj && head[0] != '#' && random.chance(1, 8))
+        result += blank + "\\" + blank + end;  // the line goes on
+      result += (in_header && format == Format::ply ? " " : blank) + word;
+    }
+    for (; more > 0; --more) result += blank + numbers[random.below(8)];
+    result += end;
+    if (format != Format::ply || head == "end_header") in_header = false;
+  }
+  return result;
+}
+
+harness::Outcome as_others_write(const Polygon_soup& soup, Format format, generate::Random& random) {
+  std::stringstream stream;
+  try {
+    write_scene(soup, stream, format);
+  } catch (const Not_representable&) {
+    return harness::Outcome::not_applicable();
+  }
+  const std::string text = dressed(stream.str(), format, random);
+  try {
+    const std::string what = difference(soup, read_scene(text, format, "dressed"));
+    return what.empty() ? harness::Outcome{} : harness::Outcome::failed(what);
+  } catch (const Input_error& error) {
+    return harness::Outcome::failed(std::string("is not read: ") + error.what());
+  }
+}
+
 /// Nothing is asked of faces: formats are compared with the scene itself.
 harness::Answer nothing(const generate::Posed_scene& posed) {
   harness::Answer answer;
@@ -66,6 +121,16 @@ harness::Subject io_subject() {
   add("ply", Format::ply);
   add("binary ply", Format::ply_binary);
   add("stl", Format::stl);
+  const auto add_dressed = [&](const char* name, Format format) {
+    subject.checks.push_back(
+        {name, "the same scene with what readers pass over",
+         [format](const generate::Posed_scene& posed, const harness::Answer&, generate::Random& random) {
+           return as_others_write(posed.soup, format, random);
+         }});
+  };
+  add_dressed("dressed off", Format::off);
+  add_dressed("dressed obj", Format::obj);
+  add_dressed("dressed ply", Format::ply);
   return subject;
 }
 
