@@ -150,8 +150,9 @@ void check_delaunay(const Contour& contour, const std::vector<Triangle>& triangl
       edges[{from, to}] = {&triangle, k};
       const auto twin = edges.find({to, from});
       if (twin == edges.end()) continue;
-      const bool on_contour = std::any_of(contour.edges.begin(), contour.edges.end(),
-                                          [&](const Contour::Edge& e) { return on(e, from) && on(e, to); });
+      const bool on_contour =
+          std::any_of(contour.edges.begin(), contour.edges.end(),
+                      [&, from = from, to = to](const Contour::Edge& e) { return on(e, from) && on(e, to); });
       if (on_contour) continue;
       const auto& [other, l] = twin->second;
       const int inside_circle =

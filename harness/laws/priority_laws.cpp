@@ -200,7 +200,8 @@ Outcome check_pixels(const Posed_scene& posed, Random& random) {
       std::sort(pierced.begin(), pierced.end());
       std::size_t left = 0;
       for (const auto& [s, i] : pierced) {
-        left += std::none_of(members.begin(), members.end(), [&](std::uint32_t j) { return number[j] < number[i]; });
+        left += std::none_of(members.begin(), members.end(),
+                             [&, face = i](std::uint32_t j) { return number[j] < number[face]; });
         for (const auto& [t, j] : pierced)
           if (s < t && number[i] > number[j])
             return Outcome::failed("by a tree's numbers the farther of " + pieces_named(i, j) + " is nearer");
