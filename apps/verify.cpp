@@ -53,11 +53,11 @@ static Exit run(const Common& common, const std::string& file) {
   progress.clear();
   const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
   Json result{{"accepted", verdict.accepted}, {"why", verdict.why}, {"fragments", verdict.fragments}};
-  if (write_json(
-          common, "verify", Scene(soup), result,
-          {{"fragments", std::visit([](const Covering& covering) { return covering.fragments.size(); }, certificate)}},
-          {{"verify", seconds}}))
-    return exit;
+  if (!common.json.empty()) {
+    const Json counters{
+        {"fragments", std::visit([](const Covering& covering) { return covering.fragments.size(); }, certificate)}};
+    if (write_json(common, "verify", Scene(soup), result, counters, {{"verify", seconds}})) return exit;
+  }
   row(verdict.accepted ? "accepted" : "REJECTED", verdict.why);
   row("seconds", fmt::format("{:.3f}", seconds));
   return exit;
