@@ -52,6 +52,19 @@ void check_reached(std::size_t begin, std::size_t end, const std::vector<std::ve
              {begin, i});
 }
 
+/// Whether one of the points, of the plane, is strictly inside a convex polygon: the tip of a spike, at which a scene
+/// cuts.
+bool holds_inside(const Polygon& contour, const Plane& plane, const std::set<Exact_point>& points) {
+  return std::any_of(points.begin(), points.end(), [&](const Exact_point& p) {
+    for (std::size_t i = 0; i < contour.size(); ++i) {
+      const Exact_point& from = contour[i];
+      if (sgn(dot(plane.normal, cross(minus(contour[(i + 1) % contour.size()], from), minus(p, from)))) <= 0)
+        return false;
+    }
+    return true;
+  });
+}
+
 /// Rejects where a fragment is part of what the scene has as one polygon: a convex face, or a triangle of one that is
 /// not planar. Returns how many faces are cut as the certificate has them: those that are not convex, on their own
 /// points.
@@ -73,7 +86,7 @@ std::size_t check_whole(const Polygon_soup& soup, const Graph_certificate& certi
     }
     if (!face.planar) continue;
     const Polygon contour = without_straight_points(face.loops[0]);
-    if (face.loops.size() == 1 && not_convex(contour, face.plane).empty())
+    if (face.loops.size() == 1 && not_convex(contour, face.plane).empty() && !holds_inside(contour, face.plane, own))
       reject(name("face", f) + " is convex, but in " + std::to_string(parts.size()) + " fragments");
     ++cut;
   }

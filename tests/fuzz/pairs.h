@@ -192,7 +192,10 @@ inline void pairs(std::string_view bytes) {
   std::vector<Boxes> boxes;
   const Exact_point eye{0, 0, 0};
   for (const Whole_points& polygon : polygons) {
-    cones.emplace_back(exact_points(polygon), eye);
+    const std::vector<Exact_point> points = exact_points(polygon);
+    if (!certificate_check::not_convex(points, {certificate_check::newell_normal(points), points[0]}).empty())
+      return;  // twice one corner
+    cones.emplace_back(points, eye);
     require(!cones.back().edge_on, "a cone has an inside");
     boxes.push_back(boxes_of(polygon));
   }
@@ -265,7 +268,8 @@ inline void pairs(std::string_view bytes) {
       const order_check::Cone &a = cones[earlier], &b = cones[later];
       for (std::size_t ray = 0; ray < a.rays.size(); ++ray) {
         const std::optional<int> side = side_to_plane(rounded[earlier], ray, rounded[later]);
-        const Integer height = a.distance * dot(b.nearness, a.rays[ray]) - b.distance * dot(a.nearness, a.rays[ray]);
+        const Integer height = a.distance * order_check::dot(b.nearness, a.rays[ray]) -
+                               b.distance * order_check::dot(a.nearness, a.rays[ray]);
         require(!side || *side == sgn(height), "doubles that tell a side are right");
       }
     }

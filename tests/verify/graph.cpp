@@ -172,6 +172,18 @@ TEST(Graph_certificate, must_not_dissolve_a_component_by_cutting) {
     given.certificate.sizes.push_back(1);
   }
   expect_rejected(given, "face 0 is convex, but in 2 fragments");
+  // But at the tip of one that points inwards a scene cuts.
+  Points inwards = rectangle(0, 4, 0, 4, 0);
+  inwards.insert(inwards.begin() + 1, {at(2, 2, 0), at(0, 0, 0)});
+  Graph_scene tipped;
+  tipped.scene.face(inwards);
+  for (const Points& part :
+       {Points{at(0, 0, 0), at(4, 0, 0), at(2, 2, 0)}, Points{at(4, 0, 0), at(4, 4, 0), at(2, 2, 0)},
+        Points{at(0, 0, 0), at(2, 2, 0), at(4, 4, 0), at(0, 4, 0)}}) {
+    tipped.certificate.fragments.push_back({0, 0, part});
+    tipped.certificate.sizes.push_back(1);
+  }
+  expect_accepted(tipped, " 1 faces that are not convex in pieces");
   const Points ell = {at(0, 0, 0), at(4, 0, 0), at(4, 2, 0), at(2, 2, 0), at(2, 4, 0), at(0, 4, 0)};
   Graph_scene concave, elsewhere;
   concave.scene.face(ell);
