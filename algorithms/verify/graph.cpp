@@ -54,12 +54,12 @@ void check_reached(std::size_t begin, std::size_t end, const std::vector<std::ve
 
 /// Whether one of the points, of the plane, is strictly inside a convex polygon: the tip of a spike, at which a scene
 /// cuts.
-bool holds_inside(const Polygon& contour, const Plane& plane, const std::set<Exact_point>& points) {
+bool holds_inside(const Polygon& contour, const certificate_check::Plane& plane, const std::set<Exact_point>& points) {
   return std::any_of(points.begin(), points.end(), [&](const Exact_point& p) {
     for (std::size_t i = 0; i < contour.size(); ++i) {
       const Exact_point& from = contour[i];
-      if (sgn(dot(plane.normal, cross(minus(contour[(i + 1) % contour.size()], from), minus(p, from)))) <= 0)
-        return false;
+      const Exact_point across = certificate_check::cross(minus(contour[(i + 1) % contour.size()], from), minus(p, from));
+      if (sgn(certificate_check::dot(plane.normal, across)) <= 0) return false;
     }
     return true;
   });
