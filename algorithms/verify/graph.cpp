@@ -52,22 +52,9 @@ void check_reached(std::size_t begin, std::size_t end, const std::vector<std::ve
              {begin, i});
 }
 
-/// Whether one of the points, of the plane, is strictly inside a convex polygon: the tip of a spike, at which a scene
-/// cuts.
-bool holds_inside(const Polygon& contour, const certificate_check::Plane& plane, const std::set<Exact_point>& points) {
-  return std::any_of(points.begin(), points.end(), [&](const Exact_point& p) {
-    for (std::size_t i = 0; i < contour.size(); ++i) {
-      const Exact_point& from = contour[i];
-      const Exact_point across = certificate_check::cross(minus(contour[(i + 1) % contour.size()], from), minus(p, from));
-      if (sgn(certificate_check::dot(plane.normal, across)) <= 0) return false;
-    }
-    return true;
-  });
-}
-
-/// Rejects where a fragment is part of what the scene has as one polygon: a convex face, or a triangle of one that is
-/// not planar. Returns how many faces are cut as the certificate has them: those that are not convex, on their own
-/// points.
+/// Rejects where a fragment is part of what the scene has as one polygon: a face that is convex but for spikes, or a
+/// triangle of one that is not planar. Returns how many faces are cut as the certificate has them: those that are not
+/// convex, on their own points.
 std::size_t check_whole(const Polygon_soup& soup, const Graph_certificate& certificate) {
   std::map<Face_id, std::vector<const Order_fragment*>> fragments;
   for (const Order_fragment& fragment : certificate.fragments) fragments[fragment.face].push_back(&fragment);
@@ -86,7 +73,7 @@ std::size_t check_whole(const Polygon_soup& soup, const Graph_certificate& certi
     }
     if (!face.planar) continue;
     const Polygon contour = without_straight_points(face.loops[0]);
-    if (face.loops.size() == 1 && not_convex(contour, face.plane).empty() && !holds_inside(contour, face.plane, own))
+    if (face.loops.size() == 1 && not_convex(contour, face.plane).empty())
       reject(name("face", f) + " is convex, but in " + std::to_string(parts.size()) + " fragments");
     ++cut;
   }

@@ -114,13 +114,18 @@ class Cutter {
 
   std::optional<Set_aside_reason> cut_planar(const Vector<Number>& normal) {
     const Projection projection = along(dominant(normal), normal);
-    if (Point_loop corners; loops_.size() == 1 && is_convex(projection, corners)) {
+    if (Point_loop corners; loops_.size() == 1 && is_convex(outer_, projection, corners)) {
       add_piece(normal, corners);
       return std::nullopt;
     }
     const Parts parts = parts_in(loops_, projection, Into::convex_parts);
     if (parts.contour == Contour::zero_area) return Set_aside_reason::zero_area;
     if (parts.contour == Contour::self_intersecting) return Set_aside_reason::self_intersecting;
+    if (Point_loop corners;
+        loops_.size() == 1 && is_convex(without_straight_points(outer_), projection, corners)) {  // but for spikes
+      add_piece(normal, corners);
+      return std::nullopt;
+    }
     ++faces_.counters.concave;
     faces_.concave.push_back(face_);
     for (const Point_loop& piece : parts.pieces) add_piece(normal, piece);
@@ -178,7 +183,7 @@ class Cutter {
     return true;
   }
 
-  // ---- The loops of a face that is not planar
+  // ---- Loops without what goes back on itself
 
   /// Without points that lie on one line with their neighbours, and again until there are none; without loops of which
   /// nothing is left; nothing where that is the contour.
@@ -288,9 +293,9 @@ class Cutter {
 
   // ---- In a projection
 
-  /// Whether the contour is a convex polygon walked once counterclockwise; `corners` then are its vertices that are not
-  /// straight.
-  bool is_convex(const Projection& projection, Point_loop& corners) const {
+  /// Whether a loop of three points or more is a convex polygon walked once counterclockwise; `corners` then are its
+  /// vertices that are not straight.
+  bool is_convex(const Point_loop& loop, const Projection& projection, Point_loop& corners) const {
     struct Step {
       Number x, y;
     };
@@ -302,13 +307,13 @@ class Cutter {
     const auto upward = [](const Step& e) { return e.y > 0 || (e.y == 0 && e.x > 0); };
     int turns_of_direction = 0;  // between the upper and the lower half plane of directions: 2 for one round
     corners.clear();
-    Step before = step(outer_.back(), outer_.front());
-    for (std::size_t k = 0; k < outer_.size(); ++k) {
-      const Step after = step(outer_[k], outer_[k + 1 == outer_.size() ? 0 : k + 1]);
+    Step before = step(loop.back(), loop.front());
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Step after = step(loop[k], loop[k + 1 == loop.size() ? 0 : k + 1]);
       const Number turn = before.x * after.y - before.y * after.x;
       if (turn < 0) return false;
       if (turn == 0 && before.x * after.x + before.y * after.y < 0) return false;  // a spike
-      if (turn > 0) corners.push_back(outer_[k]);
+      if (turn > 0) corners.push_back(loop[k]);
       turns_of_direction += upward(before) != upward(after);
       before = after;
     }

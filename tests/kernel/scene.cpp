@@ -129,6 +129,27 @@ TEST(Scene_policy, a_spike_is_left_out) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {8, 0, 0}, {4, 0, 0}, {4, 4, 0}}}))
     expect_kept(soup, 1);
 }
+TEST(Scene_policy, a_face_that_is_convex_but_for_spikes_is_one_piece) {
+  for (const Polygon_soup& soup :
+       variants({{{0, 0, 0}, {2, 2, 0}, {0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {5, 5, 0}, {4, 4, 0}, {0, 4, 0}}}))
+    expect_kept(soup, 1);
+  for (const Polygon_soup& soup :  // with a twig
+       variants({{{0, 0, 0},
+                  {2, 2, 0},
+                  {2, 3, 0},
+                  {2, 2, 0},
+                  {3, 2, 0},
+                  {2, 2, 0},
+                  {0, 0, 0},
+                  {4, 0, 0},
+                  {4, 4, 0},
+                  {0, 4, 0}}}))
+    expect_kept(soup, 1);
+}
+TEST(Scene_policy, a_spike_that_crosses_the_contour_is_one_that_crosses_itself) {
+  for (const Polygon_soup& soup : variants({{{0, 0, 0}, {5, 3, 0}, {0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}}}))
+    expect_aside(soup, "self-intersecting");
+}
 TEST(Scene_policy, a_non_planar_quad_is_two_triangles) {
   for (const Polygon_soup& soup : variants({{{0, 0, 0}, {4, 0, 0}, {4, 4, 1}, {0, 4, 0}}})) {
     expect_kept(soup, 2, false);
