@@ -13,6 +13,7 @@ libtbb-dev|oneapi/tbb/version.h|threads
 libopenmesh-dev|OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh|the face graph
 libcli11-dev|CLI/CLI.hpp|the command line
 libfmt-dev|fmt/format.h|tables and messages
+libpng-dev|png.h|pictures
 nlohmann-json3-dev|nlohmann/json.hpp|--json
 '
 test_packages='

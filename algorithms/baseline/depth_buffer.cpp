@@ -1,10 +1,12 @@
 #include <sightline/algorithms/baseline/depth_buffer.h>
 
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -37,10 +39,18 @@ std::vector<Corner> clipped(const std::vector<Corner>& polygon, Form form) {
   return part;
 }
 
+/// An image that pieces are drawn into, row by row from below.
+struct Target {
+  std::uint32_t width, height;
+  int bits;
+  float near, far;
+  std::uint32_t *pieces, *depths;
+  std::uint64_t triangles = 0, clipped = 0;
+};
+
 class Rasterizer {
  public:
-  Rasterizer(Depth_buffer& to, std::size_t side)
-      : to_(to), side_(side), scale_(to.far / (to.far - to.near)), shift_(-to.near * scale_) {}
+  explicit Rasterizer(Target& to) : to_(to), scale_(to.far / (to.far - to.near)), shift_(-to.near * scale_) {}
 
   void draw(std::uint32_t piece, std::vector<Corner> polygon);
 
@@ -53,8 +63,7 @@ class Rasterizer {
   static std::int64_t inclusive(const Pixel_corner& p, const Pixel_corner& q);
   std::uint32_t stored(float z) const;
 
-  Depth_buffer& to_;
-  std::size_t side_;
+  Target& to_;
   float scale_, shift_;  // depth of w: scale + shift / w
 };
 
@@ -80,11 +89,13 @@ void Rasterizer::draw(std::uint32_t piece, std::vector<Corner> polygon) {
   if (polygon.size() < 3) return;
   std::vector<Pixel_corner> corners;
   for (const Corner& c : polygon) {
-    const float inverse = 1 / c.w, half = static_cast<float>(to_.size) / 2;
-    const auto snapped = [&](float v) {
+    const float inverse = 1 / c.w;
+    const auto snapped = [&](float v, std::uint32_t size) {
+      const float half = static_cast<float>(size) / 2;
       return static_cast<std::int64_t>(std::lround((v * inverse * half + half) * 256));
     };
-    corners.push_back({snapped(c.x), snapped(c.y), std::clamp(scale_ + shift_ * inverse, 0.0f, 1.0f)});
+    corners.push_back(
+        {snapped(c.x, to_.width), snapped(c.y, to_.height), std::clamp(scale_ + shift_ * inverse, 0.0f, 1.0f)});
   }
   for (std::size_t k = 1; k + 1 < corners.size(); ++k) draw(piece, corners[0], corners[k], corners[k + 1]);
 }
@@ -98,9 +109,11 @@ void Rasterizer::draw(std::uint32_t piece, const Pixel_corner& a, Pixel_corner b
   }
   // Pixels whose centres, at 128 of 256, are in the triangle's box.
   const auto first = [](std::int64_t v) { return std::max<std::int64_t>(0, (v + 127) >> 8); };
-  const auto last = [&](std::int64_t v) { return std::min<std::int64_t>(to_.size - 1, (v - 128) >> 8); };
-  const std::int64_t x0 = first(std::min({a.x, b.x, c.x})), x1 = last(std::max({a.x, b.x, c.x}));
-  const std::int64_t y0 = first(std::min({a.y, b.y, c.y})), y1 = last(std::max({a.y, b.y, c.y}));
+  const auto last = [](std::int64_t v, std::uint32_t size) {
+    return std::min<std::int64_t>(std::int64_t{size} - 1, (v - 128) >> 8);
+  };
+  const std::int64_t x0 = first(std::min({a.x, b.x, c.x})), x1 = last(std::max({a.x, b.x, c.x}), to_.width);
+  const std::int64_t y0 = first(std::min({a.y, b.y, c.y})), y1 = last(std::max({a.y, b.y, c.y}), to_.height);
   if (x0 > x1 || y0 > y1) return;
   ++to_.triangles;
   // A centre on an edge is inside where the edge is a left or a top one, so that triangles that share it share no
@@ -116,7 +129,7 @@ void Rasterizer::draw(std::uint32_t piece, const Pixel_corner& a, Pixel_corner b
       const float z =
           a.z + static_cast<float>(e_b) * inverse * (b.z - a.z) + static_cast<float>(e_c) * inverse * (c.z - a.z);
       const std::uint32_t depth = stored(std::clamp(z, 0.0f, 1.0f));
-      const std::size_t at = to_.pixel(side_, static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+      const std::size_t at = static_cast<std::size_t>(y) * to_.width + static_cast<std::size_t>(x);
       if (to_.pieces[at] != Depth_buffer::nothing && depth >= to_.depths[at]) continue;
       to_.pieces[at] = piece;
       to_.depths[at] = depth;
@@ -139,9 +152,69 @@ std::uint32_t Rasterizer::stored(float z) const {
 
 }  // namespace depth_buffer_detail
 
+namespace {
+
+float rounded(const Rational& x) { return static_cast<float>(nearest_double(x)); }
+
+void check(const Depth_buffer_options& options) {
+  if (options.bits < 1 || options.bits > 32) throw std::invalid_argument("a depth buffer has 1 to 32 bits");
+}
+
+struct Planes {
+  float near = 0, far = 0;
+  bool drawable = false;
+};
+
+/// Where the clipping planes are, by the least and largest distance at which a point may be in an image.
+Planes planes_of(const Depth_buffer_options& options, double nearest, double farthest) {
+  Planes planes{options.near, options.far, false};
+  if (options.far == 0) planes.far = static_cast<float>(farthest * 1.0625);
+  if (options.near == 0) planes.near = std::max(static_cast<float>(nearest * 0.9375), planes.far / 4096);
+  planes.drawable =
+      planes.near > 0 && planes.far > planes.near && std::isfinite(planes.far) && std::isfinite(1 / planes.near);
+  if (!planes.drawable && (options.near != 0 || options.far != 0))
+    throw std::invalid_argument("a near plane is in front of the eye, and a far one behind it");
+  return planes;
+}
+
+/// The scene's points relative to the eye, in floats.
+std::vector<std::array<float, 3>> arms_of(const Scene& scene, const std::array<float, 3>& from) {
+  std::vector<std::array<float, 3>> arms;
+  for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
+    const Exact_point at = scene.position(p);
+    arms.push_back({rounded(at[0]) - from[0], rounded(at[1]) - from[1], rounded(at[2]) - from[2]});
+  }
+  return arms;
+}
+
+/// Draws all pieces, in coordinates of the image. Returns how many floats do not hold.
+template <class To_image>
+std::uint64_t draw(const Scene& scene, const std::vector<std::array<float, 3>>& arms, To_image to_image,
+                   depth_buffer_detail::Target& target) {
+  const auto is_finite = [](float x) { return std::fabs(x) < 0x1p120f; };  // and sixteen times that
+  depth_buffer_detail::Rasterizer rasterizer(target);
+  std::vector<depth_buffer_detail::Corner> polygon;
+  std::uint64_t not_finite = 0;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
+    polygon.clear();
+    bool finite = true;
+    for (const Piece_corner& corner : scene.corners(scene.pieces()[piece])) {
+      const std::array<float, 3> p = to_image(arms[corner.point]);
+      finite = finite && is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]);
+      polygon.push_back({p[0], p[1], p[2]});
+    }
+    if (finite) rasterizer.draw(piece, polygon);
+    else ++not_finite;
+  }
+  return not_finite;
+}
+
+}  // namespace
+
 Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Depth_buffer_options& options) {
-  if (options.size < 1 || options.size > 16384 || options.bits < 1 || options.bits > 32)
-    throw std::invalid_argument("a depth buffer has 1 to 16384 pixels a side and 1 to 32 bits");
+  check(options);
+  if (options.size < 1 || options.size > 16384)
+    throw std::invalid_argument("a depth buffer has 1 to 16384 pixels a side");
   Depth_buffer buffer;
   buffer.size = options.size;
   buffer.bits = options.bits;
@@ -154,7 +227,6 @@ Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Dept
 
   // Along an image's forward axis, nothing that it shows is nearer or farther than the box in the largest of three
   // coordinates.
-  const auto rounded = [](const Rational& x) { return static_cast<float>(nearest_double(x)); };
   double nearest = 0, farthest = 0;
   const std::array<Exact_point, 2> box = scene.box();
   for (std::size_t k = 0; k < 3; ++k) {
@@ -163,40 +235,77 @@ Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Dept
     nearest = std::max({nearest, low, -high});
     farthest = std::max({farthest, -low, high});
   }
-  if (options.far == 0) buffer.far = static_cast<float>(farthest * 1.0625);
-  if (options.near == 0) buffer.near = std::max(static_cast<float>(nearest * 0.9375), buffer.far / 4096);
-  const bool drawable =
-      buffer.near > 0 && buffer.far > buffer.near && std::isfinite(buffer.far) && std::isfinite(1 / buffer.near);
-  if (!drawable && (options.near != 0 || options.far != 0))
-    throw std::invalid_argument("a near plane is in front of the eye, and a far one behind it");
+  const Planes planes = planes_of(options, nearest, farthest);
+  buffer.near = planes.near;
+  buffer.far = planes.far;
   const std::array<float, 3> from{rounded(eye[0]), rounded(eye[1]), rounded(eye[2])};
-  if (!drawable || !std::all_of(from.begin(), from.end(), [](float x) { return std::isfinite(x); })) {
+  if (!planes.drawable || !std::all_of(from.begin(), from.end(), [](float x) { return std::isfinite(x); })) {
     buffer.not_finite = scene.pieces().size();
     return buffer;
   }
-
-  std::vector<std::array<float, 3>> points;
-  for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
-    const Exact_point at = scene.position(p);
-    points.push_back({rounded(at[0]) - from[0], rounded(at[1]) - from[1], rounded(at[2]) - from[2]});
-  }
-  const auto is_finite = [](float x) { return std::fabs(x) < 0x1p120f; };  // and sixteen times that
-  std::vector<depth_buffer_detail::Corner> polygon;
+  const std::vector<std::array<float, 3>> arms = arms_of(scene, from);
   for (std::size_t side = 0; side < cube_sides.size(); ++side) {
-    depth_buffer_detail::Rasterizer rasterizer(buffer, side);
-    for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
-      polygon.clear();
-      bool finite = true;
-      for (const Piece_corner& corner : scene.corners(scene.pieces()[piece])) {
-        const std::array<float, 3> p = cube_sides[side].turned(points[corner.point]);
-        finite = finite && is_finite(p[0]) && is_finite(p[1]) && is_finite(p[2]);
-        polygon.push_back({p[0], p[1], p[2]});
-      }
-      if (finite) rasterizer.draw(piece, polygon);
-      else if (side == 0) ++buffer.not_finite;
-    }
+    const std::size_t first = buffer.pixel(side, 0, 0);
+    depth_buffer_detail::Target target{options.size, options.size,          options.bits,         planes.near,
+                                       planes.far,   &buffer.pieces[first], &buffer.depths[first]};
+    const std::uint64_t not_finite = draw(
+        scene, arms, [&](const std::array<float, 3>& v) { return cube_sides[side].turned(v); }, target);
+    if (side == 0) buffer.not_finite = not_finite;
+    buffer.triangles += target.triangles;
+    buffer.clipped += target.clipped;
   }
   return buffer;
+}
+
+Depth_image depth_image(const Scene& scene, const Pixel_view& pixels, const Depth_buffer_options& options) {
+  check(options);
+  if (pixels.width < 1 || pixels.height < 1 || pixels.width > 16384 || pixels.height > 16384)
+    throw std::invalid_argument("a depth buffer has 1 to 16384 pixels each way");
+  Depth_image image;
+  image.image.width = pixels.width;
+  image.image.height = pixels.height;
+  const std::size_t count = std::size_t{pixels.width} * pixels.height;
+  image.image.pieces.assign(count, Piece_image::nothing);
+  if (scene.pieces().empty()) return image;
+
+  // A point is z (look + across right + upwards up) from the eye.
+  const std::array<double, 3> forth = cross(pixels.right, pixels.up), across = cross(pixels.up, pixels.look),
+                              upwards = cross(pixels.look, pixels.right);
+  const double volume = dot(pixels.look, forth);
+  if (!(std::fabs(volume) > 0) || !std::isfinite(volume))
+    throw std::invalid_argument("the directions of an image span the space");
+  const auto row = [&](const std::array<double, 3>& v) {
+    return std::array<float, 3>{static_cast<float>(v[0] / volume), static_cast<float>(v[1] / volume),
+                                static_cast<float>(v[2] / volume)};
+  };
+  const std::array<std::array<float, 3>, 3> to_image{row(across), row(upwards), row(forth)};
+  const auto turned = [&](const std::array<float, 3>& v) {
+    return std::array<float, 3>{dot(to_image[0], v), dot(to_image[1], v), dot(to_image[2], v)};
+  };
+  const std::array<float, 3> from{rounded(pixels.eye[0]), rounded(pixels.eye[1]), rounded(pixels.eye[2])};
+  const std::vector<std::array<float, 3>> arms = arms_of(scene, from);
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+  for (const std::array<float, 3>& arm : arms) {
+    const double depth = turned(arm)[2];
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  const Planes planes = planes_of(options, nearest, farthest);
+  image.near = planes.near;
+  image.far = planes.far;
+  if (!planes.drawable) {
+    image.not_finite = scene.pieces().size();
+    return image;
+  }
+  std::vector<std::uint32_t> pieces(count, Piece_image::nothing), depths(count, ~std::uint32_t{0});
+  depth_buffer_detail::Target target{pixels.width, pixels.height, options.bits, planes.near,
+                                     planes.far,   pieces.data(), depths.data()};
+  image.not_finite = draw(scene, arms, turned, target);
+  image.image.counters.drawn = target.triangles;
+  for (std::uint32_t y = 0; y < pixels.height; ++y)  // whose rows run from above
+    std::copy_n(&pieces[std::size_t{y} * pixels.width], pixels.width,
+                &image.image.pieces[image.image.pixel(0, pixels.height - 1 - y)]);
+  return image;
 }
 
 }  // namespace sightline

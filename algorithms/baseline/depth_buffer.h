@@ -1,6 +1,8 @@
 #pragma once
 // The plain depth buffer, over the whole sphere: what graphics hardware answers to "what is visible from here?".
 
+#include <sightline/algorithms/image/piece_image.h>
+#include <sightline/kernel/scene/pixel_view.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -66,5 +68,15 @@ struct Depth_buffer {
 /// those that they do not hold. Cost: O(pieces + pixels covered). Exact: no; that is its purpose. Ref: Catmull 1974, as
 /// in the slides.
 Depth_buffer depth_buffer(const Scene& scene, const Exact_point& eye, const Depth_buffer_options& options = {});
+
+struct Depth_image {
+  Piece_image image;
+  float near = 0, far = 0;
+  std::uint64_t not_finite = 0;  ///< pieces left out, because floats do not hold them
+};
+
+/// The same in one image; its size stands in the view, the options' own is not asked. Depths are along the direction
+/// that it looks in. Errors: std::invalid_argument also where its directions do not span the space.
+Depth_image depth_image(const Scene& scene, const Pixel_view& pixels, const Depth_buffer_options& options = {});
 
 }  // namespace sightline

@@ -109,6 +109,11 @@ class Exact_view {
   Approximate_eye_plane approximate(const Plane& w) const { return {{w.x, w.y, w.z}, w.size, w.error}; }
   double farthest(std::uint32_t piece, const Ray& r) const;
   Approximate_vector approximate(const Ray& r) const { return {r.x, r.y, r.z}; }
+  /// q of 1/t = q . r, for directions in the scene's grid. Infinite in size where doubles do not hold it.
+  Approximate_eye_plane nearness(std::uint32_t piece) const {
+    const Form& m = form(piece);
+    return {{m.x, m.y, m.z}, m.size, 0x1p-50 * m.size};
+  }
   double nearness(std::uint32_t piece, const Approximate_vector& direction) const {
     const Form& m = form(piece);
     return m.x * direction.x + m.y * direction.y + m.z * direction.z;

@@ -2,13 +2,6 @@
 
 namespace sightline {
 
-std::array<double, 3> Pixel_view::ray(std::uint32_t x, std::uint32_t y) const {
-  const double across = 2 * (x + 0.5) / width - 1, upwards = 1 - 2 * (y + 0.5) / height;
-  std::array<double, 3> d{};
-  for (std::size_t k = 0; k < 3; ++k) d[k] = look[k] + across * right[k] + upwards * up[k];
-  return d;
-}
-
 namespace priority_detail {
 
 Pixel_cone::Pixel_cone(const std::vector<Exact_point>& corners, const Exact_point& eye) {

@@ -8,6 +8,7 @@
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/pixel_view.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/sign.h>
 #include <sightline/kernel/vectors.h>
@@ -23,16 +24,6 @@
 #include <vector>
 
 namespace sightline {
-
-/// A pinhole image. The ray of pixel (x, y), 0-based from the top left, goes in the direction look + (2 (x + 1/2) /
-/// width - 1) right + (1 - 2 (y + 1/2) / height) up, as rounded to doubles and then taken exactly.
-struct Pixel_view {
-  Exact_point eye;
-  std::array<double, 3> look{}, right{}, up{};
-  std::uint32_t width = 0, height = 0;
-
-  std::array<double, 3> ray(std::uint32_t x, std::uint32_t y) const;
-};
 
 /// For each pixel the polygons that its ray pierces from the front, by their numbers in the relation, ascending.
 struct Pixel_sets {

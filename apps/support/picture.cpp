@@ -87,15 +87,21 @@ std::array<int, 2> Canvas_arguments::size_or(const std::array<int, 2>& usual) co
   return size.empty() ? usual : parse_size(size, "--size", least_size, most_size);
 }
 
+std::array<int, 4> rgba_of(const std::string& background) {
+  if (background == "none") return {0, 0, 0, 0};
+  if (const auto named = named_colours.find(background); named != named_colours.end())
+    return {named->second[0], named->second[1], named->second[2], 255};
+  std::array<int, 4> colour{0, 0, 0, 255};
+  for (std::size_t k = 0; k < 3; ++k)
+    colour[k] = background.size() == 4 ? 17 * std::stoi(background.substr(1 + k, 1), nullptr, 16)
+                                       : std::stoi(background.substr(1 + 2 * k, 2), nullptr, 16);
+  return colour;
+}
+
 std::string ink_on(const std::string& background) {
-  std::array<int, 3> colour{255, 255, 255};
-  if (const auto named = named_colours.find(background); named != named_colours.end()) colour = named->second;
-  else if (background != "none")
-    for (std::size_t k = 0; k < 3; ++k)
-      colour[k] = background.size() == 4 ? 17 * std::stoi(background.substr(1 + k, 1), nullptr, 16)
-                                         : std::stoi(background.substr(1 + 2 * k, 2), nullptr, 16);
+  const std::array<int, 4> colour = rgba_of(background);
   // How bright each of the three looks.
-  return 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2] > 110 ? "#000000" : "#f4f3ef";
+  return colour[3] == 0 || 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2] > 110 ? "#000000" : "#f4f3ef";
 }
 
 void View_arguments::add_to(Command command) {
@@ -288,17 +294,32 @@ Svg empty_picture(const View& view) { return {view.width, view.height, view.back
 static std::string title_of(const Drawn& item) {
   return fmt::format("face {}{}", item.fragment.face, item.side == CGAL::NEGATIVE ? ", from behind" : "");
 }
-static double hue_of(const Drawn& item) { return std::fmod(item.fragment.face * 137.50776405, 360.0); }
+static double hue_of(Face_id face) { return std::fmod(face * 137.50776405, 360.0); }
+
+/// Degrees, percent, percent.
+static std::array<double, 3> hsl_by_face(Face_id face, bool front, double shade) {
+  return {hue_of(face), front ? 45.0 : 12.0, (front ? 62 : 55) + 18 * shade};
+}
 
 Look look_by_face(const Drawn& item, double shade) {
-  const bool front = item.side == CGAL::POSITIVE;
-  return {fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue_of(item), front ? 45 : 12, (front ? 62 : 55) + 18 * shade),
-          title_of(item)};
+  const auto [hue, saturation, lightness] = hsl_by_face(item.fragment.face, item.side == CGAL::POSITIVE, shade);
+  return {fmt::format("hsl({:.0f},{:.0f}%,{:.0f}%)", hue, saturation, lightness), title_of(item)};
+}
+std::array<double, 3> colour_by_face(Face_id face, bool front, double shade) {
+  const auto [hue, saturation, lightness] = hsl_by_face(face, front, shade);
+  const double light = std::clamp(lightness / 100, 0.0, 1.0), spread = saturation / 100 * std::min(light, 1 - light);
+  std::array<double, 3> colour;
+  for (std::size_t k = 0; k < 3; ++k) {  // CSS Color 4, 7.1
+    const double at = std::fmod(std::array<double, 3>{0, 8, 4}[k] + hue / 30, 12);
+    colour[k] = 255 * (light - spread * std::max(-1.0, std::min({at - 3, 9 - at, 1.0})));
+  }
+  return colour;
 }
 Look pale_look(const Drawn& item, double shade) {
   const bool front = item.side == CGAL::POSITIVE;
-  return {fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue_of(item), front ? 30 : 6, (front ? 88 : 80) + 7 * shade),
-          title_of(item)};
+  return {
+      fmt::format("hsl({:.0f},{}%,{:.0f}%)", hue_of(item.fragment.face), front ? 30 : 6, (front ? 88 : 80) + 7 * shade),
+      title_of(item)};
 }
 
 /// The unit normal of a polygon, of whatever size: arms from its first corner are scaled before they are multiplied.
@@ -320,8 +341,16 @@ static Direction3 normal_of(const std::vector<Direction3>& corners) {
   return unit(normal);
 }
 
+static double shade_of(const std::vector<Direction3>& corners) {
+  return dot(normal_of(corners), unit({0.3, -0.5, 0.8}));
+}
+double shade_of(const std::vector<Exact_point>& corners) {
+  std::vector<Direction3> arms;
+  for (const Exact_point& p : corners) arms.push_back(difference(p, corners[0]));
+  return shade_of(arms);
+}
+
 void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines, const Look_of& look) {
-  const Direction3 light = unit({0.3, -0.5, 0.8});
   std::map<Face_id, std::size_t> polygons;  // of each face, so far
   const Axes axes = axes_of(view);
   for (const Drawn& item : drawn) {
@@ -331,7 +360,7 @@ void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool out
       corners.push_back(difference(p, view.eye));
       points.push_back(projected(view, axes, corners.back()));
     }
-    const auto [fill, title] = look(item, dot(normal_of(corners), light));
+    const auto [fill, title] = look(item, shade_of(corners));
     svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4,
                 fmt::format("face-{}-{}", item.fragment.face, ++polygons[item.fragment.face]), title);
   }

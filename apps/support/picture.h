@@ -40,6 +40,8 @@ struct Canvas_arguments {
 };
 /// The colour of words on a background: dark, or light where that is dark. Pre: one that --background takes.
 std::string ink_on(const std::string& background);
+/// Red, green, blue and opacity, each 0 to 255.
+std::array<int, 4> rgba_of(const std::string& background);
 
 /// Where one looks from, and where to.
 struct View {
@@ -96,5 +98,10 @@ Look pale_look(const Drawn& item, double shade);
 void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool outlines,
            const Look_of& look = look_by_face);
 Svg empty_picture(const View& view);
+
+/// The light of pictures on a polygon: -1 to 1.
+double shade_of(const std::vector<Exact_point>& corners);
+/// The colours of look_by_face() in red, green and blue, each 0 to 255.
+std::array<double, 3> colour_by_face(Face_id face, bool front, double shade);
 
 }  // namespace sightline::app

@@ -1,0 +1,29 @@
+#include <sightline/kernel/scene/pixel_view.h>
+
+#include <cstddef>
+
+namespace sightline {
+
+std::array<double, 3> Pixel_view::ray(std::uint32_t x, std::uint32_t y) const {
+  const double across = 2 * (x + 0.5) / width - 1, upwards = 1 - 2 * (y + 0.5) / height;
+  std::array<double, 3> d{};
+  for (std::size_t k = 0; k < 3; ++k) d[k] = look[k] + across * right[k] + upwards * up[k];
+  return d;
+}
+
+Exact_point Pixel_view::centre(std::uint32_t x, std::uint32_t y) const {
+  const auto place = [](std::uint32_t pixel, std::uint32_t count) {
+    Rational at(2 * Integer(pixel) + 1 - count, count);
+    at.canonicalize();
+    return at;
+  };
+  return direction(place(x, width), Rational(-place(y, height)));
+}
+
+Exact_point Pixel_view::direction(const Rational& across, const Rational& upwards) const {
+  Exact_point d;
+  for (std::size_t k = 0; k < 3; ++k) d[k] = exact(look[k]) + across * exact(right[k]) + upwards * exact(up[k]);
+  return d;
+}
+
+}  // namespace sightline

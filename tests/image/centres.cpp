@@ -1,0 +1,79 @@
+// What rays through pixel centres meet first, against rationals and every piece.
+
+#include "../point_visibility/oracle.h"
+#include "views.h"
+
+#include <sightline/algorithms/image/centres.h>
+
+#include <gtest/gtest.h>
+
+#include <tuple>
+
+namespace {
+
+using namespace sightline;
+using generate::Random;
+using image_test::any_view;
+using view_scenes::Family;
+
+/// What a ray meets first by the rule, and whether there was a choice.
+struct Hit {
+  std::uint32_t piece = Piece_image::nothing;
+  bool tied = false;
+};
+
+Hit brute_hit(const oracle::Flats& flats, const Exact_point& eye, const Exact_point& direction) {
+  std::optional<Rational> nearest;
+  std::vector<std::pair<std::uint32_t, int>> met;  // all at that distance; where in them
+  for (std::uint32_t i = 0; i < flats.size(); ++i) {
+    const std::optional<Rational> t = oracle::crossing(flats[i], eye, direction);
+    if (!t || (nearest && *t > *nearest)) continue;
+    const int inside = flats[i].holds(oracle::along(eye, *t, direction));
+    if (inside < 0) continue;
+    if (nearest && *t < *nearest) met.clear();
+    nearest = t;
+    met.emplace_back(i, inside);
+  }
+  if (met.empty()) return {};
+  const auto key = [&](const std::pair<std::uint32_t, int>& m) {
+    const oracle::Flat& flat = flats[m.first];
+    return std::tuple(sgn(flat.height(eye)) < 0, flat.face, flat.number);
+  };
+  const auto best = std::min_element(met.begin(), met.end(), [&](auto& a, auto& b) { return key(a) < key(b); });
+  return {best->first, met.size() > 1 || best->second == 0};
+}
+
+class Centres : public testing::TestWithParam<Family> {};
+
+TEST_P(Centres, are_those_of_brute_force) {
+  std::size_t shown = 0, tied = 0, exact = 0;
+  for (std::uint64_t seed = 0; seed < 12; ++seed)
+    for (const view_scenes::Case& made : view_scenes::make(GetParam(), seed)) {
+      const Scene scene(made.soup);
+      const oracle::Flats flats = oracle::flats_of(scene);
+      const Exact_view view(scene, made.eye);
+      Random random(seed);
+      for (int k = 0; k < 3; ++k) {
+        const Pixel_view pixels = any_view(made.soup, made.eye, random);
+        const Piece_image image = centres(view, pixels);
+        ASSERT_EQ(image.pieces.size(), std::size_t{pixels.width} * pixels.height);
+        exact += image.counters.exact_sides + image.counters.exact_depths;
+        for (std::uint32_t y = 0; y < pixels.height; ++y)
+          for (std::uint32_t x = 0; x < pixels.width; ++x) {
+            const Hit hit = brute_hit(flats, made.eye, pixels.centre(x, y));
+            ASSERT_EQ(image.pieces[image.pixel(x, y)], hit.piece)
+                << made.name << ", view " << k << ": " << x << ' ' << y;
+            ASSERT_EQ(image.tied[image.pixel(x, y)], hit.tied) << made.name << ", view " << k << ": " << x << ' ' << y;
+            shown += hit.piece != Piece_image::nothing;
+            tied += hit.tied;
+          }
+      }
+    }
+  EXPECT_GT(shown, 300u);
+  EXPECT_GT(tied, 10u);
+  EXPECT_GT(exact, 10u);
+}
+INSTANTIATE_TEST_SUITE_P(All, Centres, testing::ValuesIn(view_scenes::families),
+                         [](const auto& family) { return view_scenes::name(family.param); });
+
+}  // namespace
