@@ -1,19 +1,8 @@
 // sightline render: a picture of a scene by each method that visible surfaces are found with.
 
-#include "methods/methods.h"
-#include "support/picture.h"
+#include "methods/images.h"
 #include "support/pixels.h"
 #include "support/png.h"
-
-#include <sightline/algorithms/baseline/depth_buffer.h>
-#include <sightline/algorithms/image/centres.h>
-#include <sightline/algorithms/image/means.h>
-#include <sightline/algorithms/image/painter.h>
-#include <sightline/algorithms/point_visibility/boxes.h>
-#include <sightline/algorithms/point_visibility/exact_view.h>
-#include <sightline/algorithms/point_visibility/visible.h>
-#include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/priority/tree.h>
 
 #include <map>
 #include <optional>
@@ -29,18 +18,6 @@ struct Render_arguments {
   int bits = 24;
 };
 
-const std::vector<std::string> methods{"exact",       "centres",      "depth", "painter-min",
-                                       "painter-max", "painter-mean", "bsp",   "graph"};
-
-/// Those whose numbers one may choose.
-bool has_kernels(const std::string& method) { return method.starts_with("painter") || method == "bsp"; }
-
-Image_kernel kernel_of(const std::string& name) {
-  return name == "float"    ? Image_kernel::float_numbers
-         : name == "double" ? Image_kernel::double_numbers
-                            : Image_kernel::exact;
-}
-
 /// A picture in the making: each pixel in red, green and blue times opacity, each 0 to 255.
 struct Canvas {
   std::uint32_t width, height;
@@ -50,21 +27,21 @@ struct Canvas {
 /// The colours of pieces, as they are lit.
 std::vector<Colour> colours_of(const Exact_view& view, bool lit) {
   const Scene& scene = view.scene();
-  std::vector<Colour> colours;
+  std::vector<Colour> of_piece;
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
     const Piece& piece = scene.pieces()[i];
     std::vector<Exact_point> corners;
     for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
-    colours.push_back(colour_by_face(piece.face, view.eye_side(i) == CGAL::POSITIVE, lit ? shade_of(corners) : 0));
+    of_piece.push_back(colour_by_face(piece.face, view.eye_side(i) == CGAL::POSITIVE, lit ? shade_of(corners) : 0));
   }
-  return colours;
+  return of_piece;
 }
 
-Canvas coloured(const Piece_image& image, const std::vector<Colour>& colours) {
+Canvas coloured(const Piece_image& image, const std::vector<Colour>& of_piece) {
   Canvas canvas{image.width, image.height, std::vector<std::array<double, 4>>(image.pieces.size())};
   for (std::size_t i = 0; i < image.pieces.size(); ++i)
     if (const std::uint32_t piece = image.pieces[i]; piece != Piece_image::nothing)
-      canvas.pixels[i] = {colours[piece][0], colours[piece][1], colours[piece][2], 255};
+      canvas.pixels[i] = {of_piece[piece][0], of_piece[piece][1], of_piece[piece][2], 255};
   return canvas;
 }
 Canvas coloured(const Mean_image& image) {
@@ -91,80 +68,28 @@ std::string png_of(const Canvas& canvas, const std::string& background) {
   return png(canvas.width, canvas.height, bytes);
 }
 
-/// Fragments farthest first, by the tree in a kernel's numbers.
-std::vector<Painted_polygon> by_tree(Scene& scene, const Exact_point& eye, const std::string& kernel,
-                                     const Image_options& options, std::uint64_t seed) {
-  Task task;
-  task.eye = eye;
-  task.bsp.seed = seed;
-  task.bsp.threads = options.threads;
-  task.bsp.progress = options.progress;
-  std::vector<std::uint32_t> first(scene.counters().faces_read);  // piece of each face
-  for (std::uint32_t i = static_cast<std::uint32_t>(scene.pieces().size()); i-- > 0;) first[scene.pieces()[i].face] = i;
-  std::vector<Painted_polygon> polygons;
-  for (Drawn& drawn : run_method(kernel, scene, task).drawn)
-    polygons.push_back({first[drawn.fragment.face] + drawn.fragment.piece, std::move(drawn.fragment.vertices)});
-  return polygons;
-}
-
-/// The same by the priority graph, exactly.
-std::vector<Painted_polygon> by_graph(const Scene& scene, const Exact_point& eye, const Image_options& options) {
-  const Exact_traits traits(scene);
-  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {true, false, options.progress});
-  std::vector<Painted_polygon> polygons;
-  for (const Convex_polygon<Exact_traits>& polygon : back_to_front(traits, tree, eye, options.progress).polygons) {
-    Painted_polygon& painted = polygons.emplace_back(Painted_polygon{polygon.piece, {}});
-    for (const Corner<Exact_traits>& corner : polygon) painted.corners.push_back(traits.position(*corner.vertex));
-  }
-  return polygons;
-}
-
 /// What a method made.
 struct Rendered {
   Canvas canvas;
-  std::optional<Piece_image> pieces;
-  std::optional<Depth_image> depth;
-  double seconds = 0;
+  Image_outcome outcome;  ///< of `exact`, only its seconds
 };
 
 Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& arguments,
                 const Image_options& options) {
-  const std::string& method = arguments.method;
-  const Exact_view view(scene, pixels.eye, field_of(pixels));
-  const std::vector<Colour> colours = colours_of(view, arguments.shade == "lambert");
-  const Image_kernel kernel = kernel_of(arguments.kernel);
+  const Image_task task{arguments.method, arguments.kernel, arguments.bits, arguments.common.seed};
   Rendered rendered{};
-  const Stopwatch watch;
-  if (method == "exact") {
-    Visible_options visible;
-    visible.threads = options.threads;
-    visible.progress = options.progress;
-    const auto surface = visible_surface(view, Piece_boxes(scene), field_of_view(view), visible);
-    rendered.canvas = coloured(visible_means(
-        view, surface, pixels, [&](std::uint32_t piece) { return colours[piece]; }, options));
-    rendered.seconds = watch.seconds();
+  if (arguments.method == "exact") {
+    const Stopwatch watch;
+    const Exact_view view(scene, pixels.eye, field_of(pixels));
+    const std::vector<Colour> of_piece = colours_of(view, arguments.shade == "lambert");
+    rendered.canvas = coloured(run_means(
+        view, pixels, [&](std::uint32_t i) { return of_piece[i]; }, options));
+    rendered.outcome.seconds = watch.seconds();
     return rendered;
   }
-  if (method == "centres") {
-    rendered.pieces = centres(view, pixels, options);
-  } else if (method == "depth") {
-    Depth_buffer_options depth;
-    depth.bits = arguments.bits;
-    rendered.depth = depth_image(scene, pixels, depth);
-    rendered.pieces = std::move(rendered.depth->image);
-  } else if (method == "bsp") {
-    rendered.pieces =
-        paint(by_tree(scene, pixels.eye, arguments.kernel, options, arguments.common.seed), pixels, kernel, options);
-  } else if (method == "graph") {
-    rendered.pieces = paint(by_graph(scene, pixels.eye, options), pixels, kernel, options);
-  } else {
-    static const std::map<std::string, Painter_key> keys{{"painter-min", Painter_key::nearest},
-                                                         {"painter-max", Painter_key::farthest},
-                                                         {"painter-mean", Painter_key::mean}};
-    rendered.pieces = heedless_painter(scene, pixels, keys.at(method), kernel, options);
-  }
-  rendered.seconds = watch.seconds();
-  rendered.canvas = coloured(*rendered.pieces, colours);
+  rendered.outcome = run_image(scene, pixels, task, options);
+  const Exact_view view(scene, pixels.eye);
+  rendered.canvas = coloured(*rendered.outcome.pieces, colours_of(view, arguments.shade == "lambert"));
   return rendered;
 }
 
@@ -190,7 +115,7 @@ static Exit run(const Render_arguments& arguments) {
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
   arguments.view.check_usage();
   if (arguments.png.empty() && common.json.empty()) throw Usage_error("nothing to write: give --png, or --json");
-  if (arguments.kernel != "exact" && !has_kernels(arguments.method))
+  if (arguments.kernel != "exact" && !has_image_kernels(arguments.method))
     throw Usage_error(fmt::format("--method {} has its own numbers: leave out --kernel", arguments.method));
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
@@ -213,36 +138,36 @@ static Exit run(const Render_arguments& arguments) {
               {"width", pixels.width},
               {"height", pixels.height}};
   Json counters{{"kernel", arguments.kernel}};
-  if (rendered.pieces) {
-    const Piece_image& image = *rendered.pieces;
+  if (rendered.outcome.pieces) {
+    const Piece_image& image = *rendered.outcome.pieces;
     result["faces"] = faces_json(scene, image, shown);
     tied = static_cast<std::uint64_t>(std::count(image.tied.begin(), image.tied.end(), 1));
     append_counters(counters, image.counters);
     counters["pixels"] = shown;
     if (!image.tied.empty()) counters["tied"] = tied;
   }
-  if (rendered.depth) {
+  if (rendered.outcome.depth) {
     counters["bits"] = arguments.bits;
-    counters["near"] = rendered.depth->near;
-    counters["far"] = rendered.depth->far;
-    counters["not_finite"] = rendered.depth->not_finite;
+    counters["near"] = rendered.outcome.depth->near;
+    counters["far"] = rendered.outcome.depth->far;
+    counters["not_finite"] = rendered.outcome.depth->not_finite;
   }
-  const std::size_t faces = rendered.pieces ? result["faces"].size() : 0;
-  if (write_json(common, "render", scene, std::move(result), counters, {{"render", rendered.seconds}}))
+  const std::size_t faces = rendered.outcome.pieces ? result["faces"].size() : 0;
+  if (write_json(common, "render", scene, std::move(result), counters, {{"render", rendered.outcome.seconds}}))
     return Exit::done;
 
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
   row("picture", fmt::format("{} x {} pixels, {:.4g} degrees wide", pixels.width, pixels.height, view.field));
-  if (rendered.pieces) {
+  if (rendered.outcome.pieces) {
     row("shown",
         fmt::format("{} faces in {} pixels{}", faces, shown, tied > 0 ? fmt::format(", {} of them ties", tied) : ""));
-    const Image_counters& c = rendered.pieces->counters;
+    const Image_counters& c = rendered.outcome.pieces->counters;
     row("looked at", fmt::format("{} polygons, {} times at a centre; {} sides and {} depths by integers", c.drawn,
                                  c.centres, c.exact_sides, c.exact_depths));
   }
-  row("seconds", fmt::format("{:.4f} ({}{})", rendered.seconds, arguments.method,
-                             has_kernels(arguments.method) ? ", " + arguments.kernel : ""));
+  row("seconds", fmt::format("{:.4f} ({}{})", rendered.outcome.seconds, arguments.method,
+                             has_image_kernels(arguments.method) ? ", " + arguments.kernel : ""));
   return Exit::done;
 }
 
@@ -259,7 +184,7 @@ void add_render(Command program) {
                   "exact ray through its centre meets first; depth: a depth buffer, in floats; painter-min, "
                   "painter-max, painter-mean: faces sorted by the depth of their nearest corner, farthest corner or "
                   "corners' mean, which is often wrong; bsp, graph: painted in the orders of `sightline order`")
-      .check(one_of(methods))
+      .check(one_of(image_methods))
       .show_default();
   command.add_option("--kernel", a->kernel, "arithmetic of the painters and of bsp")
       .check(one_of({"exact", "double", "float"}))

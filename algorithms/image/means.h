@@ -30,7 +30,7 @@ std::vector<std::array<Integer, 3>> field_of(const Pixel_view& pixels);
 /// The colours of what is seen, summed over each pixel's square. Pre: the surface is that of field_of_view(view), with
 /// field_of(pixels). Errors: as centres(). Cost: parts, rows of them, and pixels that they cover in part; those covered
 /// whole cost one sum. Parallel. Exact: regions are; their corners in the image are rounded to doubles, each within
-/// 2^-30 of a pixel. Proof: P-71
+/// 2^-30 of a pixel. Proof: P-81
 Mean_image visible_means(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                          const std::function<Colour(std::uint32_t piece)>& colour, const Image_options& options = {});
 

@@ -89,16 +89,18 @@ void add_compare(Command program) {
   auto a = std::make_shared<Compare_arguments>();
   a->common.add_to(command);
   command.add_option("COMMAND", a->command, "the question")
-      .check(one_of({"order", "bsp", "see", "weak"}))
+      .check(one_of({"order", "bsp", "see", "weak", "render"}))
       .show_default();
-  command.add_option("--eye", a->eye, "the eye X,Y,Z, for order and see; by default a place outside the scene")
+  command.add_option("--eye", a->eye, "the eye X,Y,Z, for order, see and render; by default a place outside the scene")
       .check(not_empty());
-  const Option kernels = command
-                             .add_option("--kernels", a->kernels,
-                                         "which kernels, with commas; see asks all but epick, weak exact and double")
-                             .delimiter(',')
-                             .check(one_of(kernel_names))
-                             .show_default();
+  const Option kernels =
+      command
+          .add_option("--kernels", a->kernels,
+                      "which kernels, with commas; see asks all but epick, weak exact and double, render exact, "
+                      "double and float")
+          .delimiter(',')
+          .check(one_of(kernel_names))
+          .show_default();
   command.add_option("--max-fragments", a->max_fragments, "order: compare all pairs up to this many fragments")
       .check(whole_number())
       .show_default();
@@ -107,7 +109,7 @@ void add_compare(Command program) {
       .check(whole_number())
       .check(range(1, 16384))
       .show_default();
-  command.add_option("--bits", a->bits, "see: bits of their depths, with commas; 32: floats")
+  command.add_option("--bits", a->bits, "see, render: bits of their depths, with commas; 32: floats")
       .delimiter(',')
       .check(whole_number())
       .check(range(1, 32))
@@ -137,7 +139,7 @@ void add_compare(Command program) {
       .check(whole_number())
       .show_default();
   command.add_option("--svg", a->svg, "weak: plot the seconds and the errors").writes_file().check(ending(".svg"));
-  a->canvas.add_to(command, "by default 860x560");
+  a->view.add_to(command, "of what is drawn for render by default 512x512; of the plot 860x560");
   command.footer(
       "order, bsp. sides wrong: of the exact kernel's own queries, those that the kernel answers differently (asked of "
       "inexact kernels).\n"
@@ -152,10 +154,14 @@ void add_compare(Command program) {
       "weak. Faces that a method says are visible and are not, are hidden and are not, or leaves open, against lines "
       "and events together; of conservative, wrongly visible are those that it has too many.\n"
       "Example: sightline compare rooms.off weak --from \"1,1,2 1,2,2 2,2,2 2,1,2\" --rays 100,10000 --svg weak.svg\n"
+      "render. Of the pixels whose centres are no ties: wrong: those that show another face than an exact ray meets "
+      "first; missing: faces that are shown nowhere, with the most pixels of one.\n"
+      "Example: sightline compare town.off render --size 1024x1024\n"
       "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
       "not.");
   command.set_action([a, kernels] {
     a->kernels_given = kernels.given();
+    if (a->command == "render") return compare_images(*a);
     return a->command == "weak" ? compare_weak(*a) : a->command == "see" ? compare_visible(*a) : compare_orders(*a);
   });
 }

@@ -22,7 +22,7 @@ struct Compare_arguments {
   std::vector<std::size_t> rays{100, 1000, 10000, 100000};
   Weak_task weak;
   std::string svg;
-  Canvas_arguments canvas;
+  View_arguments view;
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.
@@ -39,5 +39,6 @@ Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
 Exit compare_orders(const Compare_arguments& arguments);
 Exit compare_visible(const Compare_arguments& arguments);
 Exit compare_weak(const Compare_arguments& arguments);
+Exit compare_images(const Compare_arguments& arguments);
 
 }  // namespace sightline::app

@@ -125,7 +125,7 @@ Exit compare_weak(const Compare_arguments& arguments) {
     return r["errors"]["wrongly_hidden"] == 0 && (r["method"] == "conservative" || r["errors"]["wrongly_visible"] == 0);
   });
   if (exit == Exit::done && !exact.undecided.empty()) exit = Exit::undecided;
-  if (!arguments.svg.empty()) write_file(arguments.svg, weak_plot(rows, arguments.canvas));
+  if (!arguments.svg.empty()) write_file(arguments.svg, weak_plot(rows, arguments.view.canvas));
   Json result{{"question", "weak"},
               {"visible", exact.visible.size()},
               {"hidden", exact.hidden.size()},

@@ -104,7 +104,7 @@ std::string ink_on(const std::string& background) {
   return colour[3] == 0 || 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2] > 110 ? "#000000" : "#f4f3ef";
 }
 
-void View_arguments::add_to(Command command) {
+void View_arguments::add_to(Command command, const std::string& usual) {
   command.add_option("--look", look,
                      "direction X,Y,Z of the picture; by default to the middle of what there is to see");
   command.add_option("--up", up, "up direction X,Y,Z of the picture (0,0,1)");
@@ -113,7 +113,7 @@ void View_arguments::add_to(Command command) {
                   "width of the picture's view in degrees; by default so wide that what there is to see fills the "
                   "picture, 90 where it is all around the eye")
       .check(range(1.0, 170.0) & finite_number());
-  canvas.add_to(command, "by default 960 wide, and as high as what there is to see");
+  canvas.add_to(command, usual);
 }
 
 void View_arguments::check_usage() const {

@@ -59,7 +59,8 @@ struct View_arguments {
   double field = 0;  ///< 0: so that what is shown fills the picture
   Canvas_arguments canvas;
 
-  void add_to(Command command);
+  /// `usual`: what the help says of the size where none is given.
+  void add_to(Command command, const std::string& usual = "by default 960 wide, and as high as what there is to see");
   void check_usage() const;  ///< before a long read. Errors: Usage_error
   /// Fitted to the points that are shown, or to all of the scene: what is not given of direction, field and height is
   /// such that these fill the picture but for so many pixels along its sides. Where they are all around the eye, it

@@ -4,6 +4,7 @@
 #include <sightline/harness/laws/cutset.h>
 #include <sightline/harness/laws/graph.h>
 #include <sightline/harness/laws/order.h>
+#include <sightline/harness/laws/render.h>
 #include <sightline/harness/laws/see.h>
 #include <sightline/harness/laws/subject.h>
 #include <sightline/harness/laws/weak.h>
@@ -12,6 +13,6 @@
 
 namespace sightline::harness {
 
-inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak()}; }
+inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak(), render()}; }
 
 }  // namespace sightline::harness

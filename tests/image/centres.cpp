@@ -1,9 +1,11 @@
 // What rays through pixel centres meet first, against rationals and every piece.
 
 #include "../point_visibility/oracle.h"
-#include "views.h"
+#include "../point_visibility/scenes.h"
 
 #include <sightline/algorithms/image/centres.h>
+
+#include <sightline/harness/generate/pixel_views.h>
 
 #include <gtest/gtest.h>
 
@@ -12,8 +14,8 @@
 namespace {
 
 using namespace sightline;
+using generate::any_pixel_view;
 using generate::Random;
-using image_test::any_view;
 using view_scenes::Family;
 
 /// What a ray meets first by the rule, and whether there was a choice.
@@ -54,7 +56,7 @@ TEST_P(Centres, are_those_of_brute_force) {
       const Exact_view view(scene, made.eye);
       Random random(seed);
       for (int k = 0; k < 3; ++k) {
-        const Pixel_view pixels = any_view(made.soup, made.eye, random);
+        const Pixel_view pixels = any_pixel_view(made.soup, made.eye, random);
         const Piece_image image = centres(view, pixels);
         ASSERT_EQ(image.pieces.size(), std::size_t{pixels.width} * pixels.height);
         exact += image.counters.exact_sides + image.counters.exact_depths;

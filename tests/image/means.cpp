@@ -1,18 +1,20 @@
 // Means over pixels against areas in rationals, cut from what brute force sees.
 
 #include "../point_visibility/oracle.h"
-#include "views.h"
+#include "../point_visibility/scenes.h"
 
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+
+#include <sightline/harness/generate/pixel_views.h>
 
 #include <gtest/gtest.h>
 
 namespace {
 
 using namespace sightline;
+using generate::any_pixel_view;
 using generate::Random;
-using image_test::any_view;
 using view_scenes::Family;
 
 Exact_point exactly(const std::array<double, 3>& v) { return {exact(v[0]), exact(v[1]), exact(v[2])}; }
@@ -56,7 +58,7 @@ TEST_P(Means, are_those_of_areas_in_rationals) {
     const Scene scene(made.soup);
     const oracle::Flats flats = oracle::flats_of(scene);
     Random random(seed);
-    Pixel_view pixels = any_view(made.soup, made.eye, random);
+    Pixel_view pixels = any_pixel_view(made.soup, made.eye, random);
     pixels.width = 1 + pixels.width % 5;
     pixels.height = 1 + pixels.height % 5;
     const Exact_view view(scene, made.eye, field_of(pixels));

@@ -1,0 +1,124 @@
+// compare render: every method of sightline render against exact rays through the same pixels.
+
+#include "compare.h"
+
+#include "../methods/images.h"
+#include "../support/pixels.h"
+
+#include <sightline/harness/compare/image_errors.h>
+
+#include <iostream>
+
+namespace sightline::app {
+
+static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, int threads,
+                        const Piece_image& truth) {
+  Image_options options;
+  options.threads = threads;
+  const Peak_memory memory;
+  if (task.method == "exact") {
+    const Stopwatch watch;
+    const Exact_view view(scene, pixels.eye, field_of(pixels));
+    run_means(
+        view, pixels,
+        [](std::uint32_t) {
+          return Colour{1, 1, 1};
+        },
+        options);
+    return {{"status", "done"}, {"seconds", watch.seconds()}, {"peak_bytes", memory.bytes()}};
+  }
+  const Image_outcome outcome = run_image(scene, pixels, task, options);
+  const std::uint64_t bytes = memory.bytes();
+  const Image_errors e = image_errors(scene, truth, *outcome.pieces);
+  const double asked = static_cast<double>(std::max<std::uint64_t>(1, e.pixels - e.tied));
+  return {{"status", "done"},
+          {"seconds", outcome.seconds},
+          {"peak_bytes", bytes},
+          {"errors",
+           {{"wrong", e.wrong},
+            {"wrong_share", static_cast<double>(e.wrong) / asked},
+            {"missing", e.missing},
+            {"largest_missing", e.largest_missing}}}};
+}
+
+static std::string name_of(const Json& r) {
+  std::string name = r["method"].get<std::string>();
+  if (r.contains("bits")) return fmt::format("{}, {} bit", name, r["bits"].get<int>());
+  if (has_image_kernels(name)) name += ", " + r["kernel"].get<std::string>();
+  return name;
+}
+
+static void print_images(const Json& rows) {
+  const std::string line = "{:<22} {:>8} {:>8} {:>9} {:>8} {:>8} {:>15}\n";
+  std::cout << fmt::format(fmt::runtime(line), "method", "seconds", "peak MB", "wrong", "share", "missing",
+                           "largest missing");
+  for (const Json& r : rows) {
+    if (r["status"] != "done") {
+      std::cout << fmt::format("{:<22} {}\n", name_of(r), r["status"].get<std::string>());
+      continue;
+    }
+    const auto error = [&](const char* key) {
+      return r.contains("errors") ? std::to_string(r["errors"][key].get<std::uint64_t>()) : std::string("-");
+    };
+    std::cout << fmt::format(
+        fmt::runtime(line), name_of(r), fmt::format("{:.4f}", r["seconds"].get<double>()),
+        fmt::format("{:.1f}", r["peak_bytes"].get<double>() / 1e6), error("wrong"),
+        r.contains("errors") ? fmt::format("{:.2g}", r["errors"]["wrong_share"].get<double>()) : std::string("-"),
+        error("missing"), error("largest_missing"));
+  }
+}
+
+Exit compare_images(const Compare_arguments& arguments) {
+  const Common& common = arguments.common;
+  arguments.view.check_usage();
+  if (!arguments.svg.empty()) throw Usage_error("--svg is for compare weak");
+  Scene scene(common.read());
+  const Exact_point eye = eye_of(arguments.eye, scene);
+  View_arguments of_image = arguments.view;
+  if (of_image.canvas.size.empty()) of_image.canvas.size = "512x512";
+  const Pixel_view pixels = pixel_view(aimed(of_image.view(eye, scene), scene));
+  const int threads = common.threads == 0 ? 1 : common.threads;
+
+  // What all are compared with; on one thread, since processes are made after it.
+  Image_options alone;
+  alone.threads = 1;
+  alone.progress = common.within_budget([](std::size_t, std::size_t) {});
+  const Piece_image truth = centres(Exact_view(scene, eye), pixels, alone);
+  const auto tied = static_cast<std::uint64_t>(std::count(truth.tied.begin(), truth.tied.end(), 1));
+
+  std::vector<Contestant> contestants;
+  const auto add = [&](Json name, const Image_task& task) {
+    contestants.push_back({std::move(name), [&, task] { return judge_image(scene, pixels, task, threads, truth); }});
+  };
+  for (const std::string& method : image_methods) {
+    if (method == "depth") {
+      for (const int bits : arguments.bits)
+        add({{"kernel", "float"}, {"method", method}, {"bits", bits}}, {method, "float", bits, common.seed});
+      continue;
+    }
+    for (const std::string& kernel : has_image_kernels(method) ? image_kernels : std::vector<std::string>{"exact"})
+      if (!arguments.kernels_given || kernel == "exact" ||
+          std::find(arguments.kernels.begin(), arguments.kernels.end(), kernel) != arguments.kernels.end())
+        add({{"kernel", kernel}, {"method", method}}, {method, kernel, 24, common.seed});
+  }
+  Json rows = Json::array();
+  const Exit exit = ask(contestants, common.budget, rows, [](const Json& r) {
+    return !is_true_method(r["method"]) || !r.contains("errors") || r["errors"]["wrong"] == 0;
+  });
+  if (write_json(common, "compare", scene,
+                 {{"question", "render"},
+                  {"eye", point_json(eye)},
+                  {"width", pixels.width},
+                  {"height", pixels.height},
+                  {"tied", tied},
+                  {"rows", rows}},
+                 {{"threads", threads}}, Json::object()))
+    return exit;
+  scene_rows(scene);
+  row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
+  row("picture", fmt::format("{} x {} pixels, {} ties", pixels.width, pixels.height, tied));
+  print_images(rows);
+  return exit;
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,15 @@
+#pragma once
+// Images of small degenerate scenes: across and along what is seen, through its corners, out of square.
+
+#include <sightline/harness/generate/random.h>
+#include <sightline/kernel/scene/pixel_view.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+namespace sightline::generate {
+
+/// A view of the scene from the eye, of 5 to 16 pixels each way: with dyadic directions along the axes, so that centres
+/// meet lattice points; with the middle of the image at a corner and one axis along an edge; or any. Its directions
+/// span the space, either way round. Pre: the scene has a point.
+Pixel_view any_pixel_view(const Polygon_soup& soup, const Exact_point& eye, Random& random);
+
+}  // namespace sightline::generate

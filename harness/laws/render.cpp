@@ -1,0 +1,196 @@
+#include <sightline/harness/laws/render.h>
+
+#include <sightline/algorithms/baseline/depth_buffer.h>
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/image/centres.h>
+#include <sightline/algorithms/image/means.h>
+#include <sightline/algorithms/image/painter.h>
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/harness/generate/pixel_views.h>
+#include <sightline/harness/laws/laws.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/kernel/vectors.h>
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sightline::harness {
+
+namespace render_subject {
+
+Image_options serial() {
+  Image_options options;
+  options.threads = 1;
+  return options;
+}
+
+/// A view along an axis, 90 degrees wide.
+Pixel_view cube_view(const Exact_point& eye, const Cube_side& side) {
+  Pixel_view pixels{eye, {}, {}, {}, 9, 9};
+  pixels.right[side.axis[0]] = side.sense[0];
+  pixels.up[side.axis[1]] = side.sense[1];
+  pixels.look[side.axis[2]] = side.sense[2];
+  return pixels;
+}
+
+Answer shown(const Posed_scene& posed) {
+  const Scene scene(posed.soup);
+  const Exact_view view(scene, posed.eye);
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
+  for (const Piece& piece : scene.pieces()) answer.labels[piece.face] = 0;
+  for (const Cube_side& side : cube_sides) {
+    const Piece_image image = centres(view, cube_view(posed.eye, side), serial());
+    for (std::size_t i = 0; i < image.pieces.size(); ++i)
+      if (image.pieces[i] != Piece_image::nothing && !image.tied[i])
+        answer.labels[scene.pieces()[image.pieces[i]].face] = 1;
+  }
+  return answer;
+}
+
+std::string place(const Pixel_view& pixels, std::size_t i) {
+  return "pixel " + std::to_string(i % pixels.width) + "," + std::to_string(i / pixels.width);
+}
+std::string name(std::uint32_t piece) {
+  return piece == Piece_image::nothing ? "nothing" : "piece " + std::to_string(piece);
+}
+
+/// Both show the same off ties; everywhere, where `ties` says that rules are the same.
+Outcome same(const Pixel_view& pixels, const Piece_image& truth, const Piece_image& image, const std::string& method,
+             bool ties) {
+  for (std::size_t i = 0; i < truth.pieces.size(); ++i)
+    if ((ties || !truth.tied[i]) && truth.pieces[i] != image.pieces[i])
+      return Outcome::failed(place(pixels, i) + " shows " + name(truth.pieces[i]) + " to an exact ray, " +
+                             name(image.pieces[i]) + " by " + method);
+  return {};
+}
+
+// ---- Checks, each in a view of its own
+
+/// A view with its truth.
+struct Seen {
+  Scene scene;
+  Pixel_view pixels;
+
+  Seen(const Posed_scene& posed, Random& random)
+      : scene(posed.soup), pixels(generate::any_pixel_view(posed.soup, posed.eye, random)) {}
+  Piece_image truth() const { return centres(Exact_view(scene, pixels.eye), pixels, serial()); }
+};
+
+using Image_check = Outcome (*)(const Seen&);
+
+Check check_of(const std::string& name, const std::string& what, Image_check run) {
+  return {name, what, [run](const Posed_scene& posed, const Answer&, Random& random) {
+            if (posed.soup.point_count() == 0) return Outcome::not_applicable();
+            return run(Seen(posed, random));
+          }};
+}
+
+/// The parts of `see` whose closed cone holds a centre show what it shows.
+Outcome by_parts(const Seen& seen) {
+  const Exact_view view(seen.scene, seen.pixels.eye, field_of(seen.pixels));
+  Visible_options alone;
+  alone.threads = 1;
+  const auto surface = visible_surface(view, Piece_boxes(seen.scene), field_of_view(view), alone);
+  const Piece_image truth = seen.truth();
+  std::vector<std::vector<Exact_point>> rays;
+  for (const auto& part : surface.parts) {
+    std::vector<Exact_point>& own = rays.emplace_back();
+    for (const Exact_view::Ray& ray : surface.of(part)) {
+      const std::array<Integer, 3> d = view.direction(ray);
+      own.push_back({Rational(d[0]), Rational(d[1]), Rational(d[2])});
+    }
+  }
+  for (std::size_t i = 0; i < truth.pieces.size(); ++i) {
+    if (truth.tied[i]) continue;
+    const Exact_point d = seen.pixels.centre(static_cast<std::uint32_t>(i % seen.pixels.width),
+                                             static_cast<std::uint32_t>(i / seen.pixels.width));
+    bool found = false, agrees = false;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      bool inside = true;
+      for (std::size_t r = 0; r < rays[k].size() && inside; ++r)
+        inside = sgn(dot(d, cross(rays[k][r], rays[k][r + 1 == rays[k].size() ? 0 : r + 1]))) >= 0;
+      found = found || inside;
+      agrees = agrees || (inside && surface.parts[k].piece == truth.pieces[i]);
+    }
+    if (!agrees)
+      return Outcome::failed(place(seen.pixels, i) + " shows " + name(truth.pieces[i]) + " to an exact ray, " +
+                             (found ? "and another to see" : "and is in no part of see"));
+  }
+  return {};
+}
+
+Outcome by_tree(const Seen& seen) {
+  const Exact_traits traits(seen.scene);
+  Bsp_options options;
+  options.threads = 1;
+  const auto tree = build_bsp(traits, options);
+  std::vector<Painted_polygon> polygons;
+  traverse(traits, tree, traits.eye(seen.pixels.eye), Direction::back_to_front, [&](const auto& fragment, Sign) {
+    Painted_polygon& painted = polygons.emplace_back(Painted_polygon{fragment.polygon.piece, {}});
+    for (const Corner<Exact_traits>& corner : fragment.polygon)
+      painted.corners.push_back(traits.position(*corner.vertex));
+  });
+  return same(seen.pixels, seen.truth(), paint(polygons, seen.pixels, Image_kernel::exact, serial()), "the tree",
+              false);
+}
+
+/// The means of an image are those of four pixels each in one of twice its size.
+Outcome refined(const Seen& seen) {
+  const auto means = [&](const Pixel_view& pixels) {
+    const Exact_view view(seen.scene, pixels.eye, field_of(pixels));
+    Visible_options alone;
+    alone.threads = 1;
+    const auto surface = visible_surface(view, Piece_boxes(seen.scene), field_of_view(view), alone);
+    return visible_means(
+        view, surface, pixels,
+        [](std::uint32_t piece) {
+          return Colour{piece % 2 + 1.0, piece % 3 * 1.0, 1};
+        },
+        serial());
+  };
+  Pixel_view twice = seen.pixels;
+  twice.width *= 2;
+  twice.height *= 2;
+  const Mean_image coarse = means(seen.pixels), fine = means(twice);
+  for (std::size_t i = 0; i < coarse.colours.size(); ++i) {
+    const std::size_t x = i % seen.pixels.width, y = i / seen.pixels.width;
+    if (!(coarse.covered[i] > -1e-9 && coarse.covered[i] < 1 + 1e-8))
+      return Outcome::failed(place(seen.pixels, i) + " is covered " + std::to_string(coarse.covered[i]) + " times");
+    for (std::size_t k = 0; k < 3; ++k) {
+      double sum = 0;
+      for (const std::size_t at :
+           {std::size_t{0}, std::size_t{1}, std::size_t{twice.width}, twice.width + std::size_t{1}})
+        sum += fine.colours[2 * y * twice.width + 2 * x + at][k] / 4;
+      if (!(std::fabs(sum - coarse.colours[i][k]) < 1e-7))
+        return Outcome::failed(place(seen.pixels, i) + " is not the mean of its quarters");
+    }
+  }
+  return {};
+}
+
+}  // namespace render_subject
+
+Subject render() {
+  using namespace render_subject;
+  Subject subject;
+  subject.name = "render";
+  subject.what = "images by exact rays, exact areas and orders, against each other";
+  subject.answer = shown;
+  subject.checks = {
+      check_of("see", "a pixel's centre shows what the part of see around it shows", by_parts),
+      check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_tree),
+      check_of("refine", "a pixel's mean is that of its quarters", refined),
+  };
+  add_laws(subject, {"permute", "translate", "scale", "bystander"});
+  return subject;
+}
+
+}  // namespace sightline::harness
