@@ -24,11 +24,11 @@ void count_wrong(const sightline::Scene& scene, const sightline::Pixel_view& pix
 
 TEST(Example, a_painter_by_mean_depth_paints_the_ground_over_what_stands_on_it) {
   using namespace view_scenes;
-  std::vector<Points> faces{{at(-50, -1, -1), at(50, -1, -1), at(50, 9, -1), at(-50, 9, -1)}};  // its mean is near
+  std::vector<Points> faces{{at(-50, -1, -1), at(50, -1, -1), at(50, 12, -1), at(-50, 12, -1)}};  // its mean is near
   faces.push_back({at(-1, 6, -1), at(1, 6, -1), at(1, 6, 1), at(-1, 6, 1)});
   const sightline::Scene scene(soup_of(faces));
-  const sightline::Pixel_view pixels{at(0, -2, 0), {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 16, 16};
+  const sightline::Pixel_view pixels{at(0, -2, 0), {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, 32, 32};
   std::ostringstream out;
   count_wrong(scene, pixels, out);
-  EXPECT_EQ(out.str(), "2 of 256 pixels are wrong\n");
+  EXPECT_EQ(out.str(), "4 of 1024 pixels are wrong\n");
 }

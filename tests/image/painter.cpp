@@ -19,8 +19,6 @@ using generate::any_pixel_view;
 using generate::Random;
 using view_scenes::Family;
 
-Exact_point exactly(const std::array<double, 3>& v) { return {exact(v[0]), exact(v[1]), exact(v[2])}; }
-
 /// The last in the order that holds the ray.
 std::uint32_t last_of(const std::vector<std::uint32_t>& order, const oracle::Flats& flats, const Exact_point& eye,
                       const Exact_point& direction) {
@@ -32,12 +30,13 @@ std::uint32_t last_of(const std::vector<std::uint32_t>& order, const oracle::Fla
 }
 
 std::vector<std::uint32_t> by_key(const oracle::Flats& flats, const Pixel_view& pixels, Painter_key key) {
+  const Exact_point look{exact(pixels.look[0]), exact(pixels.look[1]), exact(pixels.look[2])};
   std::vector<Rational> keys;
   for (const oracle::Flat& flat : flats) {
     std::vector<Rational> depths;
     Rational sum = 0;
     for (const Exact_point& p : flat.corners) {
-      depths.push_back(oracle::dot(oracle::minus(p, pixels.eye), exactly(pixels.look)));
+      depths.push_back(oracle::dot(oracle::minus(p, pixels.eye), look));
       sum += depths.back();
     }
     const auto [least, most] = std::minmax_element(depths.begin(), depths.end());
