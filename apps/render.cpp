@@ -9,6 +9,7 @@
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/painter.h>
+#include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
@@ -29,11 +30,13 @@ struct Render_arguments {
   int bits = 24;
 };
 
-const std::vector<std::string> methods{"exact",       "centres",      "depth", "painter-min",
-                                       "painter-max", "painter-mean", "bsp",   "graph"};
+const std::vector<std::string> methods{"exact",       "centres",      "scan-line", "depth", "painter-min",
+                                       "painter-max", "painter-mean", "bsp",       "graph"};
 
 /// Those whose numbers one may choose.
-bool has_kernels(const std::string& method) { return method.starts_with("painter") || method == "bsp"; }
+bool has_kernels(const std::string& method) {
+  return method.starts_with("painter") || method == "bsp" || method == "scan-line";
+}
 
 Image_kernel kernel_of(const std::string& name) {
   return name == "float"    ? Image_kernel::float_numbers
@@ -147,6 +150,8 @@ Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& 
   }
   if (method == "centres") {
     rendered.pieces = centres(view, pixels, options);
+  } else if (method == "scan-line") {
+    rendered.pieces = scan_line(scene, pixels, kernel, options);
   } else if (method == "depth") {
     Depth_buffer_options depth;
     depth.bits = arguments.bits;
@@ -255,13 +260,16 @@ void add_render(Command program) {
       .check(not_empty());
   command
       .add_option("--method", a->method,
-                  "exact: each pixel the mean over its square of what is seen, without samples; centres: what an "
-                  "exact ray through its centre meets first; depth: a depth buffer, in floats; painter-min, "
-                  "painter-max, painter-mean: faces sorted by the depth of their nearest corner, farthest corner or "
-                  "corners' mean, which is often wrong; bsp, graph: painted in the orders of `sightline order`")
+                  "exact: each pixel the mean over its square of what is seen, without samples; centres: what an exact "
+                  "ray through "
+                  "its centre meets first; scan-line: the same row by row, from edge to edge; depth: a depth buffer, "
+                  "in floats; painter-min, painter-max, painter-mean: "
+                  "faces sorted by the depth of their nearest corner, farthest corner or corners' mean, which is often "
+                  "wrong; bsp, "
+                  "graph: painted in the orders of `sightline order`")
       .check(one_of(methods))
       .show_default();
-  command.add_option("--kernel", a->kernel, "arithmetic of the painters and of bsp")
+  command.add_option("--kernel", a->kernel, "arithmetic of scan-line, the painters and bsp")
       .check(one_of({"exact", "double", "float"}))
       .show_default();
   command.add_option("--bits", a->bits, "of a depth: 1 to 31, or 32 for floats; for --method depth")
