@@ -10,6 +10,7 @@
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
+#include <sightline/algorithms/image/warnock.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
@@ -30,12 +31,12 @@ struct Render_arguments {
   int bits = 24;
 };
 
-const std::vector<std::string> methods{"exact",       "centres",      "scan-line", "depth", "painter-min",
-                                       "painter-max", "painter-mean", "bsp",       "graph"};
+const std::vector<std::string> methods{"exact",       "centres",     "scan-line",    "warnock", "depth",
+                                       "painter-min", "painter-max", "painter-mean", "bsp",     "graph"};
 
 /// Those whose numbers one may choose.
 bool has_kernels(const std::string& method) {
-  return method.starts_with("painter") || method == "bsp" || method == "scan-line";
+  return method.starts_with("painter") || method == "bsp" || method == "scan-line" || method == "warnock";
 }
 
 Image_kernel kernel_of(const std::string& name) {
@@ -152,6 +153,8 @@ Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& 
     rendered.pieces = centres(view, pixels, options);
   } else if (method == "scan-line") {
     rendered.pieces = scan_line(scene, pixels, kernel, options);
+  } else if (method == "warnock") {
+    rendered.pieces = warnock(scene, pixels, kernel, options);
   } else if (method == "depth") {
     Depth_buffer_options depth;
     depth.bits = arguments.bits;
@@ -262,14 +265,16 @@ void add_render(Command program) {
       .add_option("--method", a->method,
                   "exact: each pixel the mean over its square of what is seen, without samples; centres: what an exact "
                   "ray through "
-                  "its centre meets first; scan-line: the same row by row, from edge to edge; depth: a depth buffer, "
-                  "in floats; painter-min, painter-max, painter-mean: "
+                  "its centre meets first; scan-line: the same row by row, from edge to edge; warnock: the same in "
+                  "windows, each cut "
+                  "into four until one face is first in it; depth: a depth buffer, in floats; painter-min, "
+                  "painter-max, painter-mean: "
                   "faces sorted by the depth of their nearest corner, farthest corner or corners' mean, which is often "
                   "wrong; bsp, "
                   "graph: painted in the orders of `sightline order`")
       .check(one_of(methods))
       .show_default();
-  command.add_option("--kernel", a->kernel, "arithmetic of scan-line, the painters and bsp")
+  command.add_option("--kernel", a->kernel, "arithmetic of scan-line, warnock, the painters and bsp")
       .check(one_of({"exact", "double", "float"}))
       .show_default();
   command.add_option("--bits", a->bits, "of a depth: 1 to 31, or 32 for floats; for --method depth")

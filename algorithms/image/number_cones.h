@@ -54,9 +54,9 @@ class Number_image {
   Pixel_form form(const Vector_of<Number>& n) const {
     return {double(dot(n, right_)), double(dot(n, up_)), double(dot(n, look_)), 0};
   }
-  /// Whether the form is a number in all of the image.
+  /// Whether the form, and the difference of two such forms, is a number in all of the image.
   static bool is_finite(const Pixel_form& form) {
-    return std::isfinite(std::fabs(form.a) + std::fabs(form.b) + std::fabs(form.c));
+    return std::fabs(form.a) + std::fabs(form.b) + std::fabs(form.c) < 0x1p1000;
   }
 
   /// From the eye.
