@@ -1,6 +1,7 @@
 #include <sightline/algorithms/image/painter.h>
 
 #include <sightline/algorithms/image/bands.h>
+#include <sightline/algorithms/image/number_cones.h>
 #include <sightline/algorithms/image/pixel_cones.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/threads.h>
@@ -11,7 +12,6 @@
 #include <cstddef>
 #include <numeric>
 #include <span>
-#include <type_traits>
 #include <utility>
 
 namespace sightline {
@@ -19,23 +19,6 @@ namespace sightline {
 namespace image_detail {
 
 namespace {
-
-template <class Number>
-using Vector_of = std::array<Number, 3>;
-
-template <class Number>
-Number rounded(const Rational& x) {
-  if constexpr (std::is_same_v<Number, Rational>) return x;
-  else return static_cast<Number>(nearest_double(x));
-}
-template <class Number>
-Vector_of<Number> rounded(const Exact_point& p) {
-  return {rounded<Number>(p[0]), rounded<Number>(p[1]), rounded<Number>(p[2])};
-}
-template <class Number>
-Vector_of<Number> converted(const std::array<double, 3>& v) {
-  return {Number(v[0]), Number(v[1]), Number(v[2])};
-}
 
 /// A vector in doubles, as in Approximate_eye_plane; scaled, so that it is in their range.
 Approximate_eye_plane approximated(const std::array<Integer, 3>& n) {
@@ -122,38 +105,17 @@ Piece_image paint_exactly(const std::vector<Painted_polygon>& polygons, const Pi
 template <class Number>
 Piece_image paint_in(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres,
                      const Image_options& options) {
-  const Pixel_view& view = centres.view();
-  const Vector_of<Number> eye = rounded<Number>(view.eye), look = converted<Number>(view.look),
-                          right = converted<Number>(view.right), up = converted<Number>(view.up);
+  const Number_image<Number> numbers(centres.view());
+  Pixel_cones cones(centres, no_normal);
   std::vector<std::uint32_t> pieces;
-  // What is zero in these numbers is on the border.
-  Pixel_cones cones(centres, [](std::uint32_t, std::uint32_t) { return std::array<Integer, 3>{0, 0, 0}; });
-  std::uint64_t left_out = 0;
   for (const Painted_polygon& polygon : polygons) {
     std::vector<Vector_of<Number>> arms;
-    std::vector<Approximate_vector> corners;
-    bool finite = true;
-    for (const Exact_point& p : polygon.corners) {
-      arms.push_back(minus(image_detail::rounded<Number>(p), eye));
-      for (const Number x : arms.back()) finite = finite && std::isfinite(x);
-      corners.push_back({double(arms.back()[0]), double(arms.back()[1]), double(arms.back()[2])});
-    }
-    Number volume = 0;
-    for (std::size_t k = 2; k < arms.size(); ++k) volume += dot(arms[0], cross(arms[k - 1], arms[k]));
-    if (!finite || !(std::fabs(volume) > 0) || !std::isfinite(volume)) {
-      ++left_out;
-      continue;
-    }
-    cones.add(corners);
-    for (std::size_t k = 0; k < arms.size(); ++k) {
-      Vector_of<Number> n = cross(arms[k], arms[k + 1 == arms.size() ? 0 : k + 1]);
-      if (volume < 0) n = {-n[0], -n[1], -n[2]};
-      cones.add_edge({double(dot(n, right)), double(dot(n, up)), double(dot(n, look)), 0});
-    }
-    pieces.push_back(polygon.piece);
+    for (const Exact_point& p : polygon.corners) arms.push_back(numbers.arm(p));
+    if (const auto plane = numbers.plane(arms); plane && numbers.add(cones, arms, *plane))
+      pieces.push_back(polygon.piece);
   }
   Piece_image image = painted(cones, pieces, options);
-  image.counters.edge_on = left_out;
+  image.counters.edge_on = polygons.size() - pieces.size();
   return image;
 }
 

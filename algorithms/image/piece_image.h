@@ -14,6 +14,8 @@ struct Image_counters {
   std::uint64_t drawn = 0;                          ///< polygons of which some centre was looked at
   std::uint64_t centres = 0;                        ///< polygons at pixel centres
   std::uint64_t exact_sides = 0, exact_depths = 0;  ///< signs that doubles left open
+  std::uint64_t spans = 0;                          ///< of rows, in which faces were compared: scan_line
+  std::uint64_t windows = 0;                        ///< looked at: warnock
   /// Each by its key in reports.
   template <class Visit>
   static void each(Visit visit) {
@@ -22,6 +24,8 @@ struct Image_counters {
     visit("centres", &Image_counters::centres);
     visit("exact_sides", &Image_counters::exact_sides);
     visit("exact_depths", &Image_counters::exact_depths);
+    visit("spans", &Image_counters::spans);
+    visit("windows", &Image_counters::windows);
   }
 };
 

@@ -153,20 +153,45 @@ void Pixel_cones::append(const Pixel_cones& others) {
   }
 }
 
-int Pixel_cones::side(std::uint32_t cone, std::int64_t x, std::int64_t y, Image_counters& counters) const {
+Pixel_span Pixel_cones::narrowed(std::uint32_t cone, std::int64_t y) const {
   const Cone& c = cones_[cone];
-  const double across = centres_->across(x), upwards = centres_->upwards(y);
-  int least = 1;
-  for (std::uint32_t e = 0; e < c.edges; ++e) {
-    const Pixel_form& form = edges_[c.first_edge + e];
-    const double value = form.a * across + form.at_row(upwards);
-    if (value > form.bound) continue;
-    if (value < -form.bound) return -1;
-    ++counters.exact_sides;
-    const int sign = sgn(dot(exact_normal_(cone, e), centres_->exact(x, y)));
-    if (sign < 0) return -1;
-    least = std::min(least, sign);
+  const double upwards = centres_->upwards(y);
+  Pixel_span span{c.left, c.right, c.left, c.right};
+  for (const Pixel_form& form : edges(cone)) {
+    if (span.first >= span.last) break;
+    span.narrow(*centres_, form, form.at_row(upwards));
   }
+  span.last = std::max(span.first, span.last);
+  span.inner_first = std::clamp(span.inner_first, span.first, span.last);
+  span.inner_last = std::clamp(span.inner_last, span.inner_first, span.last);
+  return span;
+}
+
+Pixel_cones::Columns Pixel_cones::columns(std::uint32_t cone, std::int64_t y, Image_counters& counters) const {
+  const Pixel_span span = narrowed(cone, y);
+  const auto is_outside = [&](std::int64_t x) {
+    return (x < span.inner_first || x >= span.inner_last) && side(cone, x, y, counters) < 0;
+  };
+  Columns columns{span.first, span.last};
+  while (columns.first < columns.last && is_outside(columns.first)) ++columns.first;
+  while (columns.first < columns.last && is_outside(columns.last - 1)) --columns.last;
+  return columns;
+}
+
+int Pixel_cones::side(std::uint32_t cone, std::uint32_t edge, std::int64_t x, std::int64_t y,
+                      Image_counters& counters) const {
+  const Pixel_form& form = edges_[cones_[cone].first_edge + edge];
+  const double value = form.a * centres_->across(x) + form.at_row(centres_->upwards(y));
+  if (value > form.bound) return 1;
+  if (value < -form.bound) return -1;
+  ++counters.exact_sides;
+  return sgn(dot(exact_normal_(cone, edge), centres_->exact(x, y)));
+}
+
+int Pixel_cones::side(std::uint32_t cone, std::int64_t x, std::int64_t y, Image_counters& counters) const {
+  int least = 1;
+  for (std::uint32_t e = 0; e < cones_[cone].edges && least >= 0; ++e)
+    least = std::min(least, side(cone, e, x, y, counters));
   return least;
 }
 

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace sightline::image_detail {
@@ -100,22 +101,25 @@ class Pixel_cones {
   }
   /// Other cones behind these.
   void append(const Pixel_cones& others);
+  std::span<const Pixel_form> edges(std::uint32_t cone) const {
+    return {edges_.data() + cones_[cone].first_edge, cones_[cone].edges};
+  }
+
+  /// 1 where a centre is inside one edge, 0 on it, -1 outside. Exact: as the edges and exact_normal are.
+  int side(std::uint32_t cone, std::uint32_t edge, std::int64_t x, std::int64_t y, Image_counters& counters) const;
+  /// The columns [first, last) of the centres of row y in the closed cone. Exact: as side() is.
+  struct Columns {
+    std::int64_t first, last;
+  };
+  Columns columns(std::uint32_t cone, std::int64_t y, Image_counters& counters) const;
 
   /// visit(x, on_border) for the centres of row y in the closed cone, from left to right. Exact: as the edges and
   /// exact_normal are.
   template <class Visit>
   void row(std::uint32_t cone, std::int64_t y, Image_counters& counters, Visit visit) const {
-    const Cone& c = cones_[cone];
-    const double upwards = centres_->upwards(y);
-    Pixel_span span{c.left, c.right, c.left, c.right};
-    for (std::uint32_t e = 0; e < c.edges && span.first < span.last; ++e) {
-      const Pixel_form& form = edges_[c.first_edge + e];
-      span.narrow(*centres_, form, form.at_row(upwards));
-    }
+    const Pixel_span span = narrowed(cone, y);
     if (span.first >= span.last) return;
     counters.centres += static_cast<std::uint64_t>(span.last - span.first);
-    span.inner_first = std::clamp(span.inner_first, span.first, span.last);
-    span.inner_last = std::clamp(span.inner_last, span.inner_first, span.last);
     const auto one_by_one = [&](std::int64_t from, std::int64_t to) {
       for (std::int64_t x = from; x < to; ++x)
         if (const int inside = side(cone, x, y, counters); inside >= 0) visit(x, inside == 0);
@@ -126,6 +130,8 @@ class Pixel_cones {
   }
 
  private:
+  /// The columns of a row that doubles leave, and those of which they are sure.
+  Pixel_span narrowed(std::uint32_t cone, std::int64_t y) const;
   /// 1 inside, 0 on the border, -1 outside.
   int side(std::uint32_t cone, std::int64_t x, std::int64_t y, Image_counters& counters) const;
 

@@ -1,6 +1,8 @@
 #include "images.h"
 
 #include <sightline/algorithms/image/painter.h>
+#include <sightline/algorithms/image/scan_line.h>
+#include <sightline/algorithms/image/warnock.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/priority/eye_order.h>
@@ -11,7 +13,9 @@
 
 namespace sightline::app {
 
-bool has_image_kernels(const std::string& method) { return method.starts_with("painter") || method == "bsp"; }
+bool has_image_kernels(const std::string& method) {
+  return method.starts_with("painter") || method == "scan-line" || method == "warnock" || method == "bsp";
+}
 bool is_true_method(const std::string& method) { return !method.starts_with("painter") && method != "depth"; }
 
 static Image_kernel kernel_of(const std::string& name) {
@@ -58,6 +62,10 @@ Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task
     depth.bits = task.bits;
     outcome.depth = depth_image(scene, pixels, depth);
     outcome.pieces = std::move(outcome.depth->image);
+  } else if (task.method == "scan-line") {
+    outcome.pieces = scan_line(scene, pixels, kernel, options);
+  } else if (task.method == "warnock") {
+    outcome.pieces = warnock(scene, pixels, kernel, options);
   } else if (task.method == "bsp") {
     outcome.pieces = paint(by_tree(scene, pixels.eye, task.kernel, options, task.seed), pixels, kernel, options);
   } else if (task.method == "graph") {

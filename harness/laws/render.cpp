@@ -6,6 +6,8 @@
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/painter.h>
+#include <sightline/algorithms/image/scan_line.h>
+#include <sightline/algorithms/image/warnock.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
@@ -142,6 +144,13 @@ Outcome by_tree(const Seen& seen) {
               false);
 }
 
+/// A method that decides at centres, by the same rule where faces are tied.
+template <Piece_image (*method)(const Scene&, const Pixel_view&, Image_kernel, const Image_options&)>
+Outcome by_method(const Seen& seen) {
+  return same(seen.pixels, seen.truth(), method(seen.scene, seen.pixels, Image_kernel::exact, serial()), "the method",
+              true);
+}
+
 /// The means of an image are those of four pixels each in one of twice its size.
 Outcome refined(const Seen& seen) {
   const auto means = [&](const Pixel_view& pixels) {
@@ -187,6 +196,8 @@ Subject render() {
   subject.checks = {
       check_of("see", "a pixel's centre shows what the part of see around it shows", by_parts),
       check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_tree),
+      check_of("scan_line", "spans of rows show what exact rays do", by_method<scan_line>),
+      check_of("warnock", "windows cut into four show what exact rays do", by_method<warnock>),
       check_of("refine", "a pixel's mean is that of its quarters", refined),
   };
   add_laws(subject, {"permute", "translate", "scale", "bystander"});

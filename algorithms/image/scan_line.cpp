@@ -1,0 +1,162 @@
+#include <sightline/algorithms/image/scan_line.h>
+
+#include <sightline/algorithms/image/bands.h>
+#include <sightline/algorithms/image/image_faces.h>
+#include <sightline/kernel/threads.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sightline {
+
+namespace image_detail {
+
+namespace {
+
+/// A face in a row: its two edges there have the centres of columns [first, last) between them.
+struct Active {
+  std::uint32_t face;
+  std::int64_t first, last;
+};
+/// Columns [first, last) of a row.
+struct Span {
+  std::int64_t first, last;
+};
+
+/// One band of rows, from top to bottom.
+class Scan_line {
+ public:
+  Scan_line(const Image_faces& faces, const Band& band, Piece_image& image, Image_counters& counters)
+      : faces_(faces), cones_(faces.cones()), band_(band), image_(image), counters_(counters) {}
+
+  void draw() {
+    make_table();
+    for (std::int64_t y = band_.top; y < band_.bottom; ++y) {
+      update_active(y);
+      sort_active();
+      sweep(y);
+    }
+  }
+
+ private:
+  /// Faces by the first row that they may reach.
+  void make_table() {
+    table_.resize(static_cast<std::size_t>(band_.bottom - band_.top));
+    for (const std::uint32_t face : band_.cones) {
+      const std::int64_t first = std::max<std::int64_t>(cones_[face].top, band_.top);
+      if (first < cones_[face].bottom) table_[static_cast<std::size_t>(first - band_.top)].push_back(face);
+    }
+  }
+
+  /// Those of row y: without faces that end above it, with those that begin in it, and where their edges are there.
+  /// That is asked of the edges anew, as steps from row to row would add up their roundings.
+  void update_active(std::int64_t y) {
+    std::erase_if(active_, [&](const Active& active) { return cones_[active.face].bottom <= y; });
+    for (const std::uint32_t face : table_[static_cast<std::size_t>(y - band_.top)]) active_.push_back({face, 0, 0});
+    for (Active& active : active_) {
+      const Pixel_cones::Columns columns = cones_.columns(active.face, y, counters_);
+      active.first = columns.first;
+      active.last = columns.last;
+    }
+  }
+
+  /// From left to right, by insertion: they are nearly so from the row before.
+  void sort_active() {
+    for (std::size_t i = 1; i < active_.size(); ++i) {
+      const Active moved = active_[i];
+      std::size_t to = i;
+      for (; to > 0 && active_[to - 1].first > moved.first; --to) active_[to] = active_[to - 1];
+      active_[to] = moved;
+    }
+  }
+
+  /// Spans in which the same faces are there, from left to right.
+  void sweep(std::int64_t y) {
+    there_.clear();
+    std::size_t next = 0;
+    for (std::int64_t x = 0;;) {
+      // 1. What ends here, and what begins here.
+      std::erase_if(there_, [&](const Active& active) { return active.last <= x; });
+      if (there_.empty()) {
+        if (next == active_.size()) return;
+        x = std::max(x, active_[next].first);
+      }
+      for (; next < active_.size() && active_[next].first <= x; ++next)
+        if (active_[next].last > x) there_.push_back(active_[next]);
+      if (there_.empty()) continue;
+      // 2. Up to where something ends or begins.
+      std::int64_t last = next < active_.size() ? active_[next].first : image_.width;
+      for (const Active& active : there_) last = std::min(last, active.last);
+      show({x, last}, y);
+      x = last;
+    }
+  }
+
+  /// What is first at both ends of a span is first in all of it, as 1 / t is linear; else it is split, where the two
+  /// cross.
+  void show(const Span& whole, std::int64_t y) {
+    spans_.assign(1, whole);
+    while (!spans_.empty()) {
+      const Span span = spans_.back();
+      spans_.pop_back();
+      ++counters_.spans;
+      const std::uint32_t left = first_at(span.first, y), right = first_at(span.last - 1, y);
+      if (left == right) {
+        std::fill_n(image_.pieces.begin() + y * image_.width + span.first, span.last - span.first, faces_.piece(left));
+      } else {
+        const std::int64_t middle = crossing(left, right, span, y);
+        spans_.push_back({middle, span.last});
+        spans_.push_back({span.first, middle});
+      }
+    }
+  }
+
+  std::uint32_t first_at(std::int64_t x, std::int64_t y) {
+    if (there_.size() == 1) return there_[0].face;
+    return faces_.first_of(there_, x, y, counters_, &Active::face).face;
+  }
+
+  /// A column inside a span: about where two faces cross, or in the middle. Any would do.
+  std::int64_t crossing(std::uint32_t left, std::uint32_t right, const Span& span, std::int64_t y) const {
+    const Pixel_form &f = faces_.nearness(left), &g = faces_.nearness(right);
+    const double upwards = faces_.centres().upwards(y);
+    const double across = (g.at_row(upwards) - f.at_row(upwards)) / (f.a - g.a);
+    if (std::isfinite(across)) {
+      const std::int64_t x = faces_.centres().column(across);
+      if (span.first < x && x < span.last) return x;
+    }
+    return span.first + (span.last - span.first) / 2;
+  }
+
+  const Image_faces& faces_;
+  const Pixel_cones& cones_;
+  const Band& band_;
+  Piece_image& image_;
+  Image_counters& counters_;
+  std::vector<std::vector<std::uint32_t>> table_;  // of each row
+  std::vector<Active> active_;                     // in this row
+  std::vector<Active> there_;                      // in this span
+  std::vector<Span> spans_;                        // that are left
+};
+
+}  // namespace
+
+}  // namespace image_detail
+
+Piece_image scan_line(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel, const Image_options& options) {
+  using namespace image_detail;
+  Piece_image image;
+  run_with_threads(options.threads, [&] {
+    const Image_faces faces(scene, pixels, kernel);
+    image = faces.empty_image();
+    image.counters += draw_bands(bands_of(faces.cones()), options, [&](const Band& band, Image_counters& counters) {
+      Scan_line(faces, band, image, counters).draw();
+    });
+  });
+  return image;
+}
+
+}  // namespace sightline
