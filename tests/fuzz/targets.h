@@ -3,7 +3,9 @@
 // returns soon.
 
 #include "arcs.h"
+#include "bsp_queries.h"
 #include "certificate.h"
+#include "cutset.h"
 #include "decimal.h"
 #include "decisions.h"
 #include "event_cells.h"
@@ -58,7 +60,9 @@ inline const std::vector<Target>& targets() {
                                        {"separations", separations, {}},
                                        {"decisions", decisions, {}},
                                        {"arcs", arcs, {}},
-                                       {"planar_parts", planar_parts, {}}};
+                                       {"planar_parts", planar_parts, {}},
+                                       {"cutset", cutset, {}},
+                                       {"bsp_queries", bsp_queries, {}}};
   return all;
 }
 
