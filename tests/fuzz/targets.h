@@ -5,6 +5,7 @@
 #include "arcs.h"
 #include "bsp_queries.h"
 #include "certificate.h"
+#include "cover.h"
 #include "cutset.h"
 #include "decimal.h"
 #include "decisions.h"
@@ -21,6 +22,7 @@
 #include "scene_laws.h"
 #include "separations.h"
 #include "side.h"
+#include "text_numbers.h"
 #include "weak_claims.h"
 
 #include <filesystem>
@@ -62,7 +64,9 @@ inline const std::vector<Target>& targets() {
                                        {"arcs", arcs, {}},
                                        {"planar_parts", planar_parts, {}},
                                        {"cutset", cutset, {}},
-                                       {"bsp_queries", bsp_queries, {}}};
+                                       {"bsp_queries", bsp_queries, {}},
+                                       {"text_numbers", text_numbers, {}},
+                                       {"cover", cover, {}}};
   return all;
 }
 
