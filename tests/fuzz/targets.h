@@ -3,7 +3,10 @@
 // returns soon.
 
 #include "arcs.h"
+#include "bsp_queries.h"
 #include "certificate.h"
+#include "cover.h"
+#include "cutset.h"
 #include "decimal.h"
 #include "decisions.h"
 #include "event_cells.h"
@@ -19,6 +22,7 @@
 #include "scene_laws.h"
 #include "separations.h"
 #include "side.h"
+#include "text_numbers.h"
 #include "weak_claims.h"
 
 #include <filesystem>
@@ -58,7 +62,11 @@ inline const std::vector<Target>& targets() {
                                        {"separations", separations, {}},
                                        {"decisions", decisions, {}},
                                        {"arcs", arcs, {}},
-                                       {"planar_parts", planar_parts, {}}};
+                                       {"planar_parts", planar_parts, {}},
+                                       {"cutset", cutset, {}},
+                                       {"bsp_queries", bsp_queries, {}},
+                                       {"text_numbers", text_numbers, {}},
+                                       {"cover", cover, {}}};
   return all;
 }
 
