@@ -19,7 +19,7 @@ nlohmann-json3-dev|nlohmann/json.hpp|--json
 test_packages='
 libgtest-dev|gtest/gtest.h|tests
 librapidcheck-dev|rapidcheck.h|tests of laws on random input
-libembree-dev|embree3/rtcore.h|an adapter of judge; its tests say that they are skipped where it is missing
+libembree-dev|embree3/rtcore.h|render --method rays, and an adapter of judge; their tests say that they are skipped where it is missing
 clang-format-14|clang-format-14|a test that every file has the format of .clang-format; skipped where it is missing
 z3|z3|a second opinion on weak visibility; tests skip what needs it where it is missing
 '

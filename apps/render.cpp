@@ -1,6 +1,7 @@
 // sightline render: a picture of a scene by each method that visible surfaces are found with.
 
 #include "methods/images.h"
+#include "methods/rays.h"
 #include "support/pixels.h"
 #include "support/png.h"
 
@@ -15,7 +16,7 @@ struct Render_arguments {
   Common common;
   View_arguments view;
   std::string eye, method = "exact", kernel = "exact", png, shade = "lambert";
-  int bits = 24;
+  int bits = 24, samples = 1;
 };
 
 /// A picture in the making: each pixel in red, green and blue times opacity, each 0 to 255.
@@ -87,6 +88,16 @@ Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& 
     rendered.outcome.seconds = watch.seconds();
     return rendered;
   }
+  if (arguments.samples > 1) {
+    const std::vector<Colour> of_piece = colours_of(Exact_view(scene, pixels.eye), arguments.shade == "lambert");
+    const Stopwatch watch;
+    rendered.canvas = coloured(Traced_scene(scene, options.threads)
+                                   .means(
+                                       pixels, static_cast<unsigned>(arguments.samples),
+                                       [&](std::uint32_t i) { return of_piece[i]; }, options));
+    rendered.outcome.seconds = watch.seconds();
+    return rendered;
+  }
   rendered.outcome = run_image(scene, pixels, task, options);
   const Exact_view view(scene, pixels.eye);
   rendered.canvas = coloured(*rendered.outcome.pieces, colours_of(view, arguments.shade == "lambert"));
@@ -117,6 +128,8 @@ static Exit run(const Render_arguments& arguments) {
   if (arguments.png.empty() && common.json.empty()) throw Usage_error("nothing to write: give --png, or --json");
   if (arguments.kernel != "exact" && !has_image_kernels(arguments.method))
     throw Usage_error(fmt::format("--method {} has its own numbers: leave out --kernel", arguments.method));
+  if (arguments.samples > 1 && arguments.method != "rays")
+    throw Usage_error("--samples is for --method rays; exact shows means without samples");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = aimed(arguments.view.view(eye, scene), scene);
@@ -181,7 +194,8 @@ void add_render(Command program) {
   command
       .add_option("--method", a->method,
                   "exact: each pixel the mean over its square of what is seen, without samples; centres: what an "
-                  "exact ray through its centre meets first; depth: a depth buffer, in floats; painter-min, "
+                  "exact ray through its centre meets first; depth: a depth buffer, in floats; rays: what Embree's "
+                  "rays through centres meet, in floats; painter-min, "
                   "painter-max, painter-mean: faces sorted by the depth of their nearest corner, farthest corner or "
                   "corners' mean, which is often wrong; scan-line: row by row, from edge to edge; warnock: in windows, "
                   "each cut into four until one face is first in it; bsp, graph: painted in the orders of "
@@ -193,6 +207,9 @@ void add_render(Command program) {
       .show_default();
   command.add_option("--bits", a->bits, "of a depth: 1 to 31, or 32 for floats; for --method depth")
       .check(range(1, 32))
+      .show_default();
+  command.add_option("--samples", a->samples, "n x n rays a pixel; for --method rays")
+      .check(range(1, 64))
       .show_default();
   command.add_option("--png", a->png, "the picture").writes_file().check(ending(".png"));
   command.add_option("--shade", a->shade, "lambert: faces are lighter towards the light; none: one colour a face")

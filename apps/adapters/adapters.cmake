@@ -1,14 +1,11 @@
 # Adapters for `sightline judge`: harness/judge/README.md. Part of the top level's CMakeLists.txt, if SIGHTLINE_APPS.
 
 # Each apps/adapters/<name>.cpp is a program adapter_<name>; built by the target adapters, not by default.
-find_path(SIGHTLINE_EMBREE_INCLUDE_DIR embree3/rtcore.h)
-find_library(SIGHTLINE_EMBREE_LIBRARY embree3)
-mark_as_advanced(SIGHTLINE_EMBREE_INCLUDE_DIR SIGHTLINE_EMBREE_LIBRARY)
 add_custom_target(adapters)
 file(GLOB sources CONFIGURE_DEPENDS apps/adapters/*.cpp)
 foreach(source IN LISTS sources)
   cmake_path(GET source STEM name)
-  if(name STREQUAL weak_embree AND NOT (SIGHTLINE_EMBREE_INCLUDE_DIR AND SIGHTLINE_EMBREE_LIBRARY))
+  if(name STREQUAL weak_embree AND NOT TARGET embree)
     message(STATUS "adapter_weak_embree is left out: it needs Embree 3 (Debian: libembree-dev)")
     continue()
   endif()
@@ -16,10 +13,6 @@ foreach(source IN LISTS sources)
   target_link_libraries(adapter_${name} PRIVATE program_settings)
   add_dependencies(adapters adapter_${name})
 endforeach()
-if(TARGET adapter_weak_embree)
-  target_include_directories(adapter_weak_embree SYSTEM PRIVATE "${SIGHTLINE_EMBREE_INCLUDE_DIR}")
-  target_link_libraries(adapter_weak_embree PRIVATE "${SIGHTLINE_EMBREE_LIBRARY}")
-endif()
 
 # Two are built by a test, and judged by others: right where they should be, wrong where doubles or rays cannot know. (see_envelope, which was never seen wrong, takes a minute to compile: it is judged by hand.)
 if(NOT SIGHTLINE_TESTS)

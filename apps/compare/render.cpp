@@ -91,9 +91,14 @@ Exit compare_images(const Compare_arguments& arguments) {
     contestants.push_back({std::move(name), [&, task] { return judge_image(scene, pixels, task, threads, truth); }});
   };
   for (const std::string& method : image_methods) {
+    if (!is_built(method)) continue;
     if (method == "depth") {
       for (const int bits : arguments.bits)
         add({{"kernel", "float"}, {"method", method}, {"bits", bits}}, {method, "float", bits, common.seed});
+      continue;
+    }
+    if (method == "rays") {
+      add({{"kernel", "float"}, {"method", method}}, {method, "float", 24, common.seed});
       continue;
     }
     for (const std::string& kernel : has_image_kernels(method) ? image_kernels : std::vector<std::string>{"exact"})

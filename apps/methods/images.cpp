@@ -1,5 +1,7 @@
 #include "images.h"
 
+#include "rays.h"
+
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
@@ -16,7 +18,10 @@ namespace sightline::app {
 bool has_image_kernels(const std::string& method) {
   return method.starts_with("painter") || method == "scan-line" || method == "warnock" || method == "bsp";
 }
-bool is_true_method(const std::string& method) { return !method.starts_with("painter") && method != "depth"; }
+bool is_built(const std::string& method) { return method != "rays" || has_rays(); }
+bool is_true_method(const std::string& method) {
+  return !method.starts_with("painter") && method != "depth" && method != "rays";
+}
 
 static Image_kernel kernel_of(const std::string& name) {
   if (name == "float") return Image_kernel::float_numbers;
@@ -62,6 +67,8 @@ Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task
     depth.bits = task.bits;
     outcome.depth = depth_image(scene, pixels, depth);
     outcome.pieces = std::move(outcome.depth->image);
+  } else if (task.method == "rays") {
+    outcome.pieces = Traced_scene(scene, options.threads).image(pixels, options);
   } else if (task.method == "scan-line") {
     outcome.pieces = scan_line(scene, pixels, kernel, options);
   } else if (task.method == "warnock") {

@@ -15,12 +15,15 @@
 
 namespace sightline::app {
 
-inline const std::vector<std::string> image_methods{
-    "exact", "centres", "depth", "painter-min", "painter-max", "painter-mean", "scan-line", "warnock", "bsp", "graph"};
+inline const std::vector<std::string> image_methods{"exact",       "centres",     "depth",        "rays",
+                                                    "painter-min", "painter-max", "painter-mean", "scan-line",
+                                                    "warnock",     "bsp",         "graph"};
 inline const std::vector<std::string> image_kernels{"exact", "double", "float"};
 
 /// Whether the method may be asked in any of the kernels.
 bool has_image_kernels(const std::string& method);
+/// Whether it is part of this build.
+bool is_built(const std::string& method);
 /// Whether it claims to show the truth, where its numbers are exact.
 bool is_true_method(const std::string& method);
 

@@ -1,0 +1,38 @@
+#pragma once
+// Rays that Embree traces, in floats: what others take for the truth.
+
+#include <sightline/algorithms/image/centres.h>
+#include <sightline/algorithms/image/means.h>
+#include <sightline/algorithms/image/piece_image.h>
+#include <sightline/kernel/scene/pixel_view.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace sightline::app {
+
+/// Whether the program was built with Embree.
+bool has_rays();
+
+/// A scene's pieces in triangles, as Embree has it: corners in floats, and a hierarchy of boxes. Errors: Usage_error
+/// where the program was built without Embree.
+class Traced_scene {
+ public:
+  Traced_scene(const Scene& scene, int threads);
+  Traced_scene(Traced_scene&&) noexcept;
+  ~Traced_scene();
+
+  /// What rays through pixel centres meet first, from an eye and directions in floats.
+  Piece_image image(const Pixel_view& pixels, const Image_options& options) const;
+  /// The mean of n x n rays a pixel, through the centres of so many squares of it.
+  Mean_image means(const Pixel_view& pixels, unsigned n, const std::function<Colour(std::uint32_t piece)>& colour,
+                   const Image_options& options) const;
+
+ private:
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+};
+
+}  // namespace sightline::app
