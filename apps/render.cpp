@@ -4,6 +4,7 @@
 #include "methods/rays.h"
 #include "support/pixels.h"
 #include "support/png.h"
+#include "support/tints.h"
 
 #include <map>
 #include <optional>
@@ -15,7 +16,8 @@ namespace {
 struct Render_arguments {
   Common common;
   View_arguments view;
-  std::string eye, method = "exact", kernel = "exact", png, shade = "lambert";
+  Tint_arguments tints;
+  std::string eye, method = "exact", kernel = "exact", png;
   int bits = 24, samples = 1;
 };
 
@@ -25,24 +27,11 @@ struct Canvas {
   std::vector<std::array<double, 4>> pixels;
 };
 
-/// The colours of pieces, as they are lit.
-std::vector<Colour> colours_of(const Exact_view& view, bool lit) {
-  const Scene& scene = view.scene();
-  std::vector<Colour> of_piece;
-  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
-    const Piece& piece = scene.pieces()[i];
-    std::vector<Exact_point> corners;
-    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
-    of_piece.push_back(colour_by_face(piece.face, view.eye_side(i) == CGAL::POSITIVE, lit ? shade_of(corners) : 0));
-  }
-  return of_piece;
-}
-
-Canvas coloured(const Piece_image& image, const std::vector<Colour>& of_piece) {
+Canvas coloured(const Piece_image& image, const std::vector<Tint>& tints) {
   Canvas canvas{image.width, image.height, std::vector<std::array<double, 4>>(image.pieces.size())};
   for (std::size_t i = 0; i < image.pieces.size(); ++i)
     if (const std::uint32_t piece = image.pieces[i]; piece != Piece_image::nothing)
-      canvas.pixels[i] = {of_piece[piece][0], of_piece[piece][1], of_piece[piece][2], 255};
+      canvas.pixels[i] = {tints[piece].colour[0], tints[piece].colour[1], tints[piece].colour[2], 255};
   return canvas;
 }
 Canvas coloured(const Mean_image& image) {
@@ -50,6 +39,13 @@ Canvas coloured(const Mean_image& image) {
   for (std::size_t i = 0; i < image.colours.size(); ++i)
     canvas.pixels.push_back(
         {image.colours[i][0], image.colours[i][1], image.colours[i][2], 255 * std::min(1.0, image.covered[i])});
+  return canvas;
+}
+
+Canvas coloured(const Blended_image& image) {
+  Canvas canvas{image.width, image.height, {}};
+  for (const Layer& layer : image.layers)
+    canvas.pixels.push_back({layer.colour[0], layer.colour[1], layer.colour[2], 255 * layer.alpha});
   return canvas;
 }
 
@@ -77,30 +73,30 @@ struct Rendered {
 
 Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& arguments,
                 const Image_options& options) {
-  const Image_task task{arguments.method, arguments.kernel, arguments.bits, arguments.common.seed};
+  const std::vector<Tint> tints = tints_of(arguments.tints, arguments.common.scene, Exact_view(scene, pixels.eye));
+  const bool transparent = is_transparent(tints);
+  if (transparent && !shows_through(arguments.method))
+    throw Usage_error(
+        fmt::format("--method {} shows only what is first, and some faces let light through: take "
+                    "centres, scan-line, bsp or graph, or --alpha 1",
+                    arguments.method));
+  const auto colour = [&](std::uint32_t piece) { return tints[piece].colour; };
   Rendered rendered{};
+  const Stopwatch watch;
   if (arguments.method == "exact") {
-    const Stopwatch watch;
-    const Exact_view view(scene, pixels.eye, field_of(pixels));
-    const std::vector<Colour> of_piece = colours_of(view, arguments.shade == "lambert");
-    rendered.canvas = coloured(run_means(
-        view, pixels, [&](std::uint32_t i) { return of_piece[i]; }, options));
-    rendered.outcome.seconds = watch.seconds();
+    rendered.canvas = coloured(run_means(Exact_view(scene, pixels.eye, field_of(pixels)), pixels, colour, options));
+  } else if (arguments.samples > 1) {
+    rendered.canvas = coloured(
+        Traced_scene(scene, options.threads).means(pixels, static_cast<unsigned>(arguments.samples), colour, options));
+  } else {
+    rendered.outcome = run_image(
+        scene, pixels,
+        {arguments.method, arguments.kernel, arguments.bits, arguments.common.seed, transparent ? &tints : nullptr},
+        options);
+    rendered.canvas = transparent ? coloured(*rendered.outcome.blended) : coloured(*rendered.outcome.pieces, tints);
     return rendered;
   }
-  if (arguments.samples > 1) {
-    const std::vector<Colour> of_piece = colours_of(Exact_view(scene, pixels.eye), arguments.shade == "lambert");
-    const Stopwatch watch;
-    rendered.canvas = coloured(Traced_scene(scene, options.threads)
-                                   .means(
-                                       pixels, static_cast<unsigned>(arguments.samples),
-                                       [&](std::uint32_t i) { return of_piece[i]; }, options));
-    rendered.outcome.seconds = watch.seconds();
-    return rendered;
-  }
-  rendered.outcome = run_image(scene, pixels, task, options);
-  const Exact_view view(scene, pixels.eye);
-  rendered.canvas = coloured(*rendered.outcome.pieces, colours_of(view, arguments.shade == "lambert"));
+  rendered.outcome.seconds = watch.seconds();
   return rendered;
 }
 
@@ -154,10 +150,13 @@ static Exit run(const Render_arguments& arguments) {
   if (rendered.outcome.pieces) {
     const Piece_image& image = *rendered.outcome.pieces;
     result["faces"] = faces_json(scene, image, shown);
-    tied = static_cast<std::uint64_t>(std::count(image.tied.begin(), image.tied.end(), 1));
-    append_counters(counters, image.counters);
     counters["pixels"] = shown;
-    if (!image.tied.empty()) counters["tied"] = tied;
+  }
+  const std::vector<std::uint8_t>* ties = rendered.outcome.ties();
+  if (const Image_counters* drawn = rendered.outcome.counters()) append_counters(counters, *drawn);
+  if (ties != nullptr && !ties->empty()) {
+    tied = static_cast<std::uint64_t>(std::count(ties->begin(), ties->end(), 1));
+    counters["tied"] = tied;
   }
   if (rendered.outcome.depth) {
     counters["bits"] = arguments.bits;
@@ -175,10 +174,10 @@ static Exit run(const Render_arguments& arguments) {
   if (rendered.outcome.pieces) {
     row("shown",
         fmt::format("{} faces in {} pixels{}", faces, shown, tied > 0 ? fmt::format(", {} of them ties", tied) : ""));
-    const Image_counters& c = rendered.outcome.pieces->counters;
-    row("looked at", fmt::format("{} polygons, {} times at a centre; {} sides and {} depths by integers", c.drawn,
-                                 c.centres, c.exact_sides, c.exact_depths));
   }
+  if (const Image_counters* c = rendered.outcome.counters())
+    row("looked at", fmt::format("{} polygons, {} times at a centre; {} sides and {} depths by integers", c->drawn,
+                                 c->centres, c->exact_sides, c->exact_depths));
   row("seconds", fmt::format("{:.4f} ({}{})", rendered.outcome.seconds, arguments.method,
                              has_image_kernels(arguments.method) ? ", " + arguments.kernel : ""));
   return Exit::done;
@@ -212,9 +211,7 @@ void add_render(Command program) {
       .check(range(1, 64))
       .show_default();
   command.add_option("--png", a->png, "the picture").writes_file().check(ending(".png"));
-  command.add_option("--shade", a->shade, "lambert: faces are lighter towards the light; none: one colour a face")
-      .check(one_of({"lambert", "none"}))
-      .show_default();
+  a->tints.add_to(command);
   a->view.add_to(command);
   command.footer(
       "Example: sightline render room.off --eye 0.5,-3,1.7 --png room.png\n"

@@ -2,6 +2,7 @@
 // An image whose pixels are the means over their squares of what is seen: anti-aliased without samples.
 
 #include <sightline/algorithms/image/centres.h>
+#include <sightline/algorithms/image/colour.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/number.h>
@@ -13,9 +14,6 @@
 #include <vector>
 
 namespace sightline {
-
-/// Red, green and blue.
-using Colour = std::array<double, 3>;
 
 /// Sums over what is seen in each pixel's square, row by row from the top left.
 struct Mean_image {

@@ -33,8 +33,11 @@ Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view
 enum class Painter_key { nearest, farthest, mean };
 
 /// The scene's pieces, farthest first by the key; of equal ones in the scene's order. An order that hides the wrong
-/// faces wherever depths overlap: that is its purpose. Exact: sorting and painting are as the kernel is; the picture is
-/// not. Ref: the slides' painter.
+/// faces wherever depths overlap: that is its purpose. Exact: sorting is as the kernel is; the order is not. Ref: the
+/// slides' painter.
+std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view& pixels, Painter_key key,
+                                            Image_kernel kernel);
+/// The same, painted.
 Piece_image heedless_painter(const Scene& scene, const Pixel_view& pixels, Painter_key key, Image_kernel kernel,
                              const Image_options& options = {});
 

@@ -26,11 +26,12 @@ struct Span {
   std::int64_t first, last;
 };
 
-/// One band of rows, from top to bottom.
+/// One band of rows, from top to bottom: show(faces that are there, columns, row) for each of its spans.
+template <class Show>
 class Scan_line {
  public:
-  Scan_line(const Image_faces& faces, const Band& band, Piece_image& image, Image_counters& counters)
-      : faces_(faces), cones_(faces.cones()), band_(band), image_(image), counters_(counters) {}
+  Scan_line(const Image_faces& faces, const Band& band, Image_counters& counters, Show& show)
+      : cones_(faces.cones()), width_(faces.centres().view().width), band_(band), counters_(counters), show_(show) {}
 
   void draw() {
     make_table();
@@ -88,59 +89,130 @@ class Scan_line {
         if (active_[next].last > x) there_.push_back(active_[next]);
       if (there_.empty()) continue;
       // 2. Up to where something ends or begins.
-      std::int64_t last = next < active_.size() ? active_[next].first : image_.width;
+      std::int64_t last = next < active_.size() ? active_[next].first : width_;
       for (const Active& active : there_) last = std::min(last, active.last);
-      show({x, last}, y);
+      show_(there_, Span{x, last}, y);
       x = last;
     }
   }
 
-  /// What is first at both ends of a span is first in all of it, as 1 / t is linear; else it is split, where the two
-  /// cross.
-  void show(const Span& whole, std::int64_t y) {
+  const Pixel_cones& cones_;
+  const std::int64_t width_;
+  const Band& band_;
+  Image_counters& counters_;
+  Show& show_;
+  std::vector<std::vector<std::uint32_t>> table_;  // of each row
+  std::vector<Active> active_;                     // in this row
+  std::vector<Active> there_;                      // in this span
+};
+
+/// A column inside a span: about where two faces cross, or in the middle. Any would do.
+std::int64_t crossing(const Image_faces& faces, std::uint32_t left, std::uint32_t right, const Span& span,
+                      std::int64_t y) {
+  const Pixel_form &f = faces.nearness(left), &g = faces.nearness(right);
+  const double upwards = faces.centres().upwards(y);
+  const double across = (g.at_row(upwards) - f.at_row(upwards)) / (f.a - g.a);
+  if (std::isfinite(across)) {
+    const std::int64_t x = faces.centres().column(across);
+    if (span.first < x && x < span.last) return x;
+  }
+  return span.first + (span.last - span.first) / 2;
+}
+
+/// What is first at both ends of a span is first in all of it, as 1 / t is linear; else it is split, where the two
+/// cross.
+class Show_first {
+ public:
+  Show_first(const Image_faces& faces, Piece_image& image, Image_counters& counters)
+      : faces_(faces), image_(image), counters_(counters) {}
+
+  void operator()(const std::vector<Active>& there, const Span& whole, std::int64_t y) {
     spans_.assign(1, whole);
     while (!spans_.empty()) {
       const Span span = spans_.back();
       spans_.pop_back();
       ++counters_.spans;
-      const std::uint32_t left = first_at(span.first, y), right = first_at(span.last - 1, y);
+      const std::uint32_t left = first_at(there, span.first, y), right = first_at(there, span.last - 1, y);
       if (left == right) {
         std::fill_n(image_.pieces.begin() + y * image_.width + span.first, span.last - span.first, faces_.piece(left));
       } else {
-        const std::int64_t middle = crossing(left, right, span, y);
+        const std::int64_t middle = crossing(faces_, left, right, span, y);
         spans_.push_back({middle, span.last});
         spans_.push_back({span.first, middle});
       }
     }
   }
 
-  std::uint32_t first_at(std::int64_t x, std::int64_t y) {
-    if (there_.size() == 1) return there_[0].face;
-    return faces_.first_of(there_, x, y, counters_, &Active::face).face;
-  }
-
-  /// A column inside a span: about where two faces cross, or in the middle. Any would do.
-  std::int64_t crossing(std::uint32_t left, std::uint32_t right, const Span& span, std::int64_t y) const {
-    const Pixel_form &f = faces_.nearness(left), &g = faces_.nearness(right);
-    const double upwards = faces_.centres().upwards(y);
-    const double across = (g.at_row(upwards) - f.at_row(upwards)) / (f.a - g.a);
-    if (std::isfinite(across)) {
-      const std::int64_t x = faces_.centres().column(across);
-      if (span.first < x && x < span.last) return x;
-    }
-    return span.first + (span.last - span.first) / 2;
+ private:
+  std::uint32_t first_at(const std::vector<Active>& there, std::int64_t x, std::int64_t y) {
+    if (there.size() == 1) return there[0].face;
+    return faces_.first_of(there, x, y, counters_, &Active::face).face;
   }
 
   const Image_faces& faces_;
-  const Pixel_cones& cones_;
-  const Band& band_;
   Piece_image& image_;
   Image_counters& counters_;
-  std::vector<std::vector<std::uint32_t>> table_;  // of each row
-  std::vector<Active> active_;                     // in this row
-  std::vector<Active> there_;                      // in this span
-  std::vector<Span> spans_;                        // that are left
+  std::vector<Span> spans_;  // that are left
 };
+
+/// The same of all layers down to one that hides all: they are in one order at both ends, or the span is split.
+class Show_layers {
+ public:
+  Show_layers(const Image_faces& faces, const std::vector<Tint>& tints, Blended_image& image, Image_counters& counters)
+      : faces_(faces), tints_(tints), image_(image), counters_(counters) {}
+
+  void operator()(const std::vector<Active>& there, const Span& whole, std::int64_t y) {
+    spans_.assign(1, whole);
+    while (!spans_.empty()) {
+      const Span span = spans_.back();
+      spans_.pop_back();
+      ++counters_.spans;
+      sort_at(there, span.first, y, left_);
+      sort_at(there, span.last - 1, y, right_);
+      const auto [left, right] = std::mismatch(left_.begin(), left_.end(), right_.begin(), right_.end());
+      if (left == left_.end()) {
+        Layer layer;
+        for (const std::uint32_t face : left_) layer.put_behind(tints_[faces_.piece(face)]);
+        std::fill_n(image_.layers.begin() + y * image_.width + span.first, span.last - span.first, layer);
+      } else {
+        const std::int64_t middle = crossing(faces_, *left, *right, span, y);
+        spans_.push_back({middle, span.last});
+        spans_.push_back({span.first, middle});
+      }
+    }
+  }
+
+ private:
+  /// What is there, nearest first, up to what hides all.
+  void sort_at(const std::vector<Active>& there, std::int64_t x, std::int64_t y, std::vector<std::uint32_t>& sorted) {
+    sorted.clear();
+    for (const Active& active : there) sorted.push_back(active.face);
+    std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+      const int nearer = faces_.nearer(faces_.nearness(a, x, y), faces_.nearness(b, x, y), x, y, counters_);
+      return nearer > 0 || (nearer == 0 && faces_.before(a, b));
+    });
+    counters_.centres += sorted.size();
+    const auto hides_all = std::find_if(sorted.begin(), sorted.end(),
+                                        [&](std::uint32_t face) { return tints_[faces_.piece(face)].alpha >= 1; });
+    if (hides_all != sorted.end()) sorted.erase(hides_all + 1, sorted.end());
+  }
+
+  const Image_faces& faces_;
+  const std::vector<Tint>& tints_;
+  Blended_image& image_;
+  Image_counters& counters_;
+  std::vector<Span> spans_;                  // that are left
+  std::vector<std::uint32_t> left_, right_;  // faces at a span's ends
+};
+
+/// All bands, each shown by show_of(its counters).
+template <class Show_of>
+Image_counters draw_spans(const Image_faces& faces, const Image_options& options, Show_of show_of) {
+  return draw_bands(bands_of(faces.cones()), options, [&](const Band& band, Image_counters& counters) {
+    auto show = show_of(counters);
+    Scan_line(faces, band, counters, show).draw();
+  });
+}
 
 }  // namespace
 
@@ -152,9 +224,22 @@ Piece_image scan_line(const Scene& scene, const Pixel_view& pixels, Image_kernel
   run_with_threads(options.threads, [&] {
     const Image_faces faces(scene, pixels, kernel);
     image = faces.empty_image();
-    image.counters += draw_bands(bands_of(faces.cones()), options, [&](const Band& band, Image_counters& counters) {
-      Scan_line(faces, band, image, counters).draw();
-    });
+    image.counters +=
+        draw_spans(faces, options, [&](Image_counters& counters) { return Show_first(faces, image, counters); });
+  });
+  return image;
+}
+
+Blended_image blended_scan_line(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel,
+                                const std::vector<Tint>& tints, const Image_options& options) {
+  using namespace image_detail;
+  check_tints(tints, scene.pieces().size());
+  Blended_image image = Blended_image::empty(pixels);
+  run_with_threads(options.threads, [&] {
+    const Image_faces faces(scene, pixels, kernel);
+    image.counters = faces.empty_image().counters;
+    image.counters += draw_spans(faces, options,
+                                 [&](Image_counters& counters) { return Show_layers(faces, tints, image, counters); });
   });
   return image;
 }

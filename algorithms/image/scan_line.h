@@ -1,11 +1,14 @@
 #pragma once
 // The scan-line algorithm: row by row, from edge to edge, what is nearest between them.
 
+#include <sightline/algorithms/image/blend.h>
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/piece_image.h>
 #include <sightline/kernel/scene/pixel_view.h>
 #include <sightline/kernel/scene/scene.h>
+
+#include <vector>
 
 namespace sightline {
 
@@ -20,5 +23,11 @@ namespace sightline {
 /// 1970.
 Piece_image scan_line(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel,
                       const Image_options& options = {});
+
+/// All layers at each pixel's centre, down to one that hides all: between one edge and the next they are in one order,
+/// or the span is split where two faces cross. Pre, degenerate, errors: as blended_centres(), in a kernel's numbers.
+/// Parallel. Exact: as the kernel is; exact, it equals blended_centres(), ties too.
+Blended_image blended_scan_line(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel,
+                                const std::vector<Tint>& tints, const Image_options& options = {});
 
 }  // namespace sightline

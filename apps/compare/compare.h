@@ -4,6 +4,7 @@
 
 #include "../methods/methods.h"
 #include "../methods/weak.h"
+#include "../support/tints.h"
 
 #include <sightline/harness/compare/process_memory.h>
 
@@ -23,6 +24,7 @@ struct Compare_arguments {
   Weak_task weak;
   std::string svg;
   View_arguments view;
+  Tint_arguments tints;
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.

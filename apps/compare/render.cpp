@@ -11,8 +11,29 @@
 
 namespace sightline::app {
 
+/// What all are compared with.
+struct Image_truth {
+  Piece_image pieces;
+  std::optional<Blended_image> blended;  ///< where faces let something through
+};
+
+static Json errors_of(const Scene& scene, const Image_outcome& outcome, const Image_truth& truth) {
+  if (outcome.blended) {
+    const Colour_errors e = colour_errors(*truth.blended, *outcome.blended);
+    return {{"wrong", e.wrong},
+            {"wrong_share", static_cast<double>(e.wrong) / std::max(1.0, static_cast<double>(e.pixels - e.tied))},
+            {"largest", e.largest},
+            {"mean", e.mean}};
+  }
+  const Image_errors e = image_errors(scene, truth.pieces, *outcome.pieces);
+  return {{"wrong", e.wrong},
+          {"wrong_share", static_cast<double>(e.wrong) / std::max(1.0, static_cast<double>(e.pixels - e.tied))},
+          {"missing", e.missing},
+          {"largest_missing", e.largest_missing}};
+}
+
 static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, int threads,
-                        const Piece_image& truth) {
+                        const Image_truth& truth) {
   Image_options options;
   options.threads = threads;
   const Peak_memory memory;
@@ -29,16 +50,10 @@ static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task
   }
   const Image_outcome outcome = run_image(scene, pixels, task, options);
   const std::uint64_t bytes = memory.bytes();
-  const Image_errors e = image_errors(scene, truth, *outcome.pieces);
-  const double asked = static_cast<double>(std::max<std::uint64_t>(1, e.pixels - e.tied));
   return {{"status", "done"},
           {"seconds", outcome.seconds},
           {"peak_bytes", bytes},
-          {"errors",
-           {{"wrong", e.wrong},
-            {"wrong_share", static_cast<double>(e.wrong) / asked},
-            {"missing", e.missing},
-            {"largest_missing", e.largest_missing}}}};
+          {"errors", errors_of(scene, outcome, truth)}};
 }
 
 static std::string name_of(const Json& r) {
@@ -48,23 +63,24 @@ static std::string name_of(const Json& r) {
   return name;
 }
 
-static void print_images(const Json& rows) {
+static void print_images(const Json& rows, bool transparent) {
   const std::string line = "{:<22} {:>8} {:>8} {:>9} {:>8} {:>8} {:>15}\n";
-  std::cout << fmt::format(fmt::runtime(line), "method", "seconds", "peak MB", "wrong", "share", "missing",
-                           "largest missing");
+  std::cout << fmt::format(fmt::runtime(line), "method", "seconds", "peak MB", "wrong", "share",
+                           transparent ? "mean" : "missing", transparent ? "largest error" : "largest missing");
   for (const Json& r : rows) {
     if (r["status"] != "done") {
       std::cout << fmt::format("{:<22} {}\n", name_of(r), r["status"].get<std::string>());
       continue;
     }
     const auto error = [&](const char* key) {
-      return r.contains("errors") ? std::to_string(r["errors"][key].get<std::uint64_t>()) : std::string("-");
+      if (!r.contains("errors")) return std::string("-");
+      const Json& e = r["errors"][key];
+      return e.is_number_float() ? fmt::format("{:.2g}", e.get<double>()) : std::to_string(e.get<std::uint64_t>());
     };
-    std::cout << fmt::format(
-        fmt::runtime(line), name_of(r), fmt::format("{:.4f}", r["seconds"].get<double>()),
-        fmt::format("{:.1f}", r["peak_bytes"].get<double>() / 1e6), error("wrong"),
-        r.contains("errors") ? fmt::format("{:.2g}", r["errors"]["wrong_share"].get<double>()) : std::string("-"),
-        error("missing"), error("largest_missing"));
+    std::cout << fmt::format(fmt::runtime(line), name_of(r), fmt::format("{:.4f}", r["seconds"].get<double>()),
+                             fmt::format("{:.1f}", r["peak_bytes"].get<double>() / 1e6), error("wrong"),
+                             error("wrong_share"), error(transparent ? "mean" : "missing"),
+                             error(transparent ? "largest" : "largest_missing"));
   }
 }
 
@@ -83,16 +99,22 @@ Exit compare_images(const Compare_arguments& arguments) {
   Image_options alone;
   alone.threads = 1;
   alone.progress = common.within_budget([](std::size_t, std::size_t) {});
-  const Piece_image truth = centres(Exact_view(scene, eye), pixels, alone);
-  const auto tied = static_cast<std::uint64_t>(std::count(truth.tied.begin(), truth.tied.end(), 1));
+  const Exact_view view(scene, eye);
+  const std::vector<Tint> tints = tints_of(arguments.tints, common.scene, view);
+  const bool transparent = is_transparent(tints);
+  Image_truth truth{centres(view, pixels, alone), std::nullopt};
+  if (transparent) truth.blended = blended_centres(view, pixels, tints, alone);
+  const std::vector<std::uint8_t>& ties = transparent ? truth.blended->tied : truth.pieces.tied;
+  const auto tied = static_cast<std::uint64_t>(std::count(ties.begin(), ties.end(), 1));
 
   std::vector<Contestant> contestants;
-  const auto add = [&](Json name, const Image_task& task) {
+  const auto add = [&](Json name, Image_task task) {
+    task.tints = transparent ? &tints : nullptr;
     contestants.push_back({std::move(name), [&, task] { return judge_image(scene, pixels, task, threads, truth); }});
   };
   for (const std::string& method : image_methods) {
-    if (!is_built(method)) continue;
-    if (method == "depth") {
+    if (!is_built(method) || (transparent ? !shows_through(method) : method == "weighted")) continue;
+    if (method == "depth" || method == "weighted") {
       for (const int bits : arguments.bits)
         add({{"kernel", "float"}, {"method", method}, {"bits", bits}}, {method, "float", bits, common.seed});
       continue;
@@ -116,13 +138,14 @@ Exit compare_images(const Compare_arguments& arguments) {
                   {"width", pixels.width},
                   {"height", pixels.height},
                   {"tied", tied},
+                  {"transparent", transparent},
                   {"rows", rows}},
                  {{"threads", threads}}, Json::object()))
     return exit;
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
   row("picture", fmt::format("{} x {} pixels, {} ties", pixels.width, pixels.height, tied));
-  print_images(rows);
+  print_images(rows, transparent);
   return exit;
 }
 

@@ -2,6 +2,7 @@
 
 #include "rays.h"
 
+#include <sightline/algorithms/baseline/blended_depth.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
@@ -20,8 +21,9 @@ bool has_image_kernels(const std::string& method) {
 }
 bool is_built(const std::string& method) { return method != "rays" || has_rays(); }
 bool is_true_method(const std::string& method) {
-  return !method.starts_with("painter") && method != "depth" && method != "rays";
+  return !method.starts_with("painter") && method != "depth" && method != "rays" && method != "weighted";
 }
+bool shows_through(const std::string& method) { return method != "exact" && method != "rays" && method != "warnock"; }
 
 static Image_kernel kernel_of(const std::string& name) {
   if (name == "float") return Image_kernel::float_numbers;
@@ -56,33 +58,57 @@ static std::vector<Painted_polygon> by_graph(const Scene& scene, const Exact_poi
   return polygons;
 }
 
-Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const Image_options& options) {
+/// Polygons farthest first, by the methods that paint.
+static std::vector<Painted_polygon> painting(Scene& scene, const Pixel_view& pixels, const Image_task& task,
+                                             const Image_options& options) {
+  static const std::map<std::string, Painter_key> keys{{"painter-min", Painter_key::nearest},
+                                                       {"painter-max", Painter_key::farthest},
+                                                       {"painter-mean", Painter_key::mean}};
+  if (task.method == "bsp") return by_tree(scene, pixels.eye, task.kernel, options, task.seed);
+  if (task.method == "graph") return by_graph(scene, pixels.eye, options);
+  return heedless_order(scene, pixels, keys.at(task.method), kernel_of(task.kernel));
+}
+
+static Blended_image blended(Blended_depth&& depth, const Pixel_view& pixels) {
+  Blended_image image{pixels.width, pixels.height, std::move(depth.layers), {}, {}};
+  image.counters.drawn = depth.triangles;
+  image.counters.edge_on = depth.not_finite;
+  return image;
+}
+
+static Blended_image run_blended(Scene& scene, const Pixel_view& pixels, const Image_task& task,
+                                 const Image_options& options) {
   const Image_kernel kernel = kernel_of(task.kernel);
-  Image_outcome outcome;
-  const Stopwatch watch;
-  if (task.method == "centres") {
-    outcome.pieces = centres(Exact_view(scene, pixels.eye), pixels, options);
-  } else if (task.method == "depth") {
+  Depth_buffer_options depth;
+  depth.bits = task.bits;
+  if (task.method == "centres") return blended_centres(Exact_view(scene, pixels.eye), pixels, *task.tints, options);
+  if (task.method == "scan-line") return blended_scan_line(scene, pixels, kernel, *task.tints, options);
+  if (task.method == "depth") return blended(depth_blended(scene, pixels, *task.tints, depth), pixels);
+  if (task.method == "weighted") return blended(weighted_blended(scene, pixels, *task.tints, depth), pixels);
+  return blended_painting(painting(scene, pixels, task, options), pixels, kernel, *task.tints, options);
+}
+
+static Piece_image run_opaque(Scene& scene, const Pixel_view& pixels, const Image_task& task,
+                              const Image_options& options, std::optional<Depth_image>& depth_buffer) {
+  const Image_kernel kernel = kernel_of(task.kernel);
+  if (task.method == "centres") return centres(Exact_view(scene, pixels.eye), pixels, options);
+  if (task.method == "scan-line") return scan_line(scene, pixels, kernel, options);
+  if (task.method == "warnock") return warnock(scene, pixels, kernel, options);
+  if (task.method == "rays") return Traced_scene(scene, options.threads).image(pixels, options);
+  if (task.method == "depth" || task.method == "weighted") {
     Depth_buffer_options depth;
     depth.bits = task.bits;
-    outcome.depth = depth_image(scene, pixels, depth);
-    outcome.pieces = std::move(outcome.depth->image);
-  } else if (task.method == "rays") {
-    outcome.pieces = Traced_scene(scene, options.threads).image(pixels, options);
-  } else if (task.method == "scan-line") {
-    outcome.pieces = scan_line(scene, pixels, kernel, options);
-  } else if (task.method == "warnock") {
-    outcome.pieces = warnock(scene, pixels, kernel, options);
-  } else if (task.method == "bsp") {
-    outcome.pieces = paint(by_tree(scene, pixels.eye, task.kernel, options, task.seed), pixels, kernel, options);
-  } else if (task.method == "graph") {
-    outcome.pieces = paint(by_graph(scene, pixels.eye, options), pixels, kernel, options);
-  } else {
-    static const std::map<std::string, Painter_key> keys{{"painter-min", Painter_key::nearest},
-                                                         {"painter-max", Painter_key::farthest},
-                                                         {"painter-mean", Painter_key::mean}};
-    outcome.pieces = heedless_painter(scene, pixels, keys.at(task.method), kernel, options);
+    depth_buffer = depth_image(scene, pixels, depth);
+    return std::move(depth_buffer->image);
   }
+  return paint(painting(scene, pixels, task, options), pixels, kernel, options);
+}
+
+Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const Image_options& options) {
+  Image_outcome outcome;
+  const Stopwatch watch;
+  if (task.tints != nullptr) outcome.blended = run_blended(scene, pixels, task, options);
+  else outcome.pieces = run_opaque(scene, pixels, task, options, outcome.depth);
   outcome.seconds = watch.seconds();
   return outcome;
 }

@@ -4,6 +4,7 @@
 #include "methods.h"
 
 #include <sightline/algorithms/baseline/depth_buffer.h>
+#include <sightline/algorithms/image/blend.h>
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/piece_image.h>
@@ -16,8 +17,8 @@
 namespace sightline::app {
 
 inline const std::vector<std::string> image_methods{"exact",       "centres",     "depth",        "rays",
-                                                    "painter-min", "painter-max", "painter-mean", "scan-line",
-                                                    "warnock",     "bsp",         "graph"};
+                                                    "painter-min", "painter-max", "painter-mean", "weighted",
+                                                    "scan-line",   "warnock",     "bsp",          "graph"};
 inline const std::vector<std::string> image_kernels{"exact", "double", "float"};
 
 /// Whether the method may be asked in any of the kernels.
@@ -27,19 +28,27 @@ bool is_built(const std::string& method);
 /// Whether it claims to show the truth, where its numbers are exact.
 bool is_true_method(const std::string& method);
 
+/// Whether it shows what is behind faces that let something through.
+bool shows_through(const std::string& method);
+
 struct Image_task {
   std::string method, kernel;
   int bits;  ///< of a depth buffer
   std::uint64_t seed;
+  const std::vector<Tint>* tints = nullptr;  ///< of pieces; or all hide all
 };
 
 struct Image_outcome {
   std::optional<Piece_image> pieces;
-  std::optional<Depth_image> depth;  ///< all but its image
+  std::optional<Blended_image> blended;  ///< where there are tints
+  std::optional<Depth_image> depth;      ///< all but its image
   double seconds = 0;
+
+  const Image_counters* counters() const { return pieces ? &pieces->counters : blended ? &blended->counters : nullptr; }
+  const std::vector<std::uint8_t>* ties() const { return pieces ? &pieces->tied : blended ? &blended->tied : nullptr; }
 };
 
-/// Any method but `exact`. The scene takes no plane.
+/// Any method but `exact`; with tints one that shows through. The scene takes no plane.
 Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const Image_options& options);
 /// The method `exact`. Pre: the view has the field of the pixels.
 Mean_image run_means(const Exact_view& view, const Pixel_view& pixels,

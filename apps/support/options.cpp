@@ -21,7 +21,15 @@ Check operator&(const Check& first, const Check& second) { return made(*first.va
 
 Check one_of(const std::vector<std::string>& names) { return made(CLI::IsMember(names)); }
 Check range(int least, int most) { return made(CLI::Range(least, most)); }
-Check range(double least, double most) { return made(CLI::Range(least, most)); }
+Check range(double least, double most) {
+  const std::string name = fmt::format("FLOAT in [{} - {}]", least, most);
+  return made({[least, most, name](std::string& text) {
+                 double value = 0;
+                 const bool good = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;  // no NaN
+                 return good ? "" : fmt::format("Value {} not in range [{} - {}]", text, least, most);
+               },
+               name});
+}
 /// A check of a number, which help calls by a name.
 static Check of_number(const std::string& name, const std::string& wanted, bool (*holds)(double)) {
   return made({[wanted, holds](std::string& text) {

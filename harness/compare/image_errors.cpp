@@ -1,6 +1,7 @@
 #include <sightline/harness/compare/image_errors.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -28,6 +29,26 @@ Image_errors image_errors(const Scene& scene, const Piece_image& truth, const Pi
     ++errors.missing;
     errors.largest_missing = std::max(errors.largest_missing, pixels[f]);
   }
+  return errors;
+}
+
+Colour_errors colour_errors(const Blended_image& truth, const Blended_image& image) {
+  Colour_errors errors;
+  errors.pixels = truth.layers.size();
+  double sum = 0;
+  for (std::size_t i = 0; i < truth.layers.size(); ++i) {
+    if (truth.tied[i]) {
+      ++errors.tied;
+      continue;
+    }
+    const Layer &right = truth.layers[i], &made = image.layers[i];
+    double error = 255 * std::fabs(right.alpha - made.alpha);
+    for (std::size_t k = 0; k < 3; ++k) error = std::max(error, std::fabs(right.colour[k] - made.colour[k]));
+    errors.wrong += error > 0.5;
+    errors.largest = std::max(errors.largest, error);
+    sum += error;
+  }
+  if (errors.pixels > errors.tied) errors.mean = sum / static_cast<double>(errors.pixels - errors.tied);
   return errors;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // What an image of pieces shows that is not there.
 
+#include <sightline/algorithms/image/blend.h>
 #include <sightline/algorithms/image/piece_image.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -18,5 +19,17 @@ struct Image_errors {
 
 /// Against the truth, which says what is tied. Pre: both of one size. Exact: yes.
 Image_errors image_errors(const Scene& scene, const Piece_image& truth, const Piece_image& image);
+
+/// The same of images in which faces let through what is behind them.
+struct Colour_errors {
+  std::uint64_t pixels = 0;  ///< of the image
+  std::uint64_t tied = 0;    ///< left out: a rule had to choose
+  std::uint64_t wrong = 0;   ///< off by more than half a step of 255
+  double largest = 0,
+         mean = 0;  ///< differences of a pixel: of red, green, blue, or 255 times opacity, whichever is most
+};
+
+/// Against the truth, which says what is tied. Pre: both of one size. Exact: but for the rounding of colours.
+Colour_errors colour_errors(const Blended_image& truth, const Blended_image& image);
 
 }  // namespace sightline

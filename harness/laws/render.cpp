@@ -3,6 +3,7 @@
 #include <sightline/algorithms/baseline/depth_buffer.h>
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/image/blend.h>
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/painter.h>
@@ -129,7 +130,8 @@ Outcome by_parts(const Seen& seen) {
   return {};
 }
 
-Outcome by_tree(const Seen& seen) {
+/// The tree's fragments, farthest first.
+std::vector<Painted_polygon> tree_order(const Seen& seen) {
   const Exact_traits traits(seen.scene);
   Bsp_options options;
   options.threads = 1;
@@ -140,8 +142,12 @@ Outcome by_tree(const Seen& seen) {
     for (const Corner<Exact_traits>& corner : fragment.polygon)
       painted.corners.push_back(traits.position(*corner.vertex));
   });
-  return same(seen.pixels, seen.truth(), paint(polygons, seen.pixels, Image_kernel::exact, serial()), "the tree",
-              false);
+  return polygons;
+}
+
+Outcome by_tree(const Seen& seen) {
+  return same(seen.pixels, seen.truth(), paint(tree_order(seen), seen.pixels, Image_kernel::exact, serial()),
+              "the tree", false);
 }
 
 /// A method that decides at centres, by the same rule where faces are tied.
@@ -149,6 +155,30 @@ template <Piece_image (*method)(const Scene&, const Pixel_view&, Image_kernel, c
 Outcome by_method(const Seen& seen) {
   return same(seen.pixels, seen.truth(), method(seen.scene, seen.pixels, Image_kernel::exact, serial()), "the method",
               true);
+}
+
+/// Layers that let light through, by spans and by the tree, against those that rays meet.
+Outcome by_layers(const Seen& seen) {
+  std::vector<Tint> tints;
+  for (std::uint32_t i = 0; i < seen.scene.pieces().size(); ++i)
+    tints.push_back({{double(i % 7), double(i % 5), double(i % 3)}, i % 4 == 3 ? 1 : 0.25 * (i % 4 + 1)});
+  const Blended_image truth = blended_centres(Exact_view(seen.scene, seen.pixels.eye), seen.pixels, tints, serial());
+  const auto check = [&](const Blended_image& image, const std::string& method, bool ties) {
+    for (std::size_t i = 0; i < truth.layers.size(); ++i) {
+      if (truth.tied[i] && !ties) continue;
+      double error = std::fabs(truth.layers[i].alpha - image.layers[i].alpha);
+      for (std::size_t k = 0; k < 3; ++k)
+        error = std::max(error, std::fabs(truth.layers[i].colour[k] - image.layers[i].colour[k]));
+      if (!(error < 1e-9))
+        return Outcome::failed(place(seen.pixels, i) + " has other layers by " + method + " than on an exact ray");
+    }
+    return Outcome();
+  };
+  const Outcome spans =
+      check(blended_scan_line(seen.scene, seen.pixels, Image_kernel::exact, tints, serial()), "spans", true);
+  if (spans.state != Outcome::State::passed) return spans;
+  return check(blended_painting(tree_order(seen), seen.pixels, Image_kernel::exact, tints, serial()), "the tree",
+               false);
 }
 
 /// The means of an image are those of four pixels each in one of twice its size.
@@ -198,6 +228,7 @@ Subject render() {
       check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_tree),
       check_of("scan_line", "spans of rows show what exact rays do", by_method<scan_line>),
       check_of("warnock", "windows cut into four show what exact rays do", by_method<warnock>),
+      check_of("layers", "what lets light through is sorted as exact rays meet it", by_layers),
       check_of("refine", "a pixel's mean is that of its quarters", refined),
   };
   add_laws(subject, {"permute", "translate", "scale", "bystander"});

@@ -27,14 +27,14 @@ namespace generate = sightline::generate;
 
 using Method = Piece_image(const Scene&, const Pixel_view&, Image_kernel, const Image_options&);
 
-/// check(scene, pixels, label) for views of scenes of a family, some of them in many rows.
+/// check(scene, pixels, label) for views of scenes of a family, every third of them in many rows.
 template <class Check>
-void for_each_view(view_scenes::Family family, std::uint64_t seeds, Check check) {
+void for_each_view(view_scenes::Family family, std::uint64_t seeds, Check check, int views = 3) {
   for (std::uint64_t seed = 0; seed < seeds; ++seed)
     for (const view_scenes::Case& made : view_scenes::make(family, seed)) {
       const Scene scene(made.soup);
       Random random(seed);
-      for (int k = 0; k < 3; ++k) {
+      for (int k = 0; k < views; ++k) {
         Pixel_view pixels = generate::any_pixel_view(made.soup, made.eye, random);
         if (k == 2) {
           pixels.width = 65 + static_cast<std::uint32_t>(random.below(16));

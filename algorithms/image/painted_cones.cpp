@@ -1,0 +1,102 @@
+#include <sightline/algorithms/image/painted_cones.h>
+
+#include <sightline/algorithms/image/number_cones.h>
+#include <sightline/kernel/threads.h>
+#include <sightline/kernel/vectors.h>
+
+#include <cmath>
+#include <utility>
+
+namespace sightline::image_detail {
+
+namespace {
+
+/// A vector in doubles, as in Approximate_eye_plane; scaled, so that it is in their range.
+Approximate_eye_plane approximated(const std::array<Integer, 3>& n) {
+  const long bits = static_cast<long>(std::max({bit_length(n[0]), bit_length(n[1]), bit_length(n[2])}));
+  const auto scaled = [&](const Integer& x) {
+    long exponent = 0;
+    const double mantissa = mpz_get_d_2exp(&exponent, x.get_mpz_t());
+    return std::ldexp(mantissa, static_cast<int>(std::max(exponent - bits, -5000L)));
+  };
+  const std::array<double, 3> v{scaled(n[0]), scaled(n[1]), scaled(n[2])};
+  const double size = (std::fabs(v[0]) + std::fabs(v[1]) + std::fabs(v[2])) * (1 + 0x1p-50);
+  return {v, size, 0x1p-52 * size + 0x1p-1060};
+}
+/// The integers of the same direction.
+std::array<Integer, 3> integers(const Exact_point& v) {
+  const Integer divisor = lcm(lcm(v[0].get_den(), v[1].get_den()), v[2].get_den());
+  return {Rational(v[0] * divisor).get_num(), Rational(v[1] * divisor).get_num(), Rational(v[2] * divisor).get_num()};
+}
+
+/// The cones of polygons in exact numbers: their edges' normals, inwards.
+struct Exact_cone {
+  std::uint32_t piece;
+  std::vector<std::array<Integer, 3>> corners, normals;  // none where it is edge-on
+};
+
+Exact_cone exact_cone(const Painted_polygon& polygon, const Exact_point& eye) {
+  Exact_cone cone{polygon.piece, {}, {}};
+  std::vector<Exact_point> arms;
+  for (const Exact_point& p : polygon.corners) {
+    arms.push_back(minus(p, eye));
+    cone.corners.push_back(integers(arms.back()));
+  }
+  // A convex polygon has no three corners on a line next to each other, but for those of cuts.
+  int sense = 0;
+  for (std::size_t k = 2; k < arms.size() && sense == 0; ++k) sense = sgn(dot(arms[0], cross(arms[k - 1], arms[k])));
+  if (sense == 0) return {polygon.piece, {}, {}};
+  for (std::size_t k = 0; k < arms.size(); ++k) {
+    cone.normals.push_back(cross(cone.corners[k], cone.corners[k + 1 == arms.size() ? 0 : k + 1]));
+    if (sense < 0)
+      for (Integer& x : cone.normals.back()) x = -x;
+  }
+  return cone;
+}
+
+}  // namespace
+
+Painted_cones::Painted_cones(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres,
+                             Image_kernel kernel)
+    : cones_(centres, no_normal) {
+  switch (kernel) {
+    case Image_kernel::float_numbers: add_in<float>(polygons); break;
+    case Image_kernel::double_numbers: add_in<double>(polygons); break;
+    case Image_kernel::exact: add_exactly(polygons); break;
+  }
+  left_out_ = polygons.size() - pieces_.size();
+}
+
+void Painted_cones::add_exactly(const std::vector<Painted_polygon>& polygons) {
+  const Pixel_centres& centres = cones_.centres();
+  std::vector<Exact_cone> exact(polygons.size());
+  parallel_for(polygons.size(), [&](std::size_t i) { exact[i] = exact_cone(polygons[i], centres.view().eye); });
+  std::erase_if(exact, [](const Exact_cone& cone) { return cone.normals.empty(); });
+  for (Exact_cone& cone : exact) {
+    pieces_.push_back(cone.piece);
+    normals_.push_back(std::move(cone.normals));
+  }
+  const auto normal = [this](std::uint32_t cone, std::uint32_t edge) { return normals_[cone][edge]; };
+  cones_ = all_cones(exact.size(), Pixel_cones(centres, normal), [&](Pixel_cones& to, std::size_t i) {
+    std::vector<Approximate_vector> corners;
+    for (const auto& corner : exact[i].corners) {
+      const std::array<double, 3> v = approximated(corner).normal;
+      corners.push_back({v[0], v[1], v[2]});
+    }
+    to.add(corners);
+    for (const auto& n : normals_[i]) to.add_edge(Pixel_form(centres, approximated(n)));
+  });
+}
+
+template <class Number>
+void Painted_cones::add_in(const std::vector<Painted_polygon>& polygons) {
+  const Number_image<Number> numbers(cones_.centres().view());
+  for (const Painted_polygon& polygon : polygons) {
+    std::vector<Vector_of<Number>> arms;
+    for (const Exact_point& p : polygon.corners) arms.push_back(numbers.arm(p));
+    if (const auto plane = numbers.plane(arms); plane && numbers.add(cones_, arms, *plane))
+      pieces_.push_back(polygon.piece);
+  }
+}
+
+}  // namespace sightline::image_detail

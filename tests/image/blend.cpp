@@ -1,0 +1,192 @@
+// Layers at pixel centres, against all that exact rays meet, in rationals; by spans, by the tree, and as hardware does.
+
+#include "same_images.h"
+
+#include "../point_visibility/oracle.h"
+
+#include <sightline/algorithms/baseline/blended_depth.h>
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/image/blend.h>
+#include <sightline/algorithms/image/scan_line.h>
+#include <sightline/harness/compare/image_errors.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <tuple>
+
+namespace {
+
+using namespace sightline;
+using generate::Random;
+using view_scenes::Family;
+
+std::vector<Tint> any_tints(std::size_t pieces, Random& random) {
+  std::vector<Tint> tints;
+  for (std::size_t i = 0; i < pieces; ++i) {
+    Tint& tint = tints.emplace_back();
+    for (double& c : tint.colour) c = static_cast<double>(random.below(256));
+    tint.alpha = std::array<double, 5>{0, 0.25, 0.5, 0.75, 1}[random.below(5)];
+  }
+  return tints;
+}
+
+/// All layers that a ray meets, up to one that hides all.
+struct Stack {
+  Layer layer;
+  bool tied = false;
+};
+
+Stack brute_stack(const oracle::Flats& flats, const Exact_point& eye, const Exact_point& direction,
+                  const std::vector<Tint>& tints) {
+  struct Hit {
+    Rational t;
+    std::tuple<bool, Face_id, std::uint32_t> rank;
+    std::uint32_t piece;
+    bool on_border;
+  };
+  std::vector<Hit> hits;
+  for (std::uint32_t i = 0; i < flats.size(); ++i)
+    if (const std::optional<Rational> t = oracle::crossing(flats[i], eye, direction))
+      if (const int inside = flats[i].holds(oracle::along(eye, *t, direction)); inside >= 0)
+        hits.push_back({*t, {sgn(flats[i].height(eye)) < 0, flats[i].face, flats[i].number}, i, inside == 0});
+  std::sort(hits.begin(), hits.end(),
+            [](const Hit& a, const Hit& b) { return std::tie(a.t, a.rank) < std::tie(b.t, b.rank); });
+  Stack stack;
+  for (std::size_t k = 0; k < hits.size(); ++k) {
+    const bool shared = (k > 0 && hits[k - 1].t == hits[k].t) || (k + 1 < hits.size() && hits[k + 1].t == hits[k].t);
+    stack.tied = stack.tied || hits[k].on_border || shared;
+    stack.layer.put_behind(tints[hits[k].piece]);
+    if (tints[hits[k].piece].alpha == 1) break;
+  }
+  return stack;
+}
+
+bool same(const Layer& a, const Layer& b, double within) {
+  double most = 255 * std::fabs(a.alpha - b.alpha);
+  for (std::size_t k = 0; k < 3; ++k) most = std::max(most, std::fabs(a.colour[k] - b.colour[k]));
+  return most <= within;
+}
+
+std::vector<Painted_polygon> by_tree(const Scene& scene, const Exact_point& eye) {
+  const Exact_traits traits(scene);
+  const auto tree = build_bsp(traits);
+  std::vector<Painted_polygon> polygons;
+  traverse(traits, tree, traits.eye(eye), Direction::back_to_front, [&](const auto& fragment, Sign) {
+    Painted_polygon& painted = polygons.emplace_back(Painted_polygon{fragment.polygon.piece, {}});
+    for (const Corner<Exact_traits>& corner : fragment.polygon)
+      painted.corners.push_back(traits.position(*corner.vertex));
+  });
+  return polygons;
+}
+
+class Blend : public testing::TestWithParam<Family> {};
+
+TEST_P(Blend, layers_are_what_rays_meet) {
+  std::size_t deep = 0, tied = 0;
+  image_test::for_each_view(
+      GetParam(), 6,
+      [&](const Scene& scene, const Pixel_view& pixels, const std::string& label) {
+        const oracle::Flats flats = oracle::flats_of(scene);
+        Random random(flats.size());
+        const std::vector<Tint> tints = any_tints(flats.size(), random);
+        const Exact_view view(scene, pixels.eye);
+        const Blended_image image = blended_centres(view, pixels, tints, {.threads = 1});
+        const Blended_image spans = blended_scan_line(scene, pixels, Image_kernel::exact, tints);
+        const Blended_image painted = blended_painting(by_tree(scene, pixels.eye), pixels, Image_kernel::exact, tints);
+        for (std::size_t i = 0; i < image.layers.size(); ++i) {
+          const Exact_point d =
+              pixels.centre(static_cast<std::uint32_t>(i % pixels.width), static_cast<std::uint32_t>(i / pixels.width));
+          const Stack stack = brute_stack(flats, pixels.eye, d, tints);
+          ASSERT_TRUE(same(image.layers[i], stack.layer, 0)) << label << ", pixel " << i;
+          ASSERT_EQ(image.tied[i], stack.tied) << label << ", pixel " << i;
+          ASSERT_TRUE(same(spans.layers[i], stack.layer, 0)) << label << ", pixel " << i;
+          if (!stack.tied) {
+            ASSERT_TRUE(same(painted.layers[i], stack.layer, 1e-9)) << label << ", pixel " << i;
+          }
+          deep += stack.layer.alpha > 0 && stack.layer.alpha < 1;
+          tied += stack.tied;
+        }
+        EXPECT_EQ(colour_errors(image, spans).wrong, 0u);
+        const Blended_image again = blended_centres(view, pixels, tints, {.threads = 4});
+        EXPECT_TRUE(std::equal(again.layers.begin(), again.layers.end(), image.layers.begin(),
+                               [](const Layer& a, const Layer& b) { return same(a, b, 0); }));
+        // What hides all makes the image of what is first.
+        const std::vector<Tint> opaque(flats.size(), Tint{{1, 2, 3}, 1});
+        const Piece_image first = centres(view, pixels);
+        const Blended_image solid = blended_centres(view, pixels, opaque);
+        EXPECT_EQ(solid.tied, first.tied);
+        for (std::size_t i = 0; i < first.pieces.size(); ++i)
+          EXPECT_EQ(solid.layers[i].alpha, first.pieces[i] == Piece_image::nothing ? 0 : 1);
+      },
+      2);
+  EXPECT_GT(deep, 5u);
+  EXPECT_GT(tied, 5u);
+}
+INSTANTIATE_TEST_SUITE_P(All, Blend, testing::ValuesIn(view_scenes::families),
+                         [](const auto& family) { return view_scenes::name(family.param); });
+
+/// Three squares behind one another, drawn in their order: far, near, middle.
+struct Panes {
+  Scene scene{view_scenes::soup_of({view_scenes::rectangle(-9, 9, -9, 9, -8), view_scenes::rectangle(-9, 9, -9, 9, -2),
+                                    view_scenes::rectangle(-9, 9, -9, 9, -4)})};
+  Pixel_view pixels{view_scenes::at(0, 0, 0), {0, 0, -1}, {0.5, 0, 0}, {0, 0.5, 0}, 4, 4};
+  Tint red{{200, 0, 0}, 0.5}, green{{0, 100, 0}, 0.5}, blue{{0, 0, 40}, 0.5};
+};
+
+TEST(Blended_depth, loses_what_is_drawn_later_and_lies_behind) {
+  const Panes panes;
+  const Blended_depth made = depth_blended(panes.scene, panes.pixels, {panes.red, panes.green, panes.blue});
+  ASSERT_EQ(made.layers.size(), 16u);
+  for (const Layer& layer : made.layers) {
+    EXPECT_EQ(layer.colour, (Colour{50, 50, 0}));  // green over red; blue fails the test of depths
+    EXPECT_EQ(layer.alpha, 0.75);
+  }
+  const Blended_image right =
+      blended_centres(Exact_view(panes.scene, panes.pixels.eye), panes.pixels, {panes.red, panes.green, panes.blue});
+  for (const Layer& layer : right.layers) {
+    EXPECT_EQ(layer.colour, (Colour{25, 50, 10}));
+    EXPECT_EQ(layer.alpha, 0.875);
+  }
+  const Blended_image image{4, 4, made.layers, {}, {}};
+  const Colour_errors errors = colour_errors(right, image);
+  EXPECT_EQ(errors.wrong, 16u);
+  EXPECT_EQ(errors.largest, 255 * 0.125);
+  EXPECT_EQ(errors.mean, 255 * 0.125);
+}
+
+TEST(Weighted_blending, has_the_right_opacity_before_what_hides_all) {
+  const Panes panes;
+  Tint far = panes.red;
+  far.alpha = 1;
+  const Blended_depth made = weighted_blended(panes.scene, panes.pixels, {far, panes.green, panes.green});
+  for (const Layer& layer : made.layers) {
+    EXPECT_DOUBLE_EQ(layer.alpha, 1);
+    EXPECT_NEAR(layer.colour[0], 50, 1e-9);  // two panes of one colour: no order could tell
+    EXPECT_NEAR(layer.colour[1], 75, 1e-9);
+  }
+  const Blended_depth hidden = weighted_blended(panes.scene, panes.pixels, {panes.red, {{0, 0, 0}, 1}, panes.green});
+  for (const Layer& layer : hidden.layers) EXPECT_EQ(layer.colour, (Colour{0, 0, 0}));
+  // Of two colours the nearer weighs more.
+  const Blended_depth two = weighted_blended(panes.scene, panes.pixels, {{{0, 0, 0}, 0}, panes.green, panes.blue});
+  for (const Layer& layer : two.layers) EXPECT_GT(layer.colour[1] / 100, layer.colour[2] / 40);
+}
+
+TEST(Tints, that_are_missing_or_no_numbers_are_refused) {
+  const Panes panes;
+  const Exact_view view(panes.scene, panes.pixels.eye);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<Tint>& tints :
+       {std::vector<Tint>(2), std::vector<Tint>(3, {{0, 0, 0}, 1.5}), std::vector<Tint>(3, {{0, 0, 0}, nan}),
+        std::vector<Tint>(3, {{0, nan, 0}, 1}), std::vector<Tint>(3, {{0, 0, 0}, -1})}) {
+    EXPECT_THROW(blended_centres(view, panes.pixels, tints), std::invalid_argument);
+    EXPECT_THROW(blended_scan_line(panes.scene, panes.pixels, Image_kernel::exact, tints), std::invalid_argument);
+    EXPECT_THROW(blended_painting({{2, {}}}, panes.pixels, Image_kernel::exact, tints), std::invalid_argument);
+  }
+  EXPECT_THROW(depth_blended(panes.scene, panes.pixels, {}), std::invalid_argument);
+  EXPECT_THROW(weighted_blended(panes.scene, panes.pixels, {}), std::invalid_argument);
+}
+
+}  // namespace

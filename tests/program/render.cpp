@@ -1,0 +1,149 @@
+// sightline render: every method on small scenes, colours and what lets light through, pictures that cannot be made.
+
+#include "program.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace program {
+
+class Render : public Program {
+ protected:
+  const std::string cube = (corpus / "general" / "cube.off").string(),  // [0, 1]^3
+      rooms = (corpus / "general" / "two_rooms.off").string();
+
+  Json render(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"--size", "40x30", "--json", "-"});
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, done) << r;
+    return r.json();
+  }
+  /// Pixels of each face.
+  static std::map<int, int> shown(const Json& made) {
+    std::map<int, int> faces;
+    for (const Json& entry : made["result"]["faces"]) faces[entry["face"]] = entry["pixels"];
+    return faces;
+  }
+  /// What a picture that cannot be made says.
+  std::string refusal(std::vector<std::string> arguments, int code) {
+    const fs::path png = path("refused.png");
+    arguments.insert(arguments.begin(), "render");
+    arguments.insert(arguments.end(), {"--png", png.string()});
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, code) << r;
+    EXPECT_FALSE(fs::exists(png)) << r;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << r;
+    return r.err;
+  }
+};
+
+TEST_F(Render, shows_the_same_faces_of_a_cube_by_every_method) {
+  const std::vector<std::string> view{cube, "--eye", "3,-4,5", "--look", "-5,9,-9", "--field", "40"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), view.begin(), view.end());
+    return render(more);
+  };
+  const Json truth = with({"--method", "centres"});
+  const std::map<int, int> faces = shown(truth);
+  EXPECT_EQ(faces.size(), 3u);
+  EXPECT_EQ(truth["counters"]["tied"], 0);
+  for (const char* method : {"depth", "scan-line", "warnock", "bsp", "graph"})
+    EXPECT_EQ(shown(with({"--method", method})), faces) << method;
+  for (const char* kernel : {"float", "double", "exact"})
+    for (const char* method : {"scan-line", "warnock", "bsp", "painter-mean"})
+      EXPECT_EQ(shown(with({"--method", method, "--kernel", kernel})), faces) << method << ", " << kernel;
+  const Outcome rays = run({"render", cube, "--method", "rays", "--eye", "3,-4,5", "--json", "-"});
+  if (rays.code == usage) EXPECT_NE(rays.err.find("without Embree"), std::string::npos) << rays;
+  else EXPECT_EQ(shown(with({"--method", "rays"})), faces);
+}
+
+TEST_F(Render, writes_pictures_of_their_size) {
+  for (const char* method : {"exact", "centres", "weighted"}) {
+    const fs::path png = path("picture.png");
+    const Outcome r =
+        run({"render", rooms, "--method", method, "--size", "300x200", "--eye", "-3,-4,6", "--png", png.string()});
+    EXPECT_EQ(r.code, done) << r;
+    const std::string bytes = read_file(png);
+    ASSERT_GT(bytes.size(), 24u);
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    const auto number = [&](std::size_t at) {
+      return 256 * static_cast<unsigned char>(bytes[at]) + static_cast<unsigned char>(bytes[at + 1]);
+    };
+    EXPECT_EQ(number(18), 300);
+    EXPECT_EQ(number(22), 200);
+    fs::remove(png);
+  }
+}
+
+TEST_F(Render, lets_light_through) {
+  const std::string colours = file("colours.csv", "r,g,b,a\n255,0,0,0.5\n0,255,0\n0,0,255,1\n1,2,3\n4,5,6,0\n7,8,9\n");
+  for (const char* method : {"centres", "scan-line", "bsp", "graph", "depth", "weighted", "painter-max"}) {
+    const Json made = render({cube, "--eye", "3,-4,5", "--method", method, "--colours", colours});
+    EXPECT_FALSE(made["result"].contains("faces")) << method;  // a pixel shows several
+    EXPECT_GT(made["counters"]["drawn"], 0) << method;
+  }
+  const Outcome table =
+      run({"compare", rooms, "render", "--eye", "-3,-4,6", "--alpha", "0.5", "--size", "64x48", "--json", "-"});
+  EXPECT_EQ(table.code, done) << table;
+  const Json json = table.json();
+  EXPECT_EQ(json["result"]["transparent"], true);
+  std::set<std::string> wrong;
+  for (const Json& row : json["result"]["rows"]) {
+    const std::string method = row["method"];
+    if (row["kernel"] == "exact" || method == "depth" || method == "weighted") {
+      if (row["errors"]["wrong"] > 0) wrong.insert(method);
+    }
+    EXPECT_NE(method, "warnock");
+  }
+  EXPECT_TRUE(wrong.count("depth") == 1 && wrong.count("weighted") == 1);
+  for (const char* method : {"centres", "scan-line", "bsp", "graph"}) EXPECT_EQ(wrong.count(method), 0u) << method;
+}
+
+TEST_F(Render, takes_colours_of_materials) {
+  file("panes.mtl", "newmtl clear\nKd 0 0 1\nd 0.5\n");
+  const std::string scene = file("panes.obj", "mtllib panes.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl clear\nf 1 2 3\n");
+  const Json made = render({scene, "--eye", "0.2,0.2,3", "--method", "centres", "--colours", "materials"});
+  EXPECT_FALSE(made["result"].contains("faces"));
+  const std::string opaque = file("wall.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(shown(render({opaque, "--eye", "0.2,0.2,3", "--method", "centres", "--colours", "materials"})).size(), 1u);
+  EXPECT_NE(refusal({cube, "--colours", "materials"}, usage).find(".obj"), std::string::npos);
+}
+
+TEST_F(Render, is_nothing_but_the_background_where_nothing_is_seen) {
+  // In a face, on an edge, at a vertex: what the eye is in the plane of is not seen, all else is.
+  const auto count = [&](const std::string& eye) {
+    return shown(render({cube, "--eye", eye, "--look", "1,2,3", "--field", "100", "--method", "centres"})).size();
+  };
+  EXPECT_EQ(count("1/3,1/3,0"), 5u);
+  EXPECT_GE(count("1/3,0,0"), 3u);
+  EXPECT_EQ(count("0,0,0"), 3u);
+  EXPECT_EQ(count("1,1,1"), 0u);
+  const std::string empty = file("empty.off", "OFF\n0 0 0\n");
+  EXPECT_EQ(shown(render({empty, "--eye", "0,0,0", "--look", "1,0,0", "--method", "centres"})).size(), 0u);
+}
+
+TEST_F(Render, of_wrong_arguments_says_what_to_do_and_leaves_no_file) {
+  const auto says = [](const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+  };
+  EXPECT_TRUE(says(refusal({cube, "--field", "0"}, usage), "--field"));
+  EXPECT_TRUE(says(refusal({cube, "--size", "1000000x1000000"}, usage), "--size"));
+  EXPECT_TRUE(says(refusal({cube, "--look", "0,0,0"}, usage), "--look"));
+  EXPECT_TRUE(says(refusal({cube, "--method", "depth", "--kernel", "double"}, usage), "leave out --kernel"));
+  EXPECT_TRUE(says(refusal({cube, "--method", "centres", "--samples", "4"}, usage), "--samples is for --method rays"));
+  EXPECT_TRUE(says(refusal({cube, "--method", "warnock", "--alpha", "0.5"}, usage), "shows only what is first"));
+  EXPECT_TRUE(says(refusal({cube, "--alpha", "1.5"}, usage), "--alpha"));
+  EXPECT_TRUE(says(refusal({cube, "--alpha", "nan"}, usage), "--alpha"));
+  EXPECT_TRUE(says(refusal({cube, "--colours", file("few.csv", "1,2,3\n")}, bad_input), "1 colours for 6 faces"));
+  EXPECT_TRUE(says(refusal({cube, "--colours", file("nan.csv", "1,2,3\n4,nan,5\n")}, bad_input), "nan.csv:2:"));
+  EXPECT_TRUE(says(refusal({cube, "--colours", file("far.csv", "1,2,300\n")}, bad_input), "far.csv:1:"));
+  EXPECT_TRUE(says(refusal({cube, "--colours", path("none.csv").string()}, bad_input), "none.csv"));
+  const Outcome unwritable = run({"render", cube, "--png", (path("no") / "such" / "folder.png").string()});
+  EXPECT_NE(unwritable.code, done) << unwritable;
+  EXPECT_TRUE(says(unwritable.err, "folder.png")) << unwritable;
+  EXPECT_TRUE(says(run({"render", cube}).err, "--png"));
+}
+
+}  // namespace program
