@@ -138,7 +138,9 @@ void add_compare(Command program) {
                   "are asked where no pair has more")
       .check(whole_number())
       .show_default();
-  command.add_option("--svg", a->svg, "weak: plot the seconds and the errors").writes_file().check(ending(".svg"));
+  command.add_option("--svg", a->svg, "weak, render: plot the seconds and the errors")
+      .writes_file()
+      .check(ending(".svg"));
   a->tints.add_to(command);
   a->view.add_to(command, "of what is drawn for render by default 512x512; of the plot 860x560");
   command.footer(

@@ -6,6 +6,7 @@
 #include "../support/pixels.h"
 
 #include <sightline/harness/compare/image_errors.h>
+#include <sightline/io/plot.h>
 
 #include <iostream>
 
@@ -84,10 +85,20 @@ static void print_images(const Json& rows, bool transparent) {
   }
 }
 
+static std::string image_plot(const Json& rows, bool transparent) {
+  Log_plot plot("Pictures: what methods cost, and get wrong", "seconds",
+                transparent ? "mean error of a colour, of 255" : "share of the pixels that show another face");
+  for (const Json& r : rows) {
+    if (r["status"] != "done" || !r.contains("errors")) continue;
+    const std::string method = r["method"];
+    plot.add(method, r["seconds"].get<double>(), r["errors"][transparent ? "mean" : "wrong_share"].get<double>());
+  }
+  return plot.text();
+}
+
 Exit compare_images(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
   arguments.view.check_usage();
-  if (!arguments.svg.empty()) throw Usage_error("--svg is for compare weak");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   View_arguments of_image = arguments.view;
@@ -132,6 +143,7 @@ Exit compare_images(const Compare_arguments& arguments) {
   const Exit exit = ask(contestants, common.budget, rows, [](const Json& r) {
     return !is_true_method(r["method"]) || !r.contains("errors") || r["errors"]["wrong"] == 0;
   });
+  if (!arguments.svg.empty()) write_file(arguments.svg, image_plot(rows, transparent));
   if (write_json(common, "compare", scene,
                  {{"question", "render"},
                   {"eye", point_json(eye)},

@@ -3,6 +3,8 @@
 
 #include "program.h"
 
+#include <set>
+
 #include <map>
 
 namespace program {
@@ -254,6 +256,53 @@ TEST_F(Budget, that_suffices_changes_nothing) {
     EXPECT_EQ(run({"bsp", cube, "--budget", seconds}).code, done) << seconds;
     EXPECT_EQ(run({"compare", cube, "bsp", "--kernels", "exact,double", "--budget", seconds}).code, done) << seconds;
   }
+}
+
+/// The methods that show a wrong pixel.
+static std::set<std::string> wrong_methods(const Json& table) {
+  std::set<std::string> wrong;
+  for (const Json& row : table["result"]["rows"])
+    if (row.contains("errors") && row["errors"]["wrong"] > 0) wrong.insert(row["method"].get<std::string>());
+  return wrong;
+}
+
+TEST_F(Compare, finds_wrong_in_each_sketch_whom_it_was_made_for_and_nobody_else) {
+  using Names = std::set<std::string>;
+  struct Sketch {
+    std::string scene;
+    std::vector<std::string> view;
+    Names wrong, perhaps;
+  };
+  const std::vector<std::string> ahead{"--eye", "0,0,0", "--look", "0,0,-1", "--up", "0,1,0", "--field", "100"};
+  const std::vector<Sketch> sketches{
+      {"painter_min.off", ahead, {"painter-min"}, {}},
+      {"painter_max.off", ahead, {"painter-max"}, {}},
+      {"painter_mean.off", ahead, {"painter-mean"}, {}},
+      {"depth_resolution.off", ahead, {"depth"}, {}},
+      {"three_bars.off", {"--eye", "4,3,20"}, {"painter-min", "painter-max", "painter-mean"}, {"depth", "rays"}},
+      {"u_and_quad.off", {"--eye", "3,3,20"}, {"painter-min", "painter-max"}, {"depth"}},
+      {"crossing_quads.obj", {"--eye", "2,-3,2"}, {"painter-min", "painter-max", "painter-mean"}, {"depth", "rays"}}};
+  for (const Sketch& sketch : sketches) {
+    std::vector<std::string> words{"compare", (corpus / "general" / sketch.scene).string(), "render", "--size",
+                                   "200x150"};
+    words.insert(words.end(), sketch.view.begin(), sketch.view.end());
+    words.insert(words.end(), {"--json", "-"});
+    const Outcome r = run(words);
+    ASSERT_EQ(r.code, done) << r;
+    Names wrong = wrong_methods(r.json());
+    for (const std::string& name : sketch.perhaps) wrong.erase(name);
+    EXPECT_EQ(wrong, sketch.wrong) << sketch.scene;
+  }
+}
+
+TEST_F(Compare, plots_pictures) {
+  const fs::path svg = path("render.svg");
+  const Outcome r = run({"compare", (corpus / "general" / "painter_min.off").string(), "render", "--size", "40x30",
+                         "--svg", svg.string()});
+  EXPECT_EQ(r.code, done) << r;
+  const std::string text = read_file(svg);
+  for (const char* method : {"painter-min", "warnock", "depth"})
+    EXPECT_NE(text.find(method), std::string::npos) << method;
 }
 
 }  // namespace program
