@@ -54,8 +54,7 @@ Exact_view::Plane inwards(const Exact_view& view, const Exact_polygon& polygon, 
   // What is left of an edge of the piece, or else a cut.
   const std::span<const Piece_corner> whole = view.scene().corners(view.scene().pieces()[polygon.piece]);
   for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole[i].edge == corner.edge.bound)
-      return edge(whole[i].point, whole[i + 1 == whole.size() ? 0 : i + 1].point);
+    if (whole[i].edge == corner.edge.bound) return edge(whole[i].point, whole[i + 1 == whole.size() ? 0 : i + 1].point);
   return view.cut(polygon.piece, corner.edge.bound);
 }
 
@@ -166,7 +165,8 @@ class Covered_directions {
     for (const Exact_view::Plane& side : root.sides) {
       const Position position = position_of(view_, part, side, counters.predicates);
       if (position == Position::behind) return std::nullopt;
-      if (position == Position::across) part = std::move(visible_detail::cut(view_, part, side, counters.predicates)[0]);
+      if (position == Position::across)
+        part = std::move(visible_detail::cut(view_, part, side, counters.predicates)[0]);
     }
     return part;
   }
@@ -207,7 +207,8 @@ class Covered_directions {
     return Piece_boxes::is_behind(box, a.normal, a.size, a.error, eye_);
   }
   bool is_outside(const Piece_boxes::Box& box, const Region& region) const {
-    return std::any_of(region.sides.begin(), region.sides.end(), [&](const auto& side) { return is_behind(box, side); });
+    return std::any_of(region.sides.begin(), region.sides.end(),
+                       [&](const auto& side) { return is_behind(box, side); });
   }
 
   /// The tree below a root, children before what is above them.
@@ -244,7 +245,7 @@ class Covered_directions {
   const Exact_view& view_;
   Located_point eye_;
   std::uint32_t roots_;
-  std::vector<Cell> cells_;        // those of the roots first
+  std::vector<Cell> cells_;       // those of the roots first
   std::vector<Waiting> waiting_;  // parts that are not in a leaf yet
 };
 

@@ -25,11 +25,11 @@ struct Bsp2d_options {
 struct Bsp2d_counters {
   std::uint64_t nodes = 0, fragments = 0;  ///< of the scene's tree, that were visited
   std::uint64_t nodes_skipped = 0, fragments_skipped = 0,
-      faces_skipped = 0;      ///< not visited, behind what was covered; of faces, all fragments
-  std::uint64_t hidden = 0;   ///< fragments visited of which nothing was left
-  std::uint64_t edge_on = 0;  ///< fragments visited in whose plane the eye is
-  std::uint64_t cells = 0;    ///< nodes and leaves of the tree of directions
-  std::uint64_t clips = 0;    ///< fragments, or parts of them, cut by one of its planes
+                faces_skipped = 0;  ///< not visited, behind what was covered; of faces, all fragments
+  std::uint64_t hidden = 0;         ///< fragments visited of which nothing was left
+  std::uint64_t edge_on = 0;        ///< fragments visited in whose plane the eye is
+  std::uint64_t cells = 0;          ///< nodes and leaves of the tree of directions
+  std::uint64_t clips = 0;          ///< fragments, or parts of them, cut by one of its planes
   Predicate_counts predicates;
   /// Each by its key in reports.
   template <class Visit>

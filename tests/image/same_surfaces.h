@@ -53,9 +53,8 @@ inline std::size_t expect_directions(const Exact_view& view, const Surface& surf
   const oracle::Flats flats = oracle::flats_of(view.scene());
   std::size_t compared = 0;
   for (int k = 0; k < 40; ++k) {
-    const Exact_point direction = k % 2 == 0 || flats.empty()
-                                      ? oracle::random_direction(random)
-                                      : oracle::random_direction_at(flats, view.eye(), random);
+    const Exact_point direction = k % 2 == 0 || flats.empty() ? oracle::random_direction(random)
+                                                              : oracle::random_direction_at(flats, view.eye(), random);
     bool generic = true;
     const std::optional<std::uint32_t> hit = oracle::first_hit(flats, view.eye(), direction, &generic);
     const std::vector<std::uint32_t> shown = see_test::seen_in(view, surface, direction);
@@ -124,8 +123,8 @@ inline void expect_as_seen(const view_scenes::Case& given, Method method, std::s
   const Pixel_view pixels = generate::any_pixel_view(given.soup, given.eye, random);
   const Exact_view framed(scene, given.eye, field_of(pixels));
   const Surface inside = method(framed, field_of_view(framed));
-  ASSERT_NO_FATAL_FAILURE(
-      expect_same(framed, inside, visible_surface(framed, boxes, field_of_view(framed), Visible_options{.threads = 1})));
+  ASSERT_NO_FATAL_FAILURE(expect_same(
+      framed, inside, visible_surface(framed, boxes, field_of_view(framed), Visible_options{.threads = 1})));
   ASSERT_NO_FATAL_FAILURE(expect_trees(framed, inside));
 }
 
