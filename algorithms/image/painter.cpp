@@ -102,6 +102,44 @@ Piece_image paint_exactly(const std::vector<Painted_polygon>& polygons, const Pi
   return image;
 }
 
+/// A ray to a relative 2^-40.
+Approximate_vector close_to(const Exact_view& view, const Exact_view::Ray& ray) {
+  if (ray.error < 0x1p-43 * ray.size) return view.approximate(ray);
+  const std::array<double, 3> v = approximated(view.direction(ray)).normal;
+  return {v[0], v[1], v[2]};
+}
+/// The plane through two rays, in front of it what is counterclockwise; the bound is that of Exact_view::meet(). P-60
+Approximate_eye_plane approximately_through(const Exact_view::Ray& a, const Exact_view::Ray& b) {
+  const std::array<double, 3> n = cross(std::array{a.x, a.y, a.z}, std::array{b.x, b.y, b.z});
+  const double size = (std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2])) * (1 + 0x1p-50);
+  return {n, size, a.size * b.error + b.size * a.error + 4 * a.error * b.error + 0x1p-50 * a.size * b.size + 0x1p-1000};
+}
+
+Piece_image paint_parts(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                        const Pixel_centres& centres, const Image_options& options) {
+  std::vector<std::span<const Exact_view::Ray>> parts;
+  std::vector<std::uint32_t> pieces;
+  for (const auto& part : surface.parts) {
+    if (part.piece == surface.nothing) continue;
+    parts.push_back(surface.of(part));
+    pieces.push_back(part.piece);
+  }
+  const auto next = [](std::span<const Exact_view::Ray> rays, std::size_t k) -> const Exact_view::Ray& {
+    return rays[k + 1 == rays.size() ? 0 : k + 1];
+  };
+  const auto normal = [&](std::uint32_t cone, std::uint32_t edge) {
+    return cross(view.direction(parts[cone][edge]), view.direction(next(parts[cone], edge)));
+  };
+  const Pixel_cones cones = all_cones(parts.size(), Pixel_cones(centres, normal), [&](Pixel_cones& to, std::size_t i) {
+    std::vector<Approximate_vector> corners;
+    for (const Exact_view::Ray& ray : parts[i]) corners.push_back(close_to(view, ray));
+    to.add(corners);
+    for (std::size_t k = 0; k < parts[i].size(); ++k)
+      to.add_edge(Pixel_form(centres, approximately_through(parts[i][k], next(parts[i], k))));
+  });
+  return painted(cones, pieces, options);
+}
+
 template <class Number>
 Piece_image paint_in(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres,
                      const Image_options& options) {
@@ -168,6 +206,14 @@ Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view
             : kernel == Image_kernel::double_numbers ? paint_in<double>(polygons, centres, options)
                                                      : paint_exactly(polygons, centres, options);
   });
+  return image;
+}
+
+Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
+                  const Image_options& options) {
+  const image_detail::Pixel_centres centres(pixels);
+  Piece_image image;
+  run_with_threads(options.threads, [&] { image = image_detail::paint_parts(view, surface, centres, options); });
   return image;
 }
 

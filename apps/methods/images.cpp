@@ -1,8 +1,10 @@
 #include "images.h"
 
+#include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
+#include <sightline/algorithms/image/weiler_atherton.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/priority/eye_order.h>
@@ -51,6 +53,21 @@ static std::vector<Painted_polygon> by_graph(const Scene& scene, const Exact_poi
   return polygons;
 }
 
+/// What a method shows that gives a visible surface.
+static Piece_image by_surface(const Scene& scene, const Pixel_view& pixels, const Image_task& task,
+                              const Image_options& options) {
+  const Exact_view view(scene, pixels.eye, field_of(pixels));
+  if (task.method == "weiler-atherton") {
+    const Visible_options visible{options.threads, options.progress};
+    return paint(view, weiler_atherton(view, field_of_view(view), visible), pixels, options);
+  }
+  Bsp2d_options trees;
+  trees.threads = options.threads;
+  trees.seed = task.seed;
+  trees.progress = options.progress;
+  return paint(view, bsp2d(view, field_of_view(view), trees).surface, pixels, options);
+}
+
 Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const Image_options& options) {
   const Image_kernel kernel = kernel_of(task.kernel);
   Image_outcome outcome;
@@ -66,6 +83,8 @@ Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task
     outcome.pieces = scan_line(scene, pixels, kernel, options);
   } else if (task.method == "warnock") {
     outcome.pieces = warnock(scene, pixels, kernel, options);
+  } else if (task.method == "weiler-atherton" || task.method == "bsp2d") {
+    outcome.pieces = by_surface(scene, pixels, task, options);
   } else if (task.method == "bsp") {
     outcome.pieces = paint(by_tree(scene, pixels.eye, task.kernel, options, task.seed), pixels, kernel, options);
   } else if (task.method == "graph") {

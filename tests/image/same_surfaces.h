@@ -4,7 +4,9 @@
 #include "../point_visibility/support.h"
 #include "../sample.h"
 
+#include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
+#include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/verify/visible.h>
@@ -126,6 +128,10 @@ inline void expect_as_seen(const view_scenes::Case& given, Method method, std::s
   ASSERT_NO_FATAL_FAILURE(expect_same(
       framed, inside, visible_surface(framed, boxes, field_of_view(framed), Visible_options{.threads = 1})));
   ASSERT_NO_FATAL_FAILURE(expect_trees(framed, inside));
+  // 3. Painted.
+  const Piece_image rays = centres(framed, pixels), painted = paint(framed, inside, pixels);
+  for (std::size_t i = 0; i < rays.pieces.size(); ++i)
+    EXPECT_TRUE(rays.tied[i] || painted.pieces[i] == rays.pieces[i]) << "pixel " << i;
 }
 
 /// All of a family.
