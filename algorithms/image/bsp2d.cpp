@@ -309,6 +309,7 @@ class Front_to_back {
         [&](std::size_t node, Sign side) { visit(node, side); });
     counters_.nodes = walk.nodes;
     counters_.fragments = walk.fragments;
+    counters_.on_planes = walk.on_planes;
     counters_.predicates += walk.predicates;
     counters_.cells = covered_.size();
     result_.surface = covered_.surface(std::move(cones));

@@ -27,6 +27,7 @@ struct Bsp2d_counters {
   std::uint64_t nodes_skipped = 0, fragments_skipped = 0,
                 faces_skipped = 0;  ///< not visited, behind what was covered; of faces, all fragments
   std::uint64_t hidden = 0;         ///< fragments visited of which nothing was left
+  std::uint64_t on_planes = 0;      ///< nodes visited in whose plane the eye is
   std::uint64_t edge_on = 0;        ///< fragments visited in whose plane the eye is
   std::uint64_t cells = 0;          ///< nodes and leaves of the tree of directions
   std::uint64_t clips = 0;          ///< fragments, or parts of them, cut by one of its planes
@@ -40,6 +41,7 @@ struct Bsp2d_counters {
     visit("fragments_skipped", &Bsp2d_counters::fragments_skipped);
     visit("faces_skipped", &Bsp2d_counters::faces_skipped);
     visit("hidden", &Bsp2d_counters::hidden);
+    visit("eye_on_planes", &Bsp2d_counters::on_planes);
     visit("edge_on", &Bsp2d_counters::edge_on);
     visit("cells", &Bsp2d_counters::cells);
     visit("clips", &Bsp2d_counters::clips);
