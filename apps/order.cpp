@@ -1,8 +1,10 @@
-// sightline order: the exact back-to-front order of a scene from an eye, its picture and its certificate.
+// sightline order: the exact order of a scene from an eye, back to front or front to back, its picture and its
+// certificate.
 
 #include "methods/methods.h"
 
 #include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/verify/order.h>
@@ -16,7 +18,7 @@ struct Order_arguments {
   Common common;
   View_arguments view;
   std::string eye, kernel = "exact", method = "bsp", certificate, svg;
-  bool two_sided = false;
+  bool two_sided = false, front_to_back = false, skip_hidden = false;
   bool by_graph() const { return method == "graph"; }
 };
 
@@ -86,14 +88,62 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
   return outcome;
 }
 
+/// What the order by a tree that passes over what is hidden took, and the faces that are seen.
+struct Skipped_order {
+  Bsp2d_counters counters;
+  std::vector<Face_id> visible, from_behind;
+};
+
+/// What is seen of the fragments of a tree, nearest first.
+static Outcome run_skipping(const Scene& scene, const Task& task, Skipped_order& skipped) {
+  const Exact_traits traits(scene);
+  Outcome outcome;
+  Stopwatch watch;
+  const Exact_tree tree = build_bsp(traits, task.bsp);
+  outcome.build_seconds = watch.seconds();
+  outcome.tree = tree.counters;
+  watch = {};
+  const Exact_view view(scene, *task.eye);
+  Bsp2d_options options;
+  options.progress = task.bsp.progress;
+  const Bsp2d result = bsp2d(view, tree, whole_sphere(view), options);
+  outcome.order_seconds = watch.seconds();
+  outcome.walk.nodes = result.counters.nodes;
+  outcome.walk.fragments = result.counters.fragments;
+  outcome.walk.on_planes = result.counters.on_planes;
+  outcome.walk.predicates = result.counters.predicates;
+  skipped = {result.counters, result.surface.visible, result.surface.from_behind};
+  for (const std::uint32_t i : result.seen) {
+    const Fragment<Exact_traits>& fragment = tree.fragments[i];
+    const Piece& piece = scene.pieces()[fragment.polygon.piece];
+    Drawn& drawn = outcome.drawn.emplace_back(
+        Drawn{{piece.face, piece.number, {}}, fragment.number, view.eye_side(fragment.polygon.piece)});
+    for (const Corner<Exact_traits>& corner : fragment.polygon)
+      drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
+  }
+  return outcome;
+}
+
+/// Of what does not go together.
+static void check_usage(const Order_arguments& arguments) {
+  if (arguments.by_graph() && arguments.kernel != "exact")
+    throw Usage_error("--method graph is exact: leave out --kernel");
+  if (!arguments.by_graph() && arguments.two_sided)
+    throw Usage_error("--two-sided is for --method graph: a tree draws both sides anyway");
+  if (!arguments.skip_hidden) return;
+  if (!arguments.front_to_back) throw Usage_error("--skip-hidden needs --front-to-back: what hides comes first");
+  if (arguments.by_graph() || arguments.kernel != "exact")
+    throw Usage_error("--skip-hidden is for a tree, and exact: leave out --method and --kernel");
+  if (!arguments.certificate.empty() || !arguments.svg.empty())
+    throw Usage_error("--skip-hidden leaves out fragments: no --certificate, and for a picture `sightline see`");
+}
+
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
   arguments.view.check_usage();
   const bool by_graph = arguments.by_graph();
-  if (by_graph && arguments.kernel != "exact") throw Usage_error("--method graph is exact: leave out --kernel");
-  if (!by_graph && arguments.two_sided)
-    throw Usage_error("--two-sided is for --method graph: a tree draws both sides anyway");
+  check_usage(arguments);
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = arguments.svg.empty() ? View{eye} : arguments.view.view(eye, scene);
@@ -107,8 +157,10 @@ static Exit run(const Order_arguments& arguments) {
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   Graph_order graph;
   if (by_graph) task.near = near;
-  const Outcome outcome =
-      by_graph ? run_graph(scene, task, arguments.two_sided, graph) : run_method(arguments.kernel, scene, task);
+  Skipped_order skipped;
+  Outcome outcome = by_graph                ? run_graph(scene, task, arguments.two_sided, graph)
+                    : arguments.skip_hidden ? run_skipping(scene, task, skipped)
+                                            : run_method(arguments.kernel, scene, task);
 
   if (!arguments.certificate.empty()) {
     task.bsp.progress(1, 1);  // no certificate once the budget is over
@@ -125,6 +177,9 @@ static Exit run(const Order_arguments& arguments) {
     paint(svg, view, near ? graph.in_view : outcome.drawn, true);
     write_file(arguments.svg, svg.text());
   }
+
+  // The other way round is an order, too.
+  if (arguments.front_to_back && !arguments.skip_hidden) std::reverse(outcome.drawn.begin(), outcome.drawn.end());
 
   progress.clear();
   Json fragments = Json::array();
@@ -147,6 +202,11 @@ static Exit run(const Order_arguments& arguments) {
                 {"degenerate", c.degenerate},
                 {"predicates", predicates_json(c.predicates)},
                 {"eye_predicates", predicates_json(outcome.walk.predicates)}};
+  if (arguments.skip_hidden) {
+    result["visible"] = skipped.visible;
+    result["from_behind"] = skipped.from_behind;
+    counters["skip_hidden"] = counters_json(skipped.counters);
+  }
   if (by_graph) {
     Json by = counters_json(graph.tree);
     append_counters(by, graph.eye);
@@ -159,14 +219,22 @@ static Exit run(const Order_arguments& arguments) {
 
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
+  const std::string direction = arguments.front_to_back ? "front to back" : "back to front";
   if (by_graph)
-    row("order", fmt::format("{} polygons, back to front; {} off-view, {} searched for this eye, {} cyclic overlaps of "
+    row("order", fmt::format("{} polygons, {}; {} off-view, {} searched for this eye, {} cyclic overlaps of "
                              "{} faces took {} cuts",
-                             outcome.drawn.size(), graph.eye.off_view, graph.eye.searched, graph.eye.cycles,
+                             outcome.drawn.size(), direction, graph.eye.off_view, graph.eye.searched, graph.eye.cycles,
                              graph.eye.in_cycles, c.splits));
   else
-    row("order", fmt::format("{} fragments, back to front; the eye is in the planes of {} nodes", outcome.drawn.size(),
-                             outcome.walk.on_planes));
+    row("order", fmt::format("{} fragments{}, {}; the eye is in the planes of {} nodes", outcome.drawn.size(),
+                             arguments.skip_hidden ? " that are seen" : "", direction, outcome.walk.on_planes));
+  if (arguments.skip_hidden) {
+    row("visible", fmt::format("{} faces, {} from behind", skipped.visible.size(), skipped.from_behind.size()));
+    const Bsp2d_counters& k = skipped.counters;
+    row("not visited", fmt::format("{} of {} nodes, {} of {} fragments, {} of {} faces; {} fragments visited in vain",
+                                   k.nodes_skipped, c.nodes, k.fragments_skipped, c.fragments, k.faces_skipped,
+                                   scene.counters().faces, k.hidden + k.edge_on));
+  }
   if (outcome.not_finite + c.degenerate > 0)
     row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
   row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds,
@@ -188,7 +256,7 @@ static Exit run(const Order_arguments& arguments) {
 
 void add_order(Command program) {
   const Command command = program.add_command(
-      "order", "The exact back-to-front order of a scene from an eye, with a picture and a certificate");
+      "order", "The exact order of a scene from an eye, back to front, with a picture and a certificate");
   auto a = std::make_shared<Order_arguments>();
   a->common.add_to(command);
   command.add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
@@ -201,6 +269,9 @@ void add_order(Command program) {
       .check(one_of({"bsp", "graph"}))
       .show_default();
   command.add_flag("--two-sided", a->two_sided, "with --method graph: faces seen from behind too");
+  command.add_flag("--front-to-back", a->front_to_back, "list the nearest first");
+  command.add_flag("--skip-hidden", a->skip_hidden,
+                   "with --front-to-back: only what is seen; what is behind that is not visited");
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
   command.add_option("--svg", a->svg, "draw the order as a painter would").writes_file().check(ending(".svg"));
   a->view.add_to(command);

@@ -197,8 +197,9 @@ void add_render(Command program) {
                   "rays through centres meet, in floats; painter-min, "
                   "painter-max, painter-mean: faces sorted by the depth of their nearest corner, farthest corner or "
                   "corners' mean, which is often wrong; scan-line: row by row, from edge to edge; warnock: in windows, "
-                  "each cut into four until one face is first in it; bsp, graph: painted in the orders of "
-                  "`sightline order`")
+                  "each cut into four until one face is first in it; weiler-atherton: directions cut along the edges "
+                  "of the nearest polygon; bsp2d: near to far by a tree, clipped by another one of what is covered; "
+                  "bsp, graph: painted in the orders of `sightline order`")
       .check(one_of(image_methods))
       .show_default();
   command.add_option("--kernel", a->kernel, "arithmetic of the painters, scan-line, warnock and bsp")

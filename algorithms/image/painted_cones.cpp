@@ -5,6 +5,7 @@
 #include <sightline/kernel/vectors.h>
 
 #include <cmath>
+#include <span>
 #include <utility>
 
 namespace sightline::image_detail {
@@ -54,6 +55,24 @@ Exact_cone exact_cone(const Painted_polygon& polygon, const Exact_point& eye) {
   return cone;
 }
 
+/// A ray to a relative 2^-40.
+Approximate_vector close_to(const Exact_view& view, const Exact_view::Ray& ray) {
+  if (ray.error < 0x1p-43 * ray.size) return view.approximate(ray);
+  const std::array<double, 3> v = approximated(view.direction(ray)).normal;
+  return {v[0], v[1], v[2]};
+}
+/// The plane through two rays, in front of it what is counterclockwise; the bound is that of Exact_view::meet(). P-60
+Approximate_eye_plane approximately_through(const Exact_view::Ray& a, const Exact_view::Ray& b) {
+  const std::array<double, 3> n = cross(std::array{a.x, a.y, a.z}, std::array{b.x, b.y, b.z});
+  const double size = (std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2])) * (1 + 0x1p-50);
+  return {n, size, a.size * b.error + b.size * a.error + 4 * a.error * b.error + 0x1p-50 * a.size * b.size + 0x1p-1000};
+}
+
+/// The ray behind ray k of a part.
+const Exact_view::Ray& next(std::span<const Exact_view::Ray> rays, std::size_t k) {
+  return rays[k + 1 == rays.size() ? 0 : k + 1];
+}
+
 }  // namespace
 
 Painted_cones::Painted_cones(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres,
@@ -65,6 +84,27 @@ Painted_cones::Painted_cones(const std::vector<Painted_polygon>& polygons, const
     case Image_kernel::exact: add_exactly(polygons); break;
   }
   left_out_ = polygons.size() - pieces_.size();
+}
+
+Painted_cones::Painted_cones(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                             const Pixel_centres& centres)
+    : cones_(centres, no_normal) {
+  std::vector<std::span<const Exact_view::Ray>> parts;
+  for (const auto& part : surface.parts) {
+    if (part.piece == surface.nothing) continue;
+    parts.push_back(surface.of(part));
+    pieces_.push_back(part.piece);
+  }
+  const auto normal = [&view, parts](std::uint32_t cone, std::uint32_t edge) {
+    return cross(view.direction(parts[cone][edge]), view.direction(next(parts[cone], edge)));
+  };
+  cones_ = all_cones(parts.size(), Pixel_cones(centres, normal), [&](Pixel_cones& to, std::size_t i) {
+    std::vector<Approximate_vector> corners;
+    for (const Exact_view::Ray& ray : parts[i]) corners.push_back(close_to(view, ray));
+    to.add(corners);
+    for (std::size_t k = 0; k < parts[i].size(); ++k)
+      to.add_edge(Pixel_form(centres, approximately_through(parts[i][k], next(parts[i], k))));
+  });
 }
 
 void Painted_cones::add_exactly(const std::vector<Painted_polygon>& polygons) {

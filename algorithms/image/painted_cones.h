@@ -4,6 +4,8 @@
 #include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/pixel_cones.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
@@ -19,6 +21,9 @@ class Painted_cones {
  public:
   /// Pre: the centres outlive them. Parallel. Exact: as the kernel is.
   Painted_cones(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres, Image_kernel kernel);
+  /// The parts of a surface that show something, in their order. Pre: view, surface and centres outlive them. Parallel.
+  /// Exact: yes.
+  Painted_cones(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_centres& centres);
   Painted_cones(const Painted_cones&) = delete;
   Painted_cones& operator=(const Painted_cones&) = delete;
 

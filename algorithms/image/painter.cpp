@@ -56,16 +56,29 @@ std::vector<std::uint32_t> sorted(const Scene& scene, const Pixel_view& pixels, 
 
 }  // namespace image_detail
 
-Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view& pixels, Image_kernel kernel,
-                  const Image_options& options) {
-  const image_detail::Pixel_centres centres(pixels);
+/// What shows if the cones that `make` gives are painted in their order.
+template <class Make>
+static Piece_image painted(const image_detail::Pixel_centres& centres, const Image_options& options, Make make) {
+  const Pixel_view& pixels = centres.view();
   Piece_image image{pixels.width, pixels.height, {}, {}, {}};
   image.pieces.assign(std::size_t{pixels.width} * pixels.height, Piece_image::nothing);
   run_with_threads(options.threads, [&] {
-    const image_detail::Painted_cones painted(polygons, centres, kernel);
-    image.counters = painted.paint(options, [&](std::size_t at, std::uint32_t piece) { image.pieces[at] = piece; });
+    const image_detail::Painted_cones cones = make();
+    image.counters = cones.paint(options, [&](std::size_t at, std::uint32_t piece) { image.pieces[at] = piece; });
   });
   return image;
+}
+
+Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view& pixels, Image_kernel kernel,
+                  const Image_options& options) {
+  const image_detail::Pixel_centres centres(pixels);
+  return painted(centres, options, [&] { return image_detail::Painted_cones(polygons, centres, kernel); });
+}
+
+Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
+                  const Image_options& options) {
+  const image_detail::Pixel_centres centres(pixels);
+  return painted(centres, options, [&] { return image_detail::Painted_cones(view, surface, centres); });
 }
 
 std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view& pixels, Painter_key key,

@@ -3,6 +3,8 @@
 
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/piece_image.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/scene/pixel_view.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -26,6 +28,12 @@ struct Painted_polygon {
 /// the kernel's numbers cannot hold, or flatten. Errors: as centres(). Cost: polygons, rows of them, and centres that
 /// they cover. Parallel. Exact: as the kernel is.
 Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view& pixels, Image_kernel kernel,
+                  const Image_options& options = {});
+
+/// What a visible surface shows at pixel centres. A centre on the border of several parts shows the last of them in
+/// which something is seen. Pre: view.eye() is pixels.eye; the surface is the view's. Errors: as centres(). Cost:
+/// parts, rows of them, and centres that they cover. Parallel. Exact: yes. Proof: P-80, P-83
+Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                   const Image_options& options = {});
 
 /// By which depth, along the direction that one looks in, the heedless painter sorts: of a polygon's nearest corner,

@@ -20,7 +20,7 @@ namespace image_detail {
 namespace {
 
 /// The centres of columns [left, right) and rows [top, bottom).
-struct Window {
+struct Pixel_window {
   std::int64_t left, right, top, bottom;
 
   std::int64_t pixels() const { return (right - left) * (bottom - top); }
@@ -55,7 +55,7 @@ class Warnock {
  private:
   static constexpr int parallel_levels = 4;
 
-  Image_counters subdivide(const Window& window, const Listed& above, int level) {
+  Image_counters subdivide(const Pixel_window& window, const Listed& above, int level) {
     Image_counters counters;
     ++counters.windows;
     // 1. What surrounds it, and what meets it.
@@ -83,12 +83,12 @@ class Warnock {
     return counters;
   }
 
-  Image_counters quarter(const Window& window, const Listed& listed, int level) {
+  Image_counters quarter(const Pixel_window& window, const Listed& listed, int level) {
     const std::int64_t x = (window.left + window.right) / 2, y = (window.top + window.bottom) / 2;
-    const std::array<Window, 4> quarters{{{window.left, x, window.top, y},
-                                          {x, window.right, window.top, y},
-                                          {window.left, x, y, window.bottom},
-                                          {x, window.right, y, window.bottom}}};
+    const std::array<Pixel_window, 4> quarters{{{window.left, x, window.top, y},
+                                                {x, window.right, window.top, y},
+                                                {window.left, x, y, window.bottom},
+                                                {x, window.right, y, window.bottom}}};
     std::array<Image_counters, 4> counters;
     const auto subdivide_one = [&](std::size_t k) {
       if (quarters[k].pixels() > 0) counters[k] = subdivide(quarters[k], listed, level + 1);
@@ -104,7 +104,7 @@ class Warnock {
   }
 
   /// By the signs of its edges at the corners: convex is the window, and the cone.
-  Place place_of(std::uint32_t face, const Window& window, Image_counters& counters) const {
+  Place place_of(std::uint32_t face, const Pixel_window& window, Image_counters& counters) const {
     const Pixel_cones::Cone& cone = faces_.cones()[face];
     if (cone.right <= window.left || window.right <= cone.left || cone.bottom <= window.top ||
         window.bottom <= cone.top)
@@ -122,7 +122,7 @@ class Warnock {
   }
 
   /// Whether the plane of one face is met before that of another one in all of a window.
-  bool is_before(std::uint32_t one, std::uint32_t other, const Window& window, Image_counters& counters) const {
+  bool is_before(std::uint32_t one, std::uint32_t other, const Pixel_window& window, Image_counters& counters) const {
     const Pixel_form &f = faces_.nearness(one), &g = faces_.nearness(other);
     const auto [least, most] =
         signs({f.a - g.a, f.b - g.b, f.c - g.c, f.bound + g.bound}, window, [&](std::int64_t x, std::int64_t y) {
@@ -133,7 +133,7 @@ class Warnock {
 
   /// The least and the most sign of a form at the corners of a window: by doubles, or sign_at(x, y).
   template <class Sign_at>
-  std::pair<int, int> signs(const Pixel_form& form, const Window& window, Sign_at sign_at) const {
+  std::pair<int, int> signs(const Pixel_form& form, const Pixel_window& window, Sign_at sign_at) const {
     const Pixel_centres& centres = faces_.centres();
     const double left = centres.across(window.left), right = centres.across(window.right - 1);
     const double over = form.at_row(centres.upwards(window.top)),
@@ -146,12 +146,12 @@ class Warnock {
     return window.signs(sign_at);
   }
 
-  void fill(const Window& window, std::uint32_t piece) {
+  void fill(const Pixel_window& window, std::uint32_t piece) {
     for (std::int64_t y = window.top; y < window.bottom; ++y)
       std::fill_n(image_.pieces.begin() + y * image_.width + window.left, window.right - window.left, piece);
   }
 
-  void report(const Window& window) {
+  void report(const Pixel_window& window) {
     if (!options_.progress) return;
     const std::lock_guard lock(mutex_);
     done_ += static_cast<std::size_t>(window.pixels());

@@ -37,6 +37,13 @@ Exact_view::Plane Exact_view::crossing(std::uint32_t f, std::uint32_t g) const {
   return f < g ? w : opposite(w);
 }
 
+Exact_view::Plane Exact_view::cut(std::uint32_t f, sightline::Plane by) const {
+  Plane w = from(cut_normal(f, {by.id(), false}));
+  w.name = Eye_plane_name::cut(f, by.id());
+  w.flipped = false;
+  return by.flipped() ? opposite(w) : w;
+}
+
 Exact_view::Ray Exact_view::axis_ray(std::uint32_t k, bool positive) const {
   const Plane p = axis((k + 1) % 3), q = axis((k + 2) % 3);
   const double sign = positive ? 1 : -1;
@@ -195,6 +202,7 @@ Exact_view::Vector<Number> Exact_view::normal(Eye_plane_name name) const {
   if constexpr (std::is_same_v<Number, Integer>) {
     if (name.kind() == Eye_plane_name::field_kind) return field_[name.index()];
     if (name.kind() == Eye_plane_name::crossing_kind) return crossing_normal(name.index(), name.b);
+    if (name.kind() == Eye_plane_name::cut_kind) return cut_normal(name.index(), {name.b, false});
   }
   return {Number(name.index() == 0 ? 1 : 0), Number(name.index() == 1 ? 1 : 0), Number(name.index() == 2 ? 1 : 0)};
 }
@@ -208,6 +216,16 @@ Exact_view::Vector<Integer> Exact_view::crossing_normal(std::uint32_t f, std::ui
   Vector<Integer> difference;
   for (std::size_t k = 0; k < 3; ++k) difference[k] = sign * (at_m * n[k] - at_n * m[k]);
   return difference;
+}
+
+Exact_view::Vector<Integer> Exact_view::cut_normal(std::uint32_t f, sightline::Plane by) const {
+  const Predicates exact = predicates();
+  const std::array<Integer, 4> m = exact.coefficients(scene_->pieces()[f].support), h = exact.coefficients(by);
+  const Integer at_m = value_at_eye(m), at_h = value_at_eye(h);
+  // At a point x of f's plane, seen along x - eye, this is |at_m| h(x), as m(x) = 0.
+  Vector<Integer> normal;
+  for (std::size_t k = 0; k < 3; ++k) normal[k] = sgn(at_m) * (at_m * h[k] - at_h * m[k]);
+  return normal;
 }
 
 template <class Number>

@@ -71,6 +71,10 @@ class Exact_view {
   std::size_t field_sides() const { return field_.size(); }
   Plane field_side(std::uint32_t k) const;
   Plane crossing(std::uint32_t f, std::uint32_t g) const;
+  /// Through the line where a plane of the scene, or an axis plane, cuts piece f's plane; in its front what is of f's
+  /// plane in front of that one. Degenerate: where the eye is in that plane, that plane itself. Pre: the two cross, and
+  /// the eye is not in f's plane. Proof: P-84
+  Plane cut(std::uint32_t f, sightline::Plane by) const;
   Plane opposite(const Plane& w) const { return {-w.x, -w.y, -w.z, w.size, w.error, w.name, !w.flipped}; }
 
   Ray axis_ray(std::uint32_t k, bool positive) const;
@@ -202,6 +206,7 @@ class Exact_view {
   Vector<Number> normal(Eye_plane_name name) const;
   /// A positive multiple of q_f - q_g.
   Vector<Integer> crossing_normal(std::uint32_t f, std::uint32_t g) const;
+  Vector<Integer> cut_normal(std::uint32_t f, sightline::Plane by) const;
   template <class Number>
   int side_in(const Plane& w, const Ray& r) const;
   static bool is_fixed(Eye_plane_name name) { return name.is_edge() || name.kind() == Eye_plane_name::axis_kind; }

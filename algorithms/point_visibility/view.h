@@ -14,13 +14,13 @@
 namespace sightline {
 
 /// A plane through the eye by what it is made of, which is always of the input: an edge (two points of the scene), the
-/// line where two pieces' planes cross, a coordinate axis, or a side of the field of view. Planes of equal names are
-/// equal; the converse does not hold.
+/// line where two pieces' planes cross, or where any plane of the scene cuts a piece, a coordinate axis, or a side of
+/// the field of view. Planes of equal names are equal; the converse does not hold.
 struct Eye_plane_name {
   std::uint32_t a = 0, b = 0;
 
   static constexpr std::uint32_t kind_mask = 0xF0000000u, axis_kind = 0x80000000u, field_kind = 0x90000000u,
-                                 crossing_kind = 0xA0000000u;
+                                 crossing_kind = 0xA0000000u, cut_kind = 0xB0000000u;
   static constexpr Eye_plane_name edge(std::uint32_t p, std::uint32_t q) {
     return p < q ? Eye_plane_name{p, q} : Eye_plane_name{q, p};
   }
@@ -29,6 +29,8 @@ struct Eye_plane_name {
   static constexpr Eye_plane_name crossing(std::uint32_t f, std::uint32_t g) {
     return f < g ? Eye_plane_name{crossing_kind | f, g} : Eye_plane_name{crossing_kind | g, f};
   }
+  /// `plane`: its id, in a table or as an axis plane's.
+  static constexpr Eye_plane_name cut(std::uint32_t f, std::uint32_t plane) { return {cut_kind | f, plane}; }
 
   constexpr std::uint32_t kind() const { return (a & 0x80000000u) == 0 ? 0 : a & kind_mask; }
   constexpr std::uint32_t index() const { return a & ~kind_mask; }

@@ -53,7 +53,8 @@ class Share_done {
   std::atomic<unsigned> silent_{0};
 };
 
-template <View V>
+/// Choice: by which plane a region is cut, and whether it wants to know more of it, as Cut_choice.
+template <View V, class Choice = Cut_choice<V>>
 class Solver {
  public:
   using Plane = typename V::Plane;
@@ -253,7 +254,7 @@ class Solver {
   const V& view_;
   Chunks<V> chunks_;
   Cover_search<V> covers_;
-  Cut_choice<V> cuts_;
+  Choice cuts_;
   int threads_;
   Seen_faces<V> seen_;
   Share_done done_;

@@ -3,15 +3,18 @@
 #include "rays.h"
 
 #include <sightline/algorithms/baseline/blended_depth.h>
+#include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
+#include <sightline/algorithms/image/weiler_atherton.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/priority/tree.h>
 
 #include <map>
+#include <set>
 #include <utility>
 
 namespace sightline::app {
@@ -23,7 +26,10 @@ bool is_built(const std::string& method) { return method != "rays" || has_rays()
 bool is_true_method(const std::string& method) {
   return !method.starts_with("painter") && method != "depth" && method != "rays" && method != "weighted";
 }
-bool shows_through(const std::string& method) { return method != "exact" && method != "rays" && method != "warnock"; }
+bool shows_through(const std::string& method) {
+  static const std::set<std::string> solid{"exact", "rays", "warnock", "weiler-atherton", "bsp2d"};
+  return solid.count(method) == 0;
+}
 
 static Image_kernel kernel_of(const std::string& name) {
   if (name == "float") return Image_kernel::float_numbers;
@@ -56,6 +62,21 @@ static std::vector<Painted_polygon> by_graph(const Scene& scene, const Exact_poi
     for (const Corner<Exact_traits>& corner : polygon) painted.corners.push_back(traits.position(*corner.vertex));
   }
   return polygons;
+}
+
+/// What a method shows that gives a visible surface.
+static Piece_image by_surface(const Scene& scene, const Pixel_view& pixels, const Image_task& task,
+                              const Image_options& options) {
+  const Exact_view view(scene, pixels.eye, field_of(pixels));
+  if (task.method == "weiler-atherton") {
+    const Visible_options visible{options.threads, options.progress};
+    return paint(view, weiler_atherton(view, field_of_view(view), visible), pixels, options);
+  }
+  Bsp2d_options trees;
+  trees.threads = options.threads;
+  trees.seed = task.seed;
+  trees.progress = options.progress;
+  return paint(view, bsp2d(view, field_of_view(view), trees).surface, pixels, options);
 }
 
 /// Polygons farthest first, by the methods that paint.
@@ -94,6 +115,7 @@ static Piece_image run_opaque(Scene& scene, const Pixel_view& pixels, const Imag
   if (task.method == "centres") return centres(Exact_view(scene, pixels.eye), pixels, options);
   if (task.method == "scan-line") return scan_line(scene, pixels, kernel, options);
   if (task.method == "warnock") return warnock(scene, pixels, kernel, options);
+  if (task.method == "weiler-atherton" || task.method == "bsp2d") return by_surface(scene, pixels, task, options);
   if (task.method == "rays") return Traced_scene(scene, options.threads).image(pixels, options);
   if (task.method == "depth" || task.method == "weighted") {
     Depth_buffer_options depth;

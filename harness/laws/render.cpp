@@ -4,14 +4,18 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/algorithms/image/blend.h>
+#include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
+#include <sightline/algorithms/image/weiler_atherton.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/verify/visible.h>
 #include <sightline/harness/generate/pixel_views.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/scene/scene.h>
@@ -79,11 +83,12 @@ Outcome same(const Pixel_view& pixels, const Piece_image& truth, const Piece_ima
 
 /// A view with its truth.
 struct Seen {
+  const Polygon_soup& soup;
   Scene scene;
   Pixel_view pixels;
 
   Seen(const Posed_scene& posed, Random& random)
-      : scene(posed.soup), pixels(generate::any_pixel_view(posed.soup, posed.eye, random)) {}
+      : soup(posed.soup), scene(posed.soup), pixels(generate::any_pixel_view(posed.soup, posed.eye, random)) {}
   Piece_image truth() const { return centres(Exact_view(scene, pixels.eye), pixels, serial()); }
 };
 
@@ -96,12 +101,26 @@ Check check_of(const std::string& name, const std::string& what, Image_check run
           }};
 }
 
-/// The parts of `see` whose closed cone holds a centre show what it shows.
-Outcome by_parts(const Seen& seen) {
-  const Exact_view view(seen.scene, seen.pixels.eye, field_of(seen.pixels));
+using Surface = Visible_surface<Exact_view>;
+
+Surface by_see(const Exact_view& view, Cones<Exact_view> cones) {
   Visible_options alone;
   alone.threads = 1;
-  const auto surface = visible_surface(view, Piece_boxes(seen.scene), field_of_view(view), alone);
+  return visible_surface(view, Piece_boxes(view.scene()), std::move(cones), alone);
+}
+Surface by_clip_polygons(const Exact_view& view, Cones<Exact_view> cones) {
+  Visible_options alone;
+  alone.threads = 1;
+  return weiler_atherton(view, std::move(cones), alone);
+}
+Surface by_two_trees(const Exact_view& view, Cones<Exact_view> cones) {
+  Bsp2d_options alone;
+  alone.threads = 1;
+  return bsp2d(view, std::move(cones), alone).surface;
+}
+
+/// The parts of a surface whose closed cone holds a centre show what it shows.
+Outcome by_parts(const Seen& seen, const Exact_view& view, const Surface& surface, const std::string& method) {
   const Piece_image truth = seen.truth();
   std::vector<std::vector<Exact_point>> rays;
   for (const auto& part : surface.parts) {
@@ -125,9 +144,34 @@ Outcome by_parts(const Seen& seen) {
     }
     if (!agrees)
       return Outcome::failed(place(seen.pixels, i) + " shows " + name(truth.pieces[i]) + " to an exact ray, " +
-                             (found ? "and another to see" : "and is in no part of see"));
+                             (found ? "and another to " : "and is in no part of ") + method);
   }
   return {};
+}
+
+constexpr std::size_t worth_a_certificate = 2000;  // parts
+
+Outcome see(const Seen& seen) {
+  const Exact_view view(seen.scene, seen.pixels.eye, field_of(seen.pixels));
+  return by_parts(seen, view, by_see(view, field_of_view(view)), "see");
+}
+
+/// A method that gives a visible surface: all around it has the faces of `see`, and a certificate; in the field parts
+/// and paint show what exact rays do.
+template <Surface (*method)(const Exact_view&, Cones<Exact_view>)>
+Outcome by_surface(const Seen& seen) {
+  const Exact_view view(seen.scene, seen.pixels.eye, field_of(seen.pixels));
+  const Surface around = method(view, whole_sphere(view)), truth = by_see(view, whole_sphere(view));
+  if (around.visible != truth.visible || around.from_behind != truth.from_behind)
+    return Outcome::failed("other faces are visible to the method than to see");
+  if (around.parts.size() <= worth_a_certificate) {
+    const Verdict verdict = verify_visible(seen.soup, visible_certificate(view, around, view.eye()));
+    if (!verdict.accepted) return Outcome::failed("its certificate is rejected: " + verdict.why);
+  }
+  const Surface inside = method(view, field_of_view(view));
+  const Outcome parts = by_parts(seen, view, inside, "the method");
+  if (parts.state != Outcome::State::passed) return parts;
+  return same(seen.pixels, seen.truth(), paint(view, inside, seen.pixels, serial()), "the method", false);
 }
 
 /// The tree's fragments, farthest first.
@@ -224,10 +268,13 @@ Subject render() {
   subject.what = "images by exact rays, exact areas and orders, against each other";
   subject.answer = shown;
   subject.checks = {
-      check_of("see", "a pixel's centre shows what the part of see around it shows", by_parts),
+      check_of("see", "a pixel's centre shows what the part of see around it shows", see),
       check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_tree),
       check_of("scan_line", "spans of rows show what exact rays do", by_method<scan_line>),
       check_of("warnock", "windows cut into four show what exact rays do", by_method<warnock>),
+      check_of("weiler_atherton", "windows cut along the nearest polygon's edges show what see does",
+               by_surface<by_clip_polygons>),
+      check_of("bsp2d", "near to far, clipped by what is covered, shows what see does", by_surface<by_two_trees>),
       check_of("layers", "what lets light through is sorted as exact rays meet it", by_layers),
       check_of("refine", "a pixel's mean is that of its quarters", refined),
   };

@@ -232,6 +232,35 @@ TEST(Order, a_face_seen_edge_on_is_visited_once_with_side_zero_and_hides_nothing
   EXPECT_TRUE(verified(built, eye));
 }
 
+TEST(Order, a_subtree_that_is_not_entered_is_passed_over_and_the_rest_keeps_its_order) {
+  const Built built(generate::lattice(2));
+  const auto eye = built.traits.eye(at(ratio(1, 3), 1, ratio(7, 2)));
+  std::vector<std::size_t> all;
+  const auto enter_all = [](std::size_t) { return true; };
+  traverse_nodes(built.traits, built.tree, eye, Direction::front_to_back, enter_all,
+                 [&](std::size_t node, Sign) { all.push_back(node); });
+  ASSERT_EQ(all.size(), built.tree.nodes.size());
+  for (std::size_t left = 0; left < built.tree.nodes.size(); ++left) {
+    // Preorder: what is below a node comes right after it.
+    std::size_t end = left;
+    for (std::vector<std::int32_t> below{static_cast<std::int32_t>(left)}; !below.empty();) {
+      const auto node = static_cast<std::size_t>(below.back());
+      below.pop_back();
+      end = std::max(end, node + 1);
+      for (const std::int32_t child : {built.tree.nodes[node].front, built.tree.nodes[node].behind})
+        if (child != Bsp_tree<Exact_traits>::leaf) below.push_back(child);
+    }
+    std::vector<std::size_t> visited, expected;
+    const Traversal_counters counters = traverse_nodes(
+        built.traits, built.tree, eye, Direction::front_to_back, [&](std::size_t node) { return node != left; },
+        [&](std::size_t node, Sign) { visited.push_back(node); });
+    std::copy_if(all.begin(), all.end(), std::back_inserter(expected),
+                 [&](std::size_t node) { return node < left || node >= end; });
+    ASSERT_EQ(visited, expected);
+    ASSERT_EQ(counters.nodes, expected.size());
+  }
+}
+
 TEST(Order, the_side_told_to_the_visitor_is_that_of_the_eye_to_the_nodes_plane) {
   const Built built(generate::lattice(2));
   const Exact_point eye = at(ratio(1, 3), 1, ratio(7, 2));

@@ -23,6 +23,10 @@ struct Rational_view {
     const Rational at = oracle::dot(n, a);
     return {Rational(n[0] / at), Rational(n[1] / at), Rational(n[2] / at)};
   }
+  /// Through the eye and the line in which a plane n . x + d = 0 cuts that of a piece: d = d (q . x) there.
+  Exact_point cut(std::uint32_t piece, const Exact_point& n, const Rational& d) const {
+    return oracle::along(n, d, form(piece));
+  }
 };
 
 TEST(Exact_view, decides_as_rationals_do_whichever_stage_it_is) {
@@ -59,6 +63,26 @@ TEST(Exact_view, decides_as_rationals_do_whichever_stage_it_is) {
             ASSERT_EQ(view.nearer(piece, other, view.ray(a), counts),
                       static_cast<Sign>(
                           sgn(oracle::dot(oracle::minus(book.form(piece), book.form(other)), book.direction(a)))));
+          }
+          if (view.eye_side(piece) != CGAL::ZERO) {
+            // By the plane of another piece, which may hold the eye, and by an axis plane.
+            const std::span<const Piece_corner> corners = scene.corners(scene.pieces()[other]);
+            const Exact_point at = book.direction(corners[0].point),
+                              n = oracle::cross(oracle::minus(book.direction(corners[1].point), at),
+                                                oracle::minus(book.direction(corners[2].point), at));
+            const Exact_point by_face = book.cut(piece, n, Rational(-oracle::dot(n, at)));
+            const Exact_point by_axis = book.cut(piece, {0, 1, 0}, Rational(-book.direction(a)[1]));
+            const Plane support = scene.pieces()[other].support;
+            for (const auto& [cut, normal] : {std::pair(view.cut(piece, support), by_face),
+                                              std::pair(view.opposite(view.cut(piece, support.opposite())), by_face),
+                                              std::pair(view.cut(piece, Plane::across(1, a)), by_axis)}) {
+              if (oracle::is_zero(normal)) continue;  // the planes do not cross
+              ASSERT_EQ(view.side(cut, b, counts), static_cast<Sign>(sgn(oracle::dot(normal, book.direction(b)))));
+              const Exact_point on_cut = oracle::cross(normal, first);
+              if (oracle::is_zero(on_cut)) continue;
+              ASSERT_EQ(view.side(view.edge(e, f), view.meet(cut, view.edge(a, b), counts), counts),
+                        static_cast<Sign>(sgn(oracle::dot(third, on_cut))));
+            }
           }
           ++compared;
           const Exact_point ray = oracle::cross(first, second);

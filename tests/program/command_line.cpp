@@ -30,7 +30,9 @@ class Command_line : public Program {
 static const std::map<std::string, std::vector<std::string>> commands{
     {"info", {"SCENE"}},
     {"bsp", {"SCENE", "--kernel", "--candidates"}},
-    {"order", {"SCENE", "--eye", "--kernel", "--certificate", "--svg", "--look", "--up", "--field"}},
+    {"order",
+     {"SCENE", "--eye", "--kernel", "--front-to-back", "--skip-hidden", "--certificate", "--svg", "--look", "--up",
+      "--field"}},
     {"graph", {"SCENE", "--method", "--tree", "--codes", "--split", "--pixels"}},
     {"cutset", {"SCENE", "--path", "--orbit", "--motion", "--decision-tree", "--check", "--svg"}},
     {"verify", {"SCENE", "CERTIFICATE"}},

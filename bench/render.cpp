@@ -1,0 +1,257 @@
+// Pictures: exact rays and exact areas against Embree and a depth buffer: bench_render [--max FACES] [--size PIXELS]
+// [--out FOLDER] Tables on standard output; with --out also render.csv and render.svg. Each row is a process of its
+// own; seconds are of one thread, the best of up to three turns. A row that is wrong where it must not be ends in
+// FAILED.
+
+#include "measure.h"
+
+#include "../apps/methods/rays.h"
+
+#include <sightline/algorithms/baseline/depth_buffer.h>
+#include <sightline/algorithms/image/centres.h>
+#include <sightline/algorithms/image/means.h>
+#include <sightline/algorithms/image/warnock.h>
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/harness/compare/image_errors.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/io/plot.h>
+#include <sightline/kernel/vectors.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iostream>
+#include <string>
+
+using namespace sightline;
+
+namespace {
+
+constexpr int turns = 3;
+constexpr double enough_seconds = 4;  // no further turn after this
+
+/// The least seconds of some turns, and what the first one made.
+template <class Work>
+auto timed(double& seconds, Work work) {
+  const double start = bench::now();
+  auto made = work();
+  seconds = bench::now() - start;
+  for (int turn = 1; turn < turns && bench::now() - start < enough_seconds; ++turn) {
+    const double begin = bench::now();
+    work();
+    seconds = std::min(seconds, bench::now() - begin);
+  }
+  return made;
+}
+
+Image_options one_thread() {
+  Image_options options;
+  options.threads = 1;
+  return options;
+}
+
+// ---- Where one looks from
+
+/// A square picture of 60 degrees from a place in multiples of the scene's box towards its middle.
+Pixel_view towards_middle(const Scene& scene, const std::array<double, 3>& from, std::uint32_t size) {
+  const auto box = scene.box();
+  Pixel_view pixels{{}, {}, {}, {}, size, size};
+  std::array<double, 3> look{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double low = nearest_double(box[0][k]), side = nearest_double(box[1][k]) - low;
+    const double at = std::round((low + from[k] * side) * 0x1p12) * 0x1p-12;
+    pixels.eye[k] = exact(at);
+    look[k] = low + 0.49 * side - at;
+  }
+  const auto unit = [](const std::array<double, 3>& v) {
+    const double length = std::sqrt(dot(v, v));
+    return std::array<double, 3>{v[0] / length, v[1] / length, v[2] / length};
+  };
+  pixels.look = unit(look);
+  const std::array<double, 3> right = unit(cross(pixels.look, std::array<double, 3>{0, 0, 1})),
+                              up = cross(right, pixels.look);
+  const double half = std::tan(3.14159265358979 / 6);
+  for (std::size_t k = 0; k < 3; ++k) {
+    pixels.right[k] = half * right[k];
+    pixels.up[k] = half * up[k];
+  }
+  return pixels;
+}
+
+struct Family {
+  std::string name;
+  std::array<double, 3> from;
+  std::size_t (*size)(double faces);
+};
+const std::array<Family, 4> families{{
+    {"city", {-0.1, -0.2, 1.5}, [](double faces) { return static_cast<std::size_t>(faces / 5); }},
+    {"soup_constant_density", {-0.4, -0.6, 0.7}, [](double faces) { return static_cast<std::size_t>(faces); }},
+    {"rooms",
+     {0.13, 0.17, 0.55},
+     [](double faces) { return static_cast<std::size_t>(std::lround(std::sqrt(faces / 220))); }},
+    {"lattice", {-0.4, -0.6, 0.7}, [](double faces) { return static_cast<std::size_t>(faces / 3); }},
+}};
+
+// ---- One ray a pixel
+
+struct Row {
+  double centres, warnock, build, rays, depth;
+  std::uint64_t exact, tied, rays_wrong, depth_wrong;
+  bool right;
+  double see, means;                                         // seconds
+  std::array<double, 2> samples, mean_error, largest_error;  // of 4 x 4 and 16 x 16 rays, in shares of a pixel's square
+};
+
+/// A colour that tells neighbours apart.
+Colour colour_of(std::uint32_t piece) {
+  return {double(piece * 2654435761u % 256) / 255, double(piece * 40503u % 256) / 255, double(piece % 7) / 6};
+}
+
+Row measure(Scene& scene, const Pixel_view& pixels) {
+  Row row{};
+  const auto count_wrong = [&](const Piece_image& truth, const Piece_image& image) {
+    return image_errors(scene, truth, image).wrong;
+  };
+  // 1. Exact rays, and windows.
+  const Piece_image truth =
+      timed(row.centres, [&] { return centres(Exact_view(scene, pixels.eye), pixels, one_thread()); });
+  row.exact = truth.counters.exact_sides + truth.counters.exact_depths;
+  row.tied = static_cast<std::uint64_t>(std::count(truth.tied.begin(), truth.tied.end(), 1));
+  const Piece_image windows =
+      timed(row.warnock, [&] { return warnock(scene, pixels, Image_kernel::exact, one_thread()); });
+  row.right = windows.pieces == truth.pieces;
+  // 2. Rays and depths in floats.
+  row.depth_wrong = count_wrong(truth, timed(row.depth, [&] { return depth_image(scene, pixels).image; }));
+  // 3. Means over pixels: by exact areas, beside what an eye sees at all.
+  const Piece_boxes boxes(scene);
+  Visible_options alone;
+  alone.threads = 1;
+  const auto look = [&] {
+    const Exact_view view(scene, pixels.eye, field_of(pixels));
+    return visible_surface(view, boxes, field_of_view(view), alone);
+  };
+  timed(row.see, look);
+  const Mean_image means = timed(row.means, [&] {
+    const Exact_view view(scene, pixels.eye, field_of(pixels));
+    return visible_means(view, visible_surface(view, boxes, field_of_view(view), alone), pixels, colour_of,
+                         one_thread());
+  });
+  // 4. The same by Embree.
+  if (!app::has_rays()) return row;
+  const app::Traced_scene traced = timed(row.build, [&] { return app::Traced_scene(scene, 1); });
+  row.rays_wrong = count_wrong(truth, timed(row.rays, [&] { return traced.image(pixels, one_thread()); }));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Mean_image sampled =
+        timed(row.samples[k], [&] { return traced.means(pixels, k == 0 ? 4 : 16, colour_of, one_thread()); });
+    double sum = 0;
+    for (std::size_t i = 0; i < means.colours.size(); ++i) {
+      double error = std::fabs(means.covered[i] - sampled.covered[i]);
+      for (std::size_t c = 0; c < 3; ++c)
+        error = std::max(error, std::fabs(means.colours[i][c] - sampled.colours[i][c]));
+      sum += error;
+      row.largest_error[k] = std::max(row.largest_error[k], error);
+    }
+    row.mean_error[k] = sum / static_cast<double>(means.colours.size());
+  }
+  return row;
+}
+
+bool pictures(double max_faces, std::uint32_t size, const std::string& folder) {
+  fmt::print("Pictures of {0} x {0} pixels. rays: Embree, without and with its hierarchy; wrong: pixels of {1}\n", size,
+             std::uint64_t{size} * size);
+  fmt::print("{:<22} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>9} {:>9} {:>8}\n", "scene", "faces",
+             "centres s", "warnock s", "rays s", "+ tree s", "depth s", "/ rays", "/ both", "rays wr.", "depth wr.",
+             "exact");
+  std::string means = fmt::format(
+      "\nMeans over pixels; errors of a colour from 0 to 1\n{:<22} {:>8} {:>9} {:>9} {:>7} {:>9} {:>10} "
+      "{:>10} {:>9} {:>10} {:>10}\n",
+      "scene", "faces", "see s", "exact s", "/ see", "4 x 4 s", "mean err.", "largest", "16 x 16 s", "mean err.",
+      "largest");
+  std::string csv =
+      "scene,faces,centres_seconds,warnock_seconds,rays_seconds,tree_seconds,depth_seconds,rays_wrong,depth_wrong,tied,"
+      "by_integers,see_seconds,exact_seconds,rays4_seconds,rays4_mean,rays4_largest,rays16_seconds,rays16_mean,"
+      "rays16_largest\n";
+  Log_plot plot("Pictures of cities, soups, rooms and lattices", "faces", "seconds");
+  bool ok = true;
+  for (const Family& family : families)
+    for (const double n : {1e3, 1e4, 1e5, 1e6}) {
+      if (n > max_faces * 1.01) continue;
+      Scene scene(generate::make(family.name, family.size(n), 1));
+      const auto faces = static_cast<double>(scene.counters().faces);
+      const Pixel_view pixels = towards_middle(scene, family.from, size);
+      Row r{};
+      if (!bench::in_child<Row>(r, [&] { return measure(scene, pixels); }) || !r.right) {
+        fmt::print("{:<22} {:>8.0f} FAILED\n", family.name, faces);
+        ok = false;
+        continue;
+      }
+      fmt::print("{:<22} {:>8.0f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>9.4f} {:>7.2f} {:>7.2f} {:>9} {:>9} {:>8}\n",
+                 family.name, faces, r.centres, r.warnock, r.rays, r.build, r.depth, r.centres / r.rays,
+                 r.centres / (r.rays + r.build), r.rays_wrong, r.depth_wrong, r.exact);
+      std::fflush(stdout);
+      means += fmt::format(
+          "{:<22} {:>8.0f} {:>9.4f} {:>9.4f} {:>7.2f} {:>9.4f} {:>10.2e} {:>10.2e} {:>9.4f} {:>10.2e} {:>10.2e}\n",
+          family.name, faces, r.see, r.means, r.means / r.see, r.samples[0], r.mean_error[0], r.largest_error[0],
+          r.samples[1], r.mean_error[1], r.largest_error[1]);
+      csv += fmt::format(
+          "{},{:.0f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{},{},{:.6f},{:.6f},{:.6f},{:.3e},{:.3e},{:.6f},"
+          "{:.3e},{:.3e}\n",
+          family.name, faces, r.centres, r.warnock, r.rays, r.build, r.depth, r.rays_wrong, r.depth_wrong, r.tied,
+          r.exact, r.see, r.means, r.samples[0], r.mean_error[0], r.largest_error[0], r.samples[1], r.mean_error[1],
+          r.largest_error[1]);
+      plot.add("exact rays, " + family.name, faces, r.centres);
+      plot.add("exact areas, " + family.name, faces, r.means);
+      plot.add("Embree, " + family.name, faces, r.rays + r.build);
+    }
+  fmt::print("{}", means);
+  if (!folder.empty()) {
+    std::ofstream(folder + "/render.csv") << csv;
+    std::ofstream(folder + "/render.svg") << plot.text();
+  }
+  return ok;
+}
+
+// ---- How fast a depth buffer fills pixels
+
+/// Squares behind one another, farthest first, each of them all over the picture.
+void fill(std::uint32_t size) {
+  constexpr long layers = 64;
+  Polygon_soup soup;
+  for (long depth = layers; depth >= 1; --depth) {
+    std::vector<Point_id> square;
+    for (const auto& [x, y] : {std::pair(-2L, -2L), {2L, -2L}, {2L, 2L}, {-2L, 2L}})
+      square.push_back(soup.add_point(Rational(depth * x), Rational(depth * y), Rational(-depth)));
+    soup.add_face(square);
+  }
+  Scene scene(soup);
+  const Pixel_view pixels{{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, size, size};
+  double seconds = 0;
+  const Depth_image image = timed(seconds, [&] { return depth_image(scene, pixels); });
+  const double count = static_cast<double>(layers) * size * size;
+  fmt::print(
+      "\nA depth buffer fills {:.1f} million pixels a second and core ({} layers of {} x {}, nearest piece {})\n",
+      count / seconds / 1e6, layers, size, size, image.image.pieces[0]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  double max_faces = 1e5;
+  std::uint32_t size = 1024;
+  std::string folder;
+  for (int k = 1; k + 1 < argc; k += 2) {
+    const std::string option = argv[k];
+    if (option == "--max") max_faces = std::atof(argv[k + 1]);
+    else if (option == "--size") size = static_cast<std::uint32_t>(std::atoi(argv[k + 1]));
+    else if (option == "--out") folder = argv[k + 1];
+  }
+  const bool ok = pictures(max_faces, size, folder);
+  fill(size);
+  return ok ? 0 : 1;
+}
