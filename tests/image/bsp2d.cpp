@@ -5,7 +5,9 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/harness/generate/buildings.h>
+#include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/soups.h>
+#include <sightline/harness/generate/transform.h>
 
 namespace {
 
@@ -42,7 +44,24 @@ void expect_as_seen(const Polygon_soup& soup, const Exact_point& eye) {
   std::size_t compared = 0;
   surface_test::expect_as_seen({soup.file, soup, eye}, by_two_trees, compared);
 }
-TEST(Bsp2d_surfaces, of_larger_scenes_with_planes_of_no_face) {
+/// A convex body, turned, whose tree cuts faces by axis planes; eyes inside, and in such a plane.
+TEST(Bsp2d_surfaces, of_scenes_cut_by_planes_of_no_face) {
+  const Polygon_soup soup = generate::rotated(generate::convex_sphere(120, 1), generate::rotation(3, 1, 1, 0));
+  const Scene scene(soup);
+  const Exact_tree tree = build_bsp(Exact_traits(scene));
+  EXPECT_GT(tree.counters.free_planes, 0u);
+  EXPECT_GT(tree.counters.splits, 0u);
+  const auto [low, high] = scene.box();
+  Exact_point inside, outside;
+  for (std::size_t k = 0; k < 3; ++k) {
+    inside[k] = (3 * low[k] + 4 * high[k]) / 7;
+    outside[k] = 2 * high[k] - low[k] + k;
+  }
+  Exact_point at_corner = outside;  // an axis plane through a corner holds it
+  at_corner[0] = scene.position(0)[0];
+  for (const Exact_point& eye : {inside, outside, at_corner}) expect_as_seen(soup, eye);
+}
+TEST(Bsp2d_surfaces, of_larger_scenes) {
   expect_as_seen(generate::city(12, 2), {3, 4, 2});
   expect_as_seen(generate::slivers(60, 3), {-1, -2, 3});
   expect_as_seen(generate::soup(80, 0.5, 4), {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
@@ -72,6 +91,18 @@ TEST(Bsp2d_counters, say_what_was_passed_over) {
   EXPECT_EQ(result.counters.faces_skipped, faces.size() - result.counters.fragments);
   EXPECT_GT(result.counters.faces_skipped, faces.size() * 3 / 4);
   EXPECT_EQ(result.counters.cells, 8u + 4 * 2 * 2);
+}
+
+/// Borders through pixel centres: the face is shown there, not what is beside it.
+TEST(Painted_surfaces, show_a_face_on_its_border) {
+  using namespace view_scenes;
+  const Scene scene(soup_of({rectangle(-1, 1, -1, 1, -8)}));
+  const Pixel_view pixels{at(0, 0, 0), {0, 0, -8}, {8, 0, 0}, {0, 8, 0}, 8, 8};
+  const Exact_view view(scene, pixels.eye);
+  const Piece_image truth = centres(view, pixels),
+                    painted = paint(view, by_two_trees(view, whole_sphere(view)), pixels);
+  EXPECT_EQ(std::count(truth.tied.begin(), truth.tied.end(), 1), 4);
+  EXPECT_EQ(painted.pieces, truth.pieces);
 }
 
 TEST(Bsp2d_progress, may_give_up) {
