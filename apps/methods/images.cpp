@@ -1,5 +1,6 @@
 #include "images.h"
 
+#include <sightline/algorithms/image/newell.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
@@ -14,7 +15,8 @@
 namespace sightline::app {
 
 bool has_image_kernels(const std::string& method) {
-  return method.starts_with("painter") || method == "scan-line" || method == "warnock" || method == "bsp";
+  return method.starts_with("painter") || method == "newell" || method == "scan-line" || method == "warnock" ||
+         method == "bsp";
 }
 bool is_true_method(const std::string& method) { return !method.starts_with("painter") && method != "depth"; }
 
@@ -62,6 +64,8 @@ Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task
     depth.bits = task.bits;
     outcome.depth = depth_image(scene, pixels, depth);
     outcome.pieces = std::move(outcome.depth->image);
+  } else if (task.method == "newell") {
+    outcome.pieces = newell(scene, pixels, kernel, options);
   } else if (task.method == "scan-line") {
     outcome.pieces = scan_line(scene, pixels, kernel, options);
   } else if (task.method == "warnock") {

@@ -15,8 +15,9 @@
 
 namespace sightline::app {
 
-inline const std::vector<std::string> image_methods{
-    "exact", "centres", "depth", "painter-min", "painter-max", "painter-mean", "scan-line", "warnock", "bsp", "graph"};
+inline const std::vector<std::string> image_methods{"exact",       "centres",      "depth",  "painter-min",
+                                                    "painter-max", "painter-mean", "newell", "scan-line",
+                                                    "warnock",     "bsp",          "graph"};
 inline const std::vector<std::string> image_kernels{"exact", "double", "float"};
 
 /// Whether the method may be asked in any of the kernels.
