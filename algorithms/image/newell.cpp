@@ -166,7 +166,7 @@ class Newell {
       : scene_(scene), pixels_(pixels), options_(options), axes_(pixels) {
     add_points();
     add_pieces();
-    most_splits_ = is_rounded<Number> ? 4 * faces_.size() + 64 : std::numeric_limits<std::size_t>::max();
+    most_splits_ = is_rounded<Number> ? 64 * faces_.size() + 4096 : std::numeric_limits<std::size_t>::max();
   }
 
   Newell_order order() {
@@ -193,12 +193,17 @@ class Newell {
   };
   /// All of a face, or a part.
   struct Polygon {
-    std::uint32_t face;
+    std::uint32_t face;  ///< whose number is that of its whole polygon
     std::vector<std::uint32_t> corners;
     std::vector<Factor<Number>> edges;  ///< of its cone, each from the corner of its number
   };
-  enum class State : unsigned char { waiting, marked, done };
-  /// A polygon that was moved to the end of the list, and what it was not compared with yet.
+  enum class State : unsigned char { waiting, marked, cut, painted };
+  /// What became of a polygon; of a cut one also its parts, `count` of them from `first` on.
+  struct Fate {
+    State state = State::waiting;
+    std::uint32_t first = 0, count = 0;
+  };
+  /// A polygon that was moved to the end of the list, and the first face that it was not compared with yet.
   struct Moved {
     std::uint32_t polygon, next;
   };
@@ -258,7 +263,7 @@ class Newell {
       faces_.push_back(std::move(*faces[i]));
       add(std::move(polygons[i]), extents[i]);
     }
-    sorted_ = static_cast<std::uint32_t>(polygons_.size());
+    left_.assign(faces_.size(), 1);
   }
 
   /// Nothing where the eye is in its plane, or the numbers cannot hold it.
@@ -337,7 +342,7 @@ class Newell {
     farthest_.emplace(extents.farthest, ~static_cast<std::uint32_t>(polygons_.size()));
     polygons_.push_back(std::move(polygon));
     extents_.push_back(extents);
-    states_.push_back(State::waiting);
+    fates_.emplace_back();
   }
 
   // ---- The list: marked polygons at its end, before them the others by their farthest depth
@@ -346,15 +351,16 @@ class Newell {
   bool next() {
     if (options_.progress) options_.progress(painted_, polygons_.size());
     if (!moved_.empty()) return true;
-    while (!farthest_.empty() && states_[~farthest_.top().second] == State::done) farthest_.pop();
+    const auto is_there = [&](State state) { return state == State::waiting || state == State::marked; };
+    while (!farthest_.empty() && !is_there(fates_[~farthest_.top().second].state)) farthest_.pop();
     if (farthest_.empty()) return false;
     move_to_end(~farthest_.top().second);
     return true;
   }
 
   void move_to_end(std::uint32_t polygon) {
-    while (first_ < sorted_ && states_[first_] == State::done) ++first_;
-    states_[polygon] = State::marked;
+    while (first_ < left_.size() && left_[first_] == 0) ++first_;
+    fates_[polygon].state = State::marked;
     moved_.push_back({polygon, first_});
   }
 
@@ -365,7 +371,8 @@ class Newell {
 
   void paint_last() {
     const Polygon& polygon = polygons_[moved_.back().polygon];
-    states_[moved_.back().polygon] = State::done;
+    fates_[moved_.back().polygon].state = State::painted;
+    --left_[polygon.face];
     moved_.pop_back();
     ++painted_;
     Painted_polygon& made = order_.polygons.emplace_back(Painted_polygon{faces_[polygon.face].piece, {}});
@@ -389,13 +396,27 @@ class Newell {
   }
 
   /// What the last polygon must not be painted before, if anything. What it was compared with before it had to wait is
-  /// not compared again.
+  /// not compared again, nor are parts of that.
   std::optional<std::uint32_t> blocker() {
-    auto& [p, q] = moved_.back();
-    for (; q < polygons_.size(); ++q) {
-      if (q < sorted_ && extents_[q].farthest < extents_[p].nearest) q = sorted_;  // so are all behind it in the list
-      if (q == polygons_.size()) break;
-      if (states_[q] != State::done && q != p && !may_precede(p, q)) return q;
+    auto& [p, face] = moved_.back();
+    for (; face < left_.size(); ++face) {
+      if (extents_[face].farthest < extents_[p].nearest) break;  // so are all behind it
+      if (left_[face] == 0) continue;
+      if (const auto q = blocker_in(face, p)) return q;
+    }
+    return std::nullopt;
+  }
+
+  /// Of what is left of a face.
+  std::optional<std::uint32_t> blocker_in(std::uint32_t face, std::uint32_t p) {
+    todo_.assign(1, face);
+    while (!todo_.empty()) {
+      const std::uint32_t q = todo_.back();
+      todo_.pop_back();
+      const Fate& fate = fates_[q];
+      if (fate.state == State::painted || q == p || are_beside(p, q)) continue;
+      if (fate.state != State::cut && !may_precede(p, q)) return q;
+      for (std::uint32_t i = 0; i < fate.count; ++i) todo_.push_back(fate.first + i);
     }
     return std::nullopt;
   }
@@ -403,7 +424,7 @@ class Newell {
   /// Makes the last polygon wait for another one, or cuts one of them.
   void settle(std::uint32_t q) {
     const std::uint32_t p = moved_.back().polygon;
-    if (states_[q] != State::marked && may_precede_by_planes(q, p)) {
+    if (fates_[q].state != State::marked && may_precede_by_planes(q, p)) {
       ++order_.counters.swaps;
       move_to_end(q);
     } else if (order_.counters.splits == most_splits_ || !cut(p, q)) {
@@ -414,18 +435,24 @@ class Newell {
 
   // ---- Pairs
 
-  /// Whether P may be painted before Q: where both are seen, P is nowhere nearer.
+  static bool passed(std::uint64_t& by) {
+    ++by;
+    return true;
+  }
+
+  /// Whether P may be painted before Q, as they do not meet in the image, or not in depth.
+  bool are_beside(std::uint32_t p, std::uint32_t q) {
+    const Extents &a = extents_[p], &b = extents_[q];
+    // 1. In depth P begins where Q has ended.
+    if (b.farthest < a.nearest) return passed(order_.counters.by_depth);
+    // 2. One is beside the other, or above.
+    return (a.right < b.left || b.right < a.left || a.high < b.low || b.high < a.low) &&
+           passed(order_.counters.by_extents);
+  }
+
+  /// Whether P may be painted before Q, as it is nowhere nearer where both are seen.
   bool may_precede(std::uint32_t p, std::uint32_t q) {
     Newell_counters& counters = order_.counters;
-    const Extents &a = extents_[p], &b = extents_[q];
-    const auto passed = [](std::uint64_t& by) {
-      ++by;
-      return true;
-    };
-    // 1. In depth P begins where Q has ended.
-    if (b.farthest < a.nearest) return passed(counters.by_depth);
-    // 2. One is beside the other, or above.
-    if (a.right < b.left || b.right < a.left || a.high < b.low || b.high < a.low) return passed(counters.by_extents);
     // 3. P is behind Q's plane or in it; in it, the rule chooses.
     if (polygons_[p].face == polygons_[q].face) return passed(counters.by_behind);
     const Face &of_p = face_of(p), &of_q = face_of(q);
@@ -466,7 +493,7 @@ class Newell {
   bool cut(std::uint32_t p, std::uint32_t q) {
     // 1. The pairs of the cycle; where faces cross, one pair.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs{{p, q}};
-    if (states_[q] == State::marked) {
+    if (fates_[q].state == State::marked) {
       for (auto from = place_of(q); from + 1 != moved_.end(); ++from)
         pairs.emplace_back(from->polygon, (from + 1)->polygon);
     }
@@ -481,7 +508,10 @@ class Newell {
 
   bool cut_by_edges(std::uint32_t a, std::uint32_t b) {
     for (std::size_t k = 0; k < polygons_[b].edges.size(); ++k)
-      if (cut_if_across(a, polygons_[b].edges[k])) return true;
+      if (cut_if_across(a, polygons_[b].edges[k])) {
+        ++order_.counters.through_eye;
+        return true;
+      }
     return false;
   }
 
@@ -490,15 +520,18 @@ class Newell {
     if (!is_across(polygon, plane)) return false;
     ++order_.counters.splits;
     const auto at = place_of(polygon);
-    for (auto moved = at; moved != moved_.end(); ++moved) states_[moved->polygon] = State::waiting;
+    for (auto moved = at; moved != moved_.end(); ++moved) fates_[moved->polygon].state = State::waiting;
     moved_.erase(at, moved_.end());
-    states_[polygon] = State::done;
+    const auto first = static_cast<std::uint32_t>(polygons_.size());
     for (Polygon& part : parts(polygons_[polygon], plane)) {
       if (part.corners.size() < 3 || is_outside(part)) continue;
       add_edges(part, faces_[part.face].from_behind);
       const Extents extents = extents_of(part);
       add(std::move(part), extents);
     }
+    const std::uint32_t count = static_cast<std::uint32_t>(polygons_.size()) - first;
+    fates_[polygon] = {State::cut, first, count};
+    left_[polygons_[polygon].face] += count - 1;
     return true;
   }
 
@@ -536,12 +569,14 @@ class Newell {
   Image_axes<Number> axes_;
   std::vector<Corner> corners_;  // the scene's points, then those of cuts
   std::vector<Face> faces_;
-  std::vector<Polygon> polygons_;  // the faces, farthest first, then parts
-  std::vector<Extents> extents_;   // of polygons
-  std::vector<State> states_;
-  std::uint32_t first_ = 0, sorted_ = 0;  // of the faces: before all that are left, and behind all
+  std::vector<Polygon> polygons_;                                   // the faces, farthest first, then parts
+  std::vector<Extents> extents_;                                    // of polygons
+  std::vector<Fate> fates_;                                         // of polygons
+  std::vector<std::uint32_t> left_;                                 // of each face, polygons to be painted
+  std::uint32_t first_ = 0;                                         // of those the first
   std::priority_queue<std::pair<double, std::uint32_t>> farthest_;  // polygons, the complement of their numbers
   std::vector<Moved> moved_;
+  std::vector<std::uint32_t> todo_;  // of a face, when it is searched
   std::size_t painted_ = 0, most_splits_ = 0;
   Newell_order order_;
 };
