@@ -193,16 +193,18 @@ void add_render(Command program) {
   command
       .add_option("--method", a->method,
                   "exact: each pixel the mean over its square of what is seen, without samples; centres: what an "
-                  "exact ray through its centre meets first; depth: a depth buffer, in floats; rays: what Embree's "
+                  "exact ray through its centre meets first; depth: a depth buffer, in floats; weighted: the same, "
+                  "where faces let light through weighted blending; rays: what Embree's "
                   "rays through centres meet, in floats; painter-min, "
                   "painter-max, painter-mean: faces sorted by the depth of their nearest corner, farthest corner or "
-                  "corners' mean, which is often wrong; scan-line: row by row, from edge to edge; warnock: in windows, "
+                  "corners' mean, which is often wrong; newell: sorted by depth, compared pair by pair, and cut where "
+                  "there is no order; scan-line: row by row, from edge to edge; warnock: in windows, "
                   "each cut into four until one face is first in it; weiler-atherton: directions cut along the edges "
                   "of the nearest polygon; bsp2d: near to far by a tree, clipped by another one of what is covered; "
                   "bsp, graph: painted in the orders of `sightline order`")
       .check(one_of(image_methods))
       .show_default();
-  command.add_option("--kernel", a->kernel, "arithmetic of the painters, scan-line, warnock and bsp")
+  command.add_option("--kernel", a->kernel, "arithmetic of the painters, newell, scan-line, warnock and bsp")
       .check(one_of({"exact", "double", "float"}))
       .show_default();
   command.add_option("--bits", a->bits, "of a depth: 1 to 31, or 32 for floats; for --method depth")

@@ -10,12 +10,13 @@
 namespace sightline {
 
 struct Image_counters {
-  std::uint64_t edge_on = 0;                        ///< pieces in whose plane the eye is: not seen
-  std::uint64_t drawn = 0;                          ///< polygons of which some centre was looked at
-  std::uint64_t centres = 0;                        ///< polygons at pixel centres
-  std::uint64_t exact_sides = 0, exact_depths = 0;  ///< signs that doubles left open
-  std::uint64_t spans = 0;                          ///< of rows, in which faces were compared: scan_line
-  std::uint64_t windows = 0;                        ///< looked at: warnock
+  std::uint64_t edge_on = 0;                           ///< pieces in whose plane the eye is: not seen
+  std::uint64_t drawn = 0;                             ///< polygons of which some centre was looked at
+  std::uint64_t centres = 0;                           ///< polygons at pixel centres
+  std::uint64_t exact_sides = 0, exact_depths = 0;     ///< signs that doubles left open
+  std::uint64_t spans = 0;                             ///< of rows, in which faces were compared: scan_line
+  std::uint64_t windows = 0;                           ///< looked at: warnock
+  std::uint64_t swaps = 0, splits = 0, unordered = 0;  ///< of polygons, as in Newell_counters: newell
   /// Each by its key in reports.
   template <class Visit>
   static void each(Visit visit) {
@@ -26,6 +27,9 @@ struct Image_counters {
     visit("exact_depths", &Image_counters::exact_depths);
     visit("spans", &Image_counters::spans);
     visit("windows", &Image_counters::windows);
+    visit("swaps", &Image_counters::swaps);
+    visit("splits", &Image_counters::splits);
+    visit("unordered", &Image_counters::unordered);
   }
 };
 

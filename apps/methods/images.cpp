@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/baseline/blended_depth.h>
 #include <sightline/algorithms/image/bsp2d.h>
+#include <sightline/algorithms/image/newell.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
@@ -20,7 +21,8 @@
 namespace sightline::app {
 
 bool has_image_kernels(const std::string& method) {
-  return method.starts_with("painter") || method == "scan-line" || method == "warnock" || method == "bsp";
+  return method.starts_with("painter") || method == "newell" || method == "scan-line" || method == "warnock" ||
+         method == "bsp";
 }
 bool is_built(const std::string& method) { return method != "rays" || has_rays(); }
 bool is_true_method(const std::string& method) {
@@ -87,6 +89,7 @@ static std::vector<Painted_polygon> painting(Scene& scene, const Pixel_view& pix
                                                        {"painter-mean", Painter_key::mean}};
   if (task.method == "bsp") return by_tree(scene, pixels.eye, task.kernel, options, task.seed);
   if (task.method == "graph") return by_graph(scene, pixels.eye, options);
+  if (task.method == "newell") return newell_order(scene, pixels, kernel_of(task.kernel), options).polygons;
   return heedless_order(scene, pixels, keys.at(task.method), kernel_of(task.kernel));
 }
 

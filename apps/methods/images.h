@@ -16,9 +16,10 @@
 
 namespace sightline::app {
 
-inline const std::vector<std::string> image_methods{
-    "exact",     "centres", "depth",           "rays",  "painter-min", "painter-max", "painter-mean", "weighted",
-    "scan-line", "warnock", "weiler-atherton", "bsp2d", "bsp",         "graph"};
+inline const std::vector<std::string> image_methods{"exact",       "centres",     "depth",        "rays",
+                                                    "painter-min", "painter-max", "painter-mean", "weighted",
+                                                    "newell",      "scan-line",   "warnock",      "weiler-atherton",
+                                                    "bsp2d",       "bsp",         "graph"};
 inline const std::vector<std::string> image_kernels{"exact", "double", "float"};
 
 /// Whether the method may be asked in any of the kernels.

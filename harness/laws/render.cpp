@@ -7,6 +7,7 @@
 #include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
+#include <sightline/algorithms/image/newell.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>
@@ -194,11 +195,12 @@ Outcome by_tree(const Seen& seen) {
               "the tree", false);
 }
 
-/// A method that decides at centres, by the same rule where faces are tied.
-template <Piece_image (*method)(const Scene&, const Pixel_view&, Image_kernel, const Image_options&)>
+/// A method that decides at centres, by the same rule where faces are tied, or, not `ties`, by whatever is painted
+/// last.
+template <Piece_image (*method)(const Scene&, const Pixel_view&, Image_kernel, const Image_options&), bool ties = true>
 Outcome by_method(const Seen& seen) {
   return same(seen.pixels, seen.truth(), method(seen.scene, seen.pixels, Image_kernel::exact, serial()), "the method",
-              true);
+              ties);
 }
 
 /// Layers that let light through, by spans and by the tree, against those that rays meet.
@@ -270,6 +272,7 @@ Subject render() {
   subject.checks = {
       check_of("see", "a pixel's centre shows what the part of see around it shows", see),
       check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_tree),
+      check_of("newell", "polygons sorted, compared and cut show what exact rays do", by_method<newell, false>),
       check_of("scan_line", "spans of rows show what exact rays do", by_method<scan_line>),
       check_of("warnock", "windows cut into four show what exact rays do", by_method<warnock>),
       check_of("weiler_atherton", "windows cut along the nearest polygon's edges show what see does",
