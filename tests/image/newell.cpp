@@ -154,6 +154,17 @@ TEST(Newell_swaps, what_reaches_farther_and_hides_is_painted_last) {
   sorted.expect_truth(false);
 }
 
+TEST(Newell_swaps, what_is_in_front_of_the_plane_of_the_other_is_painted_last) {
+  // A ramp above the ground, whose plane cuts that, and which reaches farther.
+  const Points over{at(-1, Rational(-19, 10), -6), at(1, Rational(-19, 10), -6), at(1, 3, -12), at(-1, 3, -12)},
+      ground{at(-3, -2, -4), at(3, -2, -4), at(3, -2, -10), at(-3, -2, -10)};
+  const Sorted sorted({over, ground});
+  EXPECT_EQ(sorted.pieces(), (Pieces{1, 0}));
+  EXPECT_EQ(sorted.order.counters.swaps, 1u);
+  EXPECT_EQ(sorted.order.counters.splits, 0u);
+  sorted.expect_truth(false);
+}
+
 TEST(Newell_cuts, faces_that_pierce_each_other) {
   const Sorted sorted({rectangle(-3, 3, -3, 3, -7), ramp(-1, 1)});
   EXPECT_EQ(sorted.order.counters.swaps, 0u);
