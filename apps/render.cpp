@@ -73,7 +73,8 @@ struct Rendered {
 
 Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& arguments,
                 const Image_options& options) {
-  const std::vector<Tint> tints = tints_of(arguments.tints, arguments.common.scene, Exact_view(scene, pixels.eye));
+  const std::vector<Tint> tints = tints_of(arguments.tints, arguments.common.scene, Exact_view(scene, pixels.eye),
+                                           arguments.view.shade == "lambert");
   const bool transparent = is_transparent(tints);
   if (transparent && !shows_through(arguments.method))
     throw Usage_error(

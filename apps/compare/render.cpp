@@ -111,7 +111,7 @@ Exit compare_images(const Compare_arguments& arguments) {
   alone.threads = 1;
   alone.progress = common.within_budget([](std::size_t, std::size_t) {});
   const Exact_view view(scene, eye);
-  const std::vector<Tint> tints = tints_of(arguments.tints, common.scene, view);
+  const std::vector<Tint> tints = tints_of(arguments.tints, common.scene, view, arguments.view.shade == "lambert");
   const bool transparent = is_transparent(tints);
   Image_truth truth{centres(view, pixels, alone), std::nullopt};
   if (transparent) truth.blended = blended_centres(view, pixels, tints, alone);

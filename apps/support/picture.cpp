@@ -113,6 +113,11 @@ void View_arguments::add_to(Command command, const std::string& usual) {
                   "width of the picture's view in degrees; by default so wide that what there is to see fills the "
                   "picture, 90 where it is all around the eye")
       .check(range(1.0, 170.0) & finite_number());
+  command
+      .add_option("--shade", shade,
+                  "lambert: faces of a picture are lighter towards the light; none: one colour a face")
+      .check(one_of({"lambert", "none"}))
+      .show_default();
   canvas.add_to(command, usual);
 }
 
@@ -184,6 +189,7 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, const std:
   view.height = height;
   view.background = canvas.background_or(view.background);
   view.field = field > 0 ? field : 90;
+  view.lit = shade == "lambert";
   if (scene.counters().faces == 0) return view;
 
   // 2. The direction: to the middle of what is shown, which each step brings nearer.
@@ -360,7 +366,7 @@ void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool out
       corners.push_back(difference(p, view.eye));
       points.push_back(projected(view, axes, corners.back()));
     }
-    const auto [fill, title] = look(item, shade_of(corners));
+    const auto [fill, title] = look(item, view.lit ? shade_of(corners) : 0);
     svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4,
                 fmt::format("face-{}-{}", item.fragment.face, ++polygons[item.fragment.face]), title);
   }

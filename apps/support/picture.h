@@ -51,11 +51,12 @@ struct View {
   double field = 60;  ///< degrees, of the picture's width
   int width = 960, height = 720;
   std::string background = "#f4f3ef";
+  bool lit = true;  ///< faces are lighter towards the light
 };
 
 /// The options of a picture's view.
 struct View_arguments {
-  std::string look, up;
+  std::string look, up, shade = "lambert";
   double field = 0;  ///< 0: so that what is shown fills the picture
   Canvas_arguments canvas;
 

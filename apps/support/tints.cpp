@@ -20,9 +20,6 @@ void Tint_arguments::add_to(Command command) {
   command.add_option("--alpha", alpha, "opacity of faces that have none of their own")
       .check(range(0.0, 1.0))
       .show_default();
-  command.add_option("--shade", shade, "lambert: faces are lighter towards the light; none: one colour a face")
-      .check(one_of({"lambert", "none"}))
-      .show_default();
 }
 
 /// What a list or a library says of a face.
@@ -64,10 +61,10 @@ static std::vector<std::optional<Own_tint>> own_tints(const Tint_arguments& argu
   return tints;
 }
 
-std::vector<Tint> tints_of(const Tint_arguments& arguments, const std::string& scene_file, const Exact_view& view) {
+std::vector<Tint> tints_of(const Tint_arguments& arguments, const std::string& scene_file, const Exact_view& view,
+                           bool lit) {
   const Scene& scene = view.scene();
   const std::vector<std::optional<Own_tint>> own = own_tints(arguments, scene_file, scene);
-  const bool lit = arguments.shade == "lambert";
   std::vector<Tint> tints;
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
     const Piece& piece = scene.pieces()[i];

@@ -203,7 +203,7 @@ Outcome by_method(const Seen& seen) {
               ties);
 }
 
-/// Layers that let light through, by spans and by the tree, against those that rays meet.
+/// Layers that let light through, by spans, the tree and newell, against those that rays meet.
 Outcome by_layers(const Seen& seen) {
   std::vector<Tint> tints;
   for (std::uint32_t i = 0; i < seen.scene.pieces().size(); ++i)
@@ -223,8 +223,11 @@ Outcome by_layers(const Seen& seen) {
   const Outcome spans =
       check(blended_scan_line(seen.scene, seen.pixels, Image_kernel::exact, tints, serial()), "spans", true);
   if (spans.state != Outcome::State::passed) return spans;
-  return check(blended_painting(tree_order(seen), seen.pixels, Image_kernel::exact, tints, serial()), "the tree",
-               false);
+  const Outcome tree =
+      check(blended_painting(tree_order(seen), seen.pixels, Image_kernel::exact, tints, serial()), "the tree", false);
+  if (tree.state != Outcome::State::passed) return tree;
+  const Newell_order sorted = newell_order(seen.scene, seen.pixels, Image_kernel::exact, serial());
+  return check(blended_painting(sorted.polygons, seen.pixels, Image_kernel::exact, tints, serial()), "newell", false);
 }
 
 /// The means of an image are those of four pixels each in one of twice its size.

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <filesystem>
 #include <fstream>
 
@@ -16,7 +18,8 @@ using namespace sightline;
 
 class Materials : public testing::Test {
  protected:
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "sightline_materials";
+  const std::filesystem::path folder =
+      std::filesystem::path(testing::TempDir()) / ("sightline_materials_" + std::to_string(getpid()));
 
   void SetUp() override { std::filesystem::create_directories(folder); }
   void TearDown() override { std::filesystem::remove_all(folder); }

@@ -431,4 +431,25 @@ TEST_F(Turned, round_or_not_see_says_where_nearly_all_shows_its_back) {
   EXPECT_EQ(seen["from_behind"], Json({0, 1, 2, 3, 4, 5}));
 }
 
+TEST_F(Pictures, are_shaded_unless_they_are_not_to_be) {
+  // Of a cube three faces are seen, each by its own hue; what --shade changes is how light they are.
+  const std::vector<std::string> words{"order", cube, "--eye", "3,-4,5"};
+  const auto fills = [&](const std::string& shade) {
+    std::vector<std::string> more = words;
+    more.insert(more.end(), {"--shade", shade});
+    std::map<std::string, std::string> by_id;
+    for (const Polygon& polygon : drawn(more).polygons) by_id[polygon.id] = polygon.fill;
+    return by_id;
+  };
+  const auto lit = fills("lambert"), plain = fills("none");
+  ASSERT_EQ(lit.size(), plain.size());
+  const auto lights = [](const std::map<std::string, std::string>& all) {
+    std::set<std::string> different;
+    for (const auto& [id, fill] : all) different.insert(fill.substr(fill.rfind(',')));
+    return different.size();
+  };
+  EXPECT_EQ(lights(plain), 2u);  // fronts, and backs
+  EXPECT_EQ(lights(lit), 6u);
+}
+
 }  // namespace program
