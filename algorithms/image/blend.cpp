@@ -116,13 +116,11 @@ Blended_image blended_painting(const std::vector<Painted_polygon>& polygons, con
     pieces = std::max<std::size_t>(pieces, polygon.piece + std::size_t{1});
   check_tints(tints, pieces);
   Blended_image image = Blended_image::empty(pixels);
-  std::vector<std::uint32_t> last(image.layers.size(), Piece_image::nothing);  // painted at each pixel
   const Pixel_centres centres(pixels);
   run_with_threads(options.threads, [&] {
     const Painted_cones painted(polygons, centres, kernel);
-    image.counters = painted.paint(options, [&](std::size_t at, std::uint32_t piece) {
-      if (last[at] != piece) image.layers[at].put_before(tints[piece]);
-      last[at] = piece;
+    image.counters = painted.paint(Painted_cones::Border::half, options, [&](std::size_t at, std::uint32_t piece) {
+      image.layers[at].put_before(tints[piece]);
     });
   });
   return image;

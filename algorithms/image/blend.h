@@ -34,10 +34,10 @@ struct Blended_image {
 Blended_image blended_centres(const Exact_view& view, const Pixel_view& pixels, const std::vector<Tint>& tints,
                               const Image_options& options = {});
 
-/// The polygons painted in this order, farthest first, each over those before it. A piece in several polygons counts
-/// once at a centre that is on the cut between them. Pre: as blended_centres(). Degenerate, errors, cost: as paint().
-/// Parallel. Exact: as order and kernel are; off ties, orders of the scene's fragments make blended_centres(), but for
-/// rounding of colours. Proof: P-85
+/// The polygons painted in this order, farthest first, each over those before it. A centre on the border of polygons
+/// belongs to those that are to the right of it, or above it: so a piece in several polygons counts once on their cut.
+/// Pre: as blended_centres(). Degenerate, errors, cost: as paint(). Parallel. Exact: as order and kernel are; off ties,
+/// orders of the scene's fragments make blended_centres(), but for rounding of colours. Proof: P-85
 Blended_image blended_painting(const std::vector<Painted_polygon>& polygons, const Pixel_view& pixels,
                                Image_kernel kernel, const std::vector<Tint>& tints, const Image_options& options = {});
 

@@ -30,9 +30,11 @@ class Painted_cones {
   const Pixel_cones& cones() const { return cones_; }
   std::uint32_t piece(std::uint32_t cone) const { return pieces_[cone]; }
 
+  /// Which of the centres on its border a polygon has: all, or those of Pixel_cones::holds_beside().
+  enum class Border { whole, half };
   /// visit(pixel, piece) for what each polygon covers, in their order at each pixel. Returns what it took.
   template <class Visit>
-  Image_counters paint(const Image_options& options, Visit visit) const;
+  Image_counters paint(Border border, const Image_options& options, Visit visit) const;
 
  private:
   void add_exactly(const std::vector<Painted_polygon>& polygons);
@@ -46,13 +48,14 @@ class Painted_cones {
 };
 
 template <class Visit>
-Image_counters Painted_cones::paint(const Image_options& options, Visit visit) const {
+Image_counters Painted_cones::paint(Border border, const Image_options& options, Visit visit) const {
   Image_counters sum = draw_bands(bands_of(cones_), options, [&](const Band& band, Image_counters& counters) {
     const std::size_t width = cones_.centres().view().width;
     for (const std::uint32_t cone : band.cones)
       for (std::int64_t y = std::max<std::int64_t>(band.top, cones_[cone].top);
            y < std::min<std::int64_t>(band.bottom, cones_[cone].bottom); ++y)
-        cones_.row(cone, y, counters, [&](std::int64_t x, bool) {
+        cones_.row(cone, y, counters, [&](std::int64_t x, bool on_border) {
+          if (on_border && border == Border::half && !cones_.holds_beside(cone, x, y, counters)) return;
           visit(static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x), pieces_[cone]);
         });
   });

@@ -64,7 +64,8 @@ static Piece_image painted(const image_detail::Pixel_centres& centres, const Ima
   image.pieces.assign(std::size_t{pixels.width} * pixels.height, Piece_image::nothing);
   run_with_threads(options.threads, [&] {
     const image_detail::Painted_cones cones = make();
-    image.counters = cones.paint(options, [&](std::size_t at, std::uint32_t piece) { image.pieces[at] = piece; });
+    image.counters = cones.paint(image_detail::Painted_cones::Border::whole, options,
+                                 [&](std::size_t at, std::uint32_t piece) { image.pieces[at] = piece; });
   });
   return image;
 }

@@ -70,6 +70,11 @@ std::array<Integer, 3> Pixel_centres::exact(std::int64_t x, std::int64_t y) cons
   return d;
 }
 
+int Pixel_centres::beside(const std::array<Integer, 3>& normal) const {
+  const int right = sgn(dot(normal, right_));
+  return right != 0 ? right : sgn(dot(normal, up_)) > 0 ? 1 : -1;
+}
+
 std::optional<Pixel_centres::Place> Pixel_centres::place(const Approximate_vector& direction, double error) const {
   if (!has_places_) return std::nullopt;
   const std::array<double, 3> d{direction.x, direction.y, direction.z};
@@ -186,6 +191,17 @@ int Pixel_cones::side(std::uint32_t cone, std::uint32_t edge, std::int64_t x, st
   if (value < -form.bound) return -1;
   ++counters.exact_sides;
   return sgn(dot(exact_normal_(cone, edge), centres_->exact(x, y)));
+}
+
+bool Pixel_cones::holds_beside(std::uint32_t cone, std::int64_t x, std::int64_t y, Image_counters& counters) const {
+  for (std::uint32_t e = 0; e < cones_[cone].edges; ++e) {
+    if (side(cone, e, x, y, counters) != 0) continue;
+    const std::array<Integer, 3> normal = exact_normal_(cone, e);
+    const Pixel_form& form = edges_[cones_[cone].first_edge + e];  // is all there is where numbers are rounded
+    const bool inside = is_zero(normal) ? form.a > 0 || (form.a == 0 && form.b >= 0) : centres_->beside(normal) > 0;
+    if (!inside) return false;
+  }
+  return true;
 }
 
 int Pixel_cones::side(std::uint32_t cone, std::int64_t x, std::int64_t y, Image_counters& counters) const {

@@ -35,6 +35,9 @@ class Pixel_centres {
   std::int64_t column(double across) const;
   /// A positive multiple of the direction.
   std::array<Integer, 3> exact(std::int64_t x, std::int64_t y) const;
+  /// 1 where a plane through the eye and a centre is in front of what lies beside that centre to the right, or, where
+  /// that is in the plane too, above it; else -1. Pre: not all zero.
+  int beside(const std::array<Integer, 3>& normal) const;
   /// The place of a direction in the image, across and upwards; nothing where it is not well before the eye.
   struct Place {
     double across, upwards;
@@ -112,6 +115,10 @@ class Pixel_cones {
     std::int64_t first, last;
   };
   Columns columns(std::uint32_t cone, std::int64_t y, Image_counters& counters) const;
+
+  /// Whether a centre of the closed cone is in it still when it is moved to the right by next to nothing, and upwards
+  /// by next to nothing of that: of cones that share out a larger one, exactly one holds it then. Exact: as side() is.
+  bool holds_beside(std::uint32_t cone, std::int64_t x, std::int64_t y, Image_counters& counters) const;
 
   /// visit(x, on_border) for the centres of row y in the closed cone, from left to right. Exact: as the edges and
   /// exact_normal are.

@@ -174,6 +174,26 @@ TEST(Weighted_blending, has_the_right_opacity_before_what_hides_all) {
   for (const Layer& layer : two.layers) EXPECT_GT(layer.colour[1] / 100, layer.colour[2] / 40);
 }
 
+/// Two panes, both cut by a plane through the eye and pixel centres: in an order that paints all on its one side before
+/// all on its other side each counts once there, the nearer over the farther.
+TEST(Blended_painting, counts_a_piece_once_on_a_cut_through_the_eye) {
+  using view_scenes::at;
+  const auto pane = [](std::uint32_t piece, int from, int to, int depth) {
+    return Painted_polygon{piece, {at(from, -9, -depth), at(to, -9, -depth), at(to, 9, -depth), at(from, 9, -depth)}};
+  };
+  const Pixel_view pixels{at(0, 0, 0), {0, 0, -1}, {0.5, 0, 0}, {0, 0.5, 0}, 3, 3};
+  const std::vector<Tint> tints{{{200, 0, 0}, 0.5}, {{0, 100, 0}, 0.5}};
+  for (const bool left_first : {true, false}) {
+    std::vector<Painted_polygon> halves{pane(0, -9, 0, 8), pane(1, -9, 0, 4), pane(0, 0, 9, 8), pane(1, 0, 9, 4)};
+    if (!left_first) std::rotate(halves.begin(), halves.begin() + 2, halves.end());
+    for (const Image_kernel kernel : {Image_kernel::float_numbers, Image_kernel::double_numbers, Image_kernel::exact})
+      for (const Layer& layer : blended_painting(halves, pixels, kernel, tints).layers) {
+        EXPECT_EQ(layer.colour, (Colour{50, 50, 0}));
+        EXPECT_EQ(layer.alpha, 0.75);
+      }
+  }
+}
+
 TEST(Tints, that_are_missing_or_no_numbers_are_refused) {
   const Panes panes;
   const Exact_view view(panes.scene, panes.pixels.eye);
