@@ -1,19 +1,15 @@
 #include <sightline/algorithms/baseline/blended_depth.h>
 
 #include <sightline/algorithms/baseline/rasterizer.h>
+#include <sightline/algorithms/image/blend.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
 
 namespace sightline {
 
 namespace {
-
-void check_tints(const Scene& scene, const std::vector<Tint>& tints) {
-  if (tints.size() < scene.pieces().size()) throw std::invalid_argument("there is a tint for each piece");
-}
 
 /// The least depth so far at each pixel, rounded to bits.
 class Least_depth {
@@ -31,47 +27,57 @@ class Least_depth {
   int bits_;
 };
 
+/// An image in the making.
+struct Drawing {
+  const depth_buffer_detail::Pinhole pinhole;
+  const std::vector<Tint>& tints;
+  std::vector<Layer> layers;
+  Least_depth depths;
+
+  /// Errors: as depth_blended().
+  Drawing(const Scene& scene, const Pixel_view& pixels, const std::vector<Tint>& its,
+          const Depth_buffer_options& options)
+      : pinhole(scene, pixels, options), tints(its), layers(pinhole.pixels()), depths(pinhole.pixels(), options.bits) {
+    image_detail::check_tints(tints, scene.pieces().size());
+  }
+
+  /// Those of an opacity or more, in the scene's order, each over what is there where it is nearer than all so far.
+  Blended_depth draw(double least_alpha) {
+    Blended_depth image{{}, pinhole.near(), pinhole.far()};
+    image.not_finite = pinhole.draw(image.triangles, [&](std::size_t at, std::uint32_t piece, float z) {
+      if (tints[piece].alpha < least_alpha || !depths.is_less(at, z)) return;
+      depths.set(at, z);
+      layers[at].put_before(tints[piece]);
+    });
+    return image;
+  }
+};
+
 }  // namespace
 
 Blended_depth depth_blended(const Scene& scene, const Pixel_view& pixels, const std::vector<Tint>& tints,
                             const Depth_buffer_options& options) {
-  check_tints(scene, tints);
-  const depth_buffer_detail::Pinhole pinhole(scene, pixels, options);
-  std::vector<Layer> layers(pinhole.pixels());
-  Least_depth depths(pinhole.pixels(), options.bits);
-  Blended_depth image{{}, pinhole.near(), pinhole.far()};
-  image.not_finite = pinhole.draw(image.triangles, [&](std::size_t at, std::uint32_t piece, float z) {
-    if (!depths.is_less(at, z)) return;
-    depths.set(at, z);
-    layers[at].put_before(tints[piece]);
-  });
-  image.layers = pinhole.from_above(layers);
+  Drawing drawing(scene, pixels, tints, options);
+  Blended_depth image = drawing.draw(0);
+  image.layers = drawing.pinhole.from_above(drawing.layers);
   return image;
 }
 
 Blended_depth weighted_blended(const Scene& scene, const Pixel_view& pixels, const std::vector<Tint>& tints,
                                const Depth_buffer_options& options) {
-  check_tints(scene, tints);
-  const depth_buffer_detail::Pinhole pinhole(scene, pixels, options);
-  std::vector<Layer> layers(pinhole.pixels());
-  Least_depth depths(pinhole.pixels(), options.bits);
-  Blended_depth image{{}, pinhole.near(), pinhole.far()};
   // 1. What hides all.
-  image.not_finite = pinhole.draw(image.triangles, [&](std::size_t at, std::uint32_t piece, float z) {
-    if (tints[piece].alpha < 1 || !depths.is_less(at, z)) return;
-    depths.set(at, z);
-    layers[at].put_before(tints[piece]);
-  });
+  Drawing drawing(scene, pixels, tints, options);
+  Blended_depth image = drawing.draw(1);
   // 2. What is before it: colours summed by weight, and what all let through together.
   struct Sum {
     Colour colour{};
     double weight = 0, through = 1;
   };
-  std::vector<Sum> sums(pinhole.pixels());
+  std::vector<Sum> sums(drawing.layers.size());
   std::uint64_t again = 0;
-  pinhole.draw(again, [&](std::size_t at, std::uint32_t piece, float z) {
+  drawing.pinhole.draw(again, [&](std::size_t at, std::uint32_t piece, float z) {
     const Tint& tint = tints[piece];
-    if (tint.alpha >= 1 || !depths.is_less(at, z)) return;
+    if (tint.alpha >= 1 || !drawing.depths.is_less(at, z)) return;
     const double weight = tint.alpha * std::max(1e-2, 3e3 * std::pow(1 - double{z}, 3));
     for (std::size_t k = 0; k < 3; ++k) sums[at].colour[k] += weight * tint.colour[k];
     sums[at].weight += weight;
@@ -82,9 +88,9 @@ Blended_depth weighted_blended(const Scene& scene, const Pixel_view& pixels, con
     if (!(sums[at].weight > 0)) continue;
     Tint mean{sums[at].colour, 1 - sums[at].through};
     for (double& c : mean.colour) c /= sums[at].weight;
-    layers[at].put_before(mean);
+    drawing.layers[at].put_before(mean);
   }
-  image.layers = pinhole.from_above(layers);
+  image.layers = drawing.pinhole.from_above(drawing.layers);
   return image;
 }
 

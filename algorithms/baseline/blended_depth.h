@@ -21,7 +21,8 @@ struct Blended_depth {
 
 /// Faces drawn in the scene's order, each over what is there where its stored depth is less than the least so far: what
 /// is drawn later and lies behind is lost, and what is drawn later and lies before is right only by chance. Pre: a tint
-/// for each piece, its alpha from 0 to 1. Errors: as depth_image(). Exact: no; that is its purpose.
+/// for each piece, its alpha from 0 to 1. Errors: as depth_image(), and for tints as
+/// blended_centres(). Exact: no; that is its purpose.
 Blended_depth depth_blended(const Scene& scene, const Pixel_view& pixels, const std::vector<Tint>& tints,
                             const Depth_buffer_options& options = {});
 

@@ -47,8 +47,6 @@ struct Target {
   std::uint32_t width, height;
   float near, far;
   std::uint64_t triangles = 0, clipped = 0;
-
-  std::size_t pixels() const { return std::size_t{width} * height; }
 };
 
 /// put(pixel, piece, depth from 0 to 1) for each pixel that a piece covers.

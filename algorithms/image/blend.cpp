@@ -89,7 +89,7 @@ Blended_image blended_centres(const Exact_view& view, const Pixel_view& pixels, 
   run_with_threads(options.threads, [&] {
     const Image_faces faces(view, pixels);
     const Pixel_cones& cones = faces.cones();
-    image.counters = faces.empty_image().counters;
+    image.counters = faces.counters();
     image.counters += draw_bands(bands_of(cones), options, [&](const Band& band, Image_counters& counters) {
       Layered_row row(faces, pixels.width);
       for (std::int64_t y = band.top; y < band.bottom; ++y) {

@@ -90,12 +90,17 @@ void Image_faces::add_all_in() {
   }
 }
 
+Image_counters Image_faces::counters() const {
+  Image_counters counters;
+  counters.edge_on = scene_.pieces().size() - faces_.size();
+  counters.drawn = faces_.size();
+  return counters;
+}
+
 Piece_image Image_faces::empty_image() const {
   const Pixel_view& pixels = centres_.view();
-  Piece_image image{pixels.width, pixels.height, {}, {}, {}};
+  Piece_image image{pixels.width, pixels.height, {}, {}, counters()};
   image.pieces.assign(std::size_t{pixels.width} * pixels.height, Piece_image::nothing);
-  image.counters.edge_on = scene_.pieces().size() - faces_.size();
-  image.counters.drawn = faces_.size();
   return image;
 }
 

@@ -44,6 +44,8 @@ class Image_faces {
   const Pixel_cones& cones() const { return cones_; }
   std::uint32_t piece(std::uint32_t face) const { return faces_[face].piece; }
   const Pixel_form& nearness(std::uint32_t face) const { return faces_[face].nearness; }
+  /// What is drawn, and what is not.
+  Image_counters counters() const;
   /// An image that shows nothing yet.
   Piece_image empty_image() const;
 

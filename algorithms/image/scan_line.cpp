@@ -5,9 +5,11 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sightline {
@@ -119,6 +121,30 @@ std::int64_t crossing(const Image_faces& faces, std::uint32_t left, std::uint32_
   return span.first + (span.last - span.first) / 2;
 }
 
+using Two_faces = std::array<std::uint32_t, 2>;
+
+/// A span, split as often as it takes: show(span) shows it, or gives two faces that come in different orders at its
+/// ends.
+class Split_spans {
+ public:
+  template <class Show>
+  void each(const Image_faces& faces, const Span& whole, std::int64_t y, Show show) {
+    left_.assign(1, whole);
+    while (!left_.empty()) {
+      const Span span = left_.back();
+      left_.pop_back();
+      const std::optional<Two_faces> two = show(span);
+      if (!two) continue;
+      const std::int64_t middle = crossing(faces, (*two)[0], (*two)[1], span, y);
+      left_.push_back({middle, span.last});
+      left_.push_back({span.first, middle});
+    }
+  }
+
+ private:
+  std::vector<Span> left_;
+};
+
 /// What is first at both ends of a span is first in all of it, as 1 / t is linear; else it is split, where the two
 /// cross.
 class Show_first {
@@ -127,20 +153,13 @@ class Show_first {
       : faces_(faces), image_(image), counters_(counters) {}
 
   void operator()(const std::vector<Active>& there, const Span& whole, std::int64_t y) {
-    spans_.assign(1, whole);
-    while (!spans_.empty()) {
-      const Span span = spans_.back();
-      spans_.pop_back();
+    split_.each(faces_, whole, y, [&](const Span& span) -> std::optional<Two_faces> {
       ++counters_.spans;
       const std::uint32_t left = first_at(there, span.first, y), right = first_at(there, span.last - 1, y);
-      if (left == right) {
-        std::fill_n(image_.pieces.begin() + y * image_.width + span.first, span.last - span.first, faces_.piece(left));
-      } else {
-        const std::int64_t middle = crossing(faces_, left, right, span, y);
-        spans_.push_back({middle, span.last});
-        spans_.push_back({span.first, middle});
-      }
-    }
+      if (left != right) return Two_faces{left, right};
+      std::fill_n(image_.pieces.begin() + y * image_.width + span.first, span.last - span.first, faces_.piece(left));
+      return std::nullopt;
+    });
   }
 
  private:
@@ -152,7 +171,7 @@ class Show_first {
   const Image_faces& faces_;
   Piece_image& image_;
   Image_counters& counters_;
-  std::vector<Span> spans_;  // that are left
+  Split_spans split_;
 };
 
 /// The same of all layers down to one that hides all: they are in one order at both ends, or the span is split.
@@ -162,24 +181,17 @@ class Show_layers {
       : faces_(faces), tints_(tints), image_(image), counters_(counters) {}
 
   void operator()(const std::vector<Active>& there, const Span& whole, std::int64_t y) {
-    spans_.assign(1, whole);
-    while (!spans_.empty()) {
-      const Span span = spans_.back();
-      spans_.pop_back();
+    split_.each(faces_, whole, y, [&](const Span& span) -> std::optional<Two_faces> {
       ++counters_.spans;
       sort_at(there, span.first, y, left_);
       sort_at(there, span.last - 1, y, right_);
       const auto [left, right] = std::mismatch(left_.begin(), left_.end(), right_.begin(), right_.end());
-      if (left == left_.end()) {
-        Layer layer;
-        for (const std::uint32_t face : left_) layer.put_behind(tints_[faces_.piece(face)]);
-        std::fill_n(image_.layers.begin() + y * image_.width + span.first, span.last - span.first, layer);
-      } else {
-        const std::int64_t middle = crossing(faces_, *left, *right, span, y);
-        spans_.push_back({middle, span.last});
-        spans_.push_back({span.first, middle});
-      }
-    }
+      if (left != left_.end()) return Two_faces{*left, *right};
+      Layer layer;
+      for (const std::uint32_t face : left_) layer.put_behind(tints_[faces_.piece(face)]);
+      std::fill_n(image_.layers.begin() + y * image_.width + span.first, span.last - span.first, layer);
+      return std::nullopt;
+    });
   }
 
  private:
@@ -201,7 +213,7 @@ class Show_layers {
   const std::vector<Tint>& tints_;
   Blended_image& image_;
   Image_counters& counters_;
-  std::vector<Span> spans_;                  // that are left
+  Split_spans split_;
   std::vector<std::uint32_t> left_, right_;  // faces at a span's ends
 };
 
@@ -237,7 +249,7 @@ Blended_image blended_scan_line(const Scene& scene, const Pixel_view& pixels, Im
   Blended_image image = Blended_image::empty(pixels);
   run_with_threads(options.threads, [&] {
     const Image_faces faces(scene, pixels, kernel);
-    image.counters = faces.empty_image().counters;
+    image.counters = faces.counters();
     image.counters += draw_spans(faces, options,
                                  [&](Image_counters& counters) { return Show_layers(faces, tints, image, counters); });
   });

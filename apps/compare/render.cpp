@@ -12,7 +12,7 @@
 
 namespace sightline::app {
 
-/// What all are compared with.
+/// What all are compared with: one of them.
 struct Image_truth {
   Piece_image pieces;
   std::optional<Blended_image> blended;  ///< where faces let something through
@@ -113,8 +113,9 @@ Exit compare_images(const Compare_arguments& arguments) {
   const Exact_view view(scene, eye);
   const std::vector<Tint> tints = tints_of(arguments.tints, common.scene, view, arguments.view.shade == "lambert");
   const bool transparent = is_transparent(tints);
-  Image_truth truth{centres(view, pixels, alone), std::nullopt};
+  Image_truth truth;
   if (transparent) truth.blended = blended_centres(view, pixels, tints, alone);
+  else truth.pieces = centres(view, pixels, alone);
   const std::vector<std::uint8_t>& ties = transparent ? truth.blended->tied : truth.pieces.tied;
   const auto tied = static_cast<std::uint64_t>(std::count(ties.begin(), ties.end(), 1));
 

@@ -35,19 +35,7 @@ inline void expect_same(const Exact_view& view, const Surface& surface, const Su
   ASSERT_EQ(surface.from_behind, truth.from_behind);
   const auto parts = see_test::polygons(view, surface), expected = see_test::polygons(view, truth);
   const oracle::Flats flats = oracle::flats_of(view.scene());
-  for (std::size_t i = 0; i < flats.size(); ++i) {
-    const Exact_point& normal = flats[i].plane.normal;
-    for (const auto& part : parts[i])
-      for (std::size_t k = 0; k < part.size(); ++k) {  // in its plane, and counterclockwise as seen from the front
-        ASSERT_EQ(flats[i].height(part[k]), 0);
-        const Exact_point turn = oracle::cross(oracle::minus(part[(k + 1) % part.size()], part[k]),
-                                               oracle::minus(part[(k + 2) % part.size()], part[(k + 1) % part.size()]));
-        ASSERT_GE(oracle::dot(turn, normal), 0) << "face " << flats[i].face;
-      }
-    ASSERT_EQ(oracle::projected_area(parts[i], normal), oracle::projected_area(expected[i], normal))
-        << "face " << flats[i].face;
-    ASSERT_TRUE(oracle::same_points(parts[i], expected[i], normal)) << "face " << flats[i].face;
-  }
+  ASSERT_NO_FATAL_FAILURE(see_test::expect_same_points(flats, parts, expected));
 }
 
 /// What a ray meets first, in directions of which some are at edges and corners.

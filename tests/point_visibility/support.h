@@ -8,6 +8,8 @@
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 
+#include <gtest/gtest.h>
+
 namespace sightline::see_test {
 
 /// The parts of each piece, for all pieces.
@@ -36,6 +38,24 @@ inline std::vector<std::uint32_t> seen_in(const Exact_view& view, const Visible_
     if (inside) found.push_back(part.piece);
   }
   return found;
+}
+
+/// Of each piece the same points, with the same area, in its plane.
+template <class Parts, class Others>
+void expect_same_points(const oracle::Flats& flats, const Parts& parts, const Others& expected) {
+  for (std::size_t i = 0; i < flats.size(); ++i) {
+    const Exact_point& normal = flats[i].plane.normal;
+    for (const auto& part : parts[i])
+      for (std::size_t k = 0; k < part.size(); ++k) {  // in its plane, and counterclockwise as seen from the front
+        ASSERT_EQ(flats[i].height(part[k]), 0);
+        const Exact_point turn = oracle::cross(oracle::minus(part[(k + 1) % part.size()], part[k]),
+                                               oracle::minus(part[(k + 2) % part.size()], part[(k + 1) % part.size()]));
+        ASSERT_GE(oracle::dot(turn, normal), 0) << "face " << flats[i].face;
+      }
+    ASSERT_EQ(oracle::projected_area(parts[i], normal), oracle::projected_area(expected[i], normal))
+        << "face " << flats[i].face;
+    ASSERT_TRUE(oracle::same_points(parts[i], expected[i], normal)) << "face " << flats[i].face;
+  }
 }
 
 }  // namespace sightline::see_test

@@ -33,19 +33,7 @@ void expect_as_brute_force(const view_scenes::Case& given) {
   const oracle::Flats flats = oracle::flats_of(scene);
   std::vector<std::vector<oracle::Points>> expected(flats.size());
   for (const oracle::Region& region : oracle::visible_parts(flats, given.eye)) expected[region.piece] = region.parts;
-  for (std::size_t i = 0; i < flats.size(); ++i) {
-    const Exact_point& normal = flats[i].plane.normal;
-    for (const auto& part : parts[i])
-      for (std::size_t k = 0; k < part.size(); ++k) {  // in its plane, and counterclockwise as seen from the front
-        ASSERT_EQ(flats[i].height(part[k]), 0);
-        const Exact_point turn = oracle::cross(oracle::minus(part[(k + 1) % part.size()], part[k]),
-                                               oracle::minus(part[(k + 2) % part.size()], part[(k + 1) % part.size()]));
-        ASSERT_GE(oracle::dot(turn, normal), 0) << "face " << flats[i].face;
-      }
-    ASSERT_EQ(oracle::projected_area(parts[i], normal), oracle::projected_area(expected[i], normal))
-        << "face " << flats[i].face;
-    ASSERT_TRUE(oracle::same_points(parts[i], expected[i], normal)) << "face " << flats[i].face;
-  }
+  ASSERT_NO_FATAL_FAILURE(expect_same_points(flats, parts, expected));
 
   // The faces that the law calls visible.
   const std::set<Face_id> lawful = oracle::visible_faces(flats, given.eye);
