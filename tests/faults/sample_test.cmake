@@ -20,6 +20,7 @@ function(run mutant hunt)
     set(command "${targets}" "--gtest_filter=Fuzz*/${words}" --gtest_brief=1 --gtest_fail_fast)
   endif()
   set(ENV{SIGHTLINE_FAULT} "${mutant}")
+  set(ENV{MALLOC_PERTURB_} 85)  # what was freed, and what is new, holds the same in every process
   execute_process(COMMAND ${command} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE complaint TIMEOUT 600)
   set(found FALSE)
   set(failed FALSE)
