@@ -1,16 +1,18 @@
 // Pictures: exact rays and exact areas against Embree and a depth buffer: bench_render [--max FACES] [--size PIXELS]
-// [--out FOLDER] Tables on standard output; with --out also render.csv and render.svg. Each row is a process of its
-// own; seconds are of one thread, the best of up to three turns. A row that is wrong where it must not be ends in
-// FAILED.
+// [--family NAME] [--out FOLDER] Tables on standard output; with --out also render.csv and render.svg. Each row is a
+// process of its own; seconds are of one thread, the best of up to three turns. A row that is wrong where it must not
+// be ends in FAILED.
 
 #include "measure.h"
 
 #include "../apps/methods/rays.h"
 
 #include <sightline/algorithms/baseline/depth_buffer.h>
+#include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/warnock.h>
+#include <sightline/algorithms/image/weiler_atherton.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
@@ -27,6 +29,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
+#include <set>
 #include <string>
 
 using namespace sightline;
@@ -88,6 +91,7 @@ struct Family {
   std::string name;
   std::array<double, 3> from;
   std::size_t (*size)(double faces);
+  double most = 1e6;  // faces
 };
 const std::array<Family, 4> families{{
     {"city", {-0.1, -0.2, 1.5}, [](double faces) { return static_cast<std::size_t>(faces / 5); }},
@@ -95,7 +99,7 @@ const std::array<Family, 4> families{{
     {"rooms",
      {0.13, 0.17, 0.55},
      [](double faces) { return static_cast<std::size_t>(std::lround(std::sqrt(faces / 220))); }},
-    {"lattice", {-0.4, -0.6, 0.7}, [](double faces) { return static_cast<std::size_t>(faces / 3); }},
+    {"lattice", {-0.4, -0.6, 0.7}, [](double faces) { return static_cast<std::size_t>(faces / 3); }, 1e3},
 }};
 
 // ---- One ray a pixel
@@ -162,7 +166,7 @@ Row measure(Scene& scene, const Pixel_view& pixels) {
   return row;
 }
 
-bool pictures(double max_faces, std::uint32_t size, const std::string& folder) {
+bool pictures(double max_faces, std::uint32_t size, const std::string& only, const std::string& folder) {
   fmt::print("Pictures of {0} x {0} pixels. rays: Embree, without and with its hierarchy; wrong: pixels of {1}\n", size,
              std::uint64_t{size} * size);
   fmt::print("{:<22} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>7} {:>7} {:>9} {:>9} {:>8}\n", "scene", "faces",
@@ -181,7 +185,7 @@ bool pictures(double max_faces, std::uint32_t size, const std::string& folder) {
   bool ok = true;
   for (const Family& family : families)
     for (const double n : {1e3, 1e4, 1e5, 1e6}) {
-      if (n > max_faces * 1.01) continue;
+      if (n > std::min(max_faces, family.most) * 1.01 || (!only.empty() && family.name != only)) continue;
       Scene scene(generate::make(family.name, family.size(n), 1));
       const auto faces = static_cast<double>(scene.counters().faces);
       const Pixel_view pixels = towards_middle(scene, family.from, size);
@@ -217,6 +221,41 @@ bool pictures(double max_faces, std::uint32_t size, const std::string& folder) {
   return ok;
 }
 
+// ---- Regions instead of pixels
+
+/// What a city of 10,000 faces shows, cut along the edges of nearest polygons, and by a tree of what is covered.
+bool regions(std::uint32_t size) {
+  const Family& city = families[0];
+  Scene scene(generate::make(city.name, city.size(1e4), 1));
+  const Exact_view view(scene, towards_middle(scene, city.from, size).eye,
+                        field_of(towards_middle(scene, city.from, size)));
+  Visible_options alone;
+  alone.threads = 1;
+  Bsp2d_options trees;
+  trees.threads = 1;
+  std::array<double, 3> seconds{};
+  const Visible_surface<Exact_view> seen =
+      timed(seconds[0], [&] { return visible_surface(view, Piece_boxes(scene), field_of_view(view), alone); });
+  const Visible_surface<Exact_view> windows =
+      timed(seconds[1], [&] { return weiler_atherton(view, field_of_view(view), alone); });
+  const Visible_surface<Exact_view> covered =
+      timed(seconds[2], [&] { return bsp2d(view, field_of_view(view), trees).surface; });
+  const auto faces = [&](const Visible_surface<Exact_view>& surface) {
+    std::set<Face_id> found;
+    for (const auto& part : surface.parts)
+      if (part.piece != surface.nothing) found.insert(scene.pieces()[part.piece].face);
+    return found;
+  };
+  const bool ok = faces(seen) == faces(windows) && faces(seen) == faces(covered);
+  fmt::print("\nRegions of a city of {} faces\nsee              {:.4f} s, {} parts\n", scene.counters().faces,
+             seconds[0], seen.parts.size());
+  fmt::print("weiler-atherton  {:.4f} s, {} parts, {:.2f} x see\n", seconds[1], windows.parts.size(),
+             seconds[1] / seconds[0]);
+  fmt::print("bsp2d            {:.4f} s, {} parts, {:.2f} x see{}\n", seconds[2], covered.parts.size(),
+             seconds[2] / seconds[0], ok ? "" : " FAILED");
+  return ok;
+}
+
 // ---- How fast a depth buffer fills pixels
 
 /// Squares behind one another, farthest first, each of them all over the picture.
@@ -244,14 +283,15 @@ void fill(std::uint32_t size) {
 int main(int argc, char** argv) {
   double max_faces = 1e5;
   std::uint32_t size = 1024;
-  std::string folder;
+  std::string only, folder;
   for (int k = 1; k + 1 < argc; k += 2) {
     const std::string option = argv[k];
     if (option == "--max") max_faces = std::atof(argv[k + 1]);
     else if (option == "--size") size = static_cast<std::uint32_t>(std::atoi(argv[k + 1]));
+    else if (option == "--family") only = argv[k + 1];
     else if (option == "--out") folder = argv[k + 1];
   }
-  const bool ok = pictures(max_faces, size, folder);
+  const bool ok = pictures(max_faces, size, only, folder) && regions(size);
   fill(size);
   return ok ? 0 : 1;
 }

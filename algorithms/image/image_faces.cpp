@@ -63,7 +63,7 @@ void Image_faces::add_all(const Exact_view& view) {
     const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[its]);
     std::vector<Approximate_vector> directions;
     for (const Piece_corner& corner : corners) directions.push_back(view.approximate(view.ray(corner.point)));
-    to.add(directions);
+    if (!to.add(directions)) return;
     for (std::uint32_t e = 0; e < corners.size(); ++e)
       to.add_edge(Pixel_form(centres_, view.approximate(inwards(view, its, e))));
   });

@@ -125,28 +125,42 @@ void Pixel_span::narrow(const Pixel_centres& centres, const Pixel_form& form, do
 
 // ---- Cones
 
-void Pixel_cones::add(const std::vector<Approximate_vector>& corners) {
+bool Pixel_cones::add(const std::vector<Approximate_vector>& corners, double beyond) {
   const Pixel_view& view = centres_->view();
   Cone cone{edges_.size(), 0, 0, static_cast<std::int32_t>(view.width), 0, static_cast<std::int32_t>(view.height)};
   std::array<double, 4> box{1, -1, 1, -1};  // across from, to; upwards from, to
   bool placed = true;
   for (const Approximate_vector& corner : corners) {
-    const auto at = centres_->place(corner, 0);
+    const double size = std::fabs(corner.x) + std::fabs(corner.y) + std::fabs(corner.z);
+    const auto at = centres_->place(corner, 0x1p-40 * size);
     placed = placed && at;
     if (!placed) break;
-    box = {std::min(box[0], at->across), std::max(box[1], at->across), std::min(box[2], at->upwards),
-           std::max(box[3], at->upwards)};
+    const double across = at->error * std::max(1.0, std::fabs(at->across)),
+                 upwards = at->error * std::max(1.0, std::fabs(at->upwards));
+    box = {std::min(box[0], at->across - across), std::max(box[1], at->across + across),
+           std::min(box[2], at->upwards - upwards), std::max(box[3], at->upwards + upwards)};
   }
-  if (placed) {  // and one on each side, for doubles
-    const auto pixel = [](double place, std::uint32_t count) {
-      return static_cast<std::int32_t>(std::floor(std::clamp((place + 1) / 2 * count, -2.0, count + 2.0)));
+  if (placed) {  // centre i of a row is at (2 i + 1) / count - 1; 2^-20 of a pixel is for doubles
+    const auto centre = [](double place, std::uint32_t count, double more) {
+      return std::clamp(((place + 1) * count - 1) / 2 + more, -2.0, count + 2.0);
     };
-    cone.left = std::max(0, pixel(box[0], view.width) - 1);
-    cone.right = std::min(cone.right, pixel(box[1], view.width) + 2);
-    cone.top = std::max(0, pixel(-box[3], view.height) - 1);
-    cone.bottom = std::min(cone.bottom, pixel(-box[2], view.height) + 2);
+    const double more = beyond + 0x1p-20;
+    const auto first = [&](double place, std::uint32_t count) {
+      return std::max(0, static_cast<std::int32_t>(std::ceil(centre(place, count, -more))));
+    };
+    const auto last = [&](double place, std::uint32_t count) {
+      return std::min(static_cast<std::int32_t>(count),
+                      static_cast<std::int32_t>(std::floor(centre(place, count, more))) + 1);
+    };
+    cone.left = first(box[0], view.width);
+    cone.right = last(box[1], view.width);
+    cone.top = first(-box[3], view.height);
+    cone.bottom = last(-box[2], view.height);
   }
+  const bool holds = cone.left < cone.right && cone.top < cone.bottom;
+  if (!holds) cone.left = cone.right = cone.top = cone.bottom = 0;
   cones_.push_back(cone);
+  return holds;
 }
 
 void Pixel_cones::append(const Pixel_cones& others) {

@@ -95,8 +95,9 @@ class Pixel_cones {
   std::size_t size() const { return cones_.size(); }
   const Cone& operator[](std::size_t i) const { return cones_[i]; }
 
-  /// Begins a cone with the directions of its corners, to a relative 2^-40.
-  void add(const std::vector<Approximate_vector>& corners);
+  /// Begins a cone with the directions of its corners, to a relative 2^-40; its edges may be off by so many pixels
+  /// more. False where it holds no centre, whatever its edges are. Proof: P-80
+  bool add(const std::vector<Approximate_vector>& corners, double beyond = 0);
   /// One more edge of the cone begun last.
   void add_edge(const Pixel_form& form) {
     edges_.push_back(form);
