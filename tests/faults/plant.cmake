@@ -1,3 +1,6 @@
+# What programs with faults are compiled with: a fault may leave a number out, which has the same value in every process then.
+set(planted_options -ftrivial-auto-var-init=pattern)
+
 # plant_faults(LIST ROOT FILES): copies FILES below ROOT, as they are included, in which each fault of the JSON file LIST stands beside what it
 # replaces; the environment variable SIGHTLINE_FAULT says which one is on. Files that hold one are copied anyway. Sets planted_sources to the
 # sources among the copies, planted_hunts to a line for each fault: its name, a tab, what is to find it; planted_lost to the names of faults whose

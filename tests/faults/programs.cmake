@@ -1,5 +1,6 @@
 # What looks for faults, on a copy of the library that holds some: NAME_library, sightline_NAME and fuzz_targets_NAME of sources below root.
 # Found here too: the program and the tests, which find them otherwise, may be left out.
+include(tests/faults/plant.cmake)
 find_package(CLI11 CONFIG REQUIRED)
 find_package(fmt CONFIG REQUIRED)
 find_package(GTest CONFIG REQUIRED)
@@ -10,6 +11,7 @@ function(add_programs_with_faults name library root sources)
   target_include_directories(${library} PUBLIC "${root}")
   target_compile_features(${library} PUBLIC cxx_std_20)
   target_compile_options(${library} PUBLIC $<TARGET_PROPERTY:sightline_library,INTERFACE_COMPILE_OPTIONS>)
+  target_compile_options(${library} PRIVATE ${planted_options})
   target_link_libraries(${library} PUBLIC sightline::dependencies)
 
   add_executable(sightline_${name} EXCLUDE_FROM_ALL tests/faults/program/main.cpp

@@ -12,8 +12,7 @@ plant_faults("${sample_list}" "${PROJECT_BINARY_DIR}/sample" "")
 add_library(sample_library OBJECT EXCLUDE_FROM_ALL ${planted_sources})
 target_include_directories(sample_library BEFORE PRIVATE "${PROJECT_BINARY_DIR}/sample")
 target_link_libraries(sample_library PRIVATE test_settings)
-# A mutant may well be a condition that is always true, or leave a number out: then it has the same value in every process.
-target_compile_options(sample_library PRIVATE -w -ftrivial-auto-var-init=pattern)
+target_compile_options(sample_library PRIVATE -w ${planted_options})  # a mutant may well be a condition that is always true
 set_target_properties(sample_library PROPERTIES UNITY_BUILD_BATCH_SIZE 16)
 add_executable(sample_program EXCLUDE_FROM_ALL $<TARGET_OBJECTS:sightline>)
 target_link_libraries(sample_program PRIVATE program_settings sample_library)

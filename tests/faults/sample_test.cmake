@@ -9,6 +9,8 @@ if(NOT EXISTS "${program}" OR NOT EXISTS "${targets}")
   return()
 endif()
 
+set(ENV{MALLOC_PERTURB_} 85)  # what was freed, and what is new, holds the same in every process
+
 # run(MUTANT HUNT): sets found (an answer that is wrong, or the end by a signal or by the case's time), failed (anything else but 0), said, and
 # the command that runs it again.
 function(run mutant hunt)
@@ -20,7 +22,6 @@ function(run mutant hunt)
     set(command "${targets}" "--gtest_filter=Fuzz*/${words}" --gtest_brief=1 --gtest_fail_fast)
   endif()
   set(ENV{SIGHTLINE_FAULT} "${mutant}")
-  set(ENV{MALLOC_PERTURB_} 85)  # what was freed, and what is new, holds the same in every process
   execute_process(COMMAND ${command} RESULT_VARIABLE result OUTPUT_VARIABLE said ERROR_VARIABLE complaint TIMEOUT 600)
   set(found FALSE)
   set(failed FALSE)
