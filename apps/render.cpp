@@ -21,49 +21,45 @@ struct Render_arguments {
   int bits = 24, samples = 1;
 };
 
-/// A picture in the making: each pixel in red, green and blue times opacity, each 0 to 255.
-struct Canvas {
-  std::uint32_t width, height;
-  std::vector<std::array<double, 4>> pixels;
-};
+/// A picture before its background, in the making.
+class Canvas {
+ public:
+  Canvas(const Pixel_view& pixels, const std::string& background)
+      : width_(pixels.width),
+        height_(pixels.height),
+        behind_(rgba_of(background)),
+        bytes_(4 * std::size_t{pixels.width} * pixels.height) {}
 
-Canvas coloured(const Piece_image& image, const std::vector<Tint>& tints) {
-  Canvas canvas{image.width, image.height, std::vector<std::array<double, 4>>(image.pieces.size())};
-  for (std::size_t i = 0; i < image.pieces.size(); ++i)
-    if (const std::uint32_t piece = image.pieces[i]; piece != Piece_image::nothing)
-      canvas.pixels[i] = {tints[piece].colour[0], tints[piece].colour[1], tints[piece].colour[2], 255};
-  return canvas;
-}
-Canvas coloured(const Mean_image& image) {
-  Canvas canvas{image.width, image.height, {}};
-  for (std::size_t i = 0; i < image.colours.size(); ++i)
-    canvas.pixels.push_back(
-        {image.colours[i][0], image.colours[i][1], image.colours[i][2], 255 * std::min(1.0, image.covered[i])});
-  return canvas;
-}
-
-Canvas coloured(const Blended_image& image) {
-  Canvas canvas{image.width, image.height, {}};
-  for (const Layer& layer : image.layers)
-    canvas.pixels.push_back({layer.colour[0], layer.colour[1], layer.colour[2], 255 * layer.alpha});
-  return canvas;
-}
-
-std::string png_of(const Canvas& canvas, const std::string& background) {
-  const std::array<int, 4> behind = rgba_of(background);
-  std::vector<std::uint8_t> bytes;
-  bytes.reserve(4 * canvas.pixels.size());
-  for (const std::array<double, 4>& pixel : canvas.pixels) {
-    const double through = (255 - pixel[3]) / 255, opacity = pixel[3] + through * behind[3];
+  /// A pixel's colour times its opacity, 0 to 255, and its opacity, 0 to 1. Different pixels may be set at once.
+  void set(std::size_t pixel, const Colour& colour, double opacity) {
+    const double through = 1 - std::min(1.0, opacity), whole = 255 * (1 - through) + through * behind_[3];
+    const auto rounded = [](double x) { return static_cast<std::uint8_t>(std::clamp(x, 0.0, 255.0) + 0.5); };
     for (std::size_t k = 0; k < 3; ++k) {
-      const double seen = pixel[k] + through * behind[k] * behind[3] / 255;
-      bytes.push_back(
-          static_cast<std::uint8_t>(std::lround(opacity > 0 ? std::clamp(seen * 255 / opacity, 0.0, 255.0) : 0)));
+      const double seen = colour[k] + through * behind_[k] * behind_[3] / 255;
+      bytes_[4 * pixel + k] = rounded(whole >= 0.5 ? seen * 255 / whole : 0);
     }
-    bytes.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(opacity, 0.0, 255.0))));
+    bytes_[4 * pixel + 3] = rounded(whole);
   }
-  return png(canvas.width, canvas.height, bytes);
-}
+  void set(const Mean_row& row) {
+    for (std::size_t x = 0; x < width_; ++x) set(std::size_t{row.y} * width_ + x, row.colours[x], row.covered[x]);
+  }
+  void set(const Piece_image& image, const std::vector<Tint>& tints) {
+    for (std::size_t i = 0; i < image.pieces.size(); ++i) {
+      const bool empty = image.pieces[i] == Piece_image::nothing;
+      set(i, empty ? Colour{} : tints[image.pieces[i]].colour, empty ? 0 : 1);
+    }
+  }
+  void set(const Blended_image& image) {
+    for (std::size_t i = 0; i < image.layers.size(); ++i) set(i, image.layers[i].colour, image.layers[i].alpha);
+  }
+
+  std::string png() const { return app::png(width_, height_, bytes_); }
+
+ private:
+  std::uint32_t width_, height_;
+  std::array<int, 4> behind_;
+  std::vector<std::uint8_t> bytes_;
+};
 
 /// What a method made.
 struct Rendered {
@@ -71,8 +67,8 @@ struct Rendered {
   Image_outcome outcome;  ///< of `exact`, only its seconds
 };
 
-Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& arguments,
-                const Image_options& options) {
+Rendered render(Scene& scene, const View& view, const Render_arguments& arguments, const Image_options& options) {
+  const Pixel_view pixels = pixel_view(view);
   const std::vector<Tint> tints = tints_of(arguments.tints, arguments.common.scene, Exact_view(scene, pixels.eye),
                                            arguments.view.shade == "lambert");
   const bool transparent = is_transparent(tints);
@@ -82,19 +78,23 @@ Rendered render(Scene& scene, const Pixel_view& pixels, const Render_arguments& 
                     "centres, scan-line, bsp or graph, or --alpha 1",
                     arguments.method));
   const auto colour = [&](std::uint32_t piece) { return tints[piece].colour; };
-  Rendered rendered{};
+  Rendered rendered{{pixels, view.background}, {}};
   const Stopwatch watch;
   if (arguments.method == "exact") {
-    rendered.canvas = coloured(run_means(Exact_view(scene, pixels.eye, field_of(pixels)), pixels, colour, options));
+    run_means(
+        Exact_view(scene, pixels.eye, field_of(pixels)), pixels, colour,
+        [&](const Mean_row& row) { rendered.canvas.set(row); }, options);
   } else if (arguments.samples > 1) {
-    rendered.canvas = coloured(
-        Traced_scene(scene, options.threads).means(pixels, static_cast<unsigned>(arguments.samples), colour, options));
+    const Mean_image means =
+        Traced_scene(scene, options.threads).means(pixels, static_cast<unsigned>(arguments.samples), colour, options);
+    for (std::uint32_t y = 0; y < pixels.height; ++y) rendered.canvas.set(means.row(y));
   } else {
     rendered.outcome = run_image(
         scene, pixels,
         {arguments.method, arguments.kernel, arguments.bits, arguments.common.seed, transparent ? &tints : nullptr},
         options);
-    rendered.canvas = transparent ? coloured(*rendered.outcome.blended) : coloured(*rendered.outcome.pieces, tints);
+    if (transparent) rendered.canvas.set(*rendered.outcome.blended);
+    else rendered.canvas.set(*rendered.outcome.pieces, tints);
     return rendered;
   }
   rendered.outcome.seconds = watch.seconds();
@@ -135,8 +135,8 @@ static Exit run(const Render_arguments& arguments) {
   Image_options options;
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const Rendered rendered = render(scene, pixels, arguments, options);
-  if (!arguments.png.empty()) write_file(arguments.png, png_of(rendered.canvas, view.background));
+  const Rendered rendered = render(scene, view, arguments, options);
+  if (!arguments.png.empty()) write_file(arguments.png, rendered.canvas.png());
   progress.clear();
 
   std::uint64_t shown = 0, tied = 0;

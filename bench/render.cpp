@@ -141,11 +141,21 @@ Row measure(Scene& scene, const Pixel_view& pixels) {
     return visible_surface(view, boxes, field_of_view(view), alone);
   };
   timed(row.see, look);
-  const Mean_image means = timed(row.means, [&] {
+  timed(row.means, [&] {
+    std::vector<std::uint8_t> picture(3 * std::size_t{pixels.width} * pixels.height);
     const Exact_view view(scene, pixels.eye, field_of(pixels));
-    return visible_means(view, visible_surface(view, boxes, field_of_view(view), alone), pixels, colour_of,
-                         one_thread());
+    const auto keep = [&](const Mean_row& of) {
+      std::uint8_t* to = &picture[3 * std::size_t{of.y} * pixels.width];
+      for (const Colour& colour : of.colours)
+        for (const double x : colour) *to++ = static_cast<std::uint8_t>(255 * x + 0.5);
+    };
+    visible_means(view, visible_surface(view, boxes, field_of_view(view), alone), pixels, colour_of, keep,
+                  one_thread());
+    return picture;
   });
+  const Exact_view view(scene, pixels.eye, field_of(pixels));
+  const Mean_image means =
+      visible_means(view, visible_surface(view, boxes, field_of_view(view), alone), pixels, colour_of, one_thread());
   // 4. The same by Embree.
   if (!app::has_rays()) return row;
   const app::Traced_scene traced = timed(row.build, [&] { return app::Traced_scene(scene, 1); });
@@ -227,8 +237,8 @@ bool pictures(double max_faces, std::uint32_t size, const std::string& only, con
 bool regions(std::uint32_t size) {
   const Family& city = families[0];
   Scene scene(generate::make(city.name, city.size(1e4), 1));
-  const Exact_view view(scene, towards_middle(scene, city.from, size).eye,
-                        field_of(towards_middle(scene, city.from, size)));
+  const Pixel_view pixels = towards_middle(scene, city.from, size);
+  const Exact_view view(scene, pixels.eye, field_of(pixels));
   Visible_options alone;
   alone.threads = 1;
   Bsp2d_options trees;
@@ -291,7 +301,8 @@ int main(int argc, char** argv) {
     else if (option == "--family") only = argv[k + 1];
     else if (option == "--out") folder = argv[k + 1];
   }
-  const bool ok = pictures(max_faces, size, only, folder) && regions(size);
+  bool ok = pictures(max_faces, size, only, folder);
+  if (only.empty() || only == families[0].name) ok = regions(size) && ok;
   fill(size);
   return ok ? 0 : 1;
 }

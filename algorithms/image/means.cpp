@@ -9,8 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <mutex>
-#include <optional>
-#include <utility>
+#include <span>
 
 namespace sightline {
 
@@ -20,97 +19,92 @@ namespace {
 
 /// In pixels from the top left.
 using Image_point = std::array<double, 2>;
-using Image_polygon = std::vector<Image_point>;
 
-/// The part of a convex polygon where coordinate k is at least (sense 1) or at most (sense -1) a limit; what is cut has
-/// exactly that coordinate.
-void clip(const Image_polygon& polygon, std::size_t k, double limit, int sense, Image_polygon& part) {
-  part.clear();
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Image_point &p = polygon[i], &q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-    const double at_p = sense * (p[k] - limit), at_q = sense * (q[k] - limit);
-    if (at_p >= 0) part.push_back(p);
-    if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
-      const double t = at_p / (at_p - at_q);
-      Image_point cut;
-      cut[k] = limit;
-      cut[1 - k] = p[1 - k] + t * (q[1 - k] - p[1 - k]);
-      part.push_back(cut);
-    }
-  }
-}
+/// A part of the surface, in the image.
+struct Image_polygon {
+  std::span<const Image_point> corners;  // of a convex polygon
+  Colour colour;
+  double top, bottom;
+};
 
-/// With respect to its first corner, so that what is lost is of its own size.
-double area(const Image_polygon& polygon) {
-  double twice = 0;
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    const double ax = polygon[i - 1][0] - polygon[0][0], ay = polygon[i - 1][1] - polygon[0][1],
-                 bx = polygon[i][0] - polygon[0][0], by = polygon[i][1] - polygon[0][1];
-    twice += ax * by - ay * bx;
-  }
-  return std::fabs(twice) / 2;
-}
+/// What a row has of an edge: x from `least` to `most`, over so much of the row's height; negative where it goes up.
+struct Row_edge {
+  double least, most, height;
 
-/// What a row's polygon has at one height: nothing, where it does not reach it.
-std::optional<std::array<double, 2>> extent_at(const Image_polygon& polygon, double height) {
-  std::optional<std::array<double, 2>> extent;
-  for (const Image_point& p : polygon) {
-    if (p[1] != height) continue;
-    if (!extent) extent = {p[0], p[0]};
-    extent = {std::min((*extent)[0], p[0]), std::max((*extent)[1], p[0])};
+  /// How much of column x, a square, is to its right.
+  double beside(double x) const {
+    if (most <= x) return height;
+    if (least >= x + 1) return 0;
+    if (least == most) return height * (x + 1 - least);
+    const double from = std::max(least, x), to = std::min(most, x + 1);
+    return height * (from - least + (to - from) * (x + 1 - (from + to) / 2)) / (most - least);
   }
-  return extent;
+};
+
+/// The edges in a row.
+void edges_in(std::span<const Image_point> corners, double top, std::vector<Row_edge>& edges) {
+  edges.clear();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Image_point &p = corners[i], &q = corners[i + 1 == corners.size() ? 0 : i + 1];
+    const double from = std::max(std::min(p[1], q[1]), top), to = std::min(std::max(p[1], q[1]), top + 1);
+    if (from >= to) continue;
+    const double slope = (q[0] - p[0]) / (q[1] - p[1]);
+    const auto at = [&](double y) { return y == p[1] ? p[0] : y == q[1] ? q[0] : p[0] + slope * (y - p[1]); };
+    const auto [least, most] = std::minmax({at(from), at(to)});
+    edges.push_back({least, most, p[1] < q[1] ? to - from : from - to});
+  }
 }
 
 /// One row of an image, as it fills.
-class Row {
- public:
-  Row(std::uint32_t width, std::int64_t y) : top_(static_cast<double>(y)), sums_(width), covered_(width) {}
+struct Row {
+  double top;
+  std::span<Colour> sums;
+  std::span<double> covered;
 
-  void add(const Image_polygon& polygon, const Colour& colour) {
-    // 1. The row's part.
-    clip(polygon, 1, top_, 1, below_);
-    clip(below_, 1, top_ + 1, -1, part_);
-    if (part_.size() < 3) return;
-    const auto [least, most] = std::minmax_element(part_.begin(), part_.end());
-    const auto width = static_cast<double>(sums_.size());
-    const auto first = static_cast<std::size_t>(std::clamp(std::floor((*least)[0]), 0.0, width)),
-               last = static_cast<std::size_t>(std::clamp(std::ceil((*most)[0]), 0.0, width));
-    // 2. Squares whose four corners are in it.
+  void add(const Image_polygon& polygon, std::vector<Row_edge>& edges) {
+    const auto column = [this](double x) {
+      return static_cast<std::size_t>(std::clamp(x, 0.0, static_cast<double>(sums.size())));
+    };
+    // 1. The columns that its part in the row may reach.
+    edges_in(polygon.corners, top, edges);
+    if (edges.empty()) return;
+    double least = edges[0].least, most = edges[0].most;
+    for (const Row_edge& edge : edges) {
+      least = std::min(least, edge.least);
+      most = std::max(most, edge.most);
+    }
+    std::array<double, 2> after{least, least}, before{most, most};  // of the edges downwards, and of those upwards
+    for (const Row_edge& edge : edges) {
+      const std::size_t way = edge.height > 0 ? 0 : 1;
+      after[way] = std::max(after[way], edge.most);
+      before[way] = std::min(before[way], edge.least);
+    }
+    const std::size_t first = column(std::floor(least)), last = column(std::ceil(most));
+    // 2. Those that it covers whole: from the chain of edges on its left to that on its right.
     std::size_t inner_first = last, inner_last = last;
-    const auto above = extent_at(part_, top_), beneath = extent_at(part_, top_ + 1);
-    if (above && beneath) {
-      const double from = std::max((*above)[0], (*beneath)[0]), to = std::min((*above)[1], (*beneath)[1]);
-      if (to - from >= 1) {
-        inner_first = std::clamp(static_cast<std::size_t>(std::clamp(std::ceil(from), 0.0, width)), first, last);
-        inner_last = std::clamp(static_cast<std::size_t>(std::clamp(std::floor(to), 0.0, width)), inner_first, last);
-      }
+    if (polygon.top <= top && polygon.bottom >= top + 1) {
+      const std::size_t left = after[0] <= before[1] ? 0 : 1;
+      inner_first = std::clamp(column(std::ceil(after[left])), first, last);
+      inner_last = std::clamp(column(std::floor(before[1 - left])), inner_first, last);
     }
-    // 3. The others, one by one.
-    for (std::size_t x = first; x < last; ++x) {
-      if (x >= inner_first && x < inner_last) {
-        add(x, 1, colour);
-        continue;
+    // 3. All of them.
+    const auto in_part = [&](std::size_t from, std::size_t to) {
+      for (std::size_t x = from; x < to; ++x) {
+        double share = 0;
+        for (const Row_edge& edge : edges) share += edge.beside(static_cast<double>(x));
+        add(x, std::fabs(share), polygon.colour);
       }
-      clip(part_, 0, static_cast<double>(x), 1, right_);
-      clip(right_, 0, static_cast<double>(x) + 1, -1, square_);
-      add(x, area(square_), colour);
-    }
+    };
+    in_part(first, inner_first);
+    for (std::size_t x = inner_first; x < inner_last; ++x) add(x, 1, polygon.colour);
+    in_part(inner_last, last);
   }
-
-  const std::vector<Colour>& sums() const { return sums_; }
-  const std::vector<double>& covered() const { return covered_; }
 
  private:
-  void add(std::size_t x, double weight, const Colour& colour) {
-    for (std::size_t k = 0; k < 3; ++k) sums_[x][k] += weight * colour[k];
-    covered_[x] += weight;
+  void add(std::size_t x, double share, const Colour& colour) {
+    for (std::size_t k = 0; k < 3; ++k) sums[x][k] += share * colour[k];
+    covered[x] += share;
   }
-
-  double top_;
-  std::vector<Colour> sums_;
-  std::vector<double> covered_;
-  Image_polygon below_, part_, right_, square_;
 };
 
 /// Where rays of the field are in the image.
@@ -164,50 +158,66 @@ std::vector<std::array<Integer, 3>> field_of(const Pixel_view& pixels) {
   return field_of(rays);
 }
 
-Mean_image visible_means(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
-                         const std::function<Colour(std::uint32_t piece)>& colour, const Image_options& options) {
+void visible_means(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
+                   const std::function<Colour(std::uint32_t piece)>& colour,
+                   const std::function<void(const Mean_row&)>& visit, const Image_options& options) {
   using namespace image_detail;
   constexpr std::size_t rows = 16;
   const Pixel_centres centres(pixels);
-  const std::size_t size = std::size_t{pixels.width} * pixels.height;
-  Mean_image image{pixels.width, pixels.height, std::vector<Colour>(size), std::vector<double>(size)};
   run_with_threads(options.threads, [&] {
     // 1. The parts in the image.
-    const Corners corners(view, centres);
+    const Corners place(view, centres);
+    std::vector<Image_point> corners(surface.rays.size());
     std::vector<Image_polygon> polygons(surface.parts.size());
     parallel_for(polygons.size(), [&](std::size_t i) {
-      if (surface.parts[i].piece == surface.nothing) return;
-      for (const Exact_view::Ray& ray : surface.of(surface.parts[i])) polygons[i].push_back(corners(ray));
+      const auto& part = surface.parts[i];
+      if (part.piece == surface.nothing) return;
+      Image_polygon polygon{{&corners[part.first], part.size}, colour(part.piece), double(pixels.height), 0};
+      for (std::size_t k = part.first; k < part.first + part.size; ++k) {
+        corners[k] = place(surface.rays[k]);
+        polygon.top = std::min(polygon.top, corners[k][1]);
+        polygon.bottom = std::max(polygon.bottom, corners[k][1]);
+      }
+      polygons[i] = polygon;
     });
     // 2. Which bands of rows they meet.
     const std::size_t count = (pixels.height + rows - 1) / rows;
     std::vector<std::vector<std::uint32_t>> bands(count);
     for (std::uint32_t i = 0; i < polygons.size(); ++i) {
-      double top = pixels.height, bottom = 0;
-      for (const Image_point& p : polygons[i]) {
-        top = std::min(top, p[1]);
-        bottom = std::max(bottom, p[1]);
-      }
-      if (!(top < bottom)) continue;
-      const auto last = std::min(static_cast<std::size_t>(bottom) / rows, count - 1);
-      for (auto band = static_cast<std::size_t>(std::max(top, 0.0)) / rows; band <= last; ++band)
+      if (!(polygons[i].top < polygons[i].bottom)) continue;
+      const auto last = std::min(static_cast<std::size_t>(polygons[i].bottom) / rows, count - 1);
+      for (auto band = static_cast<std::size_t>(std::max(polygons[i].top, 0.0)) / rows; band <= last; ++band)
         bands[band].push_back(i);
     }
     // 3. Row by row.
     std::size_t done = 0;
     std::mutex mutex;
     parallel_for(count, [&](std::size_t band) {
+      std::vector<Row_edge> edges;
+      std::vector<Colour> sums(pixels.width);
+      std::vector<double> covered(pixels.width);
       for (std::size_t y = band * rows; y < std::min<std::size_t>((band + 1) * rows, pixels.height); ++y) {
-        Row row(pixels.width, static_cast<std::int64_t>(y));
-        for (const std::uint32_t i : bands[band]) row.add(polygons[i], colour(surface.parts[i].piece));
-        std::copy(row.sums().begin(), row.sums().end(), &image.colours[y * pixels.width]);
-        std::copy(row.covered().begin(), row.covered().end(), &image.covered[y * pixels.width]);
+        std::fill(sums.begin(), sums.end(), Colour{});
+        std::fill(covered.begin(), covered.end(), 0);
+        for (const std::uint32_t i : bands[band]) Row{double(y), sums, covered}.add(polygons[i], edges);
+        visit({static_cast<std::uint32_t>(y), sums, covered});
       }
       if (!options.progress) return;
       const std::lock_guard lock(mutex);
       options.progress(++done, count);
     });
   });
+}
+
+Mean_image visible_means(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
+                         const std::function<Colour(std::uint32_t piece)>& colour, const Image_options& options) {
+  const std::size_t size = std::size_t{pixels.width} * pixels.height;
+  Mean_image image{pixels.width, pixels.height, std::vector<Colour>(size), std::vector<double>(size)};
+  const auto keep = [&](const Mean_row& row) {
+    std::copy(row.colours.begin(), row.colours.end(), &image.colours[std::size_t{row.y} * pixels.width]);
+    std::copy(row.covered.begin(), row.covered.end(), &image.covered[std::size_t{row.y} * pixels.width]);
+  };
+  visible_means(view, surface, pixels, colour, keep, options);
   return image;
 }
 

@@ -9,26 +9,44 @@
 #include <sightline/kernel/scene/pixel_view.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace sightline {
 
-/// Sums over what is seen in each pixel's square, row by row from the top left.
+/// What is seen in the squares of a row's pixels, from the left; as long as what holds it.
+struct Mean_row {
+  std::uint32_t y;
+  std::span<const Colour> colours;  ///< sums: each times its share of the square
+  std::span<const double> covered;  ///< the share of the square in which something is seen
+};
+
+/// All rows, from the top.
 struct Mean_image {
   std::uint32_t width = 0, height = 0;
-  std::vector<Colour> colours;  ///< each times its share of the square
-  std::vector<double> covered;  ///< the share of the square in which something is seen
+  std::vector<Colour> colours;
+  std::vector<double> covered;
+
+  Mean_row row(std::uint32_t y) const {
+    const std::size_t first = std::size_t{y} * width;
+    return {y, std::span(colours).subspan(first, width), std::span(covered).subspan(first, width)};
+  }
 };
 
 /// The four sides of what an image shows, for an Exact_view: its normals as field_of() gives them.
 std::vector<std::array<Integer, 3>> field_of(const Pixel_view& pixels);
 
-/// The colours of what is seen, summed over each pixel's square. Pre: the surface is that of field_of_view(view), with
-/// field_of(pixels). Errors: as centres(). Cost: parts, rows of them, and pixels that they cover in part; those covered
-/// whole cost one sum. Parallel. Exact: regions are; their corners in the image are rounded to doubles, each within
-/// 2^-30 of a pixel. Proof: P-81
+/// The colours of what is seen, summed over each pixel's square: each row once, in any order, from any thread. Pre: the
+/// surface is that of field_of_view(view), with field_of(pixels). Errors: as centres(). Cost: parts, rows of them, and
+/// pixels that they cover in part; those covered whole cost one sum; memory for one row a thread. Parallel. Exact:
+/// regions are; their corners in the image are rounded to doubles, each within 2^-30 of a pixel. Proof: P-81
+void visible_means(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
+                   const std::function<Colour(std::uint32_t piece)>& colour,
+                   const std::function<void(const Mean_row&)>& visit, const Image_options& options = {});
+/// All rows: 32 bytes a pixel, which cost more than what is in them where a scene is small.
 Mean_image visible_means(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                          const std::function<Colour(std::uint32_t piece)>& colour, const Image_options& options = {});
 

@@ -85,8 +85,8 @@ class Number_image {
       edges.push_back(form(n));
       if (!is_finite(edges.back())) return false;
     }
-    to.add(directions, 1);
-    for (const Pixel_form& edge : edges) to.add_edge(edge);
+    if (to.add(directions, 1))
+      for (const Pixel_form& edge : edges) to.add_edge(edge);
     return true;
   }
 

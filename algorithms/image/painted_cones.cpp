@@ -101,7 +101,7 @@ Painted_cones::Painted_cones(const Exact_view& view, const Visible_surface<Exact
   cones_ = all_cones(parts.size(), Pixel_cones(centres, normal), [&](Pixel_cones& to, std::size_t i) {
     std::vector<Approximate_vector> corners;
     for (const Exact_view::Ray& ray : parts[i]) corners.push_back(close_to(view, ray));
-    to.add(corners);
+    if (!to.add(corners)) return;
     for (std::size_t k = 0; k < parts[i].size(); ++k)
       to.add_edge(Pixel_form(centres, approximately_through(parts[i][k], next(parts[i], k))));
   });
@@ -123,7 +123,7 @@ void Painted_cones::add_exactly(const std::vector<Painted_polygon>& polygons) {
       const std::array<double, 3> v = approximated(corner).normal;
       corners.push_back({v[0], v[1], v[2]});
     }
-    to.add(corners);
+    if (!to.add(corners)) return;
     for (const auto& n : normals_[i]) to.add_edge(Pixel_form(centres, approximated(n)));
   });
 }

@@ -46,7 +46,7 @@ static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task
         [](std::uint32_t) {
           return Colour{1, 1, 1};
         },
-        options);
+        [](const Mean_row&) {}, options);
     return {{"status", "done"}, {"seconds", watch.seconds()}, {"peak_bytes", memory.bytes()}};
   }
   const Image_outcome outcome = run_image(scene, pixels, task, options);

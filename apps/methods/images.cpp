@@ -138,13 +138,14 @@ Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task
   return outcome;
 }
 
-Mean_image run_means(const Exact_view& view, const Pixel_view& pixels,
-                     const std::function<Colour(std::uint32_t piece)>& colour, const Image_options& options) {
+void run_means(const Exact_view& view, const Pixel_view& pixels,
+               const std::function<Colour(std::uint32_t piece)>& colour,
+               const std::function<void(const Mean_row&)>& visit, const Image_options& options) {
   Visible_options visible;
   visible.threads = options.threads;
   visible.progress = options.progress;
   const auto surface = visible_surface(view, Piece_boxes(view.scene()), field_of_view(view), visible);
-  return visible_means(view, surface, pixels, colour, options);
+  visible_means(view, surface, pixels, colour, visit, options);
 }
 
 }  // namespace sightline::app

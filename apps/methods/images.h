@@ -52,7 +52,8 @@ struct Image_outcome {
 /// Any method but `exact`; with tints one that shows through. The scene takes no plane.
 Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const Image_options& options);
 /// The method `exact`. Pre: the view has the field of the pixels.
-Mean_image run_means(const Exact_view& view, const Pixel_view& pixels,
-                     const std::function<Colour(std::uint32_t piece)>& colour, const Image_options& options);
+void run_means(const Exact_view& view, const Pixel_view& pixels,
+               const std::function<Colour(std::uint32_t piece)>& colour,
+               const std::function<void(const Mean_row&)>& visit, const Image_options& options);
 
 }  // namespace sightline::app
