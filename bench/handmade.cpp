@@ -1,6 +1,7 @@
 // What is written by hand beside a library that has it, each asked what the engine asks: Google Benchmark.
 // bench_handmade [--benchmark_filter=...] A row is timed once its answers are known to be right.
 
+#include <sightline/algorithms/weak_visibility/events/active_subranges.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/algorithms/weak_visibility/search/line_cell.h>
@@ -14,6 +15,7 @@
 #include <CGAL/QP_functions.h>
 #include <CGAL/QP_models.h>
 #include <CGAL/Root_of_traits.h>
+#include <boost/icl/interval_set.hpp>
 #include <boost/multiprecision/cpp_int.hpp>
 
 #include <benchmark/benchmark.h>
@@ -261,6 +263,80 @@ void roots(benchmark::State& state, auto method) {
 }
 BENCHMARK_CAPTURE(roots, Quadratic_root, by_divided);
 BENCHMARK_CAPTURE(roots, CGAL_Root_of_2, by_root_of_2);
+
+// ---- Sets of subranges
+
+/// A root that is not rational, or a double, near x.
+template <class Key>
+Key key_near(double x, std::mt19937_64& random) {
+  if constexpr (std::is_same_v<Key, double>) {
+    return x;
+  } else {
+    const unsigned long d = random() % 1000000 + 2;
+    return {Integer(x * 0x1p40 - std::sqrt(static_cast<double>(d))), 1, Integer(d), Integer(1) << 40};
+  }
+}
+/// As many bars beside each other, in any order.
+template <class Key>
+std::vector<Open_range<Key>> bars(std::size_t count) {
+  std::mt19937_64 random(7);
+  std::vector<std::size_t> places(count);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::shuffle(places.begin(), places.end(), random);
+  std::vector<Open_range<Key>> bars;
+  for (const std::size_t place : places) {
+    const auto key = [&](double share) {
+      return key_near<Key>(0.01 + 0.98 * (static_cast<double>(place) + share) / static_cast<double>(count), random);
+    };
+    const Key low = key(0.25);
+    bars.push_back({low, key(0.75)});
+  }
+  return bars;
+}
+std::size_t count_of(const auto& set) { return set.ranges().size(); }
+template <class Key>
+std::size_t count_of(const boost::icl::interval_set<Key>& set) {
+  return set.iterative_size();
+}
+template <class Key>
+void take_away(auto& set, Open_range<Key>& bar) {
+  set.subtract(std::move(bar.low), std::move(bar.high));
+}
+template <class Key>
+void take_away(boost::icl::interval_set<Key>& set, Open_range<Key>& bar) {
+  set.subtract(boost::icl::interval<Key>::right_open(bar.low, bar.high));
+}
+/// All of the bars, in turn: what it takes for each is in `each`.
+template <class Set, class Key>
+void subranges(benchmark::State& state) {
+  const auto count = static_cast<std::size_t>(state.range(0));
+  const std::vector<Open_range<Key>> all = bars<Key>(count);
+  for (auto _ : state) {
+    state.PauseTiming();
+    std::vector<Open_range<Key>> bars = all;
+    Set set = [] {
+      if constexpr (std::is_same_v<Set, boost::icl::interval_set<Key>>) {
+        Set whole;
+        whole.add(boost::icl::interval<Key>::right_open(Key(0), Key(1)));
+        return whole;
+      } else {
+        return Set(std::vector<Open_range<Key>>{{Key(0), Key(1)}});
+      }
+    }();
+    state.ResumeTiming();
+    for (Open_range<Key>& bar : bars) take_away(set, bar);
+    state.PauseTiming();
+    if (count_of(set) != count + 1) state.SkipWithError("a wrong answer");
+    set = Set();
+    state.ResumeTiming();
+  }
+  state.counters["each"] = benchmark::Counter(
+      static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(subranges<Subrange_list<Quadratic_root>, Quadratic_root>)->RangeMultiplier(10)->Range(10, 100000);
+BENCHMARK(subranges<Active_subranges<Quadratic_root>, Quadratic_root>)->RangeMultiplier(10)->Range(10, 1000000);
+BENCHMARK(subranges<Active_subranges<double>, double>)->RangeMultiplier(10)->Range(10, 1000000);
+BENCHMARK(subranges<boost::icl::interval_set<double>, double>)->RangeMultiplier(10)->Range(10, 1000000);
 
 }  // namespace
 

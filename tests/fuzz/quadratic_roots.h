@@ -3,7 +3,7 @@
 
 #include "support.h"
 
-#include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/algorithms/weak_visibility/events/active_subranges.h>
 
 namespace fuzz {
 
@@ -98,7 +98,9 @@ inline void quadratic_roots(std::string_view bytes) {
   // What some signs leave of the range.
   const std::array signs{from.below(2) == 0 ? 1 : -1, from.below(2) == 0 ? 1 : -1};
   const auto holds = [&](const Rational& s) { return f[0].sign(s) == signs[0] && f[1].sign(s) == signs[1]; };
-  const std::vector<Parameter_range> left = parts_without(whole, f, holds);
+  Active_subranges<Quadratic_root> active(whole);
+  subtract_where(active, f, holds);
+  const std::vector<Parameter_range> left = active.ranges();
   bool before = false;
   std::size_t runs = 0;
   for (const Parameter_range& part : parts) {

@@ -2,6 +2,7 @@
 // All targets by name. A target is a function of bytes that throws where something is wrong; whatever the bytes are, it
 // returns soon.
 
+#include "active_subranges.h"
 #include "arcs.h"
 #include "bsp_queries.h"
 #include "certificate.h"
@@ -54,6 +55,7 @@ inline const std::vector<Target>& targets() {
                                        {"fixed_integer", fixed_integer, {}},
                                        {"side", side, {}},
                                        {"quadratic_roots", quadratic_roots, {}},
+                                       {"active_subranges", active_subranges, {}},
                                        {"event_cells", event_cells, {}},
                                        {"pairs", pairs, {}},
                                        {"faces", faces, {}},

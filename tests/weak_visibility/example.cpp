@@ -1,6 +1,7 @@
-// The example of algorithms/weak_visibility/README.md, run.
+// The examples of algorithms/weak_visibility/README.md, run.
 
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/events/active_subranges.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 
 #include <iostream>
@@ -13,6 +14,15 @@ void light(const sightline::Polygon_soup& soup, const std::vector<sightline::Exa
   for (const sightline::Face_id face : found.hidden) out << "face " << face << " is dark\n";
   const auto certificate = sightline::weak_certificate(scene, {lamp}, false, found);
   out << (sightline::verify_weak(soup, certificate).accepted ? "proved\n" : "not proved\n");
+}
+
+/// What bars of a grating leave of an edge, the k-th from the square root of (2 k + 1) / n to that of (2 k + 2) / n.
+void look_through(unsigned long n, std::ostream& out) {
+  using namespace sightline;
+  const auto root = [n](unsigned long k) { return Quadratic_root(Integer(0), 1, Integer(k * n), Integer(n)); };
+  Active_subranges<Quadratic_root> active(Parameter_range{Quadratic_root(0), Quadratic_root(1)});
+  for (unsigned long k = 0; 2 * k + 2 <= n; ++k) active.subtract(root(2 * k + 1), root(2 * k + 2));
+  out << active.ranges().size() << " gaps, the last from " << active.last().low.near() << '\n';
 }
 
 #include <gtest/gtest.h>
@@ -33,4 +43,9 @@ TEST(Example, of_the_page_lights_a_floor_past_a_table) {
   std::ostringstream out;
   light(soup, {{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}}, out);  // looks down
   EXPECT_EQ(out.str(), "face 0 is lit\nface 1 is lit\nface 2 is dark\nproved\n");
+}
+TEST(Weak_visibility_example, bars_leave_gaps) {
+  std::ostringstream out;
+  look_through(100, out);
+  EXPECT_EQ(out.str(), "50 gaps, the last from 0.989949\n");
 }

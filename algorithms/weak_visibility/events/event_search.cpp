@@ -343,7 +343,7 @@ std::vector<Event_search::Active> Event_search::parts_between(const Curve& curve
   for (const Parameter_range& part : divided(range, ends)) {
     const Rational s = inner_rational(part);
     const int turn = common_sign(curve, scene_->from(), s);
-    if (turn != 0 && turn == common_sign(curve, scene_->to(), s)) active.push_back({part, turn});
+    if (turn != 0 && turn == common_sign(curve, scene_->to(), s)) active.push_back({Active_subranges(part), turn});
   }
   return active;
 }
@@ -374,37 +374,34 @@ bool Event_search::search_curve(const Curve& curve, const Parameter_range& range
       return false;
     }
   }
-  for (const Active& part : active) {
-    if (options_->surfaces) keep_surface(curve, part.range);
-    if (answer_.status != Weak_status::visible && look_beside(curve, part, crossed, grazed) && !options_->surfaces)
-      return true;
-  }
+  for (const Active& part : active)
+    for (const Parameter_range& left : part.left.ranges()) {
+      if (options_->surfaces) keep_surface(curve, left);
+      if (answer_.status != Weak_status::visible && look_beside(curve, left, part.turn, crossed, grazed) &&
+          !options_->surfaces)
+        return true;
+    }
   return false;
 }
 
 void Event_search::subtract(const Curve& curve, const Blocker& blocker, std::vector<Active>& active) {
-  std::vector<Active> left;
-  for (const Active& whole : active) {
+  for (Active& part : active) {
     const auto fails = [&](const Literal& literal) {
-      return polynomial(curve, literal.line).certain_sign() * literal.sense * whole.turn < 0;
+      return polynomial(curve, literal.line).certain_sign() * literal.sense * part.turn < 0;
     };
-    if (std::any_of(blocker.literals.begin(), blocker.literals.end(), fails)) {
-      left.push_back(whole);
-      continue;
-    }
-    const auto is_blocked = [&](const Rational& s) { return common_sign(curve, blocker.literals, s) == whole.turn; };
-    for (const Parameter_range& part : parts_without(whole.range, polynomials(curve, blocker.literals), is_blocked))
-      left.push_back({part, whole.turn});
+    if (std::any_of(blocker.literals.begin(), blocker.literals.end(), fails)) continue;
+    subtract_where(part.left, polynomials(curve, blocker.literals),
+                   [&](const Rational& s) { return common_sign(curve, blocker.literals, s) == part.turn; });
   }
-  active = std::move(left);
+  std::erase_if(active, [](const Active& part) { return part.left.empty(); });
 }
 
-bool Event_search::look_beside(const Curve& curve, const Active& active, const std::vector<const Blocker*>& crossed,
-                               const std::vector<const Blocker*>& grazed) {
+bool Event_search::look_beside(const Curve& curve, const Parameter_range& active, int turn,
+                               const std::vector<const Blocker*>& crossed, const std::vector<const Blocker*>& grazed) {
   std::vector<Quadratic> ends = curve.ends;
   for (const Blocker* blocker : grazed)
     for (const Literal& literal : blocker->literals) ends.push_back(polynomial(curve, literal.line));
-  for (const Parameter_range& part : divided(active.range, ends)) {
+  for (const Parameter_range& part : divided(active, ends)) {
     if (out_of_time()) return true;
     ++counters_->subranges;
     // Not one of the lines that touch a piece for an instant.
@@ -412,10 +409,10 @@ bool Event_search::look_beside(const Curve& curve, const Active& active, const s
     for (unsigned long attempt = 0;; ++attempt) {
       s = inner_rational(part, attempt);
       if (std::all_of(crossed.begin(), crossed.end(),
-                      [&](const Blocker* blocker) { return is_past(curve, *blocker, s, active.turn); }))
+                      [&](const Blocker* blocker) { return is_past(curve, *blocker, s, turn); }))
         break;
     }
-    if (look_around(curve, s, active.turn, grazed)) return true;
+    if (look_around(curve, s, turn, grazed)) return true;
   }
   return false;
 }

@@ -2,6 +2,7 @@
 // Plantinga's events between one source and one target: the lines that touch edges where visibility changes, and
 // exactly what is free beside them.
 
+#include <sightline/algorithms/weak_visibility/events/active_subranges.h>
 #include <sightline/algorithms/weak_visibility/events/event_cells.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
@@ -109,9 +110,9 @@ class Event_search {
     std::function<Event_chart(const Rational&)> chart;
     std::array<std::uint32_t, 3> edges{};  // of a triple
   };
-  /// Along an active subrange, p comes before q in the lines' direction, or (-1) after it.
+  /// Along them, p comes before q in the lines' direction, or (-1) after it.
   struct Active {
-    Parameter_range range;
+    Active_subranges<Quadratic_root> left;
     int turn;
   };
 
@@ -152,13 +153,13 @@ class Event_search {
   /// Looks at a potential event. Returns whether the search has ended.
   bool search_curve(const Curve& curve, const Parameter_range& range);
 
-  /// Leaves what a piece does not block. Parts that only touch it stay whole.
+  /// Leaves what a piece does not block. What only touches it stays whole.
   void subtract(const Curve& curve, const Blocker& blocker, std::vector<Active>& active);
 
   // ---- Beside an event
 
-  bool look_beside(const Curve& curve, const Active& active, const std::vector<const Blocker*>& crossed,
-                   const std::vector<const Blocker*>& grazed);
+  bool look_beside(const Curve& curve, const Parameter_range& active, int turn,
+                   const std::vector<const Blocker*>& crossed, const std::vector<const Blocker*>& grazed);
   bool is_past(const Curve& curve, const Blocker& blocker, const Rational& s, int turn);
 
   /// All cells of lines around one event line.

@@ -25,7 +25,8 @@ Quadratic_root::Quadratic_root(Integer p, int e, Integer d, Integer q)
     q_ = -q_;
     e_ = -e_;
   }
-  key_ = bits(60);
+  const Integer most = Integer(1) << 61, key = bits(60);
+  key_ = Integer(key > most ? most : key < -most ? Integer(-most) : key).get_si();
 }
 
 Integer Quadratic_root::bits(unsigned long count) const {

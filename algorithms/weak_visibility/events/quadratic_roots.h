@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,11 +29,13 @@ class Quadratic_root {
 
   /// k with value 2^bits in (k - 1, k + 2): the square root and the quotient are each rounded by less than one.
   Integer bits(unsigned long count) const;
-  double near() const { return std::ldexp(key_.get_d(), -60); }
+  double near() const { return std::ldexp(static_cast<double>(key_), -60); }
+  /// 60 bits; those of two numbers tell which is less where they are apart.
+  std::int64_t key() const { return key_; }
+  static bool are_apart(std::int64_t a, std::int64_t b) { return a + 3 <= b || b + 3 <= a; }
 
   friend int compare(const Quadratic_root& a, const Quadratic_root& b) {
-    if (Integer(a.key_ + 3) <= b.key_) return -1;
-    if (Integer(b.key_ + 3) <= a.key_) return 1;
+    if (are_apart(a.key_, b.key_)) return a.key_ < b.key_ ? -1 : 1;
     // x + y sqrt(d) + z sqrt(f), by squaring what has the other sign.
     const Integer x = a.p_ * b.q_ - b.p_ * a.q_, y = a.e_ * b.q_, z = -b.e_ * a.q_;
     const Integer xx = x * x, yy = y * y * a.d_, zz = z * z * b.d_;
@@ -51,13 +54,14 @@ class Quadratic_root {
  private:
   Integer p_, d_, q_;
   int e_;
-  Integer key_;
+  std::int64_t key_;  // bits(60), or 2^61 where that is more, and -2^61 where it is less
 };
 
-/// Open.
-struct Parameter_range {
-  Quadratic_root low, high;
+template <class Key>
+struct Open_range {
+  Key low, high;
 };
+using Parameter_range = Open_range<Quadratic_root>;
 
 /// Appends the roots strictly within a range. Degenerate: a double root is appended once; the zero polynomial has none.
 /// Exact: yes
@@ -69,22 +73,5 @@ Rational inner_rational(const Parameter_range& range, unsigned long attempt = 0)
 /// The parts into which roots of polynomials divide a range, in order. No polynomial but zero has a root within a part.
 /// Exact: yes
 std::vector<Parameter_range> divided(const Parameter_range& range, std::span<const Quadratic> polynomials);
-
-/// What is left of a range where something does not hold that changes at roots of polynomials only: parts in order,
-/// neighbours joined, with the root between them. `holds(s)` is asked once in each part. Degenerate: what holds just at
-/// a root takes nothing away. Exact: if `holds` is
-template <class Holds>
-std::vector<Parameter_range> parts_without(const Parameter_range& range, std::span<const Quadratic> polynomials,
-                                           Holds holds) {
-  std::vector<Parameter_range> left;
-  bool joined = false;  // to the part before
-  for (const Parameter_range& part : divided(range, polynomials)) {
-    const bool is_left = !holds(inner_rational(part));
-    if (is_left && joined) left.back().high = part.high;
-    else if (is_left) left.push_back(part);
-    joined = is_left;
-  }
-  return left;
-}
 
 }  // namespace sightline
