@@ -1,41 +1,9 @@
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 
-#include <utility>
 #include <span>
+#include <utility>
 
 namespace sightline {
-
-Exact_pluecker join(const Homogeneous& a, const Homogeneous& b) {
-  return {a[3] * b[0] - b[3] * a[0], a[3] * b[1] - b[3] * a[1], a[3] * b[2] - b[3] * a[2],
-          a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Homogeneous join(const Homogeneous& x, const Exact_pluecker& e) {
-  return {e[1] * x[2] - e[2] * x[1] + x[3] * e[3], e[2] * x[0] - e[0] * x[2] + x[3] * e[4],
-          e[0] * x[1] - e[1] * x[0] + x[3] * e[5], -(x[0] * e[3] + x[1] * e[4] + x[2] * e[5])};
-}
-
-Homogeneous meet(const Homogeneous& h, const Exact_pluecker& e) {
-  return {h[1] * e[5] - h[2] * e[4] - h[3] * e[0], h[2] * e[3] - h[0] * e[5] - h[3] * e[1],
-          h[0] * e[4] - h[1] * e[3] - h[3] * e[2], h[0] * e[0] + h[1] * e[1] + h[2] * e[2]};
-}
-
-Exact_pluecker meet(const Homogeneous& g, const Homogeneous& h) {
-  return {g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0],
-          g[3] * h[0] - h[3] * g[0], g[3] * h[1] - h[3] * g[1], g[3] * h[2] - h[3] * g[2]};
-}
-
-Integer dot(const Homogeneous& a, const Homogeneous& b) {
-  Integer sum = a[0] * b[0];
-  for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[k].get_mpz_t());
-  return sum;
-}
-
-Integer side(const Exact_pluecker& a, const Exact_pluecker& b) {
-  Integer sum = a[0] * b[3];
-  for (std::size_t k = 1; k < 6; ++k) mpz_addmul(sum.get_mpz_t(), a[k].get_mpz_t(), b[(k + 3) % 6].get_mpz_t());
-  return -sum;
-}
 
 namespace {
 
@@ -60,32 +28,24 @@ int before(const Exact_pluecker& pluecker, const Homogeneous& a, const Homogeneo
   return sgn(sum) * sgn(a[3]) * sgn(b[3]);
 }
 
-/// The side of a plane on which a polygon is, 0 where it is in the plane, 2 where it is on both sides.
-int position(const Homogeneous& h, const Near_polygon& polygon) {
-  bool front = false, behind = false;
-  for (const Near_point& p : polygon) {
-    const int s = sgn(dot(h, p.exact));
-    front |= s > 0;
-    behind |= s < 0;
-  }
-  return front && behind ? 2 : front ? 1 : behind ? -1 : 0;
-}
-
 /// A corner on that side of a plane. Pre: there is one.
-const Homogeneous& in_front(const Homogeneous& h, const Near_polygon& polygon, int sign) {
-  return std::find_if(polygon.begin(), polygon.end(), [&](const Near_point& p) { return sgn(dot(h, p.exact)) == sign; })
-      ->exact;
+const Homogeneous& in_front(const Near_plane& h, const Near_polygon& polygon, int sign) {
+  return std::find_if(polygon.begin(), polygon.end(), [&](const Near_point& p) { return side(h, p) == sign; })->exact;
 }
 
 }  // namespace
 
 Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
                          const Near_polygon& target, const Near_plane& target_plane, int beside)
-    : source_(source),
-      target_(target),
+    : source_polygon_(source),
+      target_polygon_(target),
       near_source_plane_(source_plane),
       near_target_plane_(target_plane),
+      source_plane_{source_plane.exact, near(source_plane)},
+      target_plane_{target_plane.exact, near(target_plane)},
       beside_(beside) {
+  for (const Near_point& p : source) source_.push_back({p.exact, near(p)});
+  for (const Near_point& p : target) target_.push_back({p.exact, near(p)});
   for (std::size_t i = 0; i < source.size(); ++i)
     from_.push_back({edge(source[i].exact, source[(i + 1) % source.size()].exact), 0});
   for (std::size_t i = 0; i < target.size(); ++i)
@@ -99,23 +59,64 @@ Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source,
     by_size.emplace_back(-area(occluders.corners(piece)), piece);
   std::sort(by_size.begin(), by_size.end());
   for (const auto& [size, piece] : by_size) add_piece(occluders, piece);
-  for (Event_line& line : lines_)
-    if (line.in_source && sgn(dot(target_plane.exact, line.hull[0])) == 0 &&
-        sgn(dot(target_plane.exact, line.hull[1])) == 0)
+  for (Event_line& line : lines_) {
+    line.near = near(occluders.frame(), line.pluecker);
+    if (!line.real) continue;
+    for (Filtered& end : line.hull) end.near = near(occluders.frame(), end.exact);
+  }
+  for (Event_line& line : lines_) {
+    if (!line.real) continue;
+    if (line.in_source && sign_of_dot(target_plane_, line.hull[0]) == 0 &&
+        sign_of_dot(target_plane_, line.hull[1]) == 0)
       line.real = false;
+    else if (!is_touched(line)) {
+      line.real = false;
+      ++untouched_;
+    }
+  }
+}
+
+bool Event_lines::is_touched(const Event_line& line) const {
+  // A line through a point of it and one of the other polygon has a side that is linear in both points.
+  const auto fails = [&](const Literal& literal, std::span<const Filtered> corners, int sense) {
+    for (const Filtered& corner : corners)
+      for (const Filtered& end : line.hull)
+        if (sense * literal.sense * certain_side(join(end.near, corner.near), lines_[literal.line].near) >= 0)
+          return false;
+    return true;
+  };
+  return std::none_of(from_.begin(), from_.end(), [&](const Literal& l) { return fails(l, target_, 1); }) &&
+         std::none_of(to_.begin(), to_.end(), [&](const Literal& l) { return fails(l, source_, -1); });
+}
+
+bool Event_lines::may_pass(std::span<const Near<6>> between, const std::vector<Literal>& literals) const {
+  bool held = false, reversed = false;
+  for (const Literal& literal : literals) {
+    int common = 0;
+    for (const Near<6>& line : between) {
+      const int sure = certain_side(line, lines_[literal.line].near);
+      if (sure == 0 || sure == -common) {
+        common = 0;
+        break;
+      }
+      common = sure;
+    }
+    held |= literal.sense * common > 0;
+    reversed |= literal.sense * common < 0;
+  }
+  return !(held && reversed);
 }
 
 bool Event_lines::in_hull(const Event_line& line, const Homogeneous& x) {
   if (sgn(x[3]) == 0) return false;
-  return before(line.pluecker, line.hull[0], x) >= 0 && before(line.pluecker, x, line.hull[1]) >= 0;
+  return before(line.pluecker, line.hull[0].exact, x) >= 0 && before(line.pluecker, x, line.hull[1].exact) >= 0;
 }
 
 std::uint32_t Event_lines::line(Exact_pluecker pluecker) {
   make_canonical(pluecker);
   const auto [at, is_new] = numbers_.try_emplace(pluecker, static_cast<std::uint32_t>(lines_.size()));
   if (is_new) {
-    lines_.push_back({pluecker, false, false, {}});
-    lines_.back().in_source = all_zero(meet(source_plane(), pluecker));
+    lines_.push_back({pluecker, all_zero(meet(source_plane_.exact, pluecker)), false, {}, {}});
   }
   return at->second;
 }
@@ -126,10 +127,10 @@ std::uint32_t Event_lines::edge(const Homogeneous& a, const Homogeneous& b) {
   for (const Homogeneous* x : {&a, &b}) {
     if (!own.real) {
       own.real = true;
-      own.hull = {*x, *x};
+      own.hull = {Filtered{*x, {}}, Filtered{*x, {}}};
     }
-    if (before(own.pluecker, *x, own.hull[0]) > 0) own.hull[0] = *x;
-    if (before(own.pluecker, own.hull[1], *x) > 0) own.hull[1] = *x;
+    if (before(own.pluecker, *x, own.hull[0].exact) > 0) own.hull[0].exact = *x;
+    if (before(own.pluecker, own.hull[1].exact, *x) > 0) own.hull[1].exact = *x;
   }
   return number;
 }
@@ -140,56 +141,59 @@ int Event_lines::sense_of(const Homogeneous& a, const Homogeneous& b, std::uint3
   return pluecker == lines_[number].pluecker ? sense : 0;
 }
 
-bool Event_lines::is_outside(const Homogeneous& a, const Homogeneous& b) const {
-  return (sgn(dot(source_plane(), a)) < 0 && sgn(dot(source_plane(), b)) < 0) ||
-         (sgn(dot(target_plane(), a)) * beside_ < 0 && sgn(dot(target_plane(), b)) * beside_ < 0);
+bool Event_lines::is_outside(const Near_point& a, const Near_point& b) const {
+  return (side(near_source_plane_, a) < 0 && side(near_source_plane_, b) < 0) ||
+         (side(near_target_plane_, a) * beside_ < 0 && side(near_target_plane_, b) * beside_ < 0);
 }
 
-std::uint32_t Event_lines::trace(const Near_polygon& polygon, const Homogeneous& plane, const Homogeneous& other) {
+std::uint32_t Event_lines::trace(const Near_polygon& polygon, const Near_plane& plane, const Near_plane& other) {
   std::vector<Homogeneous> ends;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Homogeneous &a = polygon[i].exact, &b = polygon[(i + 1) % polygon.size()].exact;
-    const int from = sgn(dot(other, a)), to = sgn(dot(other, b));
-    if (from == 0) ends.push_back(a);
+    const Near_point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const int from = side(other, a), to = side(other, b);
+    if (from == 0) ends.push_back(a.exact);
     if (from * to < 0) {
-      Homogeneous x = meet(other, join(a, b));
+      Homogeneous x = meet(other.exact, join(a.exact, b.exact));
       if (sgn(x[3]) < 0)
         for (Integer& coordinate : x) coordinate = -coordinate;
       ends.push_back(x);
     }
   }
-  return ends.size() == 2 ? edge(ends[0], ends[1]) : line(meet(plane, other));
+  return ends.size() == 2 ? edge(ends[0], ends[1]) : line(meet(plane.exact, other.exact));
 }
 
 void Event_lines::add_piece(const Occluders& occluders, std::uint32_t piece) {
-  const Homogeneous& plane = occluders.plane(piece).exact;
-  const int source_at = position(plane, source_), target_at = position(plane, target_);
-  if (source_at == 0 || target_at == 0 || (source_at == target_at && source_at != 2))
+  const Near_plane& plane = occluders.plane(piece);
+  const int source_at = side(plane, source_polygon_), target_at = side(plane, target_polygon_);
+  if (source_at == 0 || target_at == 0 || (source_at == target_at && source_at != both_sides))
     return;  // a line that leaves its plane at an end does not meet it
   const Near_polygon corners = occluders.polygon(piece);
   std::vector<Literal> edges;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Homogeneous &a = corners[i].exact, &b = corners[(i + 1) % corners.size()].exact;
-    const std::uint32_t number = is_outside(a, b) ? line(join(a, b)) : edge(a, b);
-    edges.push_back({number, sense_of(a, b, number)});
+    const Near_point &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    const std::uint32_t number = is_outside(a, b) ? line(join(a.exact, b.exact)) : edge(a.exact, b.exact);
+    edges.push_back({number, sense_of(a.exact, b.exact, number)});
   }
   // p in front of it where its trace on the source says so, and q the same.
   Literal p_in_front{0, 0}, q_in_front{0, 0};
-  if (source_at == 2) {
-    const std::uint32_t number = trace(corners, plane, source_plane());
-    p_in_front = {number, sgn(side(join(in_front(plane, source_, 1), in_front(source_plane(), target_, 1)),
-                                   lines_[number].pluecker))};
+  if (source_at == both_sides) {
+    const std::uint32_t number = trace(corners, plane, near_source_plane_);
+    p_in_front = {number,
+                  sgn(side(join(in_front(plane, source_polygon_, 1), in_front(near_source_plane_, target_polygon_, 1)),
+                           lines_[number].pluecker))};
   }
-  if (target_at == 2) {
-    const std::uint32_t number = trace(corners, plane, target_plane());
-    q_in_front = {number, sgn(side(join(in_front(target_plane(), source_, beside_), in_front(plane, target_, 1)),
-                                   lines_[number].pluecker))};
+  if (target_at == both_sides) {
+    const std::uint32_t number = trace(corners, plane, near_target_plane_);
+    q_in_front = {
+        number,
+        sgn(side(join(in_front(near_target_plane_, source_polygon_, beside_), in_front(plane, target_polygon_, 1)),
+                 lines_[number].pluecker))};
   }
   for (const int sense : {1, -1}) {  // p in front and q behind, then the other way round
     if (source_at == -sense || target_at == sense) continue;
     Blocker blocker{piece, {}};
-    if (source_at == 2) blocker.literals.push_back({p_in_front.line, sense * p_in_front.sense});
-    if (target_at == 2) blocker.literals.push_back({q_in_front.line, -sense * q_in_front.sense});
+    if (source_at == both_sides) blocker.literals.push_back({p_in_front.line, sense * p_in_front.sense});
+    if (target_at == both_sides) blocker.literals.push_back({q_in_front.line, -sense * q_in_front.sense});
     for (const Literal& literal : edges) blocker.literals.push_back({literal.line, sense * literal.sense});
     blockers_.push_back(std::move(blocker));
   }

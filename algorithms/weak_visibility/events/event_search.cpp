@@ -1,98 +1,41 @@
 #include <sightline/algorithms/weak_visibility/events/event_search.h>
 
 #include <algorithm>
-#include <map>
 #include <set>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
 namespace sightline {
 namespace {
 
-/// Points or planes, each once.
-struct Numbered {
-  std::map<Homogeneous, std::uint32_t, Less_entries> numbers;
-  std::vector<Homogeneous> all;
-  std::uint32_t operator()(Homogeneous h) {
-    make_canonical(h);
-    const auto [at, is_new] = numbers.try_emplace(h, static_cast<std::uint32_t>(all.size()));
-    if (is_new) all.push_back(h);
-    return at->second;
-  }
-};
-
-/// A point that is not in a plane. Pre: the plane is not zero.
-Homogeneous off_plane(const Homogeneous& plane) {
-  Homogeneous x{0, 0, 0, 0};
-  for (std::size_t k = 0; k < 4; ++k)
-    if (sgn(plane[k]) != 0) {
-      x[k] = 1;
-      break;
-    }
-  return x;
-}
-
-/// The plane of two lines that meet; zero where they are one.
-Homogeneous common_plane(const Exact_pluecker& a, const Exact_pluecker& b) {
-  for (std::size_t k = 0; k < 4; ++k) {
-    Homogeneous h{0, 0, 0, 0};
-    h[k] = 1;
-    const Homogeneous at = meet(h, b);
-    if (all_zero(at)) continue;
-    const Homogeneous plane = join(at, a);
-    if (!all_zero(plane)) return plane;
-  }
-  return {0, 0, 0, 0};
-}
-
-/// first + s step
-Homogeneous along(const Homogeneous& first, const Homogeneous& step, const Rational& s) {
-  Homogeneous x;
-  for (std::size_t k = 0; k < 4; ++k) x[k] = first[k] * s.get_den() + step[k] * s.get_num();
-  return x;
-}
-
-/// The side of the point first + s step of a plane.
-Quadratic linear(const Homogeneous& plane, const Homogeneous& first, const Homogeneous& step) {
-  return {{dot(plane, first), dot(plane, step), Integer(0)}};
-}
-
-/// The side of a point of a plane that turns about a line.
-Quadratic linear_at(const Homogeneous& plane, const Homogeneous& turn, const Homogeneous& x) {
-  return {{dot(plane, x), dot(turn, x), Integer(0)}};
-}
-
 /// The lines through ends of two edges.
-std::array<Exact_pluecker, 4> extreme_lines(const Event_lines::Event_line& a, const Event_lines::Event_line& b) {
-  return {join(a.hull[0], b.hull[0]), join(a.hull[0], b.hull[1]), join(a.hull[1], b.hull[0]),
-          join(a.hull[1], b.hull[1])};
+std::array<Joined_line, 4> extreme_lines(const Event_lines::Event_line& a, const Event_lines::Event_line& b) {
+  return {Joined_line(a.hull[0], b.hull[0]), Joined_line(a.hull[0], b.hull[1]), Joined_line(a.hull[1], b.hull[0]),
+          Joined_line(a.hull[1], b.hull[1])};
 }
 
 /// The side of a line that all lines through two edges have inside both; 0 where they differ or are all 0.
-int common_side(const std::array<Exact_pluecker, 4>& extreme, const Exact_pluecker& line) {
+int common_side(const std::array<Joined_line, 4>& extreme, const Event_lines::Event_line& line) {
   bool positive = false, negative = false;
-  for (const Exact_pluecker& e : extreme) {
-    const int s = sgn(side(e, line));
+  for (const Joined_line& e : extreme) {
+    const int s = side(e, line);
     positive |= s > 0;
     negative |= s < 0;
+    if (positive && negative) return 0;
   }
   return positive == negative ? 0 : positive ? 1 : -1;
 }
 
-/// The parameters in (0, 1) where each of two pairs, ends[0] and ends[1], ends[2] and ends[3], has different signs.
-std::vector<Parameter_range> changing(const std::array<Quadratic, 4>& ends) {
-  std::array<int, 4> sure{};
-  for (std::size_t k = 0; k < 4; ++k) {
-    if (ends[k].is_zero()) return {};
-    sure[k] = ends[k].certain_sign();
+/// The side on which points are of a plane that no other is not on, in doubles; 0 where these do not tell.
+int common_side(const Near<4>& plane, std::span<const Filtered> points) {
+  int common = 0;
+  for (const Filtered& point : points) {
+    const int sure = certain_dot(plane, point.near);
+    if (sure == 0 || sure == -common) return 0;
+    common = sure;
   }
-  if (sure[0] * sure[1] > 0 || sure[2] * sure[3] > 0) return {};
-  std::vector<Parameter_range> found;
-  for (const Parameter_range& part : divided({Quadratic_root(0), Quadratic_root(1)}, ends)) {
-    const Rational s = inner_rational(part);
-    if (ends[0].sign(s) * ends[1].sign(s) < 0 && ends[2].sign(s) * ends[3].sign(s) < 0) found.push_back(part);
-  }
-  return found;
+  return common;
 }
 
 }  // namespace
@@ -100,129 +43,169 @@ std::vector<Parameter_range> changing(const std::array<Quadratic, 4>& ends) {
 Events_answer Event_search::run() {
   counters_->occluders += scene_->blockers().size();
   counters_->lines += scene_->lines().size();
+  counters_->untouched += scene_->untouched();
   answer_.status = Weak_status::hidden;
+  for (std::uint32_t b = 0; b < scene_->blockers().size(); ++b) all_blockers_.push_back(b);
   if (in_one_shadow()) ++counters_->in_shadow;
   else if (!pencils()) reguli();
   return answer_;
 }
 
 bool Event_search::in_one_shadow() const {
+  std::vector<Joined_line> extreme;
+  for (const Filtered& p : scene_->source())
+    for (const Filtered& q : scene_->target()) extreme.emplace_back(p, q);
   return std::any_of(scene_->blockers().begin(), scene_->blockers().end(), [&](const Blocker& blocker) {
-    for (const Near_point& p : scene_->source())
-      for (const Near_point& q : scene_->target()) {
-        const Exact_pluecker line = join(p.exact, q.exact);
-        for (const Literal& literal : blocker.literals)
-          if (literal.sense * sgn(side(line, lines()[literal.line].pluecker)) < 0) return false;
-      }
-    return true;
+    return std::all_of(blocker.literals.begin(), blocker.literals.end(), [&](const Literal& literal) {
+      return std::all_of(extreme.begin(), extreme.end(), [&](const Joined_line& line) {
+        return literal.sense * side(line, lines()[literal.line]) >= 0;
+      });
+    });
   });
 }
 
 bool Event_search::pencils() {
-  Numbered points, planes;
-  std::map<std::array<std::uint32_t, 2>, Event_kind> found;
-  const auto add = [&](std::uint32_t point, std::uint32_t plane, Event_kind kind) {
-    found.try_emplace({point, plane}, kind);
-  };
-  // 1. Planes of two edges, and vertices where two edges meet.
-  std::set<std::uint32_t> vertices, faces;
-  for (std::size_t i = 0; i < lines().size(); ++i) {
-    if (out_of_time()) return true;
-    for (std::size_t j = i + 1; j < lines().size(); ++j) {
+  Flats flats;
+  Vertices vertices;
+  if (!find_vertices(flats, vertices)) return true;
+  for (const auto& [plane, flat] : flats)
+    if (search_flat(plane, flat, vertices)) return true;
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [&](const auto& vertex) { return search_vertex(vertex.first, vertex.second); });
+}
+
+bool Event_search::find_vertices(Flats& flats, Vertices& vertices) {
+  for (std::uint32_t i = 0; i < lines().size(); ++i) {
+    if (out_of_time()) return false;
+    for (std::uint32_t j = i + 1; j < lines().size(); ++j) {
       const Event_line &a = lines()[i], &b = lines()[j];
-      if (!a.real || !b.real || (a.in_source && b.in_source) || sgn(side(a.pluecker, b.pluecker)) != 0) continue;
-      const Homogeneous& off = all_zero(join(b.hull[0], a.pluecker)) ? b.hull[1] : b.hull[0];
-      const Homogeneous common = join(off, a.pluecker);
-      const std::uint32_t plane = planes(common);
-      faces.insert(plane);
+      if (!a.real || !b.real || (a.in_source && b.in_source) || certain_side(a.near, b.near) != 0 ||
+          sgn(side(a.pluecker, b.pluecker)) != 0)
+        continue;
+      const Homogeneous& off = (all_zero(join(b.hull[0].exact, a.pluecker)) ? b.hull[1] : b.hull[0]).exact;
+      Homogeneous plane = join(off, a.pluecker);
+      make_canonical(plane);
+      Flat& flat = flats[plane];
+      for (const std::uint32_t edge : {i, j})
+        if (std::find(flat.edges.begin(), flat.edges.end(), edge) == flat.edges.end()) flat.edges.push_back(edge);
       if (a.in_source || b.in_source) continue;
-      const Homogeneous at = meet(join(off_plane(common), a.pluecker), b.pluecker);
+      Homogeneous at = meet(join(off_plane(plane), a.pluecker), b.pluecker);
       if (!Event_lines::in_hull(a, at) || !Event_lines::in_hull(b, at)) continue;
-      const std::uint32_t point = points(at);
-      vertices.insert(point);
-      add(point, plane, Event_kind::horizon);
+      make_canonical(at);
+      vertices[at].insert(plane);
+      flat.points.insert(std::move(at));
     }
   }
-  // 2. Where such a plane meets another edge.
-  for (const std::uint32_t plane : faces) {
-    if (out_of_time()) return true;
-    for (const Event_line& line : lines()) {
-      if (!line.real || line.in_source) continue;
-      const Homogeneous at = meet(planes.all[plane], line.pluecker);
-      if (!all_zero(at) && Event_lines::in_hull(line, at)) add(points(at), plane, Event_kind::horizon);
-    }
+  return true;
+}
+
+bool Event_search::search_flat(const Homogeneous& plane, const Flat& flat, Vertices& vertices) {
+  const Section section = section_of(plane);
+  if (!section.is_usable) {
+    ++counters_->off_polygons;
+    return out_of_time();
   }
-  // 3. Planes through such a vertex and an edge.
-  for (const std::uint32_t point : vertices) {
-    if (out_of_time()) return true;
-    for (const Event_line& line : lines()) {
-      if (!line.real) continue;
-      const Homogeneous plane = join(points.all[point], line.pluecker);
-      if (!all_zero(plane)) add(point, planes(plane), Event_kind::edge_vertex);
-    }
+  // Points in which two of its edges meet, and those of other edges.
+  std::set<Homogeneous, Less_entries> points = flat.points;
+  for (const Event_line& line : lines()) {
+    if (!line.real || line.in_source || common_side(section.plane.near, line.hull) != 0) continue;
+    Homogeneous at = meet(plane, line.pluecker);
+    if (all_zero(at) || !Event_lines::in_hull(line, at)) continue;
+    make_canonical(at);
+    if (points.count(at) != 0) continue;
+    const Filtered point{at, near(occluders_->frame(), at)};
+    if (std::any_of(flat.edges.begin(), flat.edges.end(),
+                    [&](std::uint32_t edge) { return may_pass(point, lines()[edge]); }))
+      points.insert(std::move(at));
+    else ++counters_->off_polygons;
   }
-  // 4. The lines through the point, in the plane.
-  for (const auto& [pencil, kind] : found) {
-    ++(kind == Event_kind::horizon ? counters_->horizon : counters_->edge_vertex);
-    if (search_pencil(points.all[pencil[0]], planes.all[pencil[1]], kind) || out_of_budget()) return true;
+  for (const Homogeneous& point : points) {
+    const auto vertex = vertices.find(point);
+    if (vertex != vertices.end()) vertex->second.insert(plane);
+    if (search_pencil(Event_kind::horizon, {point, near(occluders_->frame(), point)}, section)) return true;
   }
   return false;
 }
 
-bool Event_search::search_pencil(const Homogeneous& vertex, const Homogeneous& plane, Event_kind kind) {
-  // Lines in the plane of source or target, or through a point behind, lead nowhere.
-  if (sgn(dot(scene_->source_plane(), vertex)) <= 0 ||
-      sgn(dot(scene_->target_plane(), vertex)) * scene_->beside() < 0) {
+bool Event_search::search_vertex(const Homogeneous& point, const Planes& flats) {
+  const Filtered vertex{point, near(occluders_->frame(), point)};
+  if (out_of_time()) return true;
+  if (leads_nowhere(vertex)) {
     ++counters_->off_edges;
     return false;
   }
-  const std::array<Homogeneous, 2> ends = section(plane);
-  const Homogeneous &first = ends[0], &last = ends[1];
-  if (all_zero(join(first, last))) {
-    ++counters_->off_polygons;
-    return false;
-  }
-  Curve curve;
-  curve.kind = kind;
-  const Homogeneous step{last[0] - first[0], last[1] - first[1], last[2] - first[2], last[3] - first[3]};
-  curve.l = {join(vertex, first), join(vertex, step), Exact_pluecker{0, 0, 0, 0, 0, 0}};
-  // Where the event line is a touched line, or in the plane of two of them, or meets them in one point.
-  const Homogeneous beyond = off_plane(plane);
-  std::vector<const Event_line*> star, flat;
+  Planes planes;
   for (const Event_line& line : lines()) {
-    const bool through = all_zero(join(vertex, line.pluecker)), within = all_zero(meet(plane, line.pluecker));
-    if (through) star.push_back(&line);
-    if (within) flat.push_back(&line);
-    if (through && within) curve.ends.push_back(linear(join(beyond, line.pluecker), first, step));
-  }
-  for (std::size_t i = 0; i < star.size(); ++i)
-    for (std::size_t j = i + 1; j < star.size(); ++j)
-      curve.ends.push_back(linear(common_plane(star[i]->pluecker, star[j]->pluecker), first, step));
-  for (std::size_t i = 0; i < flat.size(); ++i)
-    for (std::size_t j = i + 1; j < flat.size(); ++j) {
-      const Homogeneous at = meet(join(beyond, flat[i]->pluecker), flat[j]->pluecker);
-      const Exact_pluecker up = join(at, beyond);
-      curve.ends.push_back({{side(curve.l[0], up), side(curve.l[1], up), Integer(0)}});
+    if (!line.real) continue;
+    const Near<4> near_plane = join(vertex.near, line.near);
+    if (common_side(near_plane, scene_->target()) != 0 || common_side(near_plane, scene_->source()) != 0 ||
+        !may_pass(vertex, line)) {
+      ++counters_->off_polygons;
+      continue;
     }
-  curve.chart = [&](const Rational& s) { return Event_chart{vertex, along(first, step, s), last, beyond}; };
-  return search_curve(curve, {Quadratic_root(0), Quadratic_root(1)});
+    Homogeneous plane = join(point, line.pluecker);
+    if (all_zero(plane)) continue;
+    make_canonical(plane);
+    if (flats.count(plane) == 0) planes.insert(std::move(plane));
+  }
+  return std::any_of(planes.begin(), planes.end(), [&](const Homogeneous& plane) {
+    return search_pencil(Event_kind::edge_vertex, vertex, section_of(plane));
+  });
 }
 
-std::array<Homogeneous, 2> Event_search::section(const Homogeneous& plane) const {
+bool Event_search::leads_nowhere(const Filtered& vertex) const {
+  // In the plane of the source, or behind.
+  return sign_of_dot(scene_->source_plane(), vertex) <= 0 ||
+         sign_of_dot(scene_->target_plane(), vertex) * scene_->beside() < 0;
+}
+
+bool Event_search::search_pencil(Event_kind kind, const Filtered& vertex, const Section& section) {
+  ++(kind == Event_kind::horizon ? counters_->horizon : counters_->edge_vertex);
+  if (leads_nowhere(vertex)) {
+    ++counters_->off_edges;
+  } else if (!section.is_usable) {
+    ++counters_->off_polygons;
+  } else {
+    const Event_pencil curve(kind, vertex, section.plane.exact, section.ends);
+    if (!is_idle(curve) && search_curve(curve, {Quadratic_root(0), Quadratic_root(1)})) return true;
+  }
+  return out_of_budget();
+}
+
+bool Event_search::may_pass(const Filtered& vertex, const Event_line& line) const {
+  const std::array<Near<6>, 2> between{join(vertex.near, line.hull[0].near), join(vertex.near, line.hull[1].near)};
+  return scene_->may_pass(between, scene_->from()) && scene_->may_pass(between, scene_->to());
+}
+
+Event_search::Section Event_search::section_of(const Homogeneous& plane) const {
+  Section found{{plane, near(near_plane(occluders_->frame(), plane))}, false, {}};
+  // Where it only touches the target in a corner, that may be the point of a pencil.
+  bool in_front = false, behind = false, touches = false;
+  for (const Filtered& corner : scene_->target()) {
+    const int at = sign_of_dot(found.plane, corner);
+    (at > 0 ? in_front : at < 0 ? behind : touches) = true;
+  }
+  if ((!in_front || !behind) && !touches) return found;
+  // The segment in which it meets the source.
   std::vector<Homogeneous> ends;
-  const Near_polygon& source = scene_->source();
+  const std::span<const Filtered> source = scene_->source();
+  std::vector<int> sides;
+  for (const Filtered& corner : source) sides.push_back(sign_of_dot(found.plane, corner));
   for (std::size_t i = 0; i < source.size(); ++i) {
-    const Homogeneous &a = source[i].exact, &b = source[(i + 1) % source.size()].exact;
-    const Integer at = dot(plane, a), after = dot(plane, b);
-    if (sgn(at) == 0) ends.push_back(a);
-    if (sgn(at) * sgn(after) >= 0) continue;
+    const std::size_t next = (i + 1) % source.size();
+    const Homogeneous &a = source[i].exact, &b = source[next].exact;
+    if (sides[i] == 0) ends.push_back(a);
+    if (sides[i] * sides[next] >= 0) continue;
+    const Integer at = abs(dot(plane, a)), after = abs(dot(plane, b));
     Homogeneous x;
-    for (std::size_t k = 0; k < 4; ++k) x[k] = abs(after) * a[k] + abs(at) * b[k];
+    for (std::size_t k = 0; k < 4; ++k) x[k] = after * a[k] + at * b[k];
     make_canonical(x);
     ends.push_back(x);
   }
-  if (ends.size() == 2) return {ends[0], ends[1]};
-  return {source[0].exact, source[0].exact};
+  found.is_usable = ends.size() == 2;
+  if (found.is_usable)
+    for (std::size_t k = 0; k < 2; ++k) found.ends[k] = {ends[k], near(occluders_->frame(), ends[k])};
+  return found;
 }
 
 bool Event_search::reguli() {
@@ -235,19 +218,20 @@ bool Event_search::reguli() {
     if (out_of_time()) return true;
     for (std::size_t j = i + 1; j < real.size(); ++j) {
       const Event_line &a = lines()[real[i]], &b = lines()[real[j]];
-      if (sgn(side(a.pluecker, b.pluecker)) == 0) continue;
-      const std::array<Exact_pluecker, 4> extreme = extreme_lines(a, b);
+      if (certain_side(a.near, b.near) == 0 && sgn(side(a.pluecker, b.pluecker)) == 0) continue;
+      const std::array<Joined_line, 4> extreme = extreme_lines(a, b);
       usable[i][j] = can_pass(extreme, scene_->from()) && can_pass(extreme, scene_->to());
+      if (!usable[i][j]) ++counters_->unpaired;
     }
   }
   for (std::size_t i = 0; i < real.size(); ++i)
     for (std::size_t j = i + 1; j < real.size(); ++j) {
       if (!usable[i][j]) continue;
-      const std::array<Exact_pluecker, 4> extreme = extreme_lines(lines()[real[i]], lines()[real[j]]);
+      const std::array<Joined_line, 4> extreme = extreme_lines(lines()[real[i]], lines()[real[j]]);
       for (std::size_t k = j + 1; k < real.size(); ++k) {
         if (!usable[i][k] || !usable[j][k]) continue;
         ++counters_->triple;
-        if (common_side(extreme, lines()[real[k]].pluecker) != 0) ++counters_->off_edges;
+        if (common_side(extreme, lines()[real[k]]) != 0) ++counters_->off_edges;
         else if (search_regulus({real[i], real[j], real[k]})) return true;
         if (out_of_budget()) return true;
       }
@@ -255,10 +239,10 @@ bool Event_search::reguli() {
   return false;
 }
 
-bool Event_search::can_pass(const std::array<Exact_pluecker, 4>& extreme, const std::vector<Literal>& literals) const {
+bool Event_search::can_pass(const std::array<Joined_line, 4>& extreme, const std::vector<Literal>& literals) const {
   bool positive = false, negative = false;
   for (const Literal& literal : literals) {
-    const int s = literal.sense * common_side(extreme, lines()[literal.line].pluecker);
+    const int s = literal.sense * common_side(extreme, lines()[literal.line]);
     positive |= s > 0;
     negative |= s < 0;
   }
@@ -266,90 +250,142 @@ bool Event_search::can_pass(const std::array<Exact_pluecker, 4>& extreme, const 
 }
 
 bool Event_search::search_regulus(const std::array<std::uint32_t, 3>& edges) {
-  const Event_line &a = lines()[edges[0]], &b = lines()[edges[1]], &c = lines()[edges[2]];
-  Curve curve;
-  curve.kind = Event_kind::triple;
-  // The point x(s) of the first edge; its planes with the others meet in the event line (Plantinga's Eq. 1).
-  const Homogeneous& first = a.hull[0];
-  const Homogeneous step{a.hull[1][0] - first[0], a.hull[1][1] - first[1], a.hull[1][2] - first[2],
-                         a.hull[1][3] - first[3]};
-  const Homogeneous b0 = join(first, b.pluecker), b1 = join(step, b.pluecker), c0 = join(first, c.pluecker),
-                    c1 = join(step, c.pluecker);
-  // It touches the second edge where its ends are on both sides of the plane with the third; and so on.
-  const std::array<Quadratic, 4> ends{linear_at(c0, c1, b.hull[0]), linear_at(c0, c1, b.hull[1]),
-                                      linear_at(b0, b1, c.hull[0]), linear_at(b0, b1, c.hull[1])};
-  const std::vector<Parameter_range> touching = changing(ends);
-  if (touching.empty()) {
-    ++counters_->off_edges;
-    return false;
+  const Event_regulus curve(lines(), edges);
+  if (is_idle(curve)) return false;
+  const std::vector<Parameter_range> touching = curve.touching();
+  if (touching.empty()) ++counters_->off_edges;
+  return std::any_of(touching.begin(), touching.end(),
+                     [&](const Parameter_range& range) { return search_curve(curve, range); });
+}
+
+// ---- Along an event
+
+int Event_search::course(const Near_part& part, std::uint32_t line, int depth) {
+  signed char& known = near_courses_[static_cast<std::size_t>(depth)][line];
+  if (known == unset) known = static_cast<signed char>(part.course(lines()[line].near).value_or(unknown));
+  return known;
+}
+
+bool Event_search::is_idle(const Event_curve& curve) {
+  std::fill(near_courses_[0].begin(), near_courses_[0].end(), unset);
+  switch (idle(curve, curve.near(), all_blockers_, 0)) {
+    case Idle::no: return false;
+    case Idle::off_edges: ++counters_->off_edges; return true;
+    case Idle::off_polygons: ++counters_->off_polygons; return true;
+    case Idle::covered: ++counters_->covered; return true;
   }
-  curve.l = {meet(b0, c0), meet(b0, c1), meet(b1, c1)};
-  const Exact_pluecker other = meet(b1, c0);
-  for (std::size_t k = 0; k < 6; ++k) curve.l[1][k] += other[k];
-  curve.edges = edges;
-  curve.chart = [&](const Rational& s) {
-    const auto on_second = [&](const Rational& at) { return meet(along(c0, c1, at), b.pluecker); };
-    const Rational beside = s + 1;  // any other line of the ruling
-    return Event_chart{along(first, step, s), on_second(s), along(first, step, beside), on_second(beside)};
-  };
-  for (const Parameter_range& range : touching)
-    if (search_curve(curve, range)) return true;
   return false;
 }
 
-const Quadratic& Event_search::polynomial(const Curve& curve, std::uint32_t line) {
+Event_search::Idle Event_search::idle(const Event_curve& curve, const Near_part& part,
+                                      std::span<const std::uint32_t> blockers, int depth) {
+  if (curve.is_off(part)) return Idle::off_edges;
+  // The direction in which its lines go from the source to the target, if any do.
+  int turn = 0;
+  for (const std::vector<Literal>* literals : {&scene_->from(), &scene_->to()}) {
+    bool positive = false, negative = false;
+    for (const Literal& literal : *literals) {
+      const int own = course(part, literal.line, depth);
+      if (own == unknown) continue;
+      positive |= own * literal.sense > 0;
+      negative |= own * literal.sense < 0;
+    }
+    if (positive && negative) return Idle::off_polygons;
+    const int own = positive ? 1 : negative ? -1 : 0;
+    if (own * turn < 0) return Idle::off_polygons;
+    if (own != 0) turn = own;
+  }
+  // Pieces that block all of it, or some.
+  std::vector<std::uint32_t> some;
+  for (const std::uint32_t b : blockers) {
+    bool all = turn != 0, any = true;
+    for (const Literal& literal : scene_->blockers()[b].literals) {
+      const int own = course(part, literal.line, depth);
+      all &= own == literal.sense * turn;
+      any &= turn == 0 || own != -literal.sense * turn;
+      if (!any) break;
+    }
+    if (any && all) return Idle::covered;
+    if (any) some.push_back(b);
+  }
+  if (depth == deepest) return Idle::no;
+  Idle reason = Idle::no;
+  const std::vector<signed char>& known = near_courses_[static_cast<std::size_t>(depth)];
+  for (const Near_part& one : part.halves()) {
+    std::transform(known.begin(), known.end(), near_courses_[static_cast<std::size_t>(depth) + 1].begin(),
+                   [](signed char own) { return own == 1 || own == -1 ? own : unset; });
+    const Idle own = idle(curve, one, some, depth + 1);
+    if (own == Idle::no) return Idle::no;
+    reason = std::max(reason, own);
+  }
+  return reason;
+}
+
+const Quadratic& Event_search::polynomial(const Event_curve& curve, std::uint32_t line) {
   if (known_[line] != 1) {
-    for (std::size_t k = 0; k < 3; ++k) polynomials_[line].c[k] = side(curve.l[k], lines()[line].pluecker);
+    for (std::size_t k = 0; k < 3; ++k) polynomials_[line].c[k] = side(curve.lines()[k], lines()[line].pluecker);
     known_[line] = 1;
   }
   return polynomials_[line];
 }
 
-int Event_search::common_sign(const Curve& curve, const std::vector<Literal>& literals, const Rational& s) {
+int Event_search::course(const Event_curve& curve, std::uint32_t line) {
+  signed char& known = courses_[line];
+  if (known != unknown) return known;
+  if (const std::optional<int> near = curve.near().course(lines()[line].near))
+    return known = static_cast<signed char>(*near);
+  const Quadratic& f = polynomial(curve, line);
+  return known = static_cast<signed char>(f.is_zero() ? touched : f.certain_sign());
+}
+
+int Event_search::common_sign(const Event_curve& curve, const std::vector<Literal>& literals, const Rational& s) {
   bool positive = false, negative = false;
   for (const Literal& literal : literals) {
-    const Quadratic& f = polynomial(curve, literal.line);
-    if (f.is_zero()) continue;
-    const int sign = literal.sense * f.sign(s);
-    positive |= sign > 0;
-    negative |= sign < 0;
+    const int own = sign(curve, literal.line, s) * literal.sense;
+    positive |= own > 0;
+    negative |= own < 0;
   }
   return positive == negative ? 0 : positive ? 1 : -1;
 }
 
-std::vector<Quadratic> Event_search::polynomials(const Curve& curve, const std::vector<Literal>& literals) {
-  std::vector<Quadratic> all;
-  for (const Literal& literal : literals) all.push_back(polynomial(curve, literal.line));
-  return all;
+int Event_search::sign(const Event_curve& curve, std::uint32_t line, const Rational& s) {
+  const int all = course(curve, line);
+  return all == touched ? 0 : all != 0 ? all : polynomial(curve, line).sign(s);
 }
 
-bool Event_search::never_passes(const Curve& curve, const std::vector<Literal>& literals) {
+void Event_search::append_polynomials(const Event_curve& curve, const std::vector<Literal>& literals,
+                                      std::vector<Quadratic>& found) {
+  for (const Literal& literal : literals)
+    if (course(curve, literal.line) == 0) found.push_back(polynomial(curve, literal.line));
+}
+
+bool Event_search::never_passes(const Event_curve& curve, const std::vector<Literal>& literals) {
   bool positive = false, negative = false;
   for (const Literal& literal : literals) {
-    const Quadratic& f = polynomial(curve, literal.line);
-    if (f.is_zero()) continue;
-    const int sign = literal.sense * f.certain_sign();
-    positive |= sign > 0;
-    negative |= sign < 0;
+    const int all = course(curve, literal.line);
+    if (all == touched) continue;
+    positive |= literal.sense * all > 0;
+    negative |= literal.sense * all < 0;
   }
   return positive && negative;
 }
 
-std::vector<Event_search::Active> Event_search::parts_between(const Curve& curve, const Parameter_range& range) {
-  std::vector<Quadratic> ends = polynomials(curve, scene_->from());
-  const std::vector<Quadratic> at_target = polynomials(curve, scene_->to());
-  ends.insert(ends.end(), at_target.begin(), at_target.end());
+std::vector<Event_search::Active> Event_search::parts_between(const Event_curve& curve, const Parameter_range& range) {
+  std::vector<Quadratic> ends;
+  append_polynomials(curve, scene_->from(), ends);
+  append_polynomials(curve, scene_->to(), ends);
   std::vector<Active> active;
   for (const Parameter_range& part : divided(range, ends)) {
-    const Rational s = inner_rational(part);
+    const Rational s = ends.empty() ? Rational(0) : inner_rational(part);
     const int turn = common_sign(curve, scene_->from(), s);
     if (turn != 0 && turn == common_sign(curve, scene_->to(), s)) active.push_back({Active_subranges(part), turn});
   }
   return active;
 }
 
-bool Event_search::search_curve(const Curve& curve, const Parameter_range& range) {
+bool Event_search::search_curve(const Event_curve& curve, const Parameter_range& range) {
   std::fill(known_.begin(), known_.end(), char{0});
+  std::fill(courses_.begin(), courses_.end(), unknown);
   if (never_passes(curve, scene_->from()) || never_passes(curve, scene_->to())) {
     ++counters_->off_polygons;
     return false;
@@ -362,45 +398,56 @@ bool Event_search::search_curve(const Curve& curve, const Parameter_range& range
   // Pieces that lines do not touch everywhere block some of them, large ones first.
   std::vector<const Blocker*> crossed, grazed;
   for (const Blocker& blocker : scene_->blockers()) {
-    const bool touched = std::any_of(blocker.literals.begin(), blocker.literals.end(),
-                                     [&](const Literal& literal) { return polynomial(curve, literal.line).is_zero(); });
-    (touched ? grazed : crossed).push_back(&blocker);
-  }
-  for (const Blocker* blocker : crossed) {
     if (out_of_time()) return true;
-    subtract(curve, *blocker, active);
+    if (std::any_of(blocker.literals.begin(), blocker.literals.end(),
+                    [&](const Literal& literal) { return course(curve, literal.line) == touched; })) {
+      grazed.push_back(&blocker);
+      continue;
+    }
+    crossed.push_back(&blocker);
+    subtract(curve, blocker, active);
     if (active.empty()) {
       ++counters_->covered;
       return false;
     }
   }
+  std::vector<Quadratic> ends = curve.ends(lines());
+  for (const Blocker* blocker : grazed) append_polynomials(curve, blocker->literals, ends);
   for (const Active& part : active)
     for (const Parameter_range& left : part.left.ranges()) {
       if (options_->surfaces) keep_surface(curve, left);
-      if (answer_.status != Weak_status::visible && look_beside(curve, left, part.turn, crossed, grazed) &&
+      if (answer_.status != Weak_status::visible && look_beside(curve, left, part.turn, ends, crossed, grazed) &&
           !options_->surfaces)
         return true;
     }
   return false;
 }
 
-void Event_search::subtract(const Curve& curve, const Blocker& blocker, std::vector<Active>& active) {
+void Event_search::subtract(const Event_curve& curve, const Blocker& blocker, std::vector<Active>& active) {
   for (Active& part : active) {
-    const auto fails = [&](const Literal& literal) {
-      return polynomial(curve, literal.line).certain_sign() * literal.sense * part.turn < 0;
-    };
-    if (std::any_of(blocker.literals.begin(), blocker.literals.end(), fails)) continue;
-    subtract_where(part.left, polynomials(curve, blocker.literals),
+    bool passes = true, covers = true;
+    for (const Literal& literal : blocker.literals) {
+      const int own = course(curve, literal.line) * literal.sense * part.turn;
+      passes &= own >= 0;
+      covers &= own > 0;
+      if (!passes) break;
+    }
+    if (!passes) continue;
+    if (covers) {
+      part.turn = 0;
+      continue;
+    }
+    std::vector<Quadratic> polynomials;
+    append_polynomials(curve, blocker.literals, polynomials);
+    subtract_where(part.left, polynomials,
                    [&](const Rational& s) { return common_sign(curve, blocker.literals, s) == part.turn; });
   }
-  std::erase_if(active, [](const Active& part) { return part.left.empty(); });
+  std::erase_if(active, [](const Active& part) { return part.turn == 0 || part.left.empty(); });
 }
 
-bool Event_search::look_beside(const Curve& curve, const Parameter_range& active, int turn,
-                               const std::vector<const Blocker*>& crossed, const std::vector<const Blocker*>& grazed) {
-  std::vector<Quadratic> ends = curve.ends;
-  for (const Blocker* blocker : grazed)
-    for (const Literal& literal : blocker->literals) ends.push_back(polynomial(curve, literal.line));
+bool Event_search::look_beside(const Event_curve& curve, const Parameter_range& active, int turn,
+                               std::span<const Quadratic> ends, const std::vector<const Blocker*>& crossed,
+                               const std::vector<const Blocker*>& grazed) {
   for (const Parameter_range& part : divided(active, ends)) {
     if (out_of_time()) return true;
     ++counters_->subranges;
@@ -417,24 +464,22 @@ bool Event_search::look_beside(const Curve& curve, const Parameter_range& active
   return false;
 }
 
-bool Event_search::is_past(const Curve& curve, const Blocker& blocker, const Rational& s, int turn) {
-  return std::any_of(blocker.literals.begin(), blocker.literals.end(), [&](const Literal& literal) {
-    return literal.sense * turn * polynomial(curve, literal.line).sign(s) < 0;
-  });
+bool Event_search::is_past(const Event_curve& curve, const Blocker& blocker, const Rational& s, int turn) {
+  return std::any_of(blocker.literals.begin(), blocker.literals.end(),
+                     [&](const Literal& literal) { return literal.sense * turn * sign(curve, literal.line, s) < 0; });
 }
 
-bool Event_search::look_around(const Curve& curve, const Rational& s, int turn,
+bool Event_search::look_around(const Event_curve& curve, const Rational& s, int turn,
                                const std::vector<const Blocker*>& grazed) {
-  std::vector<const Exact_pluecker*> touched;
+  std::vector<const Exact_pluecker*> met;
   std::vector<std::uint32_t> place(lines().size(), none);
   const auto touch = [&](std::uint32_t line) {
-    if (place[line] == none && polynomial(curve, line).is_zero()) {
-      place[line] = static_cast<std::uint32_t>(touched.size());
-      touched.push_back(&lines()[line].pluecker);
+    if (place[line] == none && course(curve, line) == touched) {
+      place[line] = static_cast<std::uint32_t>(met.size());
+      met.push_back(&lines()[line].pluecker);
     }
   };
-  if (curve.kind == Event_kind::triple)
-    for (const std::uint32_t edge : curve.edges) touch(edge);  // independent, so first
+  for (const std::uint32_t edge : curve.edges()) touch(edge);  // independent, so first
   for (std::uint32_t line = 0; line < lines().size(); ++line) touch(line);
   // What must hold of the sides of touched lines, and what must not.
   const Event_chart chart = curve.chart(s);
@@ -460,21 +505,22 @@ bool Event_search::look_around(const Curve& curve, const Rational& s, int turn,
     confirm(chart, move);
     return true;
   };
-  return curve.kind == Event_kind::triple ? visit_cells_at_regulus(chart, touched, visit)
-                                          : visit_cells_at_pencil(chart, touched, visit);
+  return curve.kind() == Event_kind::triple ? visit_cells_at_regulus(chart, met, visit)
+                                            : visit_cells_at_pencil(chart, met, visit);
 }
 
-int Event_search::orientation(const Event_chart& chart, const Curve& curve, const Rational& s) {
+int Event_search::orientation(const Event_chart& chart, const Event_curve& curve, const Rational& s) {
   const Exact_pluecker line = join(chart.v, chart.w);
   for (std::size_t k = 0; k < 6; ++k)
-    if (sgn(line[k]) != 0) return sgn(line[k]) * Quadratic{{curve.l[0][k], curve.l[1][k], curve.l[2][k]}}.sign(s);
+    if (sgn(line[k]) != 0)
+      return sgn(line[k]) * Quadratic{{curve.lines()[0][k], curve.lines()[1][k], curve.lines()[2][k]}}.sign(s);
   throw std::logic_error("a chart of no line");
 }
 
 void Event_search::confirm(const Event_chart& chart, const Event_move& move) {
   for (unsigned long bits = 1; bits <= 8192; bits *= 2) {
     const Exact_pluecker line = moved(chart, move, Rational(Integer(1), Integer(Integer(1) << bits)));
-    Homogeneous p = meet(scene_->source_plane(), line), q = meet(scene_->target_plane(), line);
+    Homogeneous p = meet(scene_->source_plane().exact, line), q = meet(scene_->target_plane().exact, line);
     if (sgn(p[3]) == 0 || sgn(q[3]) == 0) continue;
     make_canonical(p);
     make_canonical(q);
@@ -485,7 +531,7 @@ void Event_search::confirm(const Event_chart& chart, const Event_move& move) {
     if (!std::all_of(scene_->from().begin(), scene_->from().end(), holds) ||
         !std::all_of(scene_->to().begin(), scene_->to().end(), holds))
       continue;
-    if (sgn(dot(scene_->source_plane(), q)) <= 0) continue;
+    if (sgn(dot(scene_->source_plane().exact, q)) <= 0) continue;
     answer_.sightline = {near_point(occluders_->frame(), p), near_point(occluders_->frame(), q)};
     if (occluders_->blocker(answer_.sightline[0], answer_.sightline[1], scene_->near_source_plane(),
                             scene_->near_target_plane()))
@@ -498,14 +544,14 @@ void Event_search::confirm(const Event_chart& chart, const Event_move& move) {
   ++counters_->refuted;
 }
 
-void Event_search::keep_surface(const Curve& curve, const Parameter_range& range) {
+void Event_search::keep_surface(const Event_curve& curve, const Parameter_range& range) {
   constexpr long rows = 8;
-  Surface surface{curve.kind, {}};
+  Surface surface{curve.kind(), {}};
   const Rational low(range.low.bits(60) + 2, Integer(1) << 60), high(range.high.bits(60) - 1, Integer(1) << 60);
   for (long k = 0; k <= rows && low < high; ++k) {
     const Event_chart chart = curve.chart(Rational(low + (high - low) * k / rows));
     const Exact_pluecker line = join(chart.v, chart.w);
-    Homogeneous p = meet(scene_->source_plane(), line), q = meet(scene_->target_plane(), line);
+    Homogeneous p = meet(scene_->source_plane().exact, line), q = meet(scene_->target_plane().exact, line);
     if (sgn(p[3]) != 0 && sgn(q[3]) != 0) surface.rulings.push_back({p, q});
   }
   if (surface.rulings.size() > 1) surfaces_.push_back(std::move(surface));

@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/weak_visibility/events/active_subranges.h>
 #include <sightline/algorithms/weak_visibility/events/event_cells.h>
+#include <sightline/algorithms/weak_visibility/events/event_curve.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
@@ -16,6 +17,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <set>
+#include <span>
 #include <vector>
 
 namespace sightline {
@@ -26,6 +30,8 @@ struct Event_counters {
   /// Of these, decided at once: facing away, by one of a few lines, hidden by one piece alone.
   std::size_t away = 0, by_rays = 0, in_shadow = 0;
   std::size_t occluders = 0, lines = 0;  ///< ways in which a piece can block; lines of edges; summed over pairs
+  std::size_t untouched = 0,
+              unpaired = 0;  ///< edges, and skew pairs of them, that no line between the polygons touches
   std::size_t horizon = 0, edge_vertex = 0,
               triple = 0;  ///< potential events: in a plane of edges, through a vertex and an edge, through three edges
   std::size_t off_edges = 0, off_polygons = 0,
@@ -40,15 +46,17 @@ struct Event_counters {
     visit("searches", &Event_counters::targets);
     visit("", &Event_counters::away);
     visit("", &Event_counters::by_rays);
-    visit("", &Event_counters::in_shadow);
+    visit("in_shadow", &Event_counters::in_shadow);
     visit("", &Event_counters::occluders);
     visit("", &Event_counters::lines);
+    visit("untouched", &Event_counters::untouched);
+    visit("unpaired", &Event_counters::unpaired);
     visit("horizon", &Event_counters::horizon);
     visit("edge_vertex", &Event_counters::edge_vertex);
     visit("triple", &Event_counters::triple);
-    visit("", &Event_counters::off_edges);
-    visit("", &Event_counters::off_polygons);
-    visit("", &Event_counters::covered);
+    visit("off_edges", &Event_counters::off_edges);
+    visit("off_polygons", &Event_counters::off_polygons);
+    visit("covered", &Event_counters::covered);
     visit("subranges", &Event_counters::subranges);
     visit("cells", &Event_counters::cells);
     visit("", &Event_counters::confirmed);
@@ -66,8 +74,6 @@ struct Events_options {
   std::function<bool()> out_of_time;                                ///< asked before each event, and more often
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< faces; called by any thread
 };
-
-enum class Event_kind : char { horizon, edge_vertex, triple };
 
 struct Events_answer {
   Weak_status status = Weak_status::undecided;
@@ -88,7 +94,9 @@ class Event_search {
         options_(&options),
         counters_(&counters),
         polynomials_(scene.lines().size()),
-        known_(scene.lines().size()) {}
+        known_(scene.lines().size()),
+        courses_(scene.lines().size()),
+        near_courses_(deepest + 1, std::vector<signed char>(scene.lines().size())) {}
 
   Events_answer run();
 
@@ -102,14 +110,6 @@ class Event_search {
   using Event_line = Event_lines::Event_line;
   using Literal = Event_lines::Literal;
   using Blocker = Event_lines::Blocker;
-  /// Lines l[0] + l[1] s + l[2] s^2, 0 < s < 1.
-  struct Curve {
-    Event_kind kind;
-    std::array<Exact_pluecker, 3> l;
-    std::vector<Quadratic> ends;  // parameters where what is touched changes otherwise than by sides
-    std::function<Event_chart(const Rational&)> chart;
-    std::array<std::uint32_t, 3> edges{};  // of a triple
-  };
   /// Along them, p comes before q in the lines' direction, or (-1) after it.
   struct Active {
     Active_subranges<Quadratic_root> left;
@@ -125,52 +125,93 @@ class Event_search {
   /// All pencils of lines that touch three edges. Returns whether the search has ended.
   bool pencils();
 
-  bool search_pencil(const Homogeneous& vertex, const Homogeneous& plane, Event_kind kind);
+  using Planes = std::set<Homogeneous, Less_entries>;
+  /// Of a plane that holds two edges: these, and the points in which they meet.
+  struct Flat {
+    std::vector<std::uint32_t> edges;
+    std::set<Homogeneous, Less_entries> points;
+  };
+  using Flats = std::map<Homogeneous, Flat, Less_entries>;
+  /// Points in which two edges meet, with planes that are searched as flats.
+  using Vertices = std::map<Homogeneous, Planes, Less_entries>;
+  /// Returns false where there is no time.
+  bool find_vertices(Flats& flats, Vertices& vertices);
 
-  /// The ends of the segment in which a plane meets the source; the same point twice where there is none.
-  std::array<Homogeneous, 2> section(const Homogeneous& plane) const;
+  /// A plane and the segment in which it meets the source. It is not usable where there is none, or where it does not
+  /// meet the target.
+  struct Section {
+    Filtered plane;
+    bool is_usable;
+    std::array<Filtered, 2> ends;
+  };
+  Section section_of(const Homogeneous& plane) const;
+
+  /// The lines of a plane through points of edges. Where these are vertices, they learn of it.
+  bool search_flat(const Homogeneous& plane, const Flat& flat, Vertices& vertices);
+  /// The lines through a vertex in planes with an edge, but those of flats.
+  bool search_vertex(const Homogeneous& point, const Planes& flats);
+  bool search_pencil(Event_kind kind, const Filtered& vertex, const Section& section);
+  bool leads_nowhere(const Filtered& vertex) const;
+
+  /// Not where surely no line through a point and an edge goes from the source to the target.
+  bool may_pass(const Filtered& vertex, const Event_line& line) const;
 
   // ---- Events on ruled quadrics: three skew edges
 
   bool reguli();
 
   /// Whether lines through two edges may have all literals, or all of them reversed.
-  bool can_pass(const std::array<Exact_pluecker, 4>& extreme, const std::vector<Literal>& literals) const;
+  bool can_pass(const std::array<Joined_line, 4>& extreme, const std::vector<Literal>& literals) const;
 
   bool search_regulus(const std::array<std::uint32_t, 3>& edges);
 
   // ---- Along an event: active subranges
 
-  const Quadratic& polynomial(const Curve& curve, std::uint32_t line);
+  const Quadratic& polynomial(const Event_curve& curve, std::uint32_t line);
+  /// The side on which all of a curve passes a line: 1, -1; 0 where it may change; `touched` where all of it meets the
+  /// line.
+  int course(const Event_curve& curve, std::uint32_t line);
+  int sign(const Event_curve& curve, std::uint32_t line, const Rational& s);
   /// 1 where all literals hold as far as they are not zero on all of the curve, -1 where all are reversed, else 0.
-  int common_sign(const Curve& curve, const std::vector<Literal>& literals, const Rational& s);
-  std::vector<Quadratic> polynomials(const Curve& curve, const std::vector<Literal>& literals);
-  bool never_passes(const Curve& curve, const std::vector<Literal>& literals);
+  int common_sign(const Event_curve& curve, const std::vector<Literal>& literals, const Rational& s);
+  /// Of the literals that may change.
+  void append_polynomials(const Event_curve& curve, const std::vector<Literal>& literals,
+                          std::vector<Quadratic>& found);
+  bool never_passes(const Event_curve& curve, const std::vector<Literal>& literals);
 
   /// The parts of a range with lines from the source to the target.
-  std::vector<Active> parts_between(const Curve& curve, const Parameter_range& range);
+  std::vector<Active> parts_between(const Event_curve& curve, const Parameter_range& range);
+
+  /// Whether surely no line of a curve is of use: by halves, each off its edges, or leading nowhere, or blocked by one
+  /// of the pieces. In doubles.
+  bool is_idle(const Event_curve& curve);
+  enum class Idle : char { no, off_edges, off_polygons, covered };
+  Idle idle(const Event_curve& curve, const Near_part& part, std::span<const std::uint32_t> blockers, int depth);
+  /// As above, or `unknown`. What a part is sure of, its halves are.
+  int course(const Near_part& part, std::uint32_t line, int depth);
 
   /// Looks at a potential event. Returns whether the search has ended.
-  bool search_curve(const Curve& curve, const Parameter_range& range);
+  bool search_curve(const Event_curve& curve, const Parameter_range& range);
 
   /// Leaves what a piece does not block. What only touches it stays whole.
-  void subtract(const Curve& curve, const Blocker& blocker, std::vector<Active>& active);
+  void subtract(const Event_curve& curve, const Blocker& blocker, std::vector<Active>& active);
 
   // ---- Beside an event
 
-  bool look_beside(const Curve& curve, const Parameter_range& active, int turn,
+  /// `ends`: the curve's, and those of what is grazed.
+  bool look_beside(const Event_curve& curve, const Parameter_range& active, int turn, std::span<const Quadratic> ends,
                    const std::vector<const Blocker*>& crossed, const std::vector<const Blocker*>& grazed);
-  bool is_past(const Curve& curve, const Blocker& blocker, const Rational& s, int turn);
+  bool is_past(const Event_curve& curve, const Blocker& blocker, const Rational& s, int turn);
 
   /// All cells of lines around one event line.
-  bool look_around(const Curve& curve, const Rational& s, int turn, const std::vector<const Blocker*>& grazed);
+  bool look_around(const Event_curve& curve, const Rational& s, int turn, const std::vector<const Blocker*>& grazed);
   /// Whether the chart's v and w follow each other as the curve's lines are directed: 1, or -1.
-  static int orientation(const Event_chart& chart, const Curve& curve, const Rational& s);
+  static int orientation(const Event_chart& chart, const Event_curve& curve, const Rational& s);
 
   /// Moves the event line into a free cell, until no piece of the scene meets it: it is a sightline then.
   void confirm(const Event_chart& chart, const Event_move& move);
 
-  void keep_surface(const Curve& curve, const Parameter_range& range);
+  void keep_surface(const Event_curve& curve, const Parameter_range& range);
 
   /// Whether the search ends here: too many events, or no time. Then it is undecided, unless it has a line.
   bool out_of_budget() { return ends_if(++events_ > options_->events) || out_of_time(); }
@@ -178,12 +219,17 @@ class Event_search {
   bool ends_if(bool out);
 
   static constexpr std::uint32_t none = 0xffffffff;
+  static constexpr signed char touched = 2, unknown = 3, unset = 4;  // courses
+  static constexpr int deepest = 7;                                  // halves of halves
   const Occluders* occluders_;
   const Event_lines* scene_;
   const Events_options* options_;
   Event_counters* counters_;
   std::vector<Quadratic> polynomials_;  // of the curve at hand
   std::vector<char> known_;
+  std::vector<signed char> courses_;
+  std::vector<std::vector<signed char>> near_courses_;  // of halves, by depth
+  std::vector<std::uint32_t> all_blockers_;
   Events_answer answer_;
   std::vector<Surface> surfaces_;
   std::size_t events_ = 0;
