@@ -98,13 +98,16 @@ std::optional<Body> body_of(const Points& points, Random& random) {
 /// That a volume's surface is where the inside is on one side only, and looks to the other.
 Outcome has_its_surface(const Solid& solid, const Weak_volume& volume) {
   std::vector<Level> levels;
-  for (const Points& polygon : volume.surface()) levels.push_back(weak_flats::level_of(polygon));
-  for (std::size_t k = 0; k < levels.size(); ++k) {
-    const Exact_point middle = generate::centroid(volume.surface()[k]), &outwards = levels[k].normal;
-    const std::optional<bool> before = solid.is_inside_beside(middle, outwards),
-                              behind = solid.is_inside_beside(middle, minus({0, 0, 0}, outwards));
-    if (before.value_or(false) || !behind.value_or(true))
-      return Outcome::failed("a part of the volume's surface does not look outwards");
+  for (const Points& polygon : volume.surface()) {
+    const Level& level = levels.emplace_back(weak_flats::level_of(polygon));
+    // In cells: the middle of all of it may be on an edge of a body that only touches it there.
+    for (const Points& cell : weak_flats::cells(polygon, solid.walls)) {
+      const Exact_point middle = generate::centroid(cell);
+      const std::optional<bool> before = solid.is_inside_beside(middle, level.normal),
+                                behind = solid.is_inside_beside(middle, minus({0, 0, 0}, level.normal));
+      if (before.value_or(false) || !behind.value_or(true))
+        return Outcome::failed("a part of the volume's surface does not look outwards");
+    }
   }
   for (const Points& face : solid.faces()) {
     const Level level = weak_flats::level_of(face);
