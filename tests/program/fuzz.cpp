@@ -89,6 +89,9 @@ TEST_F(Fuzz, what_it_found_is_mended) {
   // A family that claimed to see past an overlap, however wide.
   const Outcome wide = run({"fuzz", "weak", "--case", "tangent:684701:0:-17592186044416", "--check", "construction"});
   EXPECT_EQ(wide.code, done) << wide;
+  // A law that took the middle of a part of a surface, which is on an edge of another body that only touches it there.
+  const Outcome touched = run({"fuzz", "weak", "--case", "apertures:1673085673:0:1:0,0,0:0", "--check", "volume"});
+  EXPECT_EQ(touched.code, done) << touched;
 }
 
 TEST_F(Fuzz, what_makes_no_sense_is_told) {
