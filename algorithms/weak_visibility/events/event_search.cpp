@@ -27,7 +27,7 @@ int common_side(const std::array<Joined_line, 4>& extreme, const Event_lines::Ev
   return positive == negative ? 0 : positive ? 1 : -1;
 }
 
-/// The side on which points are of a plane that no other is not on, in doubles; 0 where these do not tell.
+/// The side of a plane on which all points surely are; 0 where doubles do not tell, or they are on both.
 int common_side(const Near<4>& plane, std::span<const Filtered> points) {
   int common = 0;
   for (const Filtered& point : points) {

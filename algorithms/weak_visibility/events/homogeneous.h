@@ -11,10 +11,31 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <initializer_list>
 #include <optional>
 
 namespace sightline {
+
+namespace homogeneous_detail {  // what both kinds of numbers are joined by
+
+template <class N>
+std::array<N, 6> joined(const std::array<N, 4>& a, const std::array<N, 4>& b) {
+  return {a[3] * b[0] - b[3] * a[0], a[3] * b[1] - b[3] * a[1], a[3] * b[2] - b[3] * a[2],
+          a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+template <class N>
+std::array<N, 4> plane_of(const std::array<N, 4>& x, const std::array<N, 6>& e) {
+  return {e[1] * x[2] - e[2] * x[1] + x[3] * e[3], e[2] * x[0] - e[0] * x[2] + x[3] * e[4],
+          e[0] * x[1] - e[1] * x[0] + x[3] * e[5], -(x[0] * e[3] + x[1] * e[4] + x[2] * e[5])};
+}
+
+template <class N>
+std::array<N, 6> met(const std::array<N, 4>& g, const std::array<N, 4>& h) {
+  return {g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0],
+          g[3] * h[0] - h[3] * g[0], g[3] * h[1] - h[3] * g[1], g[3] * h[2] - h[3] * g[2]};
+}
+
+}  // namespace homogeneous_detail
 
 // ---- In integers
 
@@ -87,33 +108,27 @@ Near<n> bounded(const std::array<double, n>& at, double error) {
   return {at, size, error};
 }
 
+inline double near_side(const std::array<double, 6>& a, const std::array<double, 6>& b) {
+  return -(a[0] * b[3] + a[1] * b[4] + a[2] * b[5] + a[3] * b[0] + a[4] * b[1] + a[5] * b[2]);
+}
+
 inline int certain_sign(double value, double error) { return value > error ? 1 : value < -error ? -1 : 0; }
 
 }  // namespace homogeneous_detail
 
-inline Near<6> join(const Near<4>& p, const Near<4>& q) {
-  const std::array<double, 4>&a = p.at, &b = q.at;
-  return homogeneous_detail::bounded<6>(
-      {a[3] * b[0] - b[3] * a[0], a[3] * b[1] - b[3] * a[1], a[3] * b[2] - b[3] * a[2], a[1] * b[2] - a[2] * b[1],
-       a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]},
-      homogeneous_detail::error_of_products(2, p, q));
+inline Near<6> join(const Near<4>& a, const Near<4>& b) {
+  return homogeneous_detail::bounded(homogeneous_detail::joined(a.at, b.at),
+                                     homogeneous_detail::error_of_products(2, a, b));
 }
 
-inline Near<4> join(const Near<4>& point, const Near<6>& line) {
-  const auto& x = point.at;
-  const auto& e = line.at;
-  return homogeneous_detail::bounded<4>(
-      {e[1] * x[2] - e[2] * x[1] + x[3] * e[3], e[2] * x[0] - e[0] * x[2] + x[3] * e[4],
-       e[0] * x[1] - e[1] * x[0] + x[3] * e[5], -(x[0] * e[3] + x[1] * e[4] + x[2] * e[5])},
-      homogeneous_detail::error_of_products(3, point, line));
+inline Near<4> join(const Near<4>& x, const Near<6>& e) {
+  return homogeneous_detail::bounded(homogeneous_detail::plane_of(x.at, e.at),
+                                     homogeneous_detail::error_of_products(3, x, e));
 }
 
-inline Near<6> meet(const Near<4>& plane, const Near<4>& other) {
-  const std::array<double, 4>&g = plane.at, &h = other.at;
-  return homogeneous_detail::bounded<6>(
-      {g[1] * h[2] - g[2] * h[1], g[2] * h[0] - g[0] * h[2], g[0] * h[1] - g[1] * h[0], g[3] * h[0] - h[3] * g[0],
-       g[3] * h[1] - h[3] * g[1], g[3] * h[2] - h[3] * g[2]},
-      homogeneous_detail::error_of_products(2, plane, other));
+inline Near<6> meet(const Near<4>& g, const Near<4>& h) {
+  return homogeneous_detail::bounded(homogeneous_detail::met(g.at, h.at),
+                                     homogeneous_detail::error_of_products(2, g, h));
 }
 
 template <std::size_t n>
@@ -138,8 +153,7 @@ inline int certain_dot(const Near<4>& a, const Near<4>& b) {
 
 /// The sign of side(a, b); 0 where doubles do not tell. Exact: yes
 inline int certain_side(const Near<6>& a, const Near<6>& b) {
-  return homogeneous_detail::certain_sign(-(a.at[0] * b.at[3] + a.at[1] * b.at[4] + a.at[2] * b.at[5] +
-                                            a.at[3] * b.at[0] + a.at[4] * b.at[1] + a.at[5] * b.at[2]),
+  return homogeneous_detail::certain_sign(homogeneous_detail::near_side(a.at, b.at),
                                           homogeneous_detail::error_of_products(6, a, b));
 }
 
