@@ -57,7 +57,9 @@ TEST(Rounded_cones, know_sides_or_say_nothing) {
     for (int k = 0; k < 3; ++k) about.push_back(at(roll(dice, 5, 900), roll(dice, -9, 900), roll(dice, -9, 9)));
     const Rational scale = power_of_two(trial % 3 == 0 ? roll(dice, -2000, 2000) : 0);
     const Points a = triangle_near(dice, about, exponent, scale), b = triangle_near(dice, about, exponent, scale);
-    if (is_zero(order_check::newell_normal(a)) || is_zero(order_check::newell_normal(b))) continue;
+    if (certificate_check::is_zero(order_check::newell_normal(a)) ||
+        certificate_check::is_zero(order_check::newell_normal(b)))
+      continue;
     const Cone cone_a(a, eye), cone_b(b, eye);
     if (cone_a.edge_on || cone_b.edge_on) continue;
     const Rounded_cone rounded_a(cone_a), rounded_b(cone_b);
