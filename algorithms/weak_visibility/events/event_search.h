@@ -7,6 +7,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_curve.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/algorithms/weak_visibility/events/sign_cover.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
@@ -103,7 +104,8 @@ class Event_search {
         polynomials_(scene.lines().size()),
         known_(scene.lines().size()),
         courses_(scene.lines().size()),
-        near_courses_(deepest + 1, std::vector<signed char>(scene.lines().size())) {}
+        near_courses_(deepest + 1, std::vector<signed char>(scene.lines().size())),
+        cover_(scene.lines().size(), scene.blockers()) {}
 
   Events_answer run();
 
@@ -196,6 +198,8 @@ class Event_search {
   bool is_idle(const Event_curve& curve);
   enum class Idle : char { no, off_edges, off_polygons, covered };
   Idle idle(const Event_curve& curve, const Near_part& part, std::span<const std::uint32_t> blockers, int depth);
+  /// Whether, whatever the signs are that a part is not sure of, one piece blocks lines near it.
+  bool are_covered_together(std::span<const std::uint32_t> blockers, int turn, int depth);
   /// As above, or `unknown`. What a part is sure of, its halves are.
   int course(const Near_part& part, std::uint32_t line, int depth);
 
@@ -239,6 +243,7 @@ class Event_search {
   std::vector<signed char> courses_;
   std::vector<std::vector<signed char>> near_courses_;  // of halves, by depth
   std::vector<std::uint32_t> all_blockers_;
+  Blocked_together cover_;
   Events_answer answer_;
   std::vector<Surface> surfaces_;
   std::size_t events_ = 0;

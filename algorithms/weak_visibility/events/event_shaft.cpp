@@ -116,8 +116,8 @@ Event_shaft::Event_shaft(const Occluders& occluders, const Event_lines& scene, c
       options_(&options),
       counters_(&counters),
       sides_(scene.lines().size()),
-      places_(scene.lines().size()),
-      used_(scene.lines().size()) {}
+      used_(scene.lines().size()),
+      together_(scene.lines().size(), scene.blockers()) {}
 
 Event_shaft::Parts Event_shaft::divided() {
   Numbers lines, blockers;
@@ -155,7 +155,8 @@ double Event_shaft::divide(const Cell& cell, const Numbers& open, const Numbers&
     ++counters_->shafts_covered;
     return forget(0);
   }
-  if (are_covered_together(still_blocking)) {
+  if (together_.holds(still_blocking,
+                      [&](const Event_lines::Literal& literal) { return sides_[literal.line] * literal.sense; })) {
     ++counters_->shafts_together;
     return forget(0);
   }
@@ -216,40 +217,6 @@ bool Event_shaft::is_covered(const Joins& joins, const Numbers& open, const Numb
   return covered;
 }
 
-bool Event_shaft::are_covered_together(const Numbers& blockers) {
-  // Clauses of the signs that are open. One of many has no part in what is covered.
-  constexpr int most_open = 4, most_lines = 64;
-  const auto count_open = [&](std::uint32_t b) {
-    const std::vector<Event_lines::Literal>& literals = scene_->blockers()[b].literals;
-    return std::count_if(literals.begin(), literals.end(),
-                         [&](const Event_lines::Literal& literal) { return sides_[literal.line] == 0; });
-  };
-  // All of them together in too few cases?
-  long share = 0;
-  for (const std::uint32_t b : blockers) share += (1L << most_open) >> std::min<long>(count_open(b), most_open + 1);
-  if (share < 1L << most_open) return false;
-  clauses_.clear();
-  std::vector<std::uint32_t> lines;
-  for (const std::uint32_t b : blockers) {
-    if (count_open(b) > most_open) continue;
-    const std::vector<Event_lines::Literal>& literals = scene_->blockers()[b].literals;
-    Sign_clause clause{0, 0};
-    bool fits = true;
-    for (const Event_lines::Literal& literal : literals) {
-      if (sides_[literal.line] != 0) continue;
-      if (!std::exchange(used_[literal.line], char{1})) {
-        places_[literal.line] = static_cast<std::uint32_t>(lines.size());
-        lines.push_back(literal.line);
-      }
-      fits &= places_[literal.line] < most_lines;
-      if (fits) (literal.sense > 0 ? clause.positive : clause.negative) |= std::uint64_t{1} << places_[literal.line];
-    }
-    if (fits) clauses_.push_back(clause);
-  }
-  for (const std::uint32_t line : lines) used_[line] = 0;
-  return some_clause_holds(clauses_);
-}
-
 bool Event_shaft::try_middle(const Cell& cell, const Numbers& blockers) {
   const auto middle = [](const Patch& patch) {
     return half(half(patch.corners[0] + patch.corners[2]) + half(patch.corners[1] + patch.corners[3]));
@@ -284,9 +251,8 @@ Events_answer search_shaft(const Occluders& occluders, const Near_polygon& sourc
                            const Events_options& options, Event_counters& counters) {
   const Event_lines lines(occluders, source, source_plane, target, target_plane, beside);
   Event_search whole(occluders, lines, options, counters);
-  const Event_shaft::Parts parts = whole.in_one_shadow()
-                                       ? Event_shaft::Parts{{}, true, {}}
-                                       : Event_shaft(occluders, lines, options, counters).divided();
+  const Event_shaft::Parts parts = whole.in_one_shadow() ? Event_shaft::Parts{{}, true, {}}
+                                                         : Event_shaft(occluders, lines, options, counters).divided();
   if (parts.is_whole) return whole.run();
   Events_answer answer;
   answer.status = Weak_status::hidden;

@@ -75,7 +75,6 @@ class Event_shaft {
   double divide(const Cell& cell, const Numbers& open, const Numbers& blockers, double allowance);
   bool is_covered(const Joins& joins, const Numbers& open, const Numbers& blockers, Numbers& still_open,
                   Numbers& still_blocking);
-  bool are_covered_together(const Numbers& blockers);
   bool try_middle(const Cell& cell, const Numbers& blockers);
   Part part(const Cell& cell, const Numbers& blockers) const;
 
@@ -83,10 +82,9 @@ class Event_shaft {
   const Event_lines* scene_;
   const Events_options* options_;
   Event_counters* counters_;
-  std::vector<signed char> sides_;     // of all lines of the cell at hand, 0 where open
-  std::vector<std::uint32_t> places_;  // of lines in clauses
+  std::vector<signed char> sides_;  // of all lines of the cell at hand, 0 where open
   std::vector<char> used_;
-  std::vector<Sign_clause> clauses_;
+  Blocked_together together_;
   double spent_ = 0;
   std::vector<std::pair<Cell, Numbers>> left_;
   std::optional<std::array<Near_point, 2>> sightline_;

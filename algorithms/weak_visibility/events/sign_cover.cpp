@@ -42,4 +42,11 @@ bool some_clause_holds(std::vector<Sign_clause>& clauses, int cases) {
   return some_holds(clauses, 0, cases);
 }
 
+Blocked_together::Blocked_together(std::size_t lines, std::span<const Event_lines::Blocker> all)
+    : all_(all), wanted_(lines), places_(lines), used_(lines) {
+  for (const Event_lines::Blocker& blocker : all)
+    for (const Event_lines::Literal& literal : blocker.literals)
+      wanted_[literal.line] = static_cast<signed char>(wanted_[literal.line] | (literal.sense > 0 ? 1 : 2));
+}
+
 }  // namespace sightline
