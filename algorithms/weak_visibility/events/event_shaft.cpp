@@ -54,8 +54,8 @@ Homogeneous Event_shaft::Patch::point(unsigned long u, unsigned long v, unsigned
   for (std::size_t corner = 0; corner < 4; ++corner) {
     Integer weight = weights[corner];
     for (std::size_t other = 0; other < 4; ++other)
-      if (other != corner) weight *= whole[other][3];
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * whole[corner][k];
+      if (other != corner) weight *= (*whole[other])[3];
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += weight * (*whole[corner])[k];
   }
   return sum;
 }
@@ -76,7 +76,7 @@ std::vector<Event_shaft::Patch> Event_shaft::patches(std::span<const Filtered> p
     Patch& patch = found.emplace_back(Patch{{}, {0, 0}, {0, 0}, {}});
     const std::array<std::size_t, 4> corners{0, i, i + 1, std::min(i + 2, polygon.size() - 1)};
     for (std::size_t k = 0; k < 4; ++k) {
-      patch.whole[k] = polygon[corners[k]].exact;
+      patch.whole[k] = &polygon[corners[k]].exact;
       patch.corners[k] = polygon[corners[k]].near;
     }
   }
@@ -262,6 +262,10 @@ Events_answer search_shaft(const Occluders& occluders, const Near_polygon& sourc
   }
   Events_options left = options;
   for (const Event_shaft::Part& part : parts.left) {
+    if (options.out_of_time && options.out_of_time()) {
+      answer.status = Weak_status::undecided;
+      break;
+    }
     ++counters.shafts_left;
     const Event_lines own(occluders, part.source, source_plane, part.target, target_plane, beside, part.pieces);
     Event_search search(occluders, own, left, counters);

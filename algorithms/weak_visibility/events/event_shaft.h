@@ -44,7 +44,7 @@ class Event_shaft {
  private:
   /// A quadrilateral, as that of a polygon at k/2^n and (k+1)/2^n in both directions. Two corners may be one.
   struct Patch {
-    std::array<Homogeneous, 4> whole;
+    std::array<const Homogeneous*, 4> whole;
     std::array<unsigned long, 2> at;
     std::array<unsigned long, 2> halvings;
     std::array<Near<4>, 4> corners;  // from (0, 0) counterclockwise
