@@ -31,6 +31,7 @@ namespace weak_subject {
 
 /// Searches end here: rarely, a tangled degenerate scene would take minutes.
 inline constexpr std::size_t most_cells = 3000, most_events = 100000;
+inline constexpr std::size_t whole = 1000000;  // edges: no shaft is divided
 
 template <class Found>
 Answer labels_of(const Polygon_soup& soup, const Scene& scene, const Found& found) {
@@ -55,7 +56,8 @@ Answer by_lines(const Posed_scene& posed, bool verify) {
   return answer;
 }
 
-Outcome by_events(const Posed_scene& posed, const Answer& answer) {
+/// `undivided`: edges up to which a shaft is not divided.
+Outcome by_events(const Posed_scene& posed, const Answer& answer, std::size_t undivided) {
   constexpr std::size_t most_pieces = 12;  // events are the third power of edges and more
   const Scene scene(posed.soup);
   if (scene.pieces().size() > most_pieces) return Outcome::not_applicable();
@@ -64,6 +66,7 @@ Outcome by_events(const Posed_scene& posed, const Answer& answer) {
   options.threads = 1;
   options.events = most_events;
   options.rays = 0;  // else lines at random decide most of what is visible
+  options.undivided = undivided;
   return compared(answer,
                   labels_of(posed.soup, scene,
                             weakly_visible_by_events(occluders, {weak_source(occluders, posed.source)}, options)),
@@ -131,12 +134,15 @@ Subject weak() {
       {"construction", "what the family knows",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return as_constructed(posed, answer); }},
       {"events", "the same faces by events",
-       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer); }},
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer, whole); }},
       {"grow", "a larger source sees no less",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return grown(posed, answer); }},
       {"reverse", "source and target in each other's place", weak_subject::reversed},
       front_door_check(weakly_seen_by_front_door)};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
+  subject.checks.push_back(
+      {"shafts", "the same faces by events in parts of shafts",
+       [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer, 0); }});
   subject.checks.push_back(weak_budget_check());  // behind the others, which keep their random choices; so are these
   for (Check check : {conservative_check(), settle_check(), along_check(), volume_check()})
     subject.checks.push_back(std::move(check));

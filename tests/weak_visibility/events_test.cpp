@@ -4,9 +4,12 @@
 #include "parallel_planes.h"
 #include "../sample.h"
 
+#include <sightline/harness/generate/soups.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/algorithms/weak_visibility/events/event_shaft.h>
 #include <sightline/algorithms/weak_visibility/events/events.h>
+#include <sightline/algorithms/weak_visibility/events/sign_cover.h>
 
 #include <gtest/gtest.h>
 
@@ -24,6 +27,9 @@ const std::vector<Family>& event_families() {
   }();
   return all;
 }
+
+/// Edges up to which shafts are not divided: always divided, or never.
+std::size_t undivided(std::uint64_t seed) { return seed % 2 == 0 ? 1000000 : 0; }
 
 /// The answer for one face; every sightline is tested by brute force.
 Weak_status by_events(const Weak_scene& scene, Face_id face, const Events_options& options, Event_counters& counters) {
@@ -57,6 +63,7 @@ TEST_P(Event_families, are_all_decided_as_they_were_built) {
   options.rays = 0;
   for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 3 : 12); ++seed) {
     const Weak_scene scene = family.make(seed);
+    options.undivided = undivided(seed / 3 + seed);
     for (const Face_id face : scene.targets) {
       const Weak_status status = by_events(scene, face, options, counters);
       EXPECT_NE(status, Weak_status::undecided) << scene.name << ", face " << face;
@@ -89,6 +96,7 @@ TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
     Weak_options lines;
     Events_options events;
     lines.search.two_sided = events.two_sided = seed % 2 == 0;
+    events.undivided = undivided(seed / 2);
     events.rays = 0, lines.search.cells = 2000;
     const Weakly_visible found = weakly_visible(occluders, {source}, lines);
     const Verdict verdict =
@@ -203,6 +211,46 @@ TEST(Events, find_cells_that_are_ulps_wide) {
   }
 }
 
+TEST(Events, beyond_doubles_are_as_certain_as_lines) {
+  // A square under a lid that leaves a rim of it free, seen from where products of coordinates are about 2^1024: at
+  // some of these distances one of three terms overflows that nearly cancel.
+  const Polygon_soup soup = generate::soup_of({generate::rectangle(-1000000, 1000000, -1000000, 1000000, 0),
+                                               generate::rectangle(-999999, 999999, -999999, 999999, 1)});
+  const Scene scene(soup);
+  const Occluders occluders(scene);
+  for (const long sixteenths : {16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26, 27, 28, 29, 30, 31})
+    for (const unsigned long exponent : {518ul, 519ul, 520ul, 521ul}) {
+      generate::Points far{generate::at(306, 215, 388), generate::at(310, 209, 388), generate::at(294, 185, 412),
+                           generate::at(290, 191, 412)};
+      for (Exact_point& p : far)
+        for (Rational& x : p) x = x * sixteenths * Rational(Integer(1) << exponent);
+      const std::vector<Weak_source> source{weak_source(occluders, far)};
+      Events_options options;
+      options.threads = 1;
+      const std::vector<Face_id> by_events = weakly_visible_by_events(occluders, source, options).visible;
+      EXPECT_EQ(by_events, weakly_visible(occluders, source, {}).visible) << sixteenths << ", " << exponent;
+      EXPECT_EQ(by_events.size(), 2u);
+    }
+}
+
+TEST(Events, find_a_line_through_slits_of_any_width) {
+  // One wide, crossed, 10^3000 apart: the least step into a cell that shows it is below 2^-8192.
+  Integer size;
+  mpz_ui_pow_ui(size.get_mpz_t(), 10, 3000);
+  const Rational n(size);
+  const Weak_scene scene{
+      "slits",
+      generate::soup_of(
+          {generate::reversed(generate::rectangle(-n, n, -n, n, 4 * n)),
+           generate::rectangle(-2 * n, 0, -2 * n, 2 * n, n), generate::rectangle(1, 2 * n, -2 * n, 2 * n, n),
+           generate::rectangle(-2 * n, 2 * n, -2 * n, 0, 3 * n), generate::rectangle(-2 * n, 2 * n, 1, 2 * n, 3 * n)}),
+      generate::rectangle(-n, n, -n, n, 0),
+      {0},
+      true};
+  Event_counters counters;
+  EXPECT_EQ(by_events(scene, 0, {}, counters), Weak_status::visible);
+}
+
 TEST(Events, beyond_the_budget_are_undecided) {
   const Weak_scene scene = weak_scenes::families()[0].make(0);
   Event_counters counters;
@@ -210,6 +258,126 @@ TEST(Events, beyond_the_budget_are_undecided) {
   options.rays = 0, options.events = 3;
   EXPECT_EQ(by_events(scene, scene.targets[0], options, counters), Weak_status::undecided);
   EXPECT_LE(counters.horizon + counters.edge_vertex + counters.triple, 5u);
+}
+
+// ---- Shafts in parts
+
+TEST(Event_shafts, of_random_triangles_are_decided_as_without_parts) {
+  Event_counters whole, divided;
+  std::size_t hidden = 0, visible = 0;
+  for (const std::size_t n : {12u, 30u, 60u})
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 6); ++seed) {
+      const Polygon_soup soup = generate::triangles_between_squares(n, seed);
+      const Scene scene(soup);
+      const Occluders occluders(scene);
+      const std::vector<Weak_source> source{weak_source(occluders, 0)};
+      Events_options options;
+      options.rays = 0, options.threads = 1, options.undivided = n < 60 ? 1000000 : 30;
+      const Weakly_visible_by_events at_once = weakly_visible_by_events(occluders, source, options);
+      options.undivided = 0;
+      const Weakly_visible_by_events in_parts = weakly_visible_by_events(occluders, source, options);
+      EXPECT_EQ(at_once.visible, in_parts.visible) << n << ", " << seed;
+      EXPECT_EQ(at_once.hidden, in_parts.hidden) << n << ", " << seed;
+      EXPECT_TRUE(in_parts.undecided.empty()) << n << ", " << seed;
+      hidden += in_parts.hidden.size(), visible += in_parts.visible.size();
+      whole += at_once.counters, divided += in_parts.counters;
+    }
+  EXPECT_GT(hidden, 20u);
+  EXPECT_GT(visible, 20u);
+  EXPECT_GT(divided.shafts_covered, 0u);
+  EXPECT_LT(divided.triple * 2, whole.triple);
+  EXPECT_EQ(whole.refuted + divided.refuted, 0u);
+}
+
+/// A wall of n x n squares of two triangles each across [-4, 4]^2, at heights about 5 by lattice points, each triangle
+/// shrunk about its centroid to so much of itself; face `hole` has none. Face 0 is seen from below through that.
+Weak_scene wall(long n, bool uneven, const Rational& of_itself, long hole, const generate::Projective_map& map) {
+  generate::Random random(static_cast<std::uint64_t>(n));
+  std::vector<Exact_point> points;
+  for (long i = 0; i <= n; ++i)
+    for (long k = 0; k <= n; ++k)
+      points.push_back(generate::at(generate::ratio(8 * i, n) - 4, generate::ratio(8 * k, n) - 4,
+                                    uneven ? Rational(5 + generate::integer(random, -8, 8) / 7) : Rational(5)));
+  generate::Faces faces{generate::reversed(generate::rectangle(-1, 1, -1, 1, 10))};
+  for (long i = 0; i < n; ++i)
+    for (long k = 0; k < n; ++k) {
+      const auto corner = [&](long u, long v) { return points[static_cast<std::size_t>((i + u) * (n + 1) + k + v)]; };
+      for (generate::Points triangle : {generate::Points{corner(0, 0), corner(1, 0), corner(1, 1)},
+                                        generate::Points{corner(0, 0), corner(1, 1), corner(0, 1)}}) {
+        const Exact_point middle = generate::centroid(triangle);
+        for (Exact_point& p : triangle) p = generate::along(middle, of_itself, minus(p, middle));
+        if (hole-- != 0) faces.push_back(generate::either_way(triangle, random));
+      }
+    }
+  Weak_scene scene{"wall", generate::soup_of(faces), generate::rectangle(-1, 1, -1, 1, 0), {0}, {}};
+  return generate::project(scene, map);
+}
+
+TEST(Event_shafts, behind_faces_that_share_edges_are_covered_by_several_together) {
+  const Rational tiny(1, 1ul << 40);
+  for (const generate::Projective_map& map : {generate::scaling(1, generate::at(0, 0, 0)),
+                                              generate::scaling(generate::ratio(1, 3), generate::at(1000000, 7, -9)),
+                                              generate::scaling(Rational(1, 1ul << 60), generate::at(0, 0, 0))})
+    for (const bool uneven : {false, true}) {
+      Events_options options;
+      options.rays = 0, options.undivided = 0;
+      Event_counters closed, open;
+      constexpr long n = 4;
+      EXPECT_EQ(by_events(wall(n, uneven, 1, -1, map), 0, options, closed), Weak_status::hidden) << uneven;
+      EXPECT_GT(closed.shafts_together, 0u);
+      EXPECT_EQ(by_events(wall(n, uneven, 1, 2 * (2 * n + 2), map), 0, options, open), Weak_status::visible) << uneven;
+      EXPECT_EQ(by_events(wall(n, uneven, 1 - tiny, -1, map), 0, options, open), Weak_status::visible) << uneven;
+      if (!uneven) {
+        EXPECT_EQ(by_events(wall(n, uneven, 1 + tiny, -1, map), 0, options, open), Weak_status::hidden);
+      }
+      EXPECT_EQ(open.refuted, 0u);
+    }
+}
+
+TEST(Event_shafts, with_time_run_out_are_undecided) {
+  const Weak_scene scene = wall(6, true, 1, -1, generate::scaling(1, generate::at(0, 0, 0)));
+  Events_options options;
+  options.rays = 0;
+  std::size_t asked = 0;
+  options.out_of_time = [&] { return ++asked > 3; };
+  Event_counters counters;
+  EXPECT_EQ(by_events(scene, 0, options, counters), Weak_status::undecided);
+}
+
+TEST(Sign_clauses, hold_if_some_one_does_in_all_cases) {
+  generate::Random random(1);
+  std::array<std::size_t, 2> said{};
+  for (int k = 0; k < 3000; ++k) {
+    // The leaves of a tree of decisions; one of them dropped, or some more thrown in, contradictory ones too.
+    const std::size_t numbers = 1 + random.below(6);
+    std::vector<Sign_clause> clauses{{0, 0}};
+    for (std::size_t split = random.below(12); split > 0; --split) {
+      const std::size_t chosen = random.below(clauses.size());
+      const std::uint64_t bit = std::uint64_t{1} << random.below(numbers);
+      Sign_clause other = clauses[chosen];
+      clauses[chosen].positive |= bit;
+      other.negative |= bit;
+      clauses.push_back(other);
+    }
+    if (random.chance(1, 2)) clauses.erase(clauses.begin() + static_cast<std::ptrdiff_t>(random.below(clauses.size())));
+    for (std::size_t more = random.below(4); more > 0; --more) {
+      const std::uint64_t all = (std::uint64_t{1} << numbers) - 1;
+      clauses.push_back({random.below(all + 1), random.below(all + 1)});
+    }
+    bool truth = true;
+    for (std::uint64_t positive = 0; positive >> numbers == 0; ++positive)
+      truth &= std::any_of(clauses.begin(), clauses.end(), [&](const Sign_clause& clause) {
+        return (clause.positive & ~positive) == 0 && (clause.negative & positive) == 0;
+      });
+    std::vector<Sign_clause> few = clauses;
+    EXPECT_EQ(some_clause_holds(clauses, 1000), truth) << k;
+    if (some_clause_holds(few, 2)) {
+      EXPECT_TRUE(truth) << k;
+    }
+    ++said[truth ? 1 : 0];
+  }
+  EXPECT_GT(said[0], 500u);
+  EXPECT_GT(said[1], 500u);
 }
 
 // ---- Cells beside events

@@ -36,7 +36,8 @@ const Homogeneous& in_front(const Near_plane& h, const Near_polygon& polygon, in
 }  // namespace
 
 Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
-                         const Near_polygon& target, const Near_plane& target_plane, int beside)
+                         const Near_polygon& target, const Near_plane& target_plane, int beside,
+                         std::span<const std::uint32_t> pieces)
     : source_polygon_(source),
       target_polygon_(target),
       near_source_plane_(source_plane),
@@ -55,8 +56,7 @@ Event_lines::Event_lines(const Occluders& occluders, const Near_polygon& source,
   for (std::size_t i = 0; i < to_.size(); ++i)
     to_[i].sense = beside * sense_of(target[i].exact, target[(i + 1) % target.size()].exact, to_[i].line);
   std::vector<std::pair<double, std::uint32_t>> by_size;
-  for (const std::uint32_t piece : occluders.near_shaft(source, target))
-    by_size.emplace_back(-area(occluders.corners(piece)), piece);
+  for (const std::uint32_t piece : pieces) by_size.emplace_back(-area(occluders.corners(piece)), piece);
   std::sort(by_size.begin(), by_size.end());
   for (const auto& [size, piece] : by_size) add_piece(occluders, piece);
   for (Event_line& line : lines_) {

@@ -42,7 +42,13 @@ class Event_lines {
 
   /// `beside`: the side of the target's plane, 1 or -1, on which the source is. Pieces come first that are large.
   Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
-              const Near_polygon& target, const Near_plane& target_plane, int beside);
+              const Near_polygon& target, const Near_plane& target_plane, int beside)
+      : Event_lines(occluders, source, source_plane, target, target_plane, beside,
+                    occluders.near_shaft(source, target)) {}
+  /// Of some pieces only.
+  Event_lines(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
+              const Near_polygon& target, const Near_plane& target_plane, int beside,
+              std::span<const std::uint32_t> pieces);
 
   std::span<const Filtered> source() const { return source_; }
   std::span<const Filtered> target() const { return target_; }

@@ -308,6 +308,7 @@ Event_search::Idle Event_search::idle(const Event_curve& curve, const Near_part&
     if (any && all) return Idle::covered;
     if (any) some.push_back(b);
   }
+  if (turn != 0 && are_covered_together(some, turn, depth)) return Idle::covered;
   if (depth == deepest) return Idle::no;
   Idle reason = Idle::no;
   const std::vector<signed char>& known = near_courses_[static_cast<std::size_t>(depth)];
@@ -319,6 +320,14 @@ Event_search::Idle Event_search::idle(const Event_curve& curve, const Near_part&
     reason = std::max(reason, own);
   }
   return reason;
+}
+
+bool Event_search::are_covered_together(std::span<const std::uint32_t> blockers, int turn, int depth) {
+  const std::vector<signed char>& known = near_courses_[static_cast<std::size_t>(depth)];
+  return cover_.holds(blockers, [&](const Literal& literal) {
+    const int own = known[literal.line];
+    return own == 1 || own == -1 ? own * literal.sense * turn : 0;
+  });
 }
 
 const Quadratic& Event_search::polynomial(const Event_curve& curve, std::uint32_t line) {
@@ -518,7 +527,12 @@ int Event_search::orientation(const Event_chart& chart, const Event_curve& curve
 }
 
 void Event_search::confirm(const Event_chart& chart, const Event_move& move) {
-  for (unsigned long bits = 1; bits <= 8192; bits *= 2) {
+  // Sides are polynomials of the step with coefficients of a few times as many bits: its least root is beyond these.
+  std::size_t longest = bit_length(move.second.get_den());
+  for (const Homogeneous* point : {&chart.v, &chart.w, &chart.r, &chart.n})
+    for (const Integer& coordinate : *point) longest = std::max<std::size_t>(longest, bit_length(coordinate));
+  for (const Rational& by : move.first) longest = std::max<std::size_t>(longest, bit_length(by.get_den()));
+  for (unsigned long bits = 1; bits <= 8192 + 64 * longest; bits *= 2) {
     const Exact_pluecker line = moved(chart, move, Rational(Integer(1), Integer(Integer(1) << bits)));
     Homogeneous p = meet(scene_->source_plane().exact, line), q = meet(scene_->target_plane().exact, line);
     if (sgn(p[3]) == 0 || sgn(q[3]) == 0) continue;

@@ -7,6 +7,7 @@
 #include <sightline/algorithms/weak_visibility/events/event_curve.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/algorithms/weak_visibility/events/sign_cover.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
@@ -29,6 +30,8 @@ struct Event_counters {
   std::size_t targets = 0;  ///< pairs of a source and a piece
   /// Of these, decided at once: facing away, by one of a few lines, hidden by one piece alone.
   std::size_t away = 0, by_rays = 0, in_shadow = 0;
+  std::size_t shafts = 0, shafts_covered = 0, shafts_together = 0,
+              shafts_left = 0;  ///< parts of pairs; of these, blocked by one piece, or by several; searched by events
   std::size_t occluders = 0, lines = 0;  ///< ways in which a piece can block; lines of edges; summed over pairs
   std::size_t untouched = 0,
               unpaired = 0;  ///< edges, and skew pairs of them, that no line between the polygons touches
@@ -47,6 +50,10 @@ struct Event_counters {
     visit("", &Event_counters::away);
     visit("", &Event_counters::by_rays);
     visit("in_shadow", &Event_counters::in_shadow);
+    visit("shafts", &Event_counters::shafts);
+    visit("shafts_covered", &Event_counters::shafts_covered);
+    visit("shafts_together", &Event_counters::shafts_together);
+    visit("shafts_left", &Event_counters::shafts_left);
     visit("", &Event_counters::occluders);
     visit("", &Event_counters::lines);
     visit("untouched", &Event_counters::untouched);
@@ -69,6 +76,7 @@ struct Events_options {
   int rays = 24;  ///< lines that are tried before events
   std::uint64_t seed = 1;
   std::size_t events = 20000000;  ///< potential events that a pair may have; then `undecided`
+  std::size_t undivided = 8;      ///< edges of a pair, or of a part of one, up to which it is not divided
   bool surfaces = false;  ///< whether to keep event surfaces: then all of them, also where a line is free before
   int threads = 0;        ///< 0: as many as there are processors
   std::function<bool()> out_of_time;                                ///< asked before each event, and more often
@@ -96,15 +104,20 @@ class Event_search {
         polynomials_(scene.lines().size()),
         known_(scene.lines().size()),
         courses_(scene.lines().size()),
-        near_courses_(deepest + 1, std::vector<signed char>(scene.lines().size())) {}
+        near_courses_(deepest + 1, std::vector<signed char>(scene.lines().size())),
+        cover_(scene.lines().size(), scene.blockers()) {}
 
   Events_answer run();
+
+  /// Whether one piece blocks all lines inside. Exact: yes
+  bool in_one_shadow() const;
 
   struct Surface {
     Event_kind kind;
     std::vector<std::array<Homogeneous, 2>> rulings;
   };
   const std::vector<Surface>& surfaces() const { return surfaces_; }
+  std::size_t events() const { return events_; }  ///< that were looked at
 
  private:
   using Event_line = Event_lines::Event_line;
@@ -117,8 +130,6 @@ class Event_search {
   };
 
   const std::vector<Event_line>& lines() const { return scene_->lines(); }
-
-  bool in_one_shadow() const;
 
   // ---- Events in planes: horizon, edge and vertex
 
@@ -187,6 +198,8 @@ class Event_search {
   bool is_idle(const Event_curve& curve);
   enum class Idle : char { no, off_edges, off_polygons, covered };
   Idle idle(const Event_curve& curve, const Near_part& part, std::span<const std::uint32_t> blockers, int depth);
+  /// Whether, whatever the signs are that a part is not sure of, one piece blocks lines near it.
+  bool are_covered_together(std::span<const std::uint32_t> blockers, int turn, int depth);
   /// As above, or `unknown`. What a part is sure of, its halves are.
   int course(const Near_part& part, std::uint32_t line, int depth);
 
@@ -230,6 +243,7 @@ class Event_search {
   std::vector<signed char> courses_;
   std::vector<std::vector<signed char>> near_courses_;  // of halves, by depth
   std::vector<std::uint32_t> all_blockers_;
+  Blocked_together cover_;
   Events_answer answer_;
   std::vector<Surface> surfaces_;
   std::size_t events_ = 0;

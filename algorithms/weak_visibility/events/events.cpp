@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/weak_visibility/events/event_cells.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
+#include <sightline/algorithms/weak_visibility/events/event_shaft.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <algorithm>
@@ -11,6 +12,21 @@
 #include <utility>
 
 namespace sightline {
+namespace {
+
+/// Events of the shaft as a whole, and their surfaces.
+Events_answer with_surfaces(const Occluders& occluders, const Near_polygon& source, const Near_plane& source_plane,
+                            const Near_polygon& target, const Near_plane& target_plane, int beside,
+                            const Events_options& options, Event_counters& counters,
+                            const std::function<void(const Event_search::Surface&)>& keep) {
+  const Event_lines lines(occluders, source, source_plane, target, target_plane, beside);
+  Event_search search(occluders, lines, options, counters);
+  const Events_answer found = search.run();
+  if (keep) std::for_each(search.surfaces().begin(), search.surfaces().end(), keep);
+  return found;
+}
+
+}  // namespace
 
 Events_answer part_visible_by_events(const Occluders& occluders, const Weak_source& source, const Near_polygon& part,
                                      std::uint32_t piece, const Events_options& options, Event_counters& counters,
@@ -46,10 +62,10 @@ Events_answer part_visible_by_events(const Occluders& occluders, const Weak_sour
       if (answer.status == Weak_status::hidden) answer.status = Weak_status::undecided;
       break;
     }
-    const Event_lines lines(occluders, from, source.plane, target, target_plane, beside);
-    Event_search search(occluders, lines, options, counters);
-    const Events_answer found = search.run();
-    if (keep) std::for_each(search.surfaces().begin(), search.surfaces().end(), keep);
+    const Events_answer found =
+        options.surfaces
+            ? with_surfaces(occluders, from, source.plane, target, target_plane, beside, options, counters, keep)
+            : search_shaft(occluders, from, source.plane, target, target_plane, beside, options, counters);
     if (found.status == Weak_status::visible && !options.surfaces) return found;
     if (answer.status != Weak_status::visible && found.status != Weak_status::hidden) answer = found;
   }

@@ -77,7 +77,7 @@ struct Less_entries {
 // ---- In doubles
 
 /// A positive multiple of such a vector, in coordinates of a Near_frame: entries are within `error` of it, and at most
-/// `size`. Where anything is beyond doubles the error is infinite or not a number, and no sign is certain.
+/// `size`. Where anything is beyond doubles an entry or the error is infinite or not a number, and no sign is certain.
 template <std::size_t n>
 struct Near {
   std::array<double, n> at;
@@ -94,11 +94,11 @@ Near<6> near(const Near_frame& frame, const Exact_pluecker& e);
 namespace homogeneous_detail {
 
 /// Bounds the error of sums of so many products of entries: by those of the entries, and by rounding; what underflows
-/// is less than the last term.
+/// is less than the last term. Infinite, or not a number, where a part of such a sum may overflow. Proof: P-73
 template <std::size_t n, std::size_t m>
 double error_of_products(int count, const Near<n>& a, const Near<m>& b) {
-  return 1.001 * count * (a.size * b.error + a.error * (b.size + b.error) + count * 0x1p-52 * a.size * b.size) +
-         0x1p-960;
+  const double most = 2.0 * count * (a.size * b.size);  // twice a sum of them: it overflows before one does
+  return 1.001 * count * (a.size * b.error + a.error * (b.size + b.error) + 0x1p-53 * most) + 0x1p-960;
 }
 
 template <std::size_t n>
