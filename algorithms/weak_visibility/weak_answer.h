@@ -103,6 +103,7 @@ struct Weak_search_options {
   int rays = 24;        ///< lines that are tried before the search
   std::uint64_t seed = 1;
   std::function<bool()> out_of_time;  ///< asked before each cell; then what is left is undecided
+  bool hidden = false;                ///< known already: it looks for a proof only, cutting at lines that cells touch
 };
 
 // ---- Of all faces

@@ -55,9 +55,12 @@ class Cell_proofs {
   /// Multipliers that are forms: the path's sides times the forms of the polygon's edges, which are not negative on it.
   /// A sum of such products is of degree two in one of the points; it is not positive where its coefficients, for pairs
   /// of vertices of that polygon and a vertex of the other, are not. Proof: P-71d
-  bool by_forms(const Line_cell& cell, bool source, std::vector<Multiplier>& proof, Weak_counters& counters);
+  bool by_forms(const Line_cell& cell, bool source, bool thoroughly, std::vector<Multiplier>& proof,
+                Weak_counters& counters);
 
  private:
+  static constexpr std::size_t most_exact_games = 20;  // some take half a second
+
   struct Weighted {
     std::size_t row;
     double near;
@@ -80,7 +83,7 @@ class Cell_proofs {
   static bool is_proof_in_doubles(const Line_cell& cell, const std::vector<Weighted>& weights);
   static bool is_proof(const Line_cell& cell, const std::vector<Weighted>& weights);
 
-  bool corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, std::uint32_t point, bool source,
+  bool corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, bool source,
                     std::vector<Multiplier>& proof) const;
 
   /// False where the polygon is not convex, or turns the other way round than its plane says: then the forms would be
@@ -94,7 +97,7 @@ class Cell_proofs {
   std::array<const Near_plane*, 2> planes_;  // of source and target
   Matrix_game<double> game_, wide_;
   Matrix_game<Rational> exact_game_;
-  std::vector<std::size_t> through_;
+  std::size_t exact_games_ = 0;  // of forms, that were tried
 };
 
 }  // namespace sightline

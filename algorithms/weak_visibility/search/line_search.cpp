@@ -1,5 +1,6 @@
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 
+#include <sightline/algorithms/weak_visibility/search/touching_lines.h>
 #include <sightline/kernel/line_table.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 constexpr std::size_t deepest = 1000;
 // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many
 // nothing.
-constexpr int forms_after = 2, special_after = 3, smallest = 80;
+constexpr int forms_after = 2, special_after = 3, smallest = 80, most_sectors = 24;
 constexpr double close = 1e-9;      // to an edge, where its own row of the domain tells more
 constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
 constexpr double thin = 1e-8;       // what doubles leave to exact programs
@@ -202,6 +203,7 @@ Line_search::Refutation Line_search::cut(std::uint32_t d, const Cell_cut& by, Pa
                            : std::make_unique<Line_domain>(whole.shared_source, std::move(part_of_polygon));
     piece->bisections = whole.bisections;
     piece->narrowed = whole.narrowed;
+    piece->sectors = whole.sectors;
     const std::uint32_t number = static_cast<std::uint32_t>(domains_.size());
     domains_.push_back(std::move(piece));
     parents_.push_back(d);
@@ -220,10 +222,19 @@ Line_search::Refutation Line_search::cut(std::uint32_t d, const Cell_cut& by, Pa
 
 Line_search::Refutation Line_search::narrow(std::uint32_t d, std::size_t depth) {
   if (domains_[d]->narrowed > smallest) return open();
-  if (domains_[d]->narrowed >= special_after)
+  if (options_->hidden || domains_[d]->narrowed >= special_after)
     if (const std::optional<Cell_cut> plane = common_plane(cell_, *occluders_)) {
       ++counters_->cuts;
       return cut(d, *plane, [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
+    }
+  if (options_->hidden && domains_[d]->sectors < most_sectors)
+    if (const std::optional<Cell_cut> plane = plane_at_touching_line(cell_, *source_plane_, *target_plane_, true)) {
+      ++counters_->cuts;
+      return cut(d, *plane, [this, depth](std::uint32_t part) {
+        ++domains_[part]->sectors;
+        domains_[part]->is_sector = true;
+        return refute(part, depth + 1);
+      });
     }
   if (!cell_.rows.empty())
     if (const std::vector<Cell_cut> cuts = shaves(cell_, proofs_.game(), occluders_->frame(), *counters_);
@@ -439,7 +450,7 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
 
   // 3. What takes longer.
   if (ends_with(proofs_.at_corner(cell_, proof, *counters_))) return Look::ended;
-  const bool worth_it = is_worth_it(domain.narrowed);
+  const bool worth_it = is_worth_it(domain.narrowed) || domain.is_sector || options_->hidden;
   if (value < thin && (worth_it || domain.narrowed < forms_after)) {
     if (relaxation == Relaxation::unclear && ends_with(proofs_.by_exact_relaxation(cell_, proof, *counters_)))
       return Look::ended;
@@ -448,10 +459,50 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
       if (finder_.find_exactly(cell_, line, *counters_)) return Look::found;
     }
   }
-  if (worth_it &&
-      ends_with(proofs_.by_forms(cell_, true, proof, *counters_) || proofs_.by_forms(cell_, false, proof, *counters_)))
+  if (worth_it && ends_with(proofs_.by_forms(cell_, true, options_->hidden, proof, *counters_) ||
+                            proofs_.by_forms(cell_, false, options_->hidden, proof, *counters_)))
     return Look::ended;
+  if (options_->hidden && by_more_lines(d, ended)) return Look::ended;
   return Look::unclear;
+}
+
+bool Line_search::by_more_lines(std::uint32_t d, Refutation& ended) {
+  Line_domain& domain = *domains_[d];
+  const std::size_t base = path_.size();
+  // 1. Of pieces with an edge on the path, the edges that all lines pass on one side.
+  for (const Candidate& candidate : candidates_of(d)) {
+    const std::vector<Edge_lines::Edge>& edges = edge_lines(candidate.piece);
+    if (std::count_if(edges.begin(), edges.end(), [&](const auto& edge) { return sign_[edge.line] != 0; }) < 1)
+      continue;
+    for (const Edge_lines::Edge& edge : edges)
+      if (const int sign = row(domain, edge.line).decided;
+          sign != 0 && sign_[edge.line] == 0 && path_.size() < base + 12)
+        push({edge.line, sign});
+  }
+  Line_cell cell = cell_;
+  for (std::size_t k = 0; k < path_.size(); ++k)
+    if (const Side_row& r = row(domain, path_[k].line); r.decided == path_[k].sign)
+      cell.rows.push_back({k, path_[k], &r});
+
+  // 2. A proof with them.
+  std::vector<Multiplier> proof;
+  const bool proved = cell.rows.size() > cell_.rows.size() && (proofs_.by_forms(cell, true, true, proof, *counters_) ||
+                                                               proofs_.by_forms(cell, false, true, proof, *counters_));
+  if (proved) ended = conclude(d, proof);
+
+  // 3. Each of them that it uses becomes a node.
+  while (path_.size() > base) {
+    const Literal literal = path_.back();
+    const std::size_t place = path_.size() - 1;
+    pop();
+    if (!proved || (place < Used().size() && !ended.used[place])) continue;
+    const std::uint32_t other = leaf({Weak_step::Kind::empty, 0, {}, {{literal.line, Rational(1), {}, {}}}}, {}).node;
+    nodes_.push_back({{Weak_step::Kind::line, literal.line, {}, {}},
+                      literal.sign > 0 ? std::array{ended.node, other} : std::array{other, ended.node}});
+    ended.node = static_cast<std::uint32_t>(nodes_.size() - 1);
+    if (place < Used().size()) ended.used.reset(place);
+  }
+  return proved;
 }
 
 std::vector<Line_weights> Line_search::starts_of(const Line_domain& domain) {
