@@ -228,7 +228,7 @@ Line_search::Refutation Line_search::narrow(std::uint32_t d, std::size_t depth) 
       return cut(d, *plane, [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
     }
   if (options_->hidden && domains_[d]->sectors < most_sectors)
-    if (const std::optional<Cell_cut> plane = plane_at_touching_line(cell_, *source_plane_, *target_plane_, true)) {
+    if (const std::optional<Cell_cut> plane = sector_plane(cell_, *source_plane_, *target_plane_)) {
       ++counters_->cuts;
       return cut(d, *plane, [this, depth](std::uint32_t part) {
         ++domains_[part]->sectors;
