@@ -59,7 +59,7 @@ class Cell_proofs {
                 Weak_counters& counters);
 
  private:
-  static constexpr std::size_t most_exact_games = 20;  // some take half a second
+  static constexpr std::size_t most_exact_games = 8;  // some take half a second
 
   struct Weighted {
     std::size_t row;
