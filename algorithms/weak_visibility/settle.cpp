@@ -13,6 +13,8 @@
 namespace sightline {
 namespace {
 
+constexpr std::size_t cells_of_proof_search = 800;  // proofs that were found took fewer
+
 struct Cell {
   Near_polygon source, target;
   std::vector<Open_cell::Side> sides;
@@ -52,7 +54,7 @@ std::vector<Cell> cells_of_proof(const Occluders& occluders, const Weak_source& 
   return found;
 }
 
-/// A search for proofs of the faces that are hidden and unproved.
+/// A search for proofs of the faces that are hidden and unproved: one cell that stays open is one too many.
 void prove_hidden(const Occluders& occluders, const std::vector<Weak_source>& sources, const Events_options& events,
                   Weakly_visible& found) {
   Weak_options options;
@@ -63,7 +65,7 @@ void prove_hidden(const Occluders& occluders, const std::vector<Weak_source>& so
   options.search.hidden = true;
   options.search.rays = 0;
   options.search.open = 1;
-  options.search.cells = 800;
+  options.search.cells = cells_of_proof_search;
   options.search.out_of_time = events.out_of_time;
   Weakly_visible more = weakly_visible(occluders, sources, options);
   std::vector<Face_id> rest;

@@ -46,15 +46,16 @@ class Cell_proofs {
   /// long.
   bool by_exact_relaxation(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters);
 
-  /// Three lines through a point v, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3 with forms c in p, and
-  /// as p, v and the line are in one plane, c1 h1 + c2 h2 + c3 h3 is 0 for all p and q. Where the signs on the path and
-  /// those of the forms, on the source or on the target, are such that no term is negative, no line is in the cell.
-  /// Corners of boxes are like that. Proof: P-71c
+  /// Three lines through a point v, of the scene or not, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3
+  /// with forms c in p, and as p, v and the line are in one plane, c1 h1 + c2 h2 + c3 h3 is 0 for all p and q. Where
+  /// the signs on the path and those of the forms, on the source or on the target, are such that no term is negative,
+  /// no line is in the cell. Corners of boxes are like that. Proof: P-71c
   bool at_corner(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters);
 
   /// Multipliers that are forms: the path's sides times the forms of the polygon's edges, which are not negative on it.
   /// A sum of such products is of degree two in one of the points; it is not positive where its coefficients, for pairs
-  /// of vertices of that polygon and a vertex of the other, are not. Proof: P-71d
+  /// of vertices of that polygon and a vertex of the other, are not. `thoroughly`: small programs of which doubles say
+  /// that the value is about 0 are solved in rationals, the first few of them. Proof: P-71d, P-71h
   bool by_forms(const Line_cell& cell, bool source, bool thoroughly, std::vector<Multiplier>& proof,
                 Weak_counters& counters);
 

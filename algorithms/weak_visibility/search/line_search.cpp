@@ -232,7 +232,6 @@ Line_search::Refutation Line_search::narrow(std::uint32_t d, std::size_t depth) 
       ++counters_->cuts;
       return cut(d, *plane, [this, depth](std::uint32_t part) {
         ++domains_[part]->sectors;
-        domains_[part]->is_sector = true;
         return refute(part, depth + 1);
       });
     }
@@ -450,7 +449,7 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
 
   // 3. What takes longer.
   if (ends_with(proofs_.at_corner(cell_, proof, *counters_))) return Look::ended;
-  const bool worth_it = is_worth_it(domain.narrowed) || domain.is_sector || options_->hidden;
+  const bool worth_it = is_worth_it(domain.narrowed) || options_->hidden;
   if (value < thin && (worth_it || domain.narrowed < forms_after)) {
     if (relaxation == Relaxation::unclear && ends_with(proofs_.by_exact_relaxation(cell_, proof, *counters_)))
       return Look::ended;
