@@ -60,7 +60,7 @@ inline constexpr std::size_t usual_event_edges = 300;
 /// open stays undecided. Pre: each undecided face has its open pairs, as
 /// weakly_visible() leaves them. Post: the same at any number of threads, unless time runs out. Exceptions of
 /// `progress` end it. Cost: at most one Event_search for each open pair, or for each open part of it, and 800 cells for
-/// each pair of a face that is hidden. Exact: yes. Proof: P-71i, P-73
+/// each pair of a face that is hidden. Exact: yes. Proof: P-71h, P-73
 Event_counters settle_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources,
                                 std::size_t most_edges, const Events_options& options, Weakly_visible& found);
 

@@ -158,7 +158,7 @@ TEST(Budget, bounds_the_time_of_lines_events_and_of_going_on) {
 TEST(Settled_by_events, ends_with_what_progress_throws) {
   struct Enough {};
   std::size_t open = 0;
-  for (std::uint64_t seed = 0; seed < some(20); ++seed) {
+  for (std::uint64_t seed = 0; seed < some(10); ++seed) {
     generate::Random random(seed);
     const weak_scenes::Weak_scene scene =
         weak_scenes::finished(weak_scenes::drafters[tangent].draft(random, Rational(0)), random);

@@ -55,7 +55,7 @@ class Cell_proofs {
   /// Multipliers that are forms: the path's sides times the forms of the polygon's edges, which are not negative on it.
   /// A sum of such products is of degree two in one of the points; it is not positive where its coefficients, for pairs
   /// of vertices of that polygon and a vertex of the other, are not. `thoroughly`: small programs of which doubles say
-  /// that the value is about 0 are solved in rationals, the first few of them. Proof: P-71d, P-71h
+  /// that the value is about 0 are solved in rationals, the first few of them. Proof: P-71d
   bool by_forms(const Line_cell& cell, bool source, bool thoroughly, std::vector<Multiplier>& proof,
                 Weak_counters& counters);
 

@@ -461,47 +461,7 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
   if (worth_it && ends_with(proofs_.by_forms(cell_, true, options_->hidden, proof, *counters_) ||
                             proofs_.by_forms(cell_, false, options_->hidden, proof, *counters_)))
     return Look::ended;
-  if (options_->hidden && by_more_lines(d, ended)) return Look::ended;
   return Look::unclear;
-}
-
-bool Line_search::by_more_lines(std::uint32_t d, Refutation& ended) {
-  Line_domain& domain = *domains_[d];
-  const std::size_t base = path_.size();
-  // 1. Of pieces with an edge on the path, the edges that all lines pass on one side.
-  for (const Candidate& candidate : candidates_of(d)) {
-    const std::vector<Edge_lines::Edge>& edges = edge_lines(candidate.piece);
-    if (std::count_if(edges.begin(), edges.end(), [&](const auto& edge) { return sign_[edge.line] != 0; }) < 1)
-      continue;
-    for (const Edge_lines::Edge& edge : edges)
-      if (const int sign = row(domain, edge.line).decided;
-          sign != 0 && sign_[edge.line] == 0 && path_.size() < base + 12)
-        push({edge.line, sign});
-  }
-  Line_cell cell = cell_;
-  for (std::size_t k = 0; k < path_.size(); ++k)
-    if (const Side_row& r = row(domain, path_[k].line); r.decided == path_[k].sign)
-      cell.rows.push_back({k, path_[k], &r});
-
-  // 2. A proof with them.
-  std::vector<Multiplier> proof;
-  const bool proved = cell.rows.size() > cell_.rows.size() && (proofs_.by_forms(cell, true, true, proof, *counters_) ||
-                                                               proofs_.by_forms(cell, false, true, proof, *counters_));
-  if (proved) ended = conclude(d, proof);
-
-  // 3. Each of them that it uses becomes a node.
-  while (path_.size() > base) {
-    const Literal literal = path_.back();
-    const std::size_t place = path_.size() - 1;
-    pop();
-    if (!proved || (place < Used().size() && !ended.used[place])) continue;
-    const std::uint32_t other = leaf({Weak_step::Kind::empty, 0, {}, {{literal.line, Rational(1), {}, {}}}}, {}).node;
-    nodes_.push_back({{Weak_step::Kind::line, literal.line, {}, {}},
-                      literal.sign > 0 ? std::array{ended.node, other} : std::array{other, ended.node}});
-    ended.node = static_cast<std::uint32_t>(nodes_.size() - 1);
-    if (place < Used().size()) ended.used.reset(place);
-  }
-  return proved;
 }
 
 std::vector<Line_weights> Line_search::starts_of(const Line_domain& domain) {

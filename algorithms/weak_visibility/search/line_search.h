@@ -134,8 +134,6 @@ class Line_search {
   enum class Look { found, ended, unclear };
 
   Look look_for_line(std::uint32_t d, Line_weights& line, Refutation& ended);
-  /// With the lines of edges that all lines of the cell pass on one side, though they are not on the path.
-  bool by_more_lines(std::uint32_t d, Refutation& ended);
   /// From the relaxation's weights, from the middle, and from pairs of vertices that have much weight.
   std::vector<Line_weights> starts_of(const Line_domain& domain);
 

@@ -249,15 +249,6 @@ std::array<Integer, 4> plane_of(const Touching_line& line, const Exact_pluecker&
   return plane;
 }
 
-std::array<Integer, 4> middle_of(const Near_polygon& polygon) {
-  Integer common = 1;
-  for (const Near_point& p : polygon) common = lcm(common, p.exact[3]);
-  std::array<Integer, 4> sum{};
-  for (const Near_point& p : polygon)
-    for (std::size_t k = 0; k < 4; ++k) sum[k] += p.exact[k] * (common / p.exact[3]);
-  return sum;
-}
-
 }  // namespace
 
 std::vector<Touching_line> touching_lines(const Line_cell& cell, const Near_plane& source_plane,
@@ -301,20 +292,14 @@ std::vector<Touching_line> touching_lines(const Line_cell& cell, const Near_plan
 
 std::optional<Cell_cut> sector_plane(const Line_cell& cell, const Near_plane& source_plane,
                                      const Near_plane& target_plane) {
-  const Near_polygon &source = cell.domain->source, &target = cell.domain->target;
-  const auto cut_by = [&](const std::array<Integer, 4>& h) -> std::optional<Cell_cut> {
-    if (!is_plane(h)) return {};
-    const Near_plane plane = near_plane(*cell.frame, h);
-    if (is_across(plane, source)) return Cell_cut{true, plane};
-    if (is_across(plane, target)) return Cell_cut{false, plane};
-    return {};
-  };
-  for (const Touching_line& line : touching_lines(cell, source_plane, target_plane)) {
-    for (const Exact_pluecker& met : line.met)
-      if (const auto cut = cut_by(plane_of(line, met))) return cut;
-    for (const Near_polygon* polygon : {&source, &target})
-      if (const auto cut = cut_by(plane_through(line, middle_of(*polygon)))) return cut;
-  }
+  for (const Touching_line& line : touching_lines(cell, source_plane, target_plane))
+    for (const Exact_pluecker& met : line.met) {
+      const std::array<Integer, 4> h = plane_of(line, met);
+      if (!is_plane(h)) continue;
+      const Near_plane plane = near_plane(*cell.frame, h);
+      if (is_across(plane, cell.domain->source)) return Cell_cut{true, plane};
+      if (is_across(plane, cell.domain->target)) return Cell_cut{false, plane};
+    }
   return {};
 }
 

@@ -23,12 +23,12 @@ struct Touching_line {
 /// only one, as where the four-edge determinant has a double root. Doubles choose the four, integers make the line.
 /// Degenerate: where infinitely many lines meet the four, none of them counts. Cost: as many small eliminations as
 /// there are choices of four bounds; none where there are more than 24. Exact: yes, but for lines that doubles pass
-/// over. Proof: P-71i
+/// over. Proof: P-71h
 std::vector<Touching_line> touching_lines(const Line_cell& cell, const Near_plane& source_plane,
                                           const Near_plane& target_plane);
 
-/// A plane through a touching line that cuts source or target: one that holds a bounding line too; or, where these are
-/// used up, one through the middle of a polygon. Exact: yes. Proof: P-71i
+/// The plane of a touching line and of a bounding line that it meets, where that cuts source or target; none where all
+/// of these are used up. Exact: yes. Proof: P-71h
 std::optional<Cell_cut> sector_plane(const Line_cell& cell, const Near_plane& source_plane,
                                      const Near_plane& target_plane);
 
