@@ -13,20 +13,13 @@ const std::vector<Edge_lines::Edge>& Edge_lines::of(std::uint32_t piece) {
   return edges;
 }
 
-bool Edge_lines::passes(const Edge_line& line, std::uint32_t point) const {
-  if (line.points[0] == point || line.points[1] == point) return true;
-  const Triple v = occluders_->near_point_of(point);
-  const Pluecker& l = line.near;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t u = (k + 1) % 3, w = (k + 2) % 3;
-    if (std::fabs(v[u] * l[w] - v[w] * l[u] - l[3 + k]) > 1e-9) return false;  // the moment that the line would have
-  }
-  const std::array<Integer, 3> p = occluders_->grid_point(point);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const std::size_t u = (k + 1) % 3, w = (k + 2) % 3;
-    if (p[u] * line.exact[w] - p[w] * line.exact[u] != line.exact[3 + k]) return false;
-  }
-  return true;
+bool Edge_lines::coplanar(const Edge_line& a, const Edge_line& b) {
+  double near = 0;
+  for (std::size_t x = 0; x < 6; ++x) near += a.near[x] * b.near[(x + 3) % 6];
+  if (std::fabs(near) > 1e-12) return false;
+  Integer product = 0;
+  for (std::size_t x = 0; x < 6; ++x) product += a.exact[x] * b.exact[(x + 3) % 6];
+  return sgn(product) == 0;
 }
 
 Edge_lines::Edge Edge_lines::edge(std::uint32_t piece, std::size_t corner) {

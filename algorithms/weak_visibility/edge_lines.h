@@ -42,8 +42,8 @@ class Edge_lines {
   /// The edges of a piece, from each corner to the next.
   const std::vector<Edge>& of(std::uint32_t piece);
 
-  /// Whether a line goes through a point of the scene. Exact: yes.
-  bool passes(const Edge_line& line, std::uint32_t point) const;
+  /// Whether two lines are in one plane: they meet, or are parallel. Exact: yes.
+  static bool coplanar(const Edge_line& a, const Edge_line& b);
 
  private:
   Edge edge(std::uint32_t piece, std::size_t corner);

@@ -13,6 +13,8 @@
 namespace sightline {
 namespace {
 
+constexpr std::size_t cells_of_proof_search = 800;  // proofs that were found took fewer
+
 struct Cell {
   Near_polygon source, target;
   std::vector<Open_cell::Side> sides;
@@ -50,6 +52,29 @@ std::vector<Cell> cells_of_proof(const Occluders& occluders, const Weak_source& 
     }
   }
   return found;
+}
+
+/// A search for proofs of the faces that are hidden and unproved: one cell that stays open is one too many.
+void prove_hidden(const Occluders& occluders, const std::vector<Weak_source>& sources, const Events_options& events,
+                  Weakly_visible& found) {
+  Weak_options options;
+  std::set_intersection(found.hidden.begin(), found.hidden.end(), found.unproved.begin(), found.unproved.end(),
+                        std::back_inserter(options.faces));
+  options.threads = events.threads;
+  options.search.two_sided = events.two_sided;
+  options.search.hidden = true;
+  options.search.rays = 0;
+  options.search.open = 1;
+  options.search.cells = cells_of_proof_search;
+  options.search.out_of_time = events.out_of_time;
+  Weakly_visible more = weakly_visible(occluders, sources, options);
+  std::vector<Face_id> rest;
+  std::set_difference(found.unproved.begin(), found.unproved.end(), more.hidden.begin(), more.hidden.end(),
+                      std::back_inserter(rest));
+  found.unproved = std::move(rest);
+  for (Weakly_visible::Pair& pair : more.pairs)
+    if (pair.answer.status == Weak_status::hidden) found.pairs.push_back(std::move(pair));
+  found.counters += more.counters;
 }
 
 }  // namespace
@@ -203,6 +228,9 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
   }
   for (std::vector<Face_id>* list : {&found.visible, &found.hidden, &found.unproved})
     std::sort(list->begin(), list->end());
+
+  // 4. Proofs of what is hidden.
+  if (!found.unproved.empty()) prove_hidden(occluders, sources, options, found);
   std::stable_sort(found.pairs.begin(), found.pairs.end(),
                    [](const auto& a, const auto& b) { return a.piece < b.piece; });
   return counters;

@@ -55,11 +55,12 @@ Weak_answer weak_answer(const Events_answer& found);
 inline constexpr std::size_t usual_event_edges = 300;
 
 /// Takes what is undecided to events, pair by pair, where the pieces that may come between, or between the parts that
-/// are open, have no more than so many edges. A face that is found visible gets its pair, one that is found hidden is
-/// unproved; a face of which some pair stays open stays undecided. Pre: each undecided face has its open pairs, as
+/// are open, have no more than so many edges. A face that is found visible gets its pair; one that is found hidden gets
+/// its pairs from a second search, for a proof, or is unproved where that finds none; a face of which some pair stays
+/// open stays undecided. Pre: each undecided face has its open pairs, as
 /// weakly_visible() leaves them. Post: the same at any number of threads, unless time runs out. Exceptions of
-/// `progress` end it. Cost: at most one Event_search for each open pair, or for each open part of it. Exact: yes.
-/// Proof: P-73
+/// `progress` end it. Cost: at most one Event_search for each open pair, or for each open part of it, and 800 cells for
+/// each pair of a face that is hidden. Exact: yes. Proof: P-71h, P-73
 Event_counters settle_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources,
                                 std::size_t most_edges, const Events_options& options, Weakly_visible& found);
 

@@ -5,6 +5,7 @@
 #include "../sample.h"
 
 #include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
+#include <sightline/algorithms/weak_visibility/search/touching_lines.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 
 #include <gtest/gtest.h>
@@ -64,7 +65,9 @@ class Cell_of_a_line {
     wrong += proofs_.by_relaxation(cell_, proof, counters) == Cell_proofs::Relaxation::empty;
     wrong += proofs_.by_exact_relaxation(cell_, proof, counters);
     wrong += proofs_.at_corner(cell_, proof, counters);
-    for (const bool of_source : {true, false}) wrong += proofs_.by_forms(cell_, of_source, proof, counters);
+    for (const bool of_source : {true, false})
+      for (const bool thoroughly : {true, false})
+        wrong += proofs_.by_forms(cell_, of_source, thoroughly, proof, counters);
     return wrong;
   }
 
@@ -133,6 +136,76 @@ TEST(Cell_proofs_of_cells_without_a_line, hold_where_their_sum_is_zero_for_some_
   EXPECT_TRUE(proofs.by_exact_relaxation(cell, by_game, counters));
   EXPECT_EQ(by_basis.size(), 2u);
   EXPECT_EQ(by_game.size(), 2u);
+}
+
+/// Plates on rulings (x, c x, c) of the regulus y = z x, and one that is tangent to it on the axis x = y = 0, which is
+/// on all of them: the one line that meets the four, twice.
+class Tangent_plates {
+ public:
+  Tangent_plates() : lines_(occluders_), source_(weak_source(occluders_, weak_scenes::rectangle(-1, 1, -1, 1, 0))) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t line = lines_.of(static_cast<std::uint32_t>(k + 1))[0].line;
+      const Side_row& row = domain_.row(lines_, line, occluders_.frame());
+      EXPECT_EQ(row.decided, 0);
+      cell.rows.push_back({k, {line, 1}, &row});
+    }
+  }
+  std::array<Integer, 4> on_axis(long z) const {
+    const Located_point p = scene_.locate(weak_scenes::at(0, 0, z));
+    return near_point(occluders_.frame(), {p.x, p.y, p.z, p.w}).exact;
+  }
+  const Near_plane& target_plane() const { return occluders_.plane(0); }
+  const Near_plane& source_plane() const { return source_.plane; }
+
+ private:
+  static weak_scenes::Points plate(const Rational& c, const Rational& rise) {
+    using weak_scenes::at;
+    return {at(-2, Rational(-2 * c), Rational(c - rise)), at(2, Rational(2 * c), Rational(c + rise)), at(0, 6, c)};
+  }
+  const Scene scene_{weak_scenes::soup_of({weak_scenes::reversed(weak_scenes::rectangle(-1, 1, -1, 1, 1)),
+                                           plate(Rational(1, 4), 0), plate(Rational(1, 2), 0), plate(Rational(3, 4), 0),
+                                           plate(Rational(3, 5), Rational(1, 100))})};
+  const Occluders occluders_{scene_};
+  Edge_lines lines_;
+  const Weak_source source_;
+  Line_domain domain_{std::make_shared<const Near_polygon>(source_.polygon),
+                      std::make_shared<const Near_polygon>(occluders_.polygon(0))};
+
+ public:
+  Line_cell cell{&domain_, &lines_, &occluders_.frame(), {}};
+};
+
+TEST(Touching_lines, are_where_a_four_edge_determinant_has_a_double_root) {
+  Tangent_plates plates;
+  // Whatever the signs, it is in the cell's closure; and no sector plane leaves it out.
+  for (unsigned signs = 0; signs < 16; ++signs) {
+    for (std::size_t k = 0; k < 4; ++k) plates.cell.rows[k].literal.sign = (signs >> k & 1u) != 0 ? 1 : -1;
+    const std::vector<Touching_line> lines = touching_lines(plates.cell, plates.source_plane(), plates.target_plane());
+    const auto axis = std::find_if(lines.begin(), lines.end(), [&](const Touching_line& line) {
+      return line.from == plates.on_axis(0) && line.to == plates.on_axis(1);
+    });
+    ASSERT_NE(axis, lines.end()) << signs;
+    EXPECT_EQ(axis->met.size(), 4u);
+    // Every one of them is a line of the closure: sides by the pair itself, corners of four bounds at least.
+    for (const Touching_line& line : lines) {
+      const Exact_pluecker pair = pluecker_of_pair(line.from, line.to);
+      EXPECT_GE(line.met.size(), 4u);
+      for (const Exact_pluecker& met : line.met) EXPECT_EQ(dot(pair, met), 0);
+      for (const Line_cell::Row& row : plates.cell.rows)
+        EXPECT_GE(row.literal.sign * sgn(dot(pair, (*plates.cell.lines)[row.literal.line].exact)), 0);
+    }
+  }
+}
+
+TEST(Sector_planes, hold_a_touching_line_and_cut_a_polygon) {
+  Tangent_plates plates;
+  const auto cut = sector_plane(plates.cell, plates.source_plane(), plates.target_plane());
+  ASSERT_TRUE(cut);
+  EXPECT_TRUE(is_across(cut->plane, cut->source ? plates.cell.domain->source : plates.cell.domain->target));
+  const std::vector<Touching_line> lines = touching_lines(plates.cell, plates.source_plane(), plates.target_plane());
+  EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const Touching_line& line) {
+    return value(cut->plane, {line.from, {}}) == 0 && value(cut->plane, {line.to, {}}) == 0;
+  }));
 }
 
 TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane_it_is_in_beside_them) {

@@ -160,7 +160,7 @@ TEST(Settled_by_events, are_faces_that_lines_leave_open_and_certificates_claim_o
       for (const Face_id target : scene.targets)
         EXPECT_EQ(contains(found.visible, target), scene.truth.value_or(contains(found.visible, target))) << scene.name;
       for (const Face_id face : before.undecided) {
-        EXPECT_EQ(contains(found.hidden, face), contains(found.unproved, face)) << scene.name;
+        EXPECT_LE(contains(found.unproved, face), contains(found.hidden, face)) << scene.name;
         ++(contains(found.visible, face) ? visible : settled);
       }
       const Weak_certificate certificate = weak_certificate(read, {scene.source}, false, found);

@@ -15,12 +15,7 @@ namespace sightline {
 std::optional<Cell_cut> common_plane(const Line_cell& cell, const Occluders& occluders) {
   const auto plane_of = [&](const Edge_lines::Edge_line& a,
                             const Edge_lines::Edge_line& b) -> std::optional<Near_plane> {
-    double near = 0;
-    for (std::size_t x = 0; x < 6; ++x) near += a.near[x] * b.near[(x + 3) % 6];
-    if (std::fabs(near) > 1e-12) return {};
-    Integer product = 0;
-    for (std::size_t x = 0; x < 6; ++x) product += a.exact[x] * b.exact[(x + 3) % 6];
-    if (sgn(product) != 0) return {};
+    if (!Edge_lines::coplanar(a, b)) return {};
     const auto direction = [](const Exact_pluecker& l) { return std::array<Integer, 3>{l[0], l[1], l[2]}; };
     const std::array<Integer, 3> p = occluders.grid_point(a.points[0]), q = occluders.grid_point(b.points[0]);
     std::array<Integer, 3> normal = cross(direction(a.exact), direction(b.exact));

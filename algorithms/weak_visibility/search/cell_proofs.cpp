@@ -1,5 +1,7 @@
 #include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
 
+#include <sightline/kernel/vectors.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -68,25 +70,25 @@ bool Cell_proofs::by_exact_relaxation(const Line_cell& cell, std::vector<Multipl
 }
 
 bool Cell_proofs::at_corner(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters) {
-  for (std::size_t i = 0; i < cell.rows.size(); ++i)
-    for (const std::uint32_t point : line_of(cell, i).points) {
-      through_.clear();
-      for (std::size_t k = 0; k < cell.rows.size(); ++k)
-        if (lines_->passes(line_of(cell, k), point)) through_.push_back(k);
-      if (through_.size() < 3 || through_[0] < i) continue;  // seen from an earlier line
-      for (std::size_t a = 0; a < through_.size(); ++a)
-        for (std::size_t b = a + 1; b < through_.size(); ++b)
-          for (std::size_t c = b + 1; c < through_.size(); ++c)
-            for (const bool source : {true, false})
-              if (corner_proof(cell, {through_[a], through_[b], through_[c]}, point, source, proof)) {
-                ++counters.corners;
-                return true;
-              }
+  const std::size_t n = cell.rows.size();
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = a + 1; b < n; ++b) {
+      if (!Edge_lines::coplanar(line_of(cell, a), line_of(cell, b))) continue;
+      for (std::size_t c = b + 1; c < n; ++c) {
+        if (!Edge_lines::coplanar(line_of(cell, a), line_of(cell, c)) ||
+            !Edge_lines::coplanar(line_of(cell, b), line_of(cell, c)))
+          continue;
+        for (const bool source : {true, false})
+          if (corner_proof(cell, {a, b, c}, source, proof)) {
+            ++counters.corners;
+            return true;
+          }
+      }
     }
   return false;
 }
 
-bool Cell_proofs::by_forms(const Line_cell& cell, bool source, std::vector<Multiplier>& proof,
+bool Cell_proofs::by_forms(const Line_cell& cell, bool source, bool thoroughly, std::vector<Multiplier>& proof,
                            Weak_counters& counters) {
   const Near_polygon &own = source ? cell.domain->source : cell.domain->target,
                      &other = source ? cell.domain->target : cell.domain->source;
@@ -112,7 +114,7 @@ bool Cell_proofs::by_forms(const Line_cell& cell, bool source, std::vector<Multi
   }
   ++counters.form_programs;
   const double result = wide_.solve();
-  if (result > 1e-12) return false;
+  if (result > (thoroughly ? 5e-12 : 1e-12)) return false;
 
   // 2. Exact weights: those of the basis, or, where there is room, these very doubles.
   const auto coefficient = [&](std::size_t row, std::size_t column) {
@@ -130,6 +132,17 @@ bool Cell_proofs::by_forms(const Line_cell& cell, bool source, std::vector<Multi
     for (std::size_t k = 0; k < wide_.rows(); ++k)
       if (wide_.row_weights()[k] > 1e-10)
         weights.push_back({k, exact(wide_.row_weights()[k]) / edges.most[k / cell.rows.size()]});
+  } else if (thoroughly) {
+    if (wide_.rows() * columns > 1000 || ++exact_games_ > most_exact_games) return false;
+    exact_game_.restart(columns);
+    for (std::size_t row = 0; row < wide_.rows(); ++row) {
+      const std::span<Rational> values = exact_game_.add_row();
+      for (std::size_t c = 0; c < columns; ++c) values[c] = coefficient(row, c) / edges.most[row / cell.rows.size()];
+    }
+    if (sgn(exact_game_.solve()) > 0) return false;
+    for (std::size_t k = 0; k < wide_.rows(); ++k)
+      if (sgn(exact_game_.row_weights()[k]) > 0)
+        weights.push_back({k, exact_game_.row_weights()[k] / edges.most[k / cell.rows.size()]});
   } else {
     const std::vector<std::size_t>& rows = wide_.tight_rows();
     std::vector<Rational> solved;
@@ -195,16 +208,19 @@ bool Cell_proofs::is_proof(const Line_cell& cell, const std::vector<Weighted>& w
   return true;
 }
 
-bool Cell_proofs::corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, std::uint32_t point,
-                               bool source, std::vector<Multiplier>& proof) const {
-  const std::array<Integer, 3> v = occluders_->grid_point(point);
+bool Cell_proofs::corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, bool source,
+                               std::vector<Multiplier>& proof) const {
+  const auto direction = [&](std::size_t k) {
+    const Exact_pluecker& l = line_of(cell, rows[k % 3]).exact;
+    return std::array<Integer, 3>{l[0], l[1], l[2]};
+  };
+  if (sgn(dot(direction(0), cross(direction(1), direction(2)))) == 0) return false;  // in one plane, or parallel
   std::vector<Multiplier> multipliers;
   int all = 0;  // the sign of all terms
   for (std::size_t k = 0; k < 3; ++k) {
-    const Exact_pluecker &u = line_of(cell, rows[(k + 1) % 3]).exact, &w = line_of(cell, rows[(k + 2) % 3]).exact;
-    Weak_step::Form h{u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2], u[0] * w[1] - u[1] * w[0], 0};
-    for (std::size_t i = 0; i < 3; ++i) h[3] -= h[i] * v[i];
-    if (sgn(h[0]) == 0 && sgn(h[1]) == 0 && sgn(h[2]) == 0) return false;
+    const std::array<Integer, 3> normal = cross(direction(k + 1), direction(k + 2));
+    const std::array<Integer, 3> v = occluders_->grid_point(line_of(cell, rows[(k + 1) % 3]).points[0]);
+    Weak_step::Form h{normal[0], normal[1], normal[2], Integer(-dot(normal, v))};
     const Near_plane plane = near_plane(occluders_->frame(), h);
     const Near_polygon& polygon = source ? cell.domain->source : cell.domain->target;
     const int position = side(plane, polygon);

@@ -46,18 +46,22 @@ class Cell_proofs {
   /// long.
   bool by_exact_relaxation(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters);
 
-  /// Three lines through a point v, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3 with forms c in p, and
-  /// as p, v and the line are in one plane, c1 h1 + c2 h2 + c3 h3 is 0 for all p and q. Where the signs on the path and
-  /// those of the forms, on the source or on the target, are such that no term is negative, no line is in the cell.
-  /// Corners of boxes are like that. Proof: P-71c
+  /// Three lines through a point v, of the scene or not, with directions d1, d2, d3: p - v is c1 d1 + c2 d2 + c3 d3
+  /// with forms c in p, and as p, v and the line are in one plane, c1 h1 + c2 h2 + c3 h3 is 0 for all p and q. Where
+  /// the signs on the path and those of the forms, on the source or on the target, are such that no term is negative,
+  /// no line is in the cell. Corners of boxes are like that. Proof: P-71c
   bool at_corner(const Line_cell& cell, std::vector<Multiplier>& proof, Weak_counters& counters);
 
   /// Multipliers that are forms: the path's sides times the forms of the polygon's edges, which are not negative on it.
   /// A sum of such products is of degree two in one of the points; it is not positive where its coefficients, for pairs
-  /// of vertices of that polygon and a vertex of the other, are not. Proof: P-71d
-  bool by_forms(const Line_cell& cell, bool source, std::vector<Multiplier>& proof, Weak_counters& counters);
+  /// of vertices of that polygon and a vertex of the other, are not. `thoroughly`: small programs of which doubles say
+  /// that the value is about 0 are solved in rationals, the first few of them. Proof: P-71d
+  bool by_forms(const Line_cell& cell, bool source, bool thoroughly, std::vector<Multiplier>& proof,
+                Weak_counters& counters);
 
  private:
+  static constexpr std::size_t most_exact_games = 8;  // some take half a second
+
   struct Weighted {
     std::size_t row;
     double near;
@@ -80,7 +84,7 @@ class Cell_proofs {
   static bool is_proof_in_doubles(const Line_cell& cell, const std::vector<Weighted>& weights);
   static bool is_proof(const Line_cell& cell, const std::vector<Weighted>& weights);
 
-  bool corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, std::uint32_t point, bool source,
+  bool corner_proof(const Line_cell& cell, const std::array<std::size_t, 3>& rows, bool source,
                     std::vector<Multiplier>& proof) const;
 
   /// False where the polygon is not convex, or turns the other way round than its plane says: then the forms would be
@@ -94,7 +98,7 @@ class Cell_proofs {
   std::array<const Near_plane*, 2> planes_;  // of source and target
   Matrix_game<double> game_, wide_;
   Matrix_game<Rational> exact_game_;
-  std::vector<std::size_t> through_;
+  std::size_t exact_games_ = 0;  // of forms, that were tried
 };
 
 }  // namespace sightline

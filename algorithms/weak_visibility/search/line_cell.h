@@ -56,7 +56,7 @@ struct Line_domain {
   std::vector<std::unique_ptr<Side_row>> rows;
   std::vector<Candidate> candidates;  ///< once they are asked for: `settled`
   bool settled = false;
-  int bisections = 0, narrowed = 0;
+  int bisections = 0, narrowed = 0, sectors = 0;  ///< how often it was made smaller, and how
 
  private:
   Side_row& row_at(const Edge_lines& lines, std::uint32_t id, const Near_frame& frame);

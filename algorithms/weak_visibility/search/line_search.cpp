@@ -1,5 +1,6 @@
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 
+#include <sightline/algorithms/weak_visibility/search/touching_lines.h>
 #include <sightline/kernel/line_table.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@ namespace {
 constexpr std::size_t deepest = 1000;
 // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many
 // nothing.
-constexpr int forms_after = 2, special_after = 3, smallest = 80;
+constexpr int forms_after = 2, special_after = 3, smallest = 80, most_sectors = 24;
 constexpr double close = 1e-9;      // to an edge, where its own row of the domain tells more
 constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
 constexpr double thin = 1e-8;       // what doubles leave to exact programs
@@ -202,6 +203,7 @@ Line_search::Refutation Line_search::cut(std::uint32_t d, const Cell_cut& by, Pa
                            : std::make_unique<Line_domain>(whole.shared_source, std::move(part_of_polygon));
     piece->bisections = whole.bisections;
     piece->narrowed = whole.narrowed;
+    piece->sectors = whole.sectors;
     const std::uint32_t number = static_cast<std::uint32_t>(domains_.size());
     domains_.push_back(std::move(piece));
     parents_.push_back(d);
@@ -220,10 +222,18 @@ Line_search::Refutation Line_search::cut(std::uint32_t d, const Cell_cut& by, Pa
 
 Line_search::Refutation Line_search::narrow(std::uint32_t d, std::size_t depth) {
   if (domains_[d]->narrowed > smallest) return open();
-  if (domains_[d]->narrowed >= special_after)
+  if (options_->hidden || domains_[d]->narrowed >= special_after)
     if (const std::optional<Cell_cut> plane = common_plane(cell_, *occluders_)) {
       ++counters_->cuts;
       return cut(d, *plane, [this, depth](std::uint32_t part) { return refute(part, depth + 1); });
+    }
+  if (options_->hidden && domains_[d]->sectors < most_sectors)
+    if (const std::optional<Cell_cut> plane = sector_plane(cell_, *source_plane_, *target_plane_)) {
+      ++counters_->cuts;
+      return cut(d, *plane, [this, depth](std::uint32_t part) {
+        ++domains_[part]->sectors;
+        return refute(part, depth + 1);
+      });
     }
   if (!cell_.rows.empty())
     if (const std::vector<Cell_cut> cuts = shaves(cell_, proofs_.game(), occluders_->frame(), *counters_);
@@ -439,7 +449,7 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
 
   // 3. What takes longer.
   if (ends_with(proofs_.at_corner(cell_, proof, *counters_))) return Look::ended;
-  const bool worth_it = is_worth_it(domain.narrowed);
+  const bool worth_it = is_worth_it(domain.narrowed) || options_->hidden;
   if (value < thin && (worth_it || domain.narrowed < forms_after)) {
     if (relaxation == Relaxation::unclear && ends_with(proofs_.by_exact_relaxation(cell_, proof, *counters_)))
       return Look::ended;
@@ -448,8 +458,8 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
       if (finder_.find_exactly(cell_, line, *counters_)) return Look::found;
     }
   }
-  if (worth_it &&
-      ends_with(proofs_.by_forms(cell_, true, proof, *counters_) || proofs_.by_forms(cell_, false, proof, *counters_)))
+  if (worth_it && ends_with(proofs_.by_forms(cell_, true, options_->hidden, proof, *counters_) ||
+                            proofs_.by_forms(cell_, false, options_->hidden, proof, *counters_)))
     return Look::ended;
   return Look::unclear;
 }
