@@ -28,8 +28,8 @@ Faces seen_from(const Scene& scene, const Piece_boxes& boxes, const Exact_point&
   const auto surface = visible_surface(view, boxes, serial);
   if (!two_sided) return surface.visible;
   Faces both;
-  std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(),
-                 surface.from_behind.end(), std::back_inserter(both));
+  std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(), surface.from_behind.end(),
+                 std::back_inserter(both));
   return both;
 }
 
@@ -72,8 +72,8 @@ Faces seen_at(const Visible_along& along, const Quadratic_root& t) {
   for (const Visible_along::Face& face : along.faces) {
     const bool within = std::any_of(face.seen.begin(), face.seen.end(),
                                     [&](const Parameter_range& range) { return range.low < t && t < range.high; });
-    const bool now = std::any_of(face.moments.begin(), face.moments.end(),
-                                 [&](const Rational& m) { return moment(m) == t; });
+    const bool now =
+        std::any_of(face.moments.begin(), face.moments.end(), [&](const Rational& m) { return moment(m) == t; });
     if (within || now) faces.push_back(face.face);
   }
   return faces;

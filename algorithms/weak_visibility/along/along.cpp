@@ -45,8 +45,7 @@ Face seen_of(const Along_scene& scene, std::span<Piece_along> pieces, Face_id id
   std::vector<Parameter_range> parts;
   for (Piece_along& piece : pieces)
     for (std::size_t k = 0; k + 1 < scene.contacts().size(); ++k)
-      for (Parameter_range& part :
-           piece.seen_within({moment(scene.contacts()[k]), moment(scene.contacts()[k + 1])})) {
+      for (Parameter_range& part : piece.seen_within({moment(scene.contacts()[k]), moment(scene.contacts()[k + 1])})) {
         for (const Quadratic_root* end : {&part.low, &part.high}) why.push_back({*end, piece.cause(*end)});
         parts.push_back(std::move(part));
       }
@@ -58,10 +57,9 @@ Face seen_of(const Along_scene& scene, std::span<Piece_along> pieces, Face_id id
       continue;
     }
     Quadratic_root& high = face.seen.back().high;
-    const bool is_joined = part.low < high || (part.low == high && std::any_of(contacts.begin(), contacts.end(),
-                                                                               [&](const Rational& t) {
-                                                                                 return moment(t) == high;
-                                                                               }));
+    const bool is_joined =
+        part.low < high || (part.low == high && std::any_of(contacts.begin(), contacts.end(),
+                                                            [&](const Rational& t) { return moment(t) == high; }));
     if (!is_joined) face.seen.push_back(std::move(part));
     else if (high < part.high) high = part.high;
   }
@@ -93,7 +91,8 @@ std::vector<Timed_change> changes_of(const Along_scene& scene, const Face& face,
     for (const Why& reason : why)
       if (reason.t == t && (cause == nullptr || reason.cause.kind < cause->kind)) cause = &reason.cause;
     const auto& contacts = scene.contacts();
-    const bool is_contact = std::any_of(contacts.begin(), contacts.end(), [&](const Rational& c) { return moment(c) == t; });
+    const bool is_contact =
+        std::any_of(contacts.begin(), contacts.end(), [&](const Rational& c) { return moment(c) == t; });
     if (cause != nullptr && (cause->kind == Along_kind::plane || !is_contact)) {
       change.kind = cause->kind;
       for (const std::uint32_t line : cause->lines)

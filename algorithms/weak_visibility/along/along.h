@@ -40,8 +40,8 @@ struct Visible_along {
     std::vector<Parameter_range> seen;  ///< open, in order, disjoint
     std::vector<Rational> moments;      ///< at which it is seen and on no side of them in these ranges, or at an end
   };
-  std::vector<Face> faces;        ///< kept ones, by id
-  std::vector<Along_event> events;  ///< in order
+  std::vector<Face> faces;                         ///< kept ones, by id
+  std::vector<Along_event> events;                 ///< in order
   std::vector<Face_id> at_start, at_end, visible;  ///< at 0, at 1, at some moment between them
   Along_counters counters;
 };

@@ -152,7 +152,8 @@ void Piece_along::add_blocker(std::uint32_t piece) {
     return;
   }
   if (towards != both_sides) return;
-  Eye_polygon part{piece, sightline::clip(scene_->occluders().frame(), whole.corners, plane_, side_ > 0), {}, whole.eye_side};
+  Eye_polygon part{
+      piece, sightline::clip(scene_->occluders().frame(), whole.corners, plane_, side_ > 0), {}, whole.eye_side};
   for (std::size_t i = 0; i < part.corners.size(); ++i) {
     Exact_pluecker line = join(part.corners[i].exact, part.corners[(i + 1) % part.corners.size()].exact);
     const int sense = make_canonical(line);
@@ -245,8 +246,7 @@ std::vector<Parameter_range> Piece_along::seen_within(const Parameter_range& who
   std::sort(seen.begin(), seen.end(), [](const auto& a, const auto& b) { return a.low < b.low; });
   std::vector<Parameter_range> ranges;
   for (const Parameter_range& next : seen) {
-    if (ranges.empty() || ranges.back().high < next.low ||
-        (ranges.back().high == next.low && !is_seen_at(next.low)))
+    if (ranges.empty() || ranges.back().high < next.low || (ranges.back().high == next.low && !is_seen_at(next.low)))
       ranges.push_back(next);
     else if (ranges.back().high < next.high) ranges.back().high = next.high;
   }
@@ -299,9 +299,8 @@ Piece_along::Answer Piece_along::run(const Quadratic_root& t, const Parameter_ra
     if (front_[blocker] != 0) all_.push_back(blocker);
     else if (!at_once_) unlucky_ = true;
   }
-  std::sort(all_.begin(), all_.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return sizes_[a] != sizes_[b] ? sizes_[a] > sizes_[b] : a < b;
-  });
+  std::sort(all_.begin(), all_.end(),
+            [&](std::uint32_t a, std::uint32_t b) { return sizes_[a] != sizes_[b] ? sizes_[a] > sizes_[b] : a < b; });
   Answer answer{false, true, range, {}};
   answer.seen = find(whole_, all_, answer.part);
   if (unlucky_) {
@@ -540,25 +539,25 @@ std::vector<Parameter_range> Piece_along::seen_from_within(const Cone& part, con
   Triple middle{};
   for (const Triple& ray : rays(part))
     for (std::size_t k = 0; k < 3; ++k) middle[k] += ray[k];
+  middle = unit(middle);
+  if (!std::isfinite(middle[0] + middle[1] + middle[2])) return {};  // beyond doubles
   const Homogeneous eye = scene_->eye().at(t);
   const std::array<Integer, 4>& h = plane_.exact;
   Homogeneous q;
-  {
-    std::array<Integer, 3> direction;
-    for (std::size_t k = 0; k < 3; ++k) direction[k] = Integer(std::round(std::ldexp(unit(middle)[k], 30)));
-    for (const Line_side& side : whole_) {
-      const Eye_line& its = line(side.line);
-      Integer sum = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-        sum += (its.first[k] * t.get_den() + its.change[k] * t.get_num()) * direction[k];
-      if (side.sign * sgn(sum) <= 0) return {};
-    }
-    const Integer across = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2], at = dot(h, eye);
-    for (std::size_t k = 0; k < 3; ++k) q[k] = eye[k] * across - direction[k] * at;
-    q[3] = eye[3] * across;
-    if (sgn(q[3]) == 0) return {};
-    make_canonical(q);
+  std::array<Integer, 3> direction;
+  for (std::size_t k = 0; k < 3; ++k) direction[k] = Integer(std::round(std::ldexp(middle[k], 30)));
+  for (const Line_side& side : whole_) {
+    const Eye_line& its = line(side.line);
+    Integer sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (its.first[k] * t.get_den() + its.change[k] * t.get_num()) * direction[k];
+    if (side.sign * sgn(sum) <= 0) return {};
   }
+  const Integer across = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2], at = dot(h, eye);
+  for (std::size_t k = 0; k < 3; ++k) q[k] = eye[k] * across - direction[k] * at;
+  q[3] = eye[3] * across;
+  if (sgn(q[3]) == 0) return {};
+  make_canonical(q);
   ++counters_.witnesses;
   // 2. When something is in between, ends included.
   const Near<4> near_q = near(scene_->occluders().frame(), q);

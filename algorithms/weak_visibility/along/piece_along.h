@@ -88,8 +88,8 @@ struct Along_counters {
   }
 };
 
-/// When an eye sees one piece from one side. A run, at one moment, cuts the piece along edges as the eye sees them until
-/// a part is beside all that is in front, or all parts are behind something. All that it rests on are signs of
+/// When an eye sees one piece from one side. A run, at one moment, cuts the piece along edges as the eye sees them
+/// until a part is beside all that is in front, or all parts are behind something. All that it rests on are signs of
 /// quadratics in t, so its answer is true as far as none of these has a root. Doubles choose what is cut, and know most
 /// signs of a range. Exact: yes. Proof: P-87
 class Piece_along {
@@ -106,8 +106,8 @@ class Piece_along {
   const Along_counters& counters() const { return counters_; }
 
  private:
-  using Cone = std::vector<Line_side>;     // sides in order: two consecutive ones meet in a ray, along the product of
-                                           // their normals
+  using Cone = std::vector<Line_side>;  // sides in order: two consecutive ones meet in a ray, along the product of
+                                        // their normals
   using Blockers = std::vector<std::uint32_t>;  // of blockers_
   struct Fact {
     const Quadratic* sign;
