@@ -3,7 +3,9 @@
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
+#include <span>
 #include <utility>
 
 namespace sightline {

@@ -6,10 +6,10 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <vector>
 
 namespace sightline {

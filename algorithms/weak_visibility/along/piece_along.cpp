@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <numeric>
+#include <optional>
+#include <stdexcept>
 #include <utility>
 
 namespace sightline {
@@ -12,6 +15,7 @@ namespace sightline {
 namespace {
 
 constexpr std::uint32_t no_line = ~std::uint32_t{0};
+constexpr std::size_t most_lines = std::size_t{1} << 21;  // three numbers in one key
 
 /// The moments of a range on which a linear function is >= 0; none where it is so nowhere.
 std::optional<std::array<Rational, 2>> where_not_negative(const Quadratic& f, std::array<Rational, 2> range) {
@@ -88,6 +92,7 @@ Along_scene::Along_scene(const Occluders& occluders, const Exact_point& from, co
     polygon.eye_side = eye_.side(occluders.plane(piece).exact);
     if (polygon.eye_side.is_zero()) continue;
     polygon.corners = occluders.polygon(piece);
+    polygon.size = size_of(polygon.corners);
     for (std::uint32_t i = 0; i < polygon.corners.size(); ++i) {
       Exact_pluecker line = join(polygon.corners[i].exact, polygon.corners[(i + 1) % polygon.corners.size()].exact);
       const int sense = make_canonical(line);
@@ -120,13 +125,14 @@ bool Along_scene::is_on(const Eye_polygon& polygon, const Homogeneous& eye) cons
 // ---- One piece
 
 Piece_along::Piece_along(const Along_scene& scene, std::uint32_t piece, int side)
-    : scene_(&scene), target_(scene.polygons()[piece]), plane_(scene.occluders().plane(piece)), side_(side) {
+    : scene_(&scene), target_(&scene.polygons()[piece]), plane_(scene.occluders().plane(piece)), side_(side) {
   ++counters_.pieces;
-  for (const Line_side& edge : target_.edges) whole_.push_back({edge.line, -side * edge.sign});
+  for (const Line_side& edge : target_->edges) whole_.push_back({edge.line, -side * edge.sign});
   if (side > 0) std::reverse(whole_.begin(), whole_.end());
   for (const Eye_polygon& other : scene.polygons())
     if (!other.corners.empty() && other.piece != piece) add_blocker(other.piece);
-  for (const Eye_polygon& blocker : blockers_) sizes_.push_back(size_of(blocker.corners));
+  if (scene.lines().size() + own_.size() >= most_lines)
+    throw std::length_error("a path sees scenes of up to 2^21 lines of edges only");
   seen_.resize(scene.lines().size() + own_.size());
 }
 
@@ -148,31 +154,35 @@ void Piece_along::add_blocker(std::uint32_t piece) {
   const Eye_polygon& whole = scene_->polygons()[piece];
   const int towards = sightline::side(plane_, whole.corners);
   if (towards == side_) {
-    blockers_.push_back(whole);
+    blockers_.push_back(&whole);
     return;
   }
   if (towards != both_sides) return;
   Eye_polygon part{
-      piece, sightline::clip(scene_->occluders().frame(), whole.corners, plane_, side_ > 0), {}, whole.eye_side};
+      piece, sightline::clip(scene_->occluders().frame(), whole.corners, plane_, side_ > 0), {}, whole.eye_side, 0};
   for (std::size_t i = 0; i < part.corners.size(); ++i) {
     Exact_pluecker line = join(part.corners[i].exact, part.corners[(i + 1) % part.corners.size()].exact);
     const int sense = make_canonical(line);
     part.edges.push_back({number_of(line), sense});
   }
-  blockers_.push_back(std::move(part));
+  part.size = size_of(part.corners);
+  blockers_.push_back(&parts_.emplace_back(std::move(part)));
 }
 
 bool Piece_along::is_out_of_the_way(const Eye_polygon& polygon, const Parameter_range& range) {
-  const auto sign_in = [&](const Quadratic& f) {  // of a linear function, throughout: 0 where it changes
-    const int low = range.low.sign_of(f), high = range.high.sign_of(f);
-    return low * high < 0 ? 0 : low + high > 0 ? 1 : low + high < 0 ? -1 : 0;
-  };
+  const Near<4> low = scene_->eye().near(range.low), high = scene_->eye().near(range.high);
   // 1. Both on one side of its plane.
-  const int eye_at = sign_in(polygon.eye_side);
-  const int target_at = sightline::side(scene_->occluders().plane(polygon.piece), target_.corners);
+  const Near_plane& plane = scene_->occluders().plane(polygon.piece);
+  const Near<4> near_plane = near(plane);
+  const auto side_at = [&](const Quadratic_root& t, const Near<4>& eye) {
+    const int sure = certain_dot(near_plane, eye);
+    return sure != 0 ? sure : t.sign_of(polygon.eye_side);
+  };
+  const int from = side_at(range.low, low), to = side_at(range.high, high);
+  const int eye_at = from * to < 0 ? 0 : from + to > 0 ? 1 : from + to < 0 ? -1 : 0;  // 0: it passes the plane
+  const int target_at = sightline::side(plane, target_->corners);
   if (target_at == 0 || (eye_at != 0 && target_at == eye_at)) return true;
   // 2. All of it beyond one side of the target.
-  const Near<4> low = scene_->eye().near(range.low), high = scene_->eye().near(range.high);
   const auto is_beyond = [&](const Line_side& side, std::span<const Near_point> corners, int sign) {
     const Near<4> at_low = join(low, line(side.line).near), at_high = join(high, line(side.line).near);
     for (const Near_point& corner : corners) {
@@ -190,18 +200,18 @@ bool Piece_along::is_out_of_the_way(const Eye_polygon& polygon, const Parameter_
   // 3. All of the target beyond one of its edges.
   if (eye_at == 0) return false;
   return std::any_of(polygon.edges.begin(), polygon.edges.end(),
-                     [&](const Line_side& edge) { return is_beyond(edge, target_.corners, -eye_at); });
+                     [&](const Line_side& edge) { return is_beyond(edge, target_->corners, -eye_at); });
 }
 
 Piece_along::Blockers Piece_along::left_in(const Parameter_range& range, const Blockers& all) {
   Blockers left;
   for (const std::uint32_t blocker : all)
-    if (!is_out_of_the_way(blockers_[blocker], range)) left.push_back(blocker);
+    if (!is_out_of_the_way(*blockers_[blocker], range)) left.push_back(blocker);
   return left;
 }
 
 bool Piece_along::is_seen_at(const Quadratic_root& t) {
-  if (side_ * t.sign_of(target_.eye_side) <= 0) return false;
+  if (side_ * t.sign_of(target_->eye_side) <= 0) return false;
   Blockers all(blockers_.size());
   std::iota(all.begin(), all.end(), 0);
   const Parameter_range range{t, t};
@@ -211,10 +221,10 @@ bool Piece_along::is_seen_at(const Quadratic_root& t) {
 std::vector<Parameter_range> Piece_along::seen_within(const Parameter_range& whole) {
   // 1. What of the range is in front of it.
   Parameter_range front = whole;
-  const auto in_front = [&](const Quadratic_root& t) { return side_ * t.sign_of(target_.eye_side); };
+  const auto in_front = [&](const Quadratic_root& t) { return side_ * t.sign_of(target_->eye_side); };
   if (in_front(whole.low) <= 0 && in_front(whole.high) <= 0) return {};
   std::vector<Quadratic_root> root;
-  append_roots(target_.eye_side, whole, root);
+  append_roots(target_->eye_side, whole, root);
   if (!root.empty()) (in_front(whole.low) > 0 ? front.high : front.low) = root[0];
   // 2. Runs until their ranges leave nothing.
   struct Work {
@@ -254,7 +264,7 @@ std::vector<Parameter_range> Piece_along::seen_within(const Parameter_range& who
 }
 
 Along_cause Piece_along::cause(const Quadratic_root& end) const {
-  if (end.sign_of(target_.eye_side) == 0) return {};
+  if (end.sign_of(target_->eye_side) == 0) return {};
   Along_cause best{Along_kind::triple, {}};
   for (const auto& [at, lines] : ends_) {
     if (!(at == end) || lines[0] == no_line) continue;
@@ -295,12 +305,14 @@ Piece_along::Answer Piece_along::run(const Quadratic_root& t, const Parameter_ra
   front_.assign(blockers_.size(), 0);
   all_.clear();
   for (const std::uint32_t blocker : all) {
-    front_[blocker] = t.sign_of(blockers_[blocker].eye_side);
+    front_[blocker] = t.sign_of(blockers_[blocker]->eye_side);
     if (front_[blocker] != 0) all_.push_back(blocker);
     else if (!at_once_) unlucky_ = true;
   }
-  std::sort(all_.begin(), all_.end(),
-            [&](std::uint32_t a, std::uint32_t b) { return sizes_[a] != sizes_[b] ? sizes_[a] > sizes_[b] : a < b; });
+  std::sort(all_.begin(), all_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const double one = blockers_[a]->size, other = blockers_[b]->size;
+    return one != other ? one > other : a < b;
+  });
   Answer answer{false, true, range, {}};
   answer.seen = find(whole_, all_, answer.part);
   if (unlucky_) {
@@ -394,28 +406,28 @@ Piece_along::Cone Piece_along::clip(const Cone& cone, const std::vector<int>& si
 }
 
 Line_side Piece_along::inside(std::uint32_t blocker, std::size_t edge) const {
-  const Line_side& side = blockers_[blocker].edges[edge];
+  const Line_side& side = blockers_[blocker]->edges[edge];
   return {side.line, -front_[blocker] * side.sign};
 }
 
 bool Piece_along::covers(std::uint32_t blocker, const Cone& cone) {
-  for (std::size_t edge = 0; edge < blockers_[blocker].edges.size(); ++edge)
+  for (std::size_t edge = 0; edge < blockers_[blocker]->edges.size(); ++edge)
     for (const int sign : signs(cone, inside(blocker, edge)))
       if (sign < 0) return false;
-  note(blockers_[blocker].eye_side, {no_line, 0, 0});
+  note(blockers_[blocker]->eye_side, {no_line, 0, 0});
   return true;
 }
 
 bool Piece_along::is_outside(std::uint32_t blocker, std::size_t edge, const Cone& cone) {
   for (const int sign : signs(cone, inside(blocker, edge)))
     if (sign > 0) return false;
-  note(blockers_[blocker].eye_side, {no_line, 0, 0});
+  note(blockers_[blocker]->eye_side, {no_line, 0, 0});
   return true;
 }
 
 /// Whether all of a blocker is on the outer side of a line.
 bool Piece_along::is_beyond_side(std::uint32_t blocker, const Line_side& side) {
-  for (const Near_point& corner : blockers_[blocker].corners) {
+  for (const Near_point& corner : blockers_[blocker]->corners) {
     const Near<4> point = near(corner);
     const Near<6>& of = line(side.line).near;
     const int low = certain_dot(join(low_, of), point), high = at_once_ ? low : certain_dot(join(high_, of), point);
@@ -444,7 +456,7 @@ Piece_along::Guess Piece_along::guess(std::uint32_t blocker, const Cone& cone, c
   bool covers = true;
   double deepest = 0;
   std::size_t best = 0;
-  for (std::size_t edge = 0; edge < blockers_[blocker].edges.size(); ++edge) {
+  for (std::size_t edge = 0; edge < blockers_[blocker]->edges.size(); ++edge) {
     const Line_side side = inside(blocker, edge);
     const Triple& normal = seen(side.line).now;
     double least = 2, most = -2;
@@ -468,7 +480,7 @@ Piece_along::Guess Piece_along::guess(std::uint32_t blocker, const Cone& cone, c
       for (std::size_t x = 0; x < 3; ++x) to[x] = corner.near[x] - middle_.at[x];
       return cone[k].sign * sightline::dot(normal, unit(to)) > little;
     };
-    const auto& corners = blockers_[blocker].corners;
+    const auto& corners = blockers_[blocker]->corners;
     if (std::none_of(corners.begin(), corners.end(), is_inside)) return {Guess::beside_side, k};
   }
   return {Guess::across, best};
@@ -506,7 +518,7 @@ bool Piece_along::find(const Cone& cone, const Blockers& left, Cone& found) {
     // 3. Cut along an edge of the first.
     const std::uint32_t blocker = near.front();
     near.erase(near.begin());
-    const std::size_t count = blockers_[blocker].edges.size(), begin = guess(blocker, cone, near_rays).edge;
+    const std::size_t count = blockers_[blocker]->edges.size(), begin = guess(blocker, cone, near_rays).edge;
     bool is_covered = true;
     for (std::size_t k = 0; k < count && is_covered; ++k) {
       const Line_side side = inside(blocker, (begin + k) % count);
@@ -525,7 +537,7 @@ bool Piece_along::find(const Cone& cone, const Blockers& left, Cone& found) {
                    facts_.begin() + static_cast<std::ptrdiff_t>(between));
       return true;
     }
-    note(blockers_[blocker].eye_side, {no_line, 0, 0});
+    note(blockers_[blocker]->eye_side, {no_line, 0, 0});
     if (is_covered) return false;
     beside.push_back(blocker);
   }
@@ -563,7 +575,7 @@ std::vector<Parameter_range> Piece_along::seen_from_within(const Cone& part, con
   const Near<4> near_q = near(scene_->occluders().frame(), q);
   std::vector<std::array<Rational, 2>> hidden;
   for (const std::uint32_t blocker : blockers) {
-    const Eye_polygon& polygon = blockers_[blocker];
+    const Eye_polygon& polygon = *blockers_[blocker];
     const int q_at = sgn(dot(scene_->occluders().plane(polygon.piece).exact, q));
     if (q_at == 0) return {};
     const auto is_off = [&](const Line_side& edge) {

@@ -30,6 +30,7 @@ struct Eye_polygon {
   /// where they are negative.
   std::vector<Line_side> edges;
   Quadratic eye_side;  ///< of the eye to its plane: linear
+  double size;         ///< the square of twice its area, in doubles: large ones are tried first
 };
 
 /// What all searches of one path share: the pieces that can be seen or hide something at all. Pieces whose plane holds
@@ -96,6 +97,8 @@ class Piece_along {
  public:
   /// `side`: 1 from the front, -1 from behind.
   Piece_along(const Along_scene& scene, std::uint32_t piece, int side);
+  Piece_along(const Piece_along&) = delete;
+  Piece_along(Piece_along&&) = default;
 
   /// Whether it is seen at a moment, by the law, also where the eye is on other faces.
   bool is_seen_at(const Quadratic_root& t);
@@ -157,13 +160,13 @@ class Piece_along {
                                                 const Blockers& blockers);
 
   const Along_scene* scene_;
-  Eye_polygon target_;
+  const Eye_polygon* target_;
   Near_plane plane_;
   int side_;
   Cone whole_;
-  std::vector<Eye_polygon> blockers_;
-  std::vector<double> sizes_;  // of blockers
-  std::vector<Eye_line> own_;  // lines where blockers meet the target's plane: numbered after the scene's
+  std::vector<const Eye_polygon*> blockers_;
+  std::deque<Eye_polygon> parts_;  // blockers that are parts of pieces
+  std::vector<Eye_line> own_;      // lines where blockers meet the target's plane: numbered after the scene's
   std::map<Exact_pluecker, std::uint32_t, Less_entries> own_numbers_;
   std::unordered_map<std::uint64_t, Quadratic> determinants_;
   std::vector<Seen_line> seen_;
