@@ -1,5 +1,6 @@
 // sightline weak: the faces that are weakly visible from polygons, a picture of them and their certificate.
 
+#include "methods/along.h"
 #include "methods/methods.h"
 #include "methods/weak.h"
 
@@ -15,7 +16,7 @@ struct Weak_arguments {
   Common common;
   View_arguments view;
   Source_arguments sources;
-  std::string method = "lines", certificate, svg, obj, eye, surfaces;
+  std::string method = "lines", certificate, svg, obj, eye, surfaces, along;
   Weak_task task;
 };
 
@@ -342,6 +343,16 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
 Exit run_weak(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
   const std::string& method = arguments.method;
+  if (!arguments.along.empty()) {
+    for (const auto& [name, value] : {std::pair("--certificate", arguments.certificate),
+                                      {"--obj", arguments.obj},
+                                      {"--eye", arguments.eye},
+                                      {"--surfaces", arguments.surfaces}})
+      if (!value.empty())
+        throw Usage_error(std::string(name) + " is for polygons that look: leave it out with --along");
+    if (!arguments.sources.empty()) throw Usage_error("--along is a path of its own: leave out --from and its like");
+    return run_along(common, {arguments.along, arguments.sources.two_sided, arguments.svg});
+  }
   if ((method == "sample" || method == "doubles") && !arguments.certificate.empty())
     throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
   const bool as_obj = arguments.surfaces.ends_with(".obj");
@@ -451,6 +462,11 @@ void add_weak(Command program) {
   auto a = std::make_shared<Weak_arguments>();
   a->common.add_to(command);
   a->sources.add_to(command);
+  command
+      .add_option("--along", a->along,
+                  "instead of polygons an eye that moves straight from X,Y,Z to X,Y,Z: the exact moments at which "
+                  "faces appear and disappear; --svg draws when each is visible")
+      .check(not_empty());
   const Option method =
       command
           .add_option(

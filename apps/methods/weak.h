@@ -17,6 +17,7 @@ struct Source_arguments {
   std::vector<std::string> polygons, volumes;
   bool two_sided = false;
 
+  bool empty() const { return faces.empty() && solid.empty() && polygons.empty() && volumes.empty(); }
   /// `prefix`: what the help of each begins with.
   void add_to(Command command, const std::string& prefix = "");
 };

@@ -13,6 +13,7 @@
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/generate/view_drafts.h>
 #include <sightline/harness/generate/weak_neighbours.h>
+#include <sightline/harness/laws/along.h>
 #include <sightline/harness/laws/budget.h>
 #include <sightline/harness/laws/front_door.h>
 #include <sightline/harness/laws/labels.h>
@@ -24,6 +25,7 @@
 #include <CGAL/Gmpq.h>
 
 #include <string>
+#include <utility>
 
 namespace sightline::harness {
 
@@ -94,7 +96,8 @@ Subject see() {
                     lines_check(),
                     field_check()};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
-  subject.checks.push_back(see_budget_check());  // last: others keep their random choices
+  for (Check check : {see_budget_check(), moving_eye_check()})  // last: others keep their random choices
+    subject.checks.push_back(std::move(check));
   return subject;
 }
 

@@ -50,6 +50,29 @@ TEST_F(Weak, says_where_the_source_may_be_the_wrong_way_round) {
   EXPECT_EQ(towards.out.find(note), std::string::npos) << towards;
 }
 
+TEST_F(Weak, walks_through_a_door_along_a_path) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), picture = path("walk.svg").string();
+  const Json along = weak({rooms, "--along", "1,3/2,3/2 7,3/2,3/2", "--svg", picture})["result"]["along"];
+  // `see` says the same of both ends.
+  const auto seen_from = [&](const std::string& eye) {
+    return run({"see", rooms, "--eye", eye, "--json", "-"}).json()["result"]["visible"];
+  };
+  EXPECT_EQ(along["visible_at_start"], seen_from("1,3/2,3/2"));
+  EXPECT_EQ(along["visible_at_end"], seen_from("7,3/2,3/2"));
+  EXPECT_EQ(along["visible"].size(), 137u);
+  ASSERT_EQ(along["events"].size(), 29u);
+  const Json& first = along["events"][0];
+  EXPECT_EQ(first["t"]["root"], "1/30");
+  EXPECT_EQ(first["kind"], "horizon");
+  EXPECT_EQ(first["disappear"], Json::array({136}));
+  EXPECT_NE(read_file(picture).find("<g id=\"face-136\">"), std::string::npos);
+  // What is no path, and what it does not go with.
+  for (const char* wrong : {"1,2,3", "1,2,3 1,2,3", "1,2,3 4,5", "1,2,3 4,5,6 7,8,9"})
+    EXPECT_EQ(run({"weak", rooms, "--along", wrong}).code, usage) << wrong;
+  EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--from-face", "0"}).code, usage);
+  EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--certificate", path("c.json").string()}).code, usage);
+}
+
 TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("rooms.json").string();
   const Json lit = weak({rooms, "--from", "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", "--certificate", to});

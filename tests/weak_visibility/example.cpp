@@ -1,5 +1,6 @@
 // The examples of algorithms/weak_visibility/README.md, run.
 
+#include <sightline/algorithms/weak_visibility/along/along.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/events/active_subranges.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
@@ -25,6 +26,16 @@ void look_through(unsigned long n, std::ostream& out) {
   out << active.ranges().size() << " gaps, the last from " << active.last().low.near() << '\n';
 }
 
+/// What comes into sight on the way.
+void walk(const sightline::Polygon_soup& soup, const sightline::Exact_point& from, const sightline::Exact_point& to,
+          std::ostream& out) {
+  const sightline::Scene scene(soup);
+  const sightline::Occluders occluders(scene);
+  for (const sightline::Along_event& event : visible_along(occluders, from, to).events)
+    for (const auto& change : event.changes)
+      if (change.after && !change.before) out << "face " << change.face << " at t = " << event.t.near() << '\n';
+}
+
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -48,4 +59,12 @@ TEST(Weak_visibility_example, bars_leave_gaps) {
   std::ostringstream out;
   look_through(100, out);
   EXPECT_EQ(out.str(), "50 gaps, the last from 0.989949\n");
+}
+TEST(Weak_visibility_example, a_walk_past_a_floor) {
+  sightline::Polygon_soup soup;
+  const auto a = soup.add_point(0, 0, 0), b = soup.add_point(1, 0, 0), c = soup.add_point(0, 1, 0);
+  soup.add_face({a, b, c});
+  std::ostringstream out;
+  walk(soup, {5, 5, -1}, {5, 5, 3}, out);
+  EXPECT_EQ(out.str(), "face 0 at t = 0.25\n");
 }

@@ -37,6 +37,35 @@ Integer Quadratic_root::bits(unsigned long count) const {
   return k;
 }
 
+int Quadratic_root::sign_of(const Quadratic& f) const {
+  // q^2 f = x + y sqrt(d)
+  const Integer x = (f.c[0] * q_ + f.c[1] * p_) * q_ + f.c[2] * (p_ * p_ + e_ * e_ * d_);
+  if (e_ == 0 || sgn(d_) == 0) return sgn(x);
+  const Integer y = e_ * (f.c[1] * q_ + 2 * f.c[2] * p_);
+  const int xs = sgn(x), ys = sgn(y);
+  if (xs == 0 || ys == 0 || xs == ys) return xs == 0 ? ys : xs;
+  const int larger = cmp(Integer(x * x), Integer(y * y * d_));
+  return larger > 0 ? xs : larger < 0 ? ys : 0;
+}
+
+std::optional<Rational> Quadratic_root::rational() const {
+  Integer top = p_;
+  if (e_ != 0) {
+    if (mpz_perfect_square_p(d_.get_mpz_t()) == 0) return std::nullopt;
+    top += e_ * sqrt(d_);
+  }
+  Rational value(top, q_);
+  value.canonicalize();
+  return value;
+}
+
+Quadratic Quadratic_root::polynomial() const {
+  Quadratic f{{Integer(p_ * p_ - e_ * e_ * d_), Integer(-2 * p_ * q_), Integer(q_ * q_)}};
+  const Integer common = gcd(gcd(f.c[0], f.c[1]), f.c[2]);
+  for (Integer& c : f.c) c /= common;
+  return f;
+}
+
 void append_roots(const Quadratic& f, const Parameter_range& range, std::vector<Quadratic_root>& roots) {
   if (f.is_zero() || f.certain_sign() != 0) return;
   const auto keep = [&](const Quadratic_root& root) {

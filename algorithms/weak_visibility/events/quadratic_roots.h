@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,13 @@ class Quadratic_root {
   /// 60 bits; those of two numbers tell which is less where they are apart.
   std::int64_t key() const { return key_; }
   static bool are_apart(std::int64_t a, std::int64_t b) { return a + 3 <= b || b + 3 <= a; }
+  /// The sign of a polynomial here. Exact: yes
+  int sign_of(const Quadratic& f) const;
+  /// As a fraction where it is one. Exact: yes
+  std::optional<Rational> rational() const;
+  /// The quadratic with integer coefficients without a common factor that has this root; of rational ones a multiple of
+  /// the square of the linear one. Exact: yes
+  Quadratic polynomial() const;
 
   friend int compare(const Quadratic_root& a, const Quadratic_root& b) {
     if (are_apart(a.key_, b.key_)) return a.key_ < b.key_ ? -1 : 1;

@@ -1,0 +1,152 @@
+#include <sightline/harness/laws/along.h>
+
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace sightline::harness {
+
+namespace moving_eye {
+
+using generate::ratio;
+using Faces = std::vector<Face_id>;
+
+Faces seen_from(const Scene& scene, const Piece_boxes& boxes, const Exact_point& eye, bool two_sided) {
+  const Exact_view view(scene, eye);
+  Visible_options serial;
+  serial.threads = 1;
+  const auto surface = visible_surface(view, boxes, serial);
+  if (!two_sided) return surface.visible;
+  Faces both;
+  std::set_union(surface.visible.begin(), surface.visible.end(), surface.from_behind.begin(), surface.from_behind.end(),
+                 std::back_inserter(both));
+  return both;
+}
+
+/// Where a path ends that begins at the eye: anywhere, at a corner, along an edge, in a face.
+Exact_point end_of_path(const Posed_scene& posed, const Scene& scene, Random& random) {
+  const auto corner = [&](std::size_t piece, std::size_t k) {
+    const auto corners = scene.corners(scene.pieces()[piece]);
+    return scene.position(corners[k % corners.size()].point);
+  };
+  const std::size_t piece = random.below(scene.pieces().size()), k = random.below(8);
+  const Exact_point a = corner(piece, k), b = corner(piece, k + 1), c = corner(piece, k + 2);
+  switch (random.below(6)) {
+    case 0: return a;
+    case 1: return generate::along(posed.eye, ratio(random.between(-9, 9), 2), minus(b, a));
+    case 2: return generate::along(a, ratio(random.between(1, 4), 2), minus(a, posed.eye));
+    case 3: return generate::along(generate::along(a, ratio(1, 3), minus(b, a)), ratio(1, 4), minus(c, a));
+    case 4: {
+      const Exact_point d = corner(random.below(scene.pieces().size()), k);
+      return generate::along(a, ratio(random.between(1, 5), 2), minus(d, posed.eye));
+    }
+    default: {
+      Exact_point p = a;
+      for (Rational& x : p) x += ratio(random.between(-40, 40), 7);
+      return p;
+    }
+  }
+}
+
+std::string listed(const Faces& faces) {
+  std::string list;
+  for (const Face_id face : faces) list += (list.empty() ? "" : " ") + std::to_string(face);
+  return list.empty() ? "none" : list;
+}
+
+std::string at(const Rational& t) { return "at t = " + to_string(t); }
+
+/// What is seen at a moment, by an answer.
+Faces seen_at(const Visible_along& along, const Quadratic_root& t) {
+  Faces faces;
+  for (const Visible_along::Face& face : along.faces) {
+    const bool within = std::any_of(face.seen.begin(), face.seen.end(),
+                                    [&](const Parameter_range& range) { return range.low < t && t < range.high; });
+    const bool now =
+        std::any_of(face.moments.begin(), face.moments.end(), [&](const Rational& m) { return moment(m) == t; });
+    if (within || now) faces.push_back(face.face);
+  }
+  return faces;
+}
+
+/// The same by events alone: what they change of what is seen at first.
+Faces after_events(const Visible_along& along, const Quadratic_root& t) {
+  Faces seen = along.at_start;
+  for (const Along_event& event : along.events) {
+    if (t < event.t) break;
+    const bool is_now = event.t == t;
+    for (const Along_event::Change& change : event.changes) {
+      std::erase(seen, change.face);
+      if (is_now ? change.at : change.after) seen.push_back(change.face);
+    }
+  }
+  std::sort(seen.begin(), seen.end());
+  return seen;
+}
+
+Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
+  constexpr std::size_t most_pieces = 40;
+  const Scene scene(posed.soup);
+  if (scene.pieces().empty() || scene.pieces().size() > most_pieces) return Outcome::not_applicable();
+  const Exact_point from = posed.eye, to = end_of_path(posed, scene, random);
+  if (from == to) return Outcome::not_applicable();
+  const Occluders occluders(scene);
+  Along_options options;
+  options.threads = 1;
+  options.two_sided = random.below(4) == 0;
+  const Visible_along found = visible_along(occluders, from, to, options);
+  const std::string path = "from (" + to_string(from[0]) + " " + to_string(from[1]) + " " + to_string(from[2]) +
+                           ") to (" + to_string(to[0]) + " " + to_string(to[1]) + " " + to_string(to[2]) + ")" +
+                           (options.two_sided ? " two-sided" : "");
+
+  // 1. Held to `see`: at the ends, at events, between them, anywhere.
+  std::vector<Rational> moments{0, 1, ratio(random.between(1, 99), 100), ratio(random.between(1, 999), 1000)};
+  std::vector<Quadratic_root> events{Quadratic_root(0)};
+  for (const Along_event& event : found.events) events.push_back(event.t);
+  events.emplace_back(1);
+  for (std::size_t k = 0; k < events.size(); ++k) {
+    if (const auto t = events[k].rational()) moments.push_back(*t);
+    if (k > 0 && events[k - 1] < events[k]) moments.push_back(inner_rational({events[k - 1], events[k]}));
+  }
+  const Piece_boxes boxes(scene);
+  for (const Rational& t : moments) {
+    const Faces truth = seen_from(scene, boxes, generate::along(from, t, minus(to, from)), options.two_sided),
+                said = seen_at(found, moment(t)), by_events = after_events(found, moment(t));
+    if (said != truth)
+      return Outcome::failed(at(t) + " " + path + " an eye sees " + listed(truth) + ", but on its way " + listed(said));
+    if (by_events != truth)
+      return Outcome::failed(at(t) + " " + path + " an eye sees " + listed(truth) + ", but by events " +
+                             listed(by_events));
+  }
+  // 2. The way back.
+  const Visible_along back = visible_along(occluders, to, from, options);
+  bool same = back.events.size() == found.events.size() && back.visible == found.visible;
+  for (std::size_t k = 0; k < found.events.size() && same; ++k) {
+    const Along_event &one = found.events[k], &other = back.events[found.events.size() - 1 - k];
+    same = one.changes.size() == other.changes.size();
+    for (std::size_t i = 0; i < one.changes.size() && same; ++i) {
+      const auto &a = one.changes[i], &b = other.changes[i];
+      same = a.face == b.face && a.before == b.after && a.at == b.at && a.after == b.before;
+    }
+  }
+  if (!same) return Outcome::failed(path + " other events are met than on the way back");
+  return {};
+}
+
+}  // namespace moving_eye
+
+Check moving_eye_check() {
+  return {"moving", "the same faces from points of a path as along it, and on the way back", moving_eye::moved};
+}
+
+}  // namespace sightline::harness
