@@ -10,8 +10,10 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace sightline::harness {

@@ -38,7 +38,7 @@ struct Visible_along {
   struct Face {
     Face_id face;
     std::vector<Parameter_range> seen;  ///< open, in order, disjoint
-    std::vector<Rational> moments;      ///< at which it is seen and on no side of them in these ranges, or at an end
+    std::vector<Rational> moments;      ///< at which it is seen, within none of these ranges: contacts and ends
   };
   std::vector<Face> faces;                         ///< kept ones, by id
   std::vector<Along_event> events;                 ///< in order
@@ -50,7 +50,7 @@ struct Visible_along {
 /// (`see`), at every moment t: the eye is at from + t (to - from). Degenerate: where the path is in a face's plane, the
 /// face is edge-on; where it touches faces or passes through them, these do not hide what the eye at that moment sees;
 /// all of it may be events at once, or none. Errors: std::invalid_argument where the path has no length. Cost: follows
-/// what is in front of each face and how often that changes. Parallel. Exact: yes. Ref: Plantinga 1993. Proof: P-87
+/// what is in front of each face and how often that changes. Parallel. Exact: yes. Ref: Plantinga. Proof: P-87
 Visible_along visible_along(const Occluders& occluders, const Exact_point& from, const Exact_point& to,
                             const Along_options& options = {});
 

@@ -27,7 +27,7 @@ std::optional<std::array<Rational, 2>> where_not_negative(const Quadratic& f, st
   return range[0] > range[1] ? std::nullopt : std::optional(range);
 }
 
-double size_of(std::span<const Near_point> corners) {
+double squared_size(std::span<const Near_point> corners) {
   Triple sum{};
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     const Triple part = cross(minus(corners[i].near, corners[0].near), minus(corners[i + 1].near, corners[0].near));
@@ -38,15 +38,15 @@ double size_of(std::span<const Near_point> corners) {
 
 Near<3> normal_of(const Near<4>& plane) { return {{plane.at[0], plane.at[1], plane.at[2]}, plane.size, plane.error}; }
 
-Near<3> cross(const Near<3>& a, const Near<3>& b) {
-  return homogeneous_detail::bounded(sightline::cross(a.at, b.at), homogeneous_detail::error_of_products(2, a, b));
+Near<3> near_cross(const Near<3>& a, const Near<3>& b) {
+  return homogeneous_detail::bounded(cross(a.at, b.at), homogeneous_detail::error_of_products(2, a, b));
 }
 
 /// a . b, with its error.
 struct Near_number {
   double value, error;
 };
-Near_number dot(const Near<3>& a, const Near<3>& b) {
+Near_number near_dot(const Near<3>& a, const Near<3>& b) {
   return {a.at[0] * b.at[0] + a.at[1] * b.at[1] + a.at[2] * b.at[2], homogeneous_detail::error_of_products(3, a, b)};
 }
 int certain_sum(std::initializer_list<Near_number> numbers) {
@@ -60,11 +60,11 @@ int certain_sum(std::initializer_list<Near_number> numbers) {
 }
 
 Triple unit(const Triple& a) {
-  const double length = std::sqrt(sightline::dot(a, a));
+  const double length = std::sqrt(dot(a, a));
   return length > 0 ? Triple{a[0] / length, a[1] / length, a[2] / length} : a;
 }
 
-constexpr double little = 1e-11;  // of doubles that propose
+constexpr double proposed_zero = 1e-11;  // of doubles that only propose
 
 /// What ranges leave of a range, all open, but for single moments between them.
 std::vector<Parameter_range> rest_of(const Parameter_range& range, std::vector<Parameter_range> taken) {
@@ -92,7 +92,7 @@ Along_scene::Along_scene(const Occluders& occluders, const Exact_point& from, co
     polygon.eye_side = eye_.side(occluders.plane(piece).exact);
     if (polygon.eye_side.is_zero()) continue;
     polygon.corners = occluders.polygon(piece);
-    polygon.size = size_of(polygon.corners);
+    polygon.size = squared_size(polygon.corners);
     for (std::uint32_t i = 0; i < polygon.corners.size(); ++i) {
       Exact_pluecker line = join(polygon.corners[i].exact, polygon.corners[(i + 1) % polygon.corners.size()].exact);
       const int sense = make_canonical(line);
@@ -165,7 +165,7 @@ void Piece_along::add_blocker(std::uint32_t piece) {
     const int sense = make_canonical(line);
     part.edges.push_back({number_of(line), sense});
   }
-  part.size = size_of(part.corners);
+  part.size = squared_size(part.corners);
   blockers_.push_back(&parts_.emplace_back(std::move(part)));
 }
 
@@ -294,7 +294,6 @@ Piece_along::Answer Piece_along::run(const Quadratic_root& t, const Parameter_ra
   ++counters_.runs;
   ++run_;
   now_ = &t;
-  range_ = &range;
   at_once_ = range.low == range.high;
   unlucky_ = false;
   low_ = scene_->eye().near(range.low);
@@ -355,13 +354,13 @@ int Piece_along::note(const Quadratic& f, const std::array<std::uint32_t, 3>& li
 
 int Piece_along::certain(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
   const Seen_line &a = seen(i), &b = seen(j), &c = seen(k);
-  const Near<3> low = cross(a.low, b.low);
-  const int first = certain_sum({dot(low, c.low)});
+  const Near<3> low = near_cross(a.low, b.low);
+  const int first = certain_sum({near_dot(low, c.low)});
   if (first == 0 || at_once_) return first;
-  const Near<3> high = cross(a.high, b.high), mixed = cross(a.low, b.high), other = cross(a.high, b.low);
-  if (certain_sum({dot(high, c.high)}) != first) return 0;
-  if (certain_sum({dot(low, c.high), dot(mixed, c.low), dot(other, c.low)}) != first) return 0;
-  return certain_sum({dot(high, c.low), dot(mixed, c.high), dot(other, c.high)}) == first ? first : 0;
+  const Near<3> high = near_cross(a.high, b.high), mixed = near_cross(a.low, b.high), other = near_cross(a.high, b.low);
+  if (certain_sum({near_dot(high, c.high)}) != first) return 0;
+  if (certain_sum({near_dot(low, c.high), near_dot(mixed, c.low), near_dot(other, c.low)}) != first) return 0;
+  return certain_sum({near_dot(high, c.low), near_dot(mixed, c.high), near_dot(other, c.high)}) == first ? first : 0;
 }
 
 int Piece_along::sign(std::uint32_t i, std::uint32_t j, std::uint32_t k) {
@@ -445,7 +444,7 @@ std::vector<Triple> Piece_along::rays(const Cone& cone) {
   std::vector<Triple> rays;
   for (std::size_t i = 0; i < cone.size(); ++i) {
     const Line_side &a = cone[i], &b = cone[(i + 1) % cone.size()];
-    Triple ray = unit(sightline::cross(seen(a.line).now, seen(b.line).now));
+    Triple ray = unit(cross(seen(a.line).now, seen(b.line).now));
     for (double& x : ray) x *= a.sign * b.sign;
     rays.push_back(ray);
   }
@@ -461,12 +460,12 @@ Piece_along::Guess Piece_along::guess(std::uint32_t blocker, const Cone& cone, c
     const Triple& normal = seen(side.line).now;
     double least = 2, most = -2;
     for (const Triple& ray : rays) {
-      const double value = side.sign * sightline::dot(normal, ray);
+      const double value = side.sign * dot(normal, ray);
       least = std::min(least, value);
       most = std::max(most, value);
     }
-    if (most <= little) return {Guess::beside, edge};
-    if (least < -little) covers = false;
+    if (most <= proposed_zero) return {Guess::beside, edge};
+    if (least < -proposed_zero) covers = false;
     if (const double depth = std::min(most, -least); depth > deepest) {
       deepest = depth;
       best = edge;
@@ -478,7 +477,7 @@ Piece_along::Guess Piece_along::guess(std::uint32_t blocker, const Cone& cone, c
     const auto is_inside = [&](const Near_point& corner) {
       Triple to;
       for (std::size_t x = 0; x < 3; ++x) to[x] = corner.near[x] - middle_.at[x];
-      return cone[k].sign * sightline::dot(normal, unit(to)) > little;
+      return cone[k].sign * dot(normal, unit(to)) > proposed_zero;
     };
     const auto& corners = blockers_[blocker]->corners;
     if (std::none_of(corners.begin(), corners.end(), is_inside)) return {Guess::beside_side, k};

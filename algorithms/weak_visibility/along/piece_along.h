@@ -129,6 +129,7 @@ class Piece_along {
   const Eye_line& line(std::uint32_t number) const;
   std::uint32_t number_of(const Exact_pluecker& line);
   void add_blocker(std::uint32_t piece);
+  /// Those that are not certainly out of the way throughout a range.
   Blockers left_in(const Parameter_range& range, const Blockers& all);
   bool is_out_of_the_way(const Eye_polygon& polygon, const Parameter_range& range);
 
@@ -138,11 +139,15 @@ class Piece_along {
     Parameter_range range;
     Cone part;
   };
+  /// At t, true in the answer's range; not sure where a sign that it needs is zero at t alone.
   Answer run(const Quadratic_root& t, const Parameter_range& range, const Blockers& all);
+  /// Whether some part of a cone is beside all blockers; `left` are those that may be in front of it.
   bool find(const Cone& cone, const Blockers& left, Cone& found);
   const Seen_line& seen(std::uint32_t line);
   int sign(std::uint32_t i, std::uint32_t j, std::uint32_t k);
+  /// The sign that three lines' determinant has throughout the range; 0 where doubles do not tell.
   int certain(std::uint32_t i, std::uint32_t j, std::uint32_t k);
+  /// The sign of f at the moment of the run: a fact that the answer rests on.
   int note(const Quadratic& f, const std::array<std::uint32_t, 3>& lines);
   /// Of each ray of a cone, to a line.
   std::vector<int> signs(const Cone& cone, const Line_side& side);
@@ -150,6 +155,7 @@ class Piece_along {
   bool is_beside(std::uint32_t blocker, const Cone& cone);
   bool is_outside(std::uint32_t blocker, std::size_t edge, const Cone& cone);
   bool is_beyond_side(std::uint32_t blocker, const Line_side& side);
+  /// In doubles: what to try. Exact: no
   Guess guess(std::uint32_t blocker, const Cone& cone, const std::vector<Triple>& rays);
   std::vector<Triple> rays(const Cone& cone);
   Line_side inside(std::uint32_t blocker, std::size_t edge) const;
@@ -174,7 +180,6 @@ class Piece_along {
   // The run at hand.
   unsigned run_ = 0;
   const Quadratic_root* now_ = nullptr;
-  const Parameter_range* range_ = nullptr;
   Near<4> low_, high_, middle_;
   bool at_once_ = false, unlucky_ = false;
   Blockers all_;
