@@ -54,12 +54,12 @@ std::vector<Cell> cells_of_proof(const Occluders& occluders, const Weak_source& 
   return found;
 }
 
-/// A search for proofs of the faces that are hidden and unproved: one cell that stays open is one too many.
-void prove_hidden(const Occluders& occluders, const std::vector<Weak_source>& sources, const Events_options& events,
-                  Weakly_visible& found) {
+/// A search for proofs of faces that are hidden and unproved: one cell that stays open is one too many.
+void prove_hidden(const Occluders& occluders, const std::vector<Weak_source>& sources, std::vector<Face_id> faces,
+                  const Events_options& events, Weakly_visible& found) {
+  if (faces.empty()) return;
   Weak_options options;
-  std::set_intersection(found.hidden.begin(), found.hidden.end(), found.unproved.begin(), found.unproved.end(),
-                        std::back_inserter(options.faces));
+  options.faces = std::move(faces);
   options.threads = events.threads;
   options.search.two_sided = events.two_sided;
   options.search.hidden = true;
@@ -230,7 +230,10 @@ Event_counters settle_by_events(const Occluders& occluders, const std::vector<We
     std::sort(list->begin(), list->end());
 
   // 4. Proofs of what is hidden.
-  if (!found.unproved.empty()) prove_hidden(occluders, sources, options, found);
+  std::vector<Face_id> hidden;
+  for (const Settled& face : faces)
+    if (face.status == Weak_status::hidden) hidden.push_back(face.face);
+  prove_hidden(occluders, sources, std::move(hidden), options, found);
   std::stable_sort(found.pairs.begin(), found.pairs.end(),
                    [](const auto& a, const auto& b) { return a.piece < b.piece; });
   return counters;

@@ -266,11 +266,11 @@ TEST_F(Weak, hands_what_lines_leave_open_to_events_and_says_what_else_is_open) {
   EXPECT_EQ(both["open"].size(), 0u);
   EXPECT_EQ(both["by_events"], Json({0}));
   EXPECT_EQ(both["hidden"], weak({scene, "--from", words[2], "--method", "events"})["result"]["hidden"]);
-  EXPECT_EQ(both["unproved"], Json({0}));
+  EXPECT_EQ(both["unproved"].size(), 0u);  // a proof was found once the answer was known
   const Outcome checked = run({"verify", scene, to, "--json", "-"});
   EXPECT_EQ(checked.code, done) << checked;
-  EXPECT_NE(checked.json()["result"]["why"].get<std::string>().find("1 undecided"), std::string::npos) << checked;
-  EXPECT_NE(run({"weak", scene, "--from", words[2], "--cells", "300"}).out.find("unproved"), std::string::npos);
+  EXPECT_NE(checked.json()["result"]["why"].get<std::string>().find(" 0 undecided"), std::string::npos) << checked;
+  EXPECT_EQ(run({"weak", scene, "--from", words[2], "--cells", "300"}).out.find("unproved"), std::string::npos);
 }
 
 TEST_F(Weak, writes_the_surfaces_of_events_exactly_or_as_strips) {

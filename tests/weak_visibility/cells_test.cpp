@@ -177,6 +177,7 @@ class Tangent_plates {
 
 TEST(Touching_lines, are_where_a_four_edge_determinant_has_a_double_root) {
   Tangent_plates plates;
+  std::size_t strict = 0;
   // Whatever the signs, it is in the cell's closure; and no sector plane leaves it out.
   for (unsigned signs = 0; signs < 16; ++signs) {
     for (std::size_t k = 0; k < 4; ++k) plates.cell.rows[k].literal.sign = (signs >> k & 1u) != 0 ? 1 : -1;
@@ -191,10 +192,14 @@ TEST(Touching_lines, are_where_a_four_edge_determinant_has_a_double_root) {
       const Exact_pluecker pair = pluecker_of_pair(line.from, line.to);
       EXPECT_GE(line.met.size(), 4u);
       for (const Exact_pluecker& met : line.met) EXPECT_EQ(dot(pair, met), 0);
-      for (const Line_cell::Row& row : plates.cell.rows)
-        EXPECT_GE(row.literal.sign * sgn(dot(pair, (*plates.cell.lines)[row.literal.line].exact)), 0);
+      for (const Line_cell::Row& row : plates.cell.rows) {
+        const int side = row.literal.sign * sgn(dot(pair, (*plates.cell.lines)[row.literal.line].exact));
+        EXPECT_GE(side, 0);
+        strict += side > 0;
+      }
     }
   }
+  EXPECT_GT(strict, 0u);
 }
 
 TEST(Sector_planes, hold_a_touching_line_and_cut_a_polygon) {

@@ -71,7 +71,7 @@ TEST_P(Families, have_the_answers_they_were_built_for_and_certificates) {
   }
   EXPECT_GT(decided, 0u);
   // Three occluders that touch one line from three sides leave a double root, which multipliers of low degree do not
-  // exclude: a known limit, on the page. Of 150 seeds 15 of `shared_edges` are left open, of others fewer than one in
+  // exclude: they are left to events. Of 150 seeds 15 of `shared_edges` are left open, of others fewer than one in
   // twenty; none of the first six, but of two more families one among the first eighteen.
   const bool leaves_some =
       weak_scenes::seeds(test_scenes::is_sanitized() ? 2 : 6) > 6 &&

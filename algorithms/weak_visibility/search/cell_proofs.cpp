@@ -132,14 +132,18 @@ bool Cell_proofs::by_forms(const Line_cell& cell, bool source, bool thoroughly, 
     for (std::size_t k = 0; k < wide_.rows(); ++k)
       if (wide_.row_weights()[k] > 1e-10)
         weights.push_back({k, exact(wide_.row_weights()[k]) / edges.most[k / cell.rows.size()]});
-  } else if (thoroughly) {
-    if (wide_.rows() * columns > 1000 || ++exact_games_ > most_exact_games) return false;
+  } else if (thoroughly && wide_.rows() * columns <= 1000 && exact_games_ < most_exact_games) {
+    ++exact_games_;
+    std::size_t bits = 0;
     exact_game_.restart(columns);
     for (std::size_t row = 0; row < wide_.rows(); ++row) {
       const std::span<Rational> values = exact_game_.add_row();
-      for (std::size_t c = 0; c < columns; ++c) values[c] = coefficient(row, c) / edges.most[row / cell.rows.size()];
+      for (std::size_t c = 0; c < columns; ++c) {
+        values[c] = coefficient(row, c) / edges.most[row / cell.rows.size()];
+        bits += bit_length(values[c].get_num()) + bit_length(values[c].get_den());
+      }
     }
-    if (sgn(exact_game_.solve()) > 0) return false;
+    if (bits > most_bits || sgn(exact_game_.solve()) > 0) return false;
     for (std::size_t k = 0; k < wide_.rows(); ++k)
       if (sgn(exact_game_.row_weights()[k]) > 0)
         weights.push_back({k, exact_game_.row_weights()[k] / edges.most[k / cell.rows.size()]});

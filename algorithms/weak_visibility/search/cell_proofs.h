@@ -60,7 +60,9 @@ class Cell_proofs {
                 Weak_counters& counters);
 
  private:
-  static constexpr std::size_t most_exact_games = 8;  // some take half a second
+  // Of programs of forms that are solved in rationals: how many, and how long their entries are; each takes a tenth of
+  // a second at most.
+  static constexpr std::size_t most_exact_games = 16, most_bits = 250000;
 
   struct Weighted {
     std::size_t row;

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/search/cell_cuts.h>
 #include <sightline/algorithms/weak_visibility/search/line_cell.h>
+#include <sightline/kernel/number.h>
 
 #include <array>
 #include <cstddef>
