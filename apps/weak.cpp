@@ -462,11 +462,12 @@ void add_weak(Command program) {
   auto a = std::make_shared<Weak_arguments>();
   a->common.add_to(command);
   a->sources.add_to(command);
-  command
-      .add_option("--along", a->along,
-                  "instead of polygons an eye that moves straight from X,Y,Z to X,Y,Z: the exact moments at which "
-                  "faces appear and disappear; --svg draws when each is visible")
-      .check(not_empty());
+  const Option along =
+      command
+          .add_option("--along", a->along,
+                      "instead of polygons an eye that moves straight from X,Y,Z to X,Y,Z: the exact moments at which "
+                      "faces appear and disappear; --svg draws when each is visible")
+          .check(not_empty());
   const Option method =
       command
           .add_option(
@@ -474,27 +475,34 @@ void add_weak(Command program) {
               "lines: exact, with certificates; events: exact, by Plantinga's events, slow where many edges are near; "
               "doubles: a search without proofs; sample: random rays, as others do")
           .check(one_of({"lines", "events", "doubles", "sample"}))
-          .show_default();
+          .show_default()
+          .excludes(along);
   command
       .add_flag("--conservative{conservative}", a->method,
                 "instead of a method: quick, visible is all that no single piece hides, so some faces too many; "
                 "`sightline compare SCENE weak` says how many")
       .disable_flag_override()
-      .excludes(method);
-  command.add_option("--rays", a->task.rays, "sample: from each source").check(whole_number()).show_default();
+      .excludes(method)
+      .excludes(along);
+  command.add_option("--rays", a->task.rays, "sample: from each source")
+      .check(whole_number())
+      .show_default()
+      .excludes(along);
   command
       .add_option("--cells", a->task.cells,
                   "lines: how many cells a search may take before its face is undecided; 0: as many as it takes, "
                   "unless --event-edges says where to end")
       .check(whole_number())
-      .show_default();
+      .show_default()
+      .excludes(along);
   command
       .add_option(
           "--event-edges", a->task.event_edges,
           "lines: faces that stay undecided go to events where so many edges are near at most; 0: none does. More, "
           "and more cells, where neither this nor --cells is given")
       .check(whole_number())
-      .show_default();
+      .show_default()
+      .excludes(along);
   command
       .add_option("--certificate", a->certificate,
                   "write what `sightline verify` reads: of lines all answers, of events what is visible, with "
