@@ -2,6 +2,7 @@
 
 #include "methods/methods.h"
 #include "methods/weak.h"
+#include "weak_partition.h"
 
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -17,6 +18,7 @@ struct Weak_arguments {
   Source_arguments sources;
   std::string method = "lines", certificate, svg, obj, eye, surfaces;
   Weak_task task;
+  Partition_arguments partition;
 };
 
 // ---- Pictures
@@ -341,6 +343,8 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
 
 Exit run_weak(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
+  if (arguments.partition.asked_for())
+    return run_partition(arguments.partition, common, arguments.sources, arguments.svg);
   const std::string& method = arguments.method;
   if ((method == "sample" || method == "doubles") && !arguments.certificate.empty())
     throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
@@ -505,6 +509,7 @@ void add_weak(Command program) {
           "is cut away, or else outside the scene")
       .check(not_empty());
   a->view.add_to(command);
+  a->partition.add_to(command);
   command.footer(
       "Example: sightline weak room.off --from \"0,0,1 1,0,1 1,0,2 0,0,2\" --svg room.svg --certificate room.json\n"
       "Exit code 4: some faces are undecided.");
