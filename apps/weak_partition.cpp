@@ -277,8 +277,10 @@ Exit run_partition(const Partition_arguments& arguments, const Common& common, c
     for (const Light_partition& partition : own.pieces) {
       cells += partition.cells.size();
       for (const Light_partition::Border& border : partition.borders)
-        ++(partition.curves[border.curve].is_line() ? lines : conics);
-      lines += partition.uprights.size();
+        if (border.below != Light_partition::none && border.above != Light_partition::none)
+          ++(partition.curves[border.curve].is_line() ? lines : conics);
+      for (const Light_partition::Upright& border : partition.uprights)
+        lines += border.left != Light_partition::none && border.right != Light_partition::none;
     }
     const auto percent = [&](Light light) {
       const Bounded share = share_of(own, light);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 namespace sightline {
@@ -155,25 +156,12 @@ Curve_arrangement::Curve_arrangement(std::span<const Plane_curve> curves, const 
   for (std::size_t k = 0; k + 1 < roots.size(); ++k) {
     Slab& slab = slabs_.emplace_back();
     slab.x = between(roots[k], roots[k + 1]);
-    const Integer &n = slab.x.get_num(), &d = slab.x.get_den();
     std::vector<std::pair<Quadratic_root, Arc>> crossings;
-    for (std::uint32_t i = 0; i < curves.size(); ++i) {
-      const Plane_curve& f = curves[i];
-      const int degree = degree_in_y(f);
-      if (degree == 0) continue;
-      const Integer b = (f.c[2] * d + f.c[4] * n) * d, c = (f.c[0] * d + f.c[1] * n) * d + f.c[3] * n * n;
-      const auto add = [&](Quadratic_root root, bool upper) {
-        if (bottom < root && root < top) crossings.emplace_back(std::move(root), Arc{i, upper});
-      };
-      if (degree == 1) {
-        add(Quadratic_root(Integer(-c), 0, Integer(0), b), false);
-        continue;
+    for (std::uint32_t i = 0; i < curves.size(); ++i)
+      for (const bool upper : {false, true}) {
+        std::optional<Quadratic_root> y = curves[i].height(slab.x, upper);
+        if (y && bottom < *y && *y < top) crossings.emplace_back(std::move(*y), Arc{i, upper});
       }
-      const Integer a = f.c[5] * d * d, square = b * b - 4 * a * c;
-      if (sgn(square) < 0) continue;
-      add(Quadratic_root(Integer(-b), -1, square, Integer(2 * a)), false);
-      add(Quadratic_root(Integer(-b), 1, square, Integer(2 * a)), true);
-    }
     std::sort(crossings.begin(), crossings.end(), [](const auto& p, const auto& q) { return p.first < q.first; });
     const Quadratic_root* below = &bottom;
     for (const auto& [y, arc] : crossings) {

@@ -237,6 +237,7 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
     if (!in) return leave();
     if (out) rim.push_back(number);
   }
+  std::sort(rim.begin(), rim.end());
   if (options_->out_of_time && options_->out_of_time()) {
     arrange(box, rim, given, Light::undecided);
     return leave();
@@ -271,8 +272,20 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
   }
   if (curves.size() > few && depth < deepest) {
     Chart_box first = box, second = box;
-    if (box.x1 - box.x0 >= box.y1 - box.y0) first.x1 = second.x0 = (box.x0 + box.x1) / 2;
-    else first.y1 = second.y0 = (box.y0 + box.y1) / 2;
+    const bool upright = box.x1 - box.x0 >= box.y1 - box.y0;
+    const double low = upright ? box.x0 : box.y0, high = upright ? box.x1 : box.y1;
+    // No curve runs along where it is cut.
+    double at_cut = low + (high - low) / 2;
+    const auto runs_along = [&](std::size_t k) {
+      const std::array<Integer, 6>& c = curves_[k].curve.c;
+      const Integer &slope = c[upright ? 1 : 2], &other = c[upright ? 2 : 1];
+      return curves_[k].curve.is_line() && sgn(other) == 0 && slope * exact(at_cut) + c[0] == 0;
+    };
+    while (std::any_of(given_curves.begin(), given_curves.end(), runs_along) ||
+           std::any_of(rim.begin(), rim.end(), runs_along))
+      at_cut = low + (at_cut - low) * 0.75;
+    (upright ? first.x1 : first.y1) = at_cut;
+    (upright ? second.x0 : second.y0) = at_cut;
     divide(first, blockers, curves, depth + 1);
     divide(second, blockers, curves, depth + 1);
     return;
@@ -661,6 +674,36 @@ std::array<Bounded, lights> Light_partition::shares() const {
   std::array<Bounded, lights> found;
   for (std::size_t k = 0; k < lights; ++k) found[k] = {std::max(sums[k].inf(), 0.0), std::min(sums[k].sup(), 1.0)};
   return found;
+}
+
+std::size_t Light_partition::cell_at(const Rational& x, const Rational& y) const {
+  if (x <= 0 || x >= 1 || y <= 0 || y >= 1) return none;
+  // The nearest borders below and above.
+  const Quadratic_root here(y.get_num(), 0, Integer(0), y.get_den());
+  std::optional<Quadratic_root> low, high;
+  std::size_t under = none, over = none;
+  for (const Border& border : borders) {
+    const Bounded &from = border.x[0], &to = border.x[1];
+    if (x < exact(from.low) || x > exact(to.high)) continue;
+    if (x <= exact(from.high) || x >= exact(to.low)) return none;
+    const std::optional<Quadratic_root> at = curves[border.curve].height(x, border.upper);
+    const int order = at ? compare(*at, here) : 0;
+    if (order == 0) return none;
+    if (order < 0 && (!low || *low < *at)) {
+      low = at;
+      under = border.above;
+    }
+    if (order > 0 && (!high || *at < *high)) {
+      high = at;
+      over = border.below;
+    }
+  }
+  if (low) return under;
+  if (high) return over;
+  // One cell from the lower to the upper side.
+  for (const Strip& strip : strips)
+    if (exact(strip.lower.front()[0]) < x && x < exact(strip.lower.back()[0])) return strip.cell;
+  return none;
 }
 
 Light_partition Light_partitioner::partition(std::uint32_t piece, const std::vector<std::vector<Exact_point>>& sources,

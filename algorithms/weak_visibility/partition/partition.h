@@ -90,6 +90,9 @@ struct Light_partition {
   std::vector<std::vector<std::array<double, 2>>> border_lines;
 
   std::array<Bounded, lights> shares() const;  ///< of the piece
+  /// The cell that a point is in. `none`: outside of the piece, on a border, or straight above or below an end of one
+  /// as far as doubles tell. Cost: all borders. Exact: yes
+  std::size_t cell_at(const Rational& x, const Rational& y) const;
 };
 
 /// The partition of the front of a piece by what it sees of sources. Cells of one light that have a border of positive

@@ -46,6 +46,18 @@ Polynomial Plane_curve::coefficient(int power) const {
   return power == 0 ? Polynomial{c[0], c[1], c[3]} : power == 1 ? Polynomial{c[2], c[4]} : Polynomial{c[5]};
 }
 
+std::optional<Quadratic_root> Plane_curve::height(const Rational& x, bool upper) const {
+  const Integer &n = x.get_num(), &d = x.get_den();
+  const Integer a = c[5] * d * d, b = (c[2] * d + c[4] * n) * d, e = (c[0] * d + c[1] * n) * d + c[3] * n * n;
+  if (sgn(a) == 0) {
+    if (sgn(b) == 0 || upper) return std::nullopt;
+    return Quadratic_root(Integer(-e), 0, Integer(0), b);
+  }
+  const Integer square = b * b - 4 * a * e;
+  if (sgn(square) < 0) return std::nullopt;
+  return Quadratic_root(Integer(-b), upper ? 1 : -1, square, Integer(2 * a));  // a > 0
+}
+
 std::vector<Plane_curve> components(const Plane_curve& given) {
   Plane_curve curve = given;
   if (all_zero(curve.c)) return {};

@@ -2,12 +2,14 @@
 // Coordinates in the plane of a polygon, and curves of degree two in them.
 
 #include <sightline/algorithms/weak_visibility/events/homogeneous.h>
+#include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/partition/real_root.h>
 #include <sightline/kernel/number.h>
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace sightline {
@@ -21,6 +23,9 @@ struct Plane_curve {
   int sign(const Rational& x, const Rational& y) const;
   /// As a polynomial in y: the coefficient of y^power, in x.
   Polynomial coefficient(int power) const;
+  /// The only value of y for a value of x, or the lower or the upper one of two; nothing where there is none. Exact:
+  /// yes
+  std::optional<Quadratic_root> height(const Rational& x, bool upper) const;
   friend bool operator==(const Plane_curve& a, const Plane_curve& b) { return a.c == b.c; }
 };
 
