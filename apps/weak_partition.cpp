@@ -158,12 +158,19 @@ std::string picture_of(const Scene& scene, const Divided_face& divided) {
     return Flat_point{margin + scale * (p[0] - box[0][0]), legend + scale * (p[1] - box[0][1])};
   };
 
+  const auto scale_of = [&](const Light_partition& partition) {
+    const std::array<double, 3> u = rounded_vector(partition.chart[1]);
+    return scale * std::sqrt(dot(u, u));
+  };
+
   // 2. Cells, then borders.
   for (const Light_partition& partition : divided.pieces)
     for (const Light_partition::Strip& strip : partition.strips) {
       const char* fill = fill_of(partition.cells[strip.cell].light);
       // Between neighbouring points it is nearly a trapezoid; its own outline closes what pixels would leave open.
-      const std::size_t steps = std::max(strip.lower.size(), strip.upper.size()) - 1;
+      const double pixels = scale_of(partition) * (strip.lower.back()[0] - strip.lower.front()[0]);
+      if (pixels < 0.04) continue;
+      const std::size_t steps = pixels < 4 ? 1 : std::max(strip.lower.size(), strip.upper.size()) - 1;
       for (std::size_t n = 0; n < steps; ++n) {
         std::vector<Flat_point> points;
         const auto add = [&](const std::vector<std::array<double, 2>>& side, std::size_t at) {

@@ -1,6 +1,7 @@
 #include <sightline/algorithms/weak_visibility/partition/border_curves.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 namespace sightline {
@@ -57,6 +58,7 @@ Border_search::Border_search(const Occluders& occluders, const Event_lines& line
 std::vector<Border_curve> Border_search::run() {
   counters_->lines += lines().size();
   edges_in_the_plane();
+  lines_between_points_in_the_plane();
   planes();
   reguli();
   std::vector<Border_curve> curves;
@@ -84,6 +86,26 @@ void Border_search::edges_in_the_plane() {
                                     std::min(y[0], y[1]) - slack, std::max(y[0], y[1]) + slack};
     add(chart_->line(line.hull[0].exact, line.hull[1].exact), true, {where});
   }
+}
+
+void Border_search::lines_between_points_in_the_plane() {
+  // Lines that lie in the plane themselves reach the source only if that has a point in it.
+  const auto in_plane = [&](const Filtered& p) { return sign_of_dot(lines_->source_plane(), p) == 0; };
+  if (std::none_of(lines_->target().begin(), lines_->target().end(), in_plane)) return;
+  Points points;
+  for (const Event_line& line : lines()) {
+    if (!line.real) continue;
+    if (line.in_source) {
+      for (const Filtered& end : line.hull) points.insert(end.exact);
+      continue;
+    }
+    Homogeneous at = meet(lines_->source_plane().exact, line.pluecker);
+    if (all_zero(at) || !Event_lines::in_hull(line, at)) continue;
+    make_canonical(at);
+    points.insert(std::move(at));
+  }
+  for (auto p = points.begin(); p != points.end(); ++p)
+    for (auto q = std::next(p); q != points.end(); ++q) add(chart_->line(*p, *q), true, {{-1, 2, -1, 2}});
 }
 
 // ---- Lines: planes with edges and vertices

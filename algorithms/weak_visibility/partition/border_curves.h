@@ -67,6 +67,8 @@ class Border_search {
   void add(const Plane_curve& curve, bool may_end_light, const std::vector<Plane_chart::Bounds>& where);
 
   void edges_in_the_plane();
+  /// Where a source has a point in the receiver's plane: what is seen of it may vanish there.
+  void lines_between_points_in_the_plane();
   /// Planes of two edges, with the points in which others meet them; and of a vertex and an edge, with the vertex.
   void planes();
   void pencils(const Homogeneous& plane, const Points& vertices);
