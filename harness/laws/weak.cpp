@@ -16,6 +16,7 @@
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/weak_answers.h>
+#include <sightline/harness/laws/weak_partition.h>
 #include <sightline/harness/laws/weak_volume.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
@@ -138,7 +139,7 @@ Subject weak() {
       front_door_check(weakly_seen_by_front_door)};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "cut", "bystander"});
   subject.checks.push_back(weak_budget_check());  // behind the others, which keep their random choices; so are these
-  for (Check check : {conservative_check(), settle_check(), along_check(), volume_check()})
+  for (Check check : {conservative_check(), settle_check(), along_check(), volume_check(), partition_check()})
     subject.checks.push_back(std::move(check));
   return subject;
 }

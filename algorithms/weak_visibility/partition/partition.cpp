@@ -612,6 +612,7 @@ void Partition_builder::collect_borders(Light_partition& result) {
   std::vector<Light_partition::Border> joined;
   for (const Light_partition::Border& border : result.borders) {
     if (!joined.empty() && key(joined.back()) == key(border) && joined.back().x[1].high >= border.x[0].low) {
+      if (joined.back().x[1].high >= border.x[1].high) continue;  // narrower than doubles tell
       joined.back().x[1] = border.x[1];
       joined.back().y[1] = border.y[1];
     } else joined.push_back(border);

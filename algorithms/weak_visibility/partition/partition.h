@@ -95,8 +95,9 @@ struct Light_partition {
   std::size_t cell_at(const Rational& x, const Rational& y) const;
 };
 
-/// The partition of the front of a piece by what it sees of sources. Cells of one light that have a border of positive
-/// length in common are one. Degenerate: what is behind a source's plane, or in it, sees nothing of it; a source that
+/// The partition of the front of a piece by what it sees of sources. Cells of one light are
+/// one where doubles tell that a stretch of their border is open; so a region may come as several cells where it is as
+/// narrow as doubles are. Degenerate: what is behind a source's plane, or in it, sees nothing of it; a source that
 /// is partly behind the piece's plane is never seen whole. Cost: candidates for borders as events; an arrangement of
 /// those in each rectangle of a grid that is as fine as they are dense. Exact: yes; `undecided` where time ran out.
 /// Ref: Plantinga; Demouth, Devillers, Everett, Glisse, Lazard, Seidel. Proof: P-86
