@@ -85,6 +85,10 @@ class Partition_builder {
              bool& some_hidden) const;
   void arrange(const Chart_box& box, const std::vector<std::size_t>& curves, const Blockers& blockers,
                std::optional<Light> known);
+  bool is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const;
+  /// A point in the plane of a piece does not see it: another one of the same sector, that is in none.
+  void leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
+                    const Blockers& blockers) const;
   void classify(Sector& sector, const Blockers& blockers);
   bool is_inside(const Rational& x, const Rational& y) const;
 
@@ -403,7 +407,10 @@ void Partition_builder::arrange(const Chart_box& box, const std::vector<std::siz
       Sector sector{true, Light::undecided, 0, slab.x, y, 0};
       sector.inside = is_whole || is_inside(sector.x, sector.y);
       if (sector.inside && known && (!options_->all_borders || *known == Light::undecided)) sector.light = *known;
-      else if (sector.inside) classify(sector, blockers);
+      else if (sector.inside) {
+        leave_planes(sector, own, box, blockers);
+        classify(sector, blockers);
+      }
       sectors_.push_back(std::move(sector));
     }
   }
@@ -411,6 +418,35 @@ void Partition_builder::arrange(const Chart_box& box, const std::vector<std::siz
 
 bool Partition_builder::is_inside(const Rational& x, const Rational& y) const {
   return std::all_of(rim_.begin(), rim_.end(), [&](const auto& edge) { return edge.first.sign(x, y) > 0; });
+}
+
+bool Partition_builder::is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const {
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+    for (const std::uint32_t b : blockers[s])
+      if (sgn(dot(occluders_->plane(sources_[s].lines.blockers()[b].piece).exact, point)) == 0) return true;
+  return false;
+}
+
+void Partition_builder::leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
+                                     const Blockers& blockers) const {
+  if (!is_in_a_plane(chart_.point(sector.x, sector.y), blockers)) return;
+  const auto value = [](const Plane_curve& f, const Rational& x, const Rational& y) {
+    return Rational(f.c[0] + f.c[1] * x + f.c[2] * y + f.c[3] * x * x + f.c[4] * x * y + f.c[5] * y * y);
+  };
+  for (unsigned long n = 1;; ++n) {
+    // Ever nearer, in ever other directions, until the way there meets no curve.
+    const Rational step(Integer(1), Integer(1) << (10 + n)),
+        x = sector.x + step, y = sector.y + step * Rational(static_cast<long>(n % 7), 3);
+    const bool is_near = std::all_of(curves.begin(), curves.end(), [&](const Plane_curve& f) {
+      const Rational from = value(f, sector.x, sector.y), to = value(f, x, y),
+                     middle = 2 * value(f, (sector.x + x) / 2, (sector.y + y) / 2) - (from + to) / 2;
+      return sgn(from) == sgn(to) && sgn(from) == sgn(middle);
+    });
+    if (!is_near || x >= exact(box.x1) || y >= exact(box.y1) || is_in_a_plane(chart_.point(x, y), blockers)) continue;
+    sector.x = x;
+    sector.y = y;
+    return;
+  }
 }
 
 void Partition_builder::classify(Sector& sector, const Blockers& blockers) {
