@@ -3,6 +3,7 @@
 #include "methods/along.h"
 #include "methods/methods.h"
 #include "methods/weak.h"
+#include "weak_partition.h"
 
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -18,6 +19,7 @@ struct Weak_arguments {
   Source_arguments sources;
   std::string method = "lines", certificate, svg, obj, eye, surfaces, along;
   Weak_task task;
+  Partition_arguments partition;
 };
 
 // ---- Pictures
@@ -343,13 +345,16 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
 Exit run_weak(const Weak_arguments& arguments) {
   const Common& common = arguments.common;
   const std::string& method = arguments.method;
-  if (!arguments.along.empty()) {
-    for (const auto& [name, value] : {std::pair("--certificate", arguments.certificate),
-                                      {"--obj", arguments.obj},
-                                      {"--eye", arguments.eye},
-                                      {"--surfaces", arguments.surfaces}})
+  const bool is_partition = arguments.partition.asked_for();
+  if (is_partition || !arguments.along.empty()) {
+    const std::string name = is_partition ? "--partition" : "--along";
+    for (const auto& [other, value] : {std::pair("--certificate", arguments.certificate),
+                                       {"--obj", arguments.obj},
+                                       {"--eye", arguments.eye},
+                                       {"--surfaces", arguments.surfaces}})
       if (!value.empty())
-        throw Usage_error(std::string(name) + " is for polygons that look: leave it out with --along");
+        throw Usage_error(std::string(other) + " is for faces that are visible or hidden: leave it out with " + name);
+    if (is_partition) return run_partition(arguments.partition, common, arguments.sources, arguments.svg);
     if (!arguments.sources.empty()) throw Usage_error("--along is a path of its own: leave out --from and its like");
     return run_along(common, {arguments.along, arguments.sources.two_sided, arguments.svg});
   }
@@ -468,6 +473,7 @@ void add_weak(Command program) {
                       "instead of polygons an eye that moves straight from X,Y,Z to X,Y,Z: the exact moments at which "
                       "faces appear and disappear; --svg draws when each is visible")
           .check(not_empty());
+  const Option partition = a->partition.add_to(command).excludes(along);
   const Option method =
       command
           .add_option(
@@ -476,25 +482,29 @@ void add_weak(Command program) {
               "doubles: a search without proofs; sample: random rays, as others do")
           .check(one_of({"lines", "events", "doubles", "sample"}))
           .show_default()
-          .excludes(along);
+          .excludes(along)
+          .excludes(partition);
   command
       .add_flag("--conservative{conservative}", a->method,
                 "instead of a method: quick, visible is all that no single piece hides, so some faces too many; "
                 "`sightline compare SCENE weak` says how many")
       .disable_flag_override()
       .excludes(method)
-      .excludes(along);
+      .excludes(along)
+      .excludes(partition);
   command.add_option("--rays", a->task.rays, "sample: from each source")
       .check(whole_number())
       .show_default()
-      .excludes(along);
+      .excludes(along)
+      .excludes(partition);
   command
       .add_option("--cells", a->task.cells,
                   "lines: how many cells a search may take before its face is undecided; 0: as many as it takes, "
                   "unless --event-edges says where to end")
       .check(whole_number())
       .show_default()
-      .excludes(along);
+      .excludes(along)
+      .excludes(partition);
   command
       .add_option(
           "--event-edges", a->task.event_edges,
@@ -502,7 +512,8 @@ void add_weak(Command program) {
           "and more cells, where neither this nor --cells is given")
       .check(whole_number())
       .show_default()
-      .excludes(along);
+      .excludes(along)
+      .excludes(partition);
   command
       .add_option("--certificate", a->certificate,
                   "write what `sightline verify` reads: of lines all answers, of events what is visible, with "

@@ -72,6 +72,7 @@ TEST_F(Weak, walks_through_a_door_along_a_path) {
   EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--from-face", "0"}).code, usage);
   EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--certificate", path("c.json").string()}).code, usage);
   EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--method", "events"}).code, usage);
+  EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--partition", "0"}).code, usage);
 }
 
 TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {

@@ -1,0 +1,771 @@
+#include <sightline/algorithms/weak_visibility/partition/partition.h>
+
+#include <sightline/algorithms/weak_visibility/partition/merged_occluders.h>
+#include <sightline/algorithms/weak_visibility/partition/seen_part.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <CGAL/Interval_nt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+
+namespace sightline {
+
+const char* name_of(Light light) {
+  constexpr const char* names[] = {"lit", "penumbra", "umbra", "undecided"};
+  return names[static_cast<std::size_t>(light)];
+}
+
+struct Light_partitioner::Merged {
+  explicit Merged(const Scene& of) : scene(merged_pieces(of)), occluders(scene) {}
+  Scene scene;
+  Occluders occluders;
+};
+
+Light_partitioner::Light_partitioner(const Scene& scene) : scene_(&scene), merged_(std::make_unique<Merged>(scene)) {}
+Light_partitioner::~Light_partitioner() = default;
+
+namespace {
+
+using Interval = CGAL::Interval_nt<>;
+
+/// A source as a piece sees it.
+struct Seen_source {
+  Filtered plane;
+  bool whole;  ///< all of it is in front of the piece
+  Event_lines lines;
+};
+
+/// The state of a rectangle: what may block lines from it to each source.
+using Blockers = std::vector<std::vector<std::uint32_t>>;
+
+class Partition_builder {
+ public:
+  Partition_builder(const Occluders& occluders, const Near_polygon& piece, const Near_plane& plane,
+                    const std::vector<Weak_source>& sources, const Partition_options& options,
+                    Partition_counters& counters);
+  void run(Light_partition& result);
+
+ private:
+  /// A curve between sectors, within a slab.
+  struct Leaf {
+    Curve_arrangement arrangement;
+    std::vector<std::size_t> curves;  // of the arrangement, by number
+    std::vector<std::size_t> first;   // the lowest sector of each slab
+    Chart_box box;
+  };
+  struct Sector {
+    bool inside;
+    Light light;
+    std::size_t outline;  // where all borders are asked for: the number of its edges
+    Rational x, y;
+    double size;
+  };
+  /// A stretch of a side of a rectangle that a sector touches.
+  struct Touch {
+    double from, to;
+    std::size_t sector;
+  };
+  struct Side {
+    std::vector<Touch> before, after;  // of rectangles left of it, or below; and the others
+  };
+
+  void divide(const Chart_box& box, const Blockers& blockers, const std::vector<std::size_t>& curves, int depth);
+  /// What is known of all points of a rectangle, or nothing. Leaves out what blocks nothing from it.
+  std::optional<Light> alike(const std::array<Filtered, 4>& corners, Blockers& blockers) const;
+  /// Whether somewhere all that can be proved of a rectangle by a few points of sources: that each of its points sees
+  /// one of them, or one of them is hidden from all.
+  void probe(const std::array<Filtered, 4>& corners, const Blockers& blockers, bool& some_seen,
+             bool& some_hidden) const;
+  void arrange(const Chart_box& box, const std::vector<std::size_t>& curves, const Blockers& blockers,
+               std::optional<Light> known);
+  bool is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const;
+  /// A point in the plane of a piece does not see it: another one of the same sector, that is in none.
+  void leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
+                    const Blockers& blockers) const;
+  void classify(Sector& sector, const Blockers& blockers);
+  bool is_inside(const Rational& x, const Rational& y) const;
+
+  void join_leaf(std::size_t leaf);
+  void join_sides(std::map<double, Side>& sides, bool upright);
+  void meet(std::size_t a, std::size_t b) { contacts_.push_back({a, b}); }
+  std::size_t root(std::size_t sector);
+
+  void collect_cells(Light_partition& result);
+  void collect_borders(Light_partition& result);
+
+  const Occluders* occluders_;
+  const Partition_options* options_;
+  Partition_counters* counters_;
+  Plane_chart chart_;
+  std::vector<Seen_source> sources_;
+  std::size_t never_seen_ = 0;                 // sources that face away
+  std::vector<std::vector<Filtered>> probes_;  // points of each source
+  std::vector<Border_curve> curves_;
+  std::vector<std::pair<Plane_curve, std::size_t>> rim_;  // lines of the piece's edges, the piece where they are > 0
+  Rational piece_area_;
+  std::vector<Leaf> leaves_;
+  std::vector<Sector> sectors_;
+  std::vector<std::array<std::size_t, 2>> contacts_;
+  struct Upright_contact {
+    double x0, x1;
+    std::size_t left, right;
+    double y0, y1;
+  };
+  std::vector<Upright_contact> uprights_;
+  std::map<double, Side> upright_sides_, level_sides_;
+  std::map<std::vector<std::vector<std::uint32_t>>, std::size_t> outlines_;
+  std::vector<std::size_t> parents_, cell_of_;
+  double done_ = 0;
+};
+
+Partition_builder::Partition_builder(const Occluders& occluders, const Near_polygon& piece, const Near_plane& plane,
+                                     const std::vector<Weak_source>& sources, const Partition_options& options,
+                                     Partition_counters& counters)
+    : occluders_(&occluders), options_(&options), counters_(&counters), chart_(occluders.frame(), piece, plane) {
+  const Near_frame& frame = occluders.frame();
+  std::map<std::array<Integer, 6>, std::size_t, Less_entries> numbers;
+  const auto add = [&](Border_curve curve) {
+    const auto [at, is_new] = numbers.try_emplace(curve.curve.c, curves_.size());
+    if (is_new) {
+      curves_.push_back(std::move(curve));
+      return at->second;
+    }
+    Border_curve& own = curves_[at->second];
+    own.may_end_light |= curve.may_end_light;
+    own.where.insert(own.where.end(), curve.where.begin(), curve.where.end());
+    return at->second;
+  };
+  constexpr Plane_chart::Bounds everywhere{-1, 2, -1, 2};
+
+  // 1. The sources, and where what is seen of them changes.
+  for (const Weak_source& source : sources) {
+    const Near_polygon receiver = clip(frame, piece, source.plane, true),
+                       seen = clip(frame, source.polygon, plane, true);
+    if (receiver.size() < 3 || seen.size() < 3) {
+      ++never_seen_;
+      continue;
+    }
+    const int at = side(plane, source.polygon);
+    sources_.push_back({{source.plane.exact, near(source.plane)},
+                        at == 1,
+                        Event_lines(occluders, receiver, plane, seen, source.plane, 1)});
+    Border_search search(occluders, sources_.back().lines, chart_, options.out_of_time, counters.borders);
+    for (Border_curve& curve : search.run()) add(std::move(curve));
+    if (is_across(source.plane, piece))
+      for (const Plane_curve& line : components(chart_.trace(source.plane.exact))) add({line, true, {everywhere}});
+    // Its middle, and near its corners.
+    std::vector<Filtered>& probes = probes_.emplace_back();
+    const auto weighed = [&](std::size_t corner, unsigned long weight) {
+      Homogeneous sum{0, 0, 0, 0};
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        // Homogeneous coordinates with equal w.
+        Integer w = i == corner ? weight : 1;
+        for (std::size_t j = 0; j < seen.size(); ++j)
+          if (j != i) w *= seen[j].exact[3];
+        for (std::size_t k = 0; k < 4; ++k) sum[k] += w * seen[i].exact[k];
+      }
+      const Near_point p = near_point(frame, sum);
+      probes.push_back({p.exact, near(p)});
+    };
+    weighed(seen.size(), 1);
+    for (std::size_t corner = 0; corner < seen.size() && corner < 4; ++corner) weighed(corner, 32);
+  }
+
+  // 2. The rim of the piece.
+  std::vector<std::array<Rational, 2>> corners;
+  for (const Near_point& corner : piece) corners.push_back(chart_.at(corner.exact));
+  std::array<Rational, 2> middle{0, 0};
+  for (const auto& p : corners)
+    for (std::size_t k = 0; k < 2; ++k) middle[k] += p[k] / Rational(static_cast<long>(corners.size()));
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const std::size_t next = (i + 1) % corners.size();
+    const std::vector<Plane_curve> line = components(chart_.line(piece[i].exact, piece[next].exact));
+    const std::size_t number = add({line.front(), false, {everywhere}});
+    Plane_curve inwards = line.front();
+    if (inwards.sign(middle[0], middle[1]) < 0)
+      for (Integer& c : inwards.c) c = -c;
+    rim_.emplace_back(std::move(inwards), number);
+    piece_area_ += (corners[i][0] * corners[next][1] - corners[next][0] * corners[i][1]) / 2;
+  }
+  piece_area_ = abs(piece_area_);
+}
+
+void Partition_builder::run(Light_partition& result) {
+  Blockers blockers;
+  for (const Seen_source& source : sources_) {
+    std::vector<std::uint32_t>& all = blockers.emplace_back(source.lines.blockers().size());
+    std::iota(all.begin(), all.end(), 0u);
+  }
+  std::vector<std::size_t> curves;
+  for (std::size_t k = 0; k < curves_.size(); ++k)
+    if (std::none_of(rim_.begin(), rim_.end(), [&](const auto& edge) { return edge.second == k; })) curves.push_back(k);
+  divide({0, 1, 0, 1}, blockers, curves, 0);
+  for (std::size_t leaf = 0; leaf < leaves_.size(); ++leaf) join_leaf(leaf);
+  join_sides(upright_sides_, true);
+  join_sides(level_sides_, false);
+  collect_cells(result);
+  collect_borders(result);
+}
+
+// ---- The grid
+
+void Partition_builder::divide(const Chart_box& box, const Blockers& given,
+                               const std::vector<std::size_t>& given_curves, int depth) {
+  constexpr std::size_t few = 4;
+  constexpr int deepest = 16;
+  ++counters_->boxes;
+  const std::array<std::array<double, 2>, 4> at{
+      {{box.x0, box.y0}, {box.x1, box.y0}, {box.x1, box.y1}, {box.x0, box.y1}}};
+  const double share = (box.x1 - box.x0) * (box.y1 - box.y0);
+  const auto leave = [&] {
+    done_ += share;
+    if (options_->progress) options_->progress(done_);
+  };
+
+  // 1. Edges of the piece that cross it.
+  std::vector<std::size_t> rim;
+  for (const auto& [line, number] : rim_) {
+    bool in = false, out = false;
+    for (const auto& [x, y] : at) {
+      const int sign = line.sign(exact(x), exact(y));
+      in |= sign > 0;
+      out |= sign < 0;
+    }
+    if (!in) return leave();
+    if (out) rim.push_back(number);
+  }
+  std::sort(rim.begin(), rim.end());
+  if (options_->out_of_time && options_->out_of_time()) {
+    arrange(box, rim, given, Light::undecided);
+    return leave();
+  }
+
+  // 2. What is seen alike from all of it.
+  std::array<Filtered, 4> corners;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Near_point p = near_point(occluders_->frame(), chart_.point(exact(at[k][0]), exact(at[k][1])));
+    corners[k] = {p.exact, near(p)};
+  }
+  Blockers blockers = given;
+  const std::optional<Light> known = alike(corners, blockers);
+  bool some_seen = false, some_hidden = false;
+  if (!known && !options_->all_borders) probe(corners, blockers, some_seen, some_hidden);
+  const bool is_penumbra = some_seen && some_hidden;
+  if (known || is_penumbra) {
+    ++counters_->alike;
+    arrange(box, rim, blockers, known ? *known : Light::penumbra);
+    return leave();
+  }
+
+  // 3. Curves through it.
+  std::vector<std::size_t> curves;
+  for (const std::size_t k : given_curves) {
+    const Border_curve& curve = curves_[k];
+    if (some_seen && !curve.may_end_light) continue;
+    const bool near = std::any_of(curve.where.begin(), curve.where.end(), [&](const Plane_chart::Bounds& b) {
+      return b.x0 <= box.x1 && b.x1 >= box.x0 && b.y0 <= box.y1 && b.y1 >= box.y0;
+    });
+    if (near && may_meet(curve.curve, box)) curves.push_back(k);
+  }
+  if (curves.size() > few && depth < deepest) {
+    Chart_box first = box, second = box;
+    const bool upright = box.x1 - box.x0 >= box.y1 - box.y0;
+    const double low = upright ? box.x0 : box.y0, high = upright ? box.x1 : box.y1;
+    // No curve runs along where it is cut.
+    double at_cut = low + (high - low) / 2;
+    const auto runs_along = [&](std::size_t k) {
+      const std::array<Integer, 6>& c = curves_[k].curve.c;
+      const Integer &slope = c[upright ? 1 : 2], &other = c[upright ? 2 : 1];
+      return curves_[k].curve.is_line() && sgn(other) == 0 && slope * exact(at_cut) + c[0] == 0;
+    };
+    while (std::any_of(given_curves.begin(), given_curves.end(), runs_along) ||
+           std::any_of(rim.begin(), rim.end(), runs_along))
+      at_cut = low + (at_cut - low) * 0.75;
+    (upright ? first.x1 : first.y1) = at_cut;
+    (upright ? second.x0 : second.y0) = at_cut;
+    divide(first, blockers, curves, depth + 1);
+    divide(second, blockers, curves, depth + 1);
+    return;
+  }
+  curves.insert(curves.end(), rim.begin(), rim.end());
+  std::sort(curves.begin(), curves.end());
+  ++counters_->arrangements;
+  arrange(box, curves, blockers, std::nullopt);
+  leave();
+}
+
+std::optional<Light> Partition_builder::alike(const std::array<Filtered, 4>& corners, Blockers& blockers) const {
+  std::size_t all = 0, none = never_seen_;
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const Seen_source& source = sources_[s];
+    bool in_front = true, behind = true;
+    for (const Filtered& corner : corners) {
+      const int at = sign_of_dot(source.plane, corner);
+      in_front &= at >= 0;
+      behind &= at <= 0;
+    }
+    if (behind) {
+      ++none;
+      blockers[s].clear();
+      continue;
+    }
+    std::vector<Joined_line> extreme;
+    for (const Filtered& p : corners)
+      for (const Filtered& q : source.lines.target()) extreme.emplace_back(p, q);
+    bool covered = false;
+    std::vector<std::uint32_t> some;
+    for (const std::uint32_t b : blockers[s]) {
+      bool any = true, covers = true;
+      for (const Event_lines::Literal& literal : source.lines.blockers()[b].literals) {
+        bool holds = false, fails = false;
+        for (const Joined_line& line : extreme) {
+          const int at = literal.sense * side(line, source.lines.lines()[literal.line]);
+          holds |= at > 0;
+          fails |= at < 0;
+          if (holds && fails) break;
+        }
+        any &= holds;
+        covers &= !fails;
+        if (!any) break;
+      }
+      if (any) some.push_back(b);
+      covered |= any && covers;
+      if (covered) break;
+    }
+    if (covered) {
+      ++none;
+      continue;
+    }
+    blockers[s] = std::move(some);
+    if (blockers[s].empty() && in_front) ++all;
+  }
+  const std::size_t count = sources_.size() + never_seen_;
+  if (none == count) return Light::umbra;
+  if (options_->all_borders ? all == count : all + none == count)
+    return all == count && std::all_of(sources_.begin(), sources_.end(), [](const auto& s) { return s.whole; })
+               ? Light::lit
+               : Light::penumbra;
+  return std::nullopt;
+}
+
+void Partition_builder::probe(const std::array<Filtered, 4>& corners, const Blockers& blockers, bool& some_seen,
+                              bool& some_hidden) const {
+  some_hidden = never_seen_ > 0;
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const Event_lines& lines = sources_[s].lines;
+    some_hidden |= !sources_[s].whole;
+    const bool in_front = std::all_of(corners.begin(), corners.end(), [&](const Filtered& corner) {
+      return certain_dot(sources_[s].plane.near, corner.near) > 0;
+    });
+    for (const Filtered& q : probes_[s]) {
+      if (some_seen && some_hidden) return;
+      std::array<Near<6>, 4> from;
+      for (std::size_t k = 0; k < 4; ++k) from[k] = join(corners[k].near, q.near);
+      bool seen = in_front;
+      for (const std::uint32_t b : blockers[s]) {
+        bool past = false, hidden = true;
+        for (const Event_lines::Literal& literal : lines.blockers()[b].literals) {
+          int common = 0;
+          for (std::size_t k = 0; k < 4; ++k) {
+            const int sure = literal.sense * certain_side(from[k], lines.lines()[literal.line].near);
+            if (sure == 0 || sure == -common) {
+              common = 0;
+              break;
+            }
+            common = sure;
+          }
+          past |= common < 0;
+          hidden &= common > 0;
+          if (past) break;
+        }
+        seen &= past;
+        some_hidden |= hidden && !past;
+      }
+      some_seen |= seen;
+    }
+  }
+}
+
+void Partition_builder::arrange(const Chart_box& box, const std::vector<std::size_t>& curves, const Blockers& blockers,
+                                std::optional<Light> known) {
+  std::vector<Plane_curve> own;
+  for (const std::size_t k : curves) own.push_back(curves_[k].curve);
+  Leaf& leaf = leaves_.emplace_back(Leaf{Curve_arrangement(own, box), curves, {}, box});
+  const bool is_whole = std::none_of(rim_.begin(), rim_.end(), [&](const auto& edge) {
+    return std::binary_search(curves.begin(), curves.end(), edge.second);
+  });
+  for (const Curve_arrangement::Slab& slab : leaf.arrangement.slabs()) {
+    leaf.first.push_back(sectors_.size());
+    for (const Rational& y : slab.y) {
+      Sector sector{true, Light::undecided, 0, slab.x, y, 0};
+      sector.inside = is_whole || is_inside(sector.x, sector.y);
+      if (sector.inside && known && (!options_->all_borders || *known == Light::undecided)) sector.light = *known;
+      else if (sector.inside) {
+        leave_planes(sector, own, box, blockers);
+        classify(sector, blockers);
+      }
+      sectors_.push_back(std::move(sector));
+    }
+  }
+}
+
+bool Partition_builder::is_inside(const Rational& x, const Rational& y) const {
+  return std::all_of(rim_.begin(), rim_.end(), [&](const auto& edge) { return edge.first.sign(x, y) > 0; });
+}
+
+bool Partition_builder::is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const {
+  for (std::size_t s = 0; s < sources_.size(); ++s)
+    for (const std::uint32_t b : blockers[s])
+      if (sgn(dot(occluders_->plane(sources_[s].lines.blockers()[b].piece).exact, point)) == 0) return true;
+  return false;
+}
+
+void Partition_builder::leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
+                                     const Blockers& blockers) const {
+  if (!is_in_a_plane(chart_.point(sector.x, sector.y), blockers)) return;
+  const auto value = [](const Plane_curve& f, const Rational& x, const Rational& y) {
+    return Rational(f.c[0] + f.c[1] * x + f.c[2] * y + f.c[3] * x * x + f.c[4] * x * y + f.c[5] * y * y);
+  };
+  for (unsigned long n = 1;; ++n) {
+    // Ever nearer, in ever other directions, until the way there meets no curve.
+    const Rational step(Integer(1), Integer(1) << (10 + n)),
+        x = sector.x + step, y = sector.y + step * Rational(static_cast<long>(n % 7), 3);
+    const bool is_near = std::all_of(curves.begin(), curves.end(), [&](const Plane_curve& f) {
+      const Rational from = value(f, sector.x, sector.y), to = value(f, x, y),
+                     middle = 2 * value(f, (sector.x + x) / 2, (sector.y + y) / 2) - (from + to) / 2;
+      return sgn(from) == sgn(to) && sgn(from) == sgn(middle);
+    });
+    if (!is_near || x >= exact(box.x1) || y >= exact(box.y1) || is_in_a_plane(chart_.point(x, y), blockers)) continue;
+    sector.x = x;
+    sector.y = y;
+    return;
+  }
+}
+
+void Partition_builder::classify(Sector& sector, const Blockers& blockers) {
+  ++counters_->sectors;
+  const Homogeneous point = chart_.point(sector.x, sector.y);
+  std::size_t all = 0, none = never_seen_;
+  std::vector<std::vector<std::uint32_t>> outline(sources_.size());
+  for (std::size_t s = 0; s < sources_.size(); ++s) {
+    const Seen_source& source = sources_[s];
+    if (sgn(dot(source.plane.exact, point)) <= 0) {
+      ++none;
+      continue;
+    }
+    const Seen_part part(source.lines, point, blockers[s]);
+    none += part.seen() == Seen::none;
+    all += part.seen() == Seen::all && source.whole;
+    if (options_->all_borders) outline[s] = part.outline();
+  }
+  const std::size_t count = sources_.size() + never_seen_;
+  sector.light = all == count ? Light::lit : none == count ? Light::umbra : Light::penumbra;
+  if (options_->all_borders) sector.outline = outlines_.try_emplace(std::move(outline), outlines_.size()).first->second;
+}
+
+// ---- What touches what
+
+void Partition_builder::join_leaf(std::size_t number) {
+  const Leaf& leaf = leaves_[number];
+  const std::vector<Curve_arrangement::Slab>& slabs = leaf.arrangement.slabs();
+  // The stretch of a limit that a sector of a slab beside it touches for sure.
+  const auto stretch = [&](std::size_t slab, std::size_t k, std::size_t limit) {
+    const std::vector<Curve_arrangement::Arc>& arcs = slabs[slab].arcs;
+    return std::array<double, 2>{k == 0 ? leaf.box.y0 : leaf.arrangement.value(arcs[k - 1], limit).high,
+                                 k == arcs.size() ? leaf.box.y1 : leaf.arrangement.value(arcs[k], limit).low};
+  };
+  for (std::size_t s = 0; s < slabs.size(); ++s) {
+    const std::size_t count = slabs[s].y.size();
+    for (std::size_t k = 0; k + 1 < count; ++k) meet(leaf.first[s] + k, leaf.first[s] + k + 1);
+    const double from = leaf.arrangement.limit(s).high, to = leaf.arrangement.limit(s + 1).low;
+    level_sides_[leaf.box.y0].after.push_back({from, to, leaf.first[s]});
+    level_sides_[leaf.box.y1].before.push_back({from, to, leaf.first[s] + count - 1});
+    // At its right.
+    Side side;
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::array<double, 2> own = stretch(s, k, s + 1);
+      const Touch touch{own[0], own[1], leaf.first[s] + k};
+      (s + 1 < slabs.size() ? side : upright_sides_[leaf.box.x1]).before.push_back(touch);
+    }
+    if (s == 0)
+      for (std::size_t k = 0; k < count; ++k) {
+        const std::array<double, 2> own = stretch(0, k, 0);
+        upright_sides_[leaf.box.x0].after.push_back({own[0], own[1], leaf.first[0] + k});
+      }
+    if (s + 1 == slabs.size()) continue;
+    for (std::size_t k = 0; k < slabs[s + 1].y.size(); ++k) {
+      const std::array<double, 2> own = stretch(s + 1, k, s + 1);
+      side.after.push_back({own[0], own[1], leaf.first[s + 1] + k});
+    }
+    const Bounded x = leaf.arrangement.limit(s + 1);
+    for (std::size_t i = 0, j = 0; i < side.before.size() && j < side.after.size();) {
+      const Touch &a = side.before[i], &b = side.after[j];
+      const double low = std::max(a.from, b.from), high = std::min(a.to, b.to);
+      if (low < high) {
+        meet(a.sector, b.sector);
+        uprights_.push_back({x.low, x.high, a.sector, b.sector, low, high});
+      }
+      ++(a.to < b.to ? i : j);
+    }
+  }
+}
+
+void Partition_builder::join_sides(std::map<double, Side>& sides, bool upright) {
+  for (auto& [at, side] : sides) {
+    for (std::vector<Touch>* touches : {&side.before, &side.after})
+      std::sort(touches->begin(), touches->end(), [](const Touch& a, const Touch& b) { return a.from < b.from; });
+    for (std::size_t i = 0, j = 0; i < side.before.size() && j < side.after.size();) {
+      const Touch &a = side.before[i], &b = side.after[j];
+      const double low = std::max(a.from, b.from), high = std::min(a.to, b.to);
+      if (low < high) {
+        meet(a.sector, b.sector);
+        if (upright) uprights_.push_back({at, at, a.sector, b.sector, low, high});
+      }
+      ++(a.to < b.to ? i : j);
+    }
+  }
+}
+
+std::size_t Partition_builder::root(std::size_t sector) {
+  while (parents_[sector] != sector) sector = parents_[sector] = parents_[parents_[sector]];
+  return sector;
+}
+
+// ---- Cells and borders
+
+void Partition_builder::collect_cells(Light_partition& result) {
+  parents_.resize(sectors_.size());
+  std::iota(parents_.begin(), parents_.end(), std::size_t{0});
+  for (const auto& [a, b] : contacts_) {
+    const Sector &p = sectors_[a], &q = sectors_[b];
+    if (p.inside && q.inside && p.light == q.light && p.outline == q.outline) parents_[root(a)] = root(b);
+  }
+  cell_of_.assign(sectors_.size(), Light_partition::none);
+  // Rough sizes, so that a cell's point is where it is wide.
+  for (const Leaf& leaf : leaves_)
+    for (std::size_t s = 0; s < leaf.first.size(); ++s) {
+      const Curve_arrangement::Slab& slab = leaf.arrangement.slabs()[s];
+      const double x = slab.x.get_d(), width = leaf.arrangement.limit(s + 1).low - leaf.arrangement.limit(s).high;
+      double below = leaf.box.y0;
+      for (std::size_t k = 0; k < slab.y.size(); ++k) {
+        const double above = k < slab.arcs.size() ? leaf.arrangement.near(slab.arcs[k], x) : leaf.box.y1;
+        sectors_[leaf.first[s] + k].size = std::min(width, above - below);
+        below = above;
+      }
+    }
+  std::vector<double> widest;
+  for (std::size_t k = 0; k < sectors_.size(); ++k) {
+    const Sector& sector = sectors_[k];
+    if (!sector.inside) continue;
+    std::size_t& cell = cell_of_[root(k)];
+    if (cell == Light_partition::none) {
+      cell = result.cells.size();
+      result.cells.push_back({sector.light, {sector.x, sector.y}, {0, 0}, {}});
+      widest.push_back(sector.size);
+    } else if (sector.size > widest[cell]) {
+      widest[cell] = sector.size;
+      result.cells[cell].at = {sector.x, sector.y};
+    }
+  }
+  for (std::size_t k = 0; k < sectors_.size(); ++k)
+    if (sectors_[k].inside) cell_of_[k] = cell_of_[root(k)];
+
+  // Areas: what two parts of one cell have between them adds nothing.
+  std::vector<Interval> areas(result.cells.size(), Interval(0));
+  for (const Leaf& leaf : leaves_)
+    for (std::size_t s = 0; s < leaf.first.size(); ++s) {
+      const Curve_arrangement::Slab& slab = leaf.arrangement.slabs()[s];
+      const auto bounds = [](const Bounded& b) { return Interval(b.low, b.high); };
+      const Interval width = bounds(leaf.arrangement.limit(s + 1)) - bounds(leaf.arrangement.limit(s));
+      const auto cell = [&](std::size_t k) { return cell_of_[leaf.first[s] + k]; };
+      const auto add = [&](std::size_t of, const Interval& area) {
+        if (of != Light_partition::none) areas[of] += area;
+      };
+      add(cell(0), -width * Interval(leaf.box.y0));
+      add(cell(slab.arcs.size()), width * Interval(leaf.box.y1));
+      for (std::size_t k = 0; k < slab.arcs.size(); ++k) {
+        if (cell(k) == cell(k + 1)) continue;
+        const Interval area = bounds(leaf.arrangement.area_below(slab.arcs[k], s));
+        add(cell(k), area);
+        add(cell(k + 1), -area);
+      }
+    }
+  const Bounded near_area = bounds_of(piece_area_);
+  const Interval whole(near_area.low, near_area.high);
+  for (std::size_t k = 0; k < areas.size(); ++k) {
+    const Interval share = areas[k] / whole;
+    result.cells[k].area = {std::max(share.inf(), 0.0), std::min(share.sup(), 1.0)};
+  }
+
+  // The edges that bound what is seen.
+  if (!options_->all_borders) return;
+  std::vector<const std::vector<std::vector<std::uint32_t>>*> outlines(outlines_.size());
+  for (const auto& [outline, number] : outlines_) outlines[number] = &outline;
+  std::vector<char> known(result.cells.size());
+  for (std::size_t k = 0; k < sectors_.size(); ++k) {
+    if (!sectors_[k].inside || sectors_[k].light == Light::undecided || known[cell_of_[k]] != 0) continue;
+    known[cell_of_[k]] = 1;
+    const auto& outline = *outlines[sectors_[k].outline];
+    for (std::size_t s = 0; s < sources_.size(); ++s) {
+      auto& edges = result.cells[cell_of_[k]].edges.emplace_back();
+      for (const std::uint32_t line : outline[s]) {
+        const std::array<Filtered, 2>& hull = sources_[s].lines.lines()[line].hull;
+        edges.push_back({occluders_->scene().position(hull[0].exact), occluders_->scene().position(hull[1].exact)});
+      }
+    }
+  }
+}
+
+void Partition_builder::collect_borders(Light_partition& result) {
+  for (const Border_curve& curve : curves_) result.curves.push_back(curve.curve);
+  // 1. Arcs.
+  for (const Leaf& leaf : leaves_)
+    for (std::size_t s = 0; s < leaf.first.size(); ++s) {
+      const Curve_arrangement::Slab& slab = leaf.arrangement.slabs()[s];
+      for (std::size_t k = 0; k < slab.arcs.size(); ++k) {
+        const Curve_arrangement::Arc& arc = slab.arcs[k];
+        const std::size_t below = cell_of_[leaf.first[s] + k], above = cell_of_[leaf.first[s] + k + 1];
+        if (below == above) continue;
+        result.borders.push_back({leaf.curves[arc.curve],
+                                  arc.upper,
+                                  below,
+                                  above,
+                                  {leaf.arrangement.limit(s), leaf.arrangement.limit(s + 1)},
+                                  {leaf.arrangement.value(arc, s), leaf.arrangement.value(arc, s + 1)}});
+      }
+    }
+  const auto key = [](const Light_partition::Border& b) { return std::tuple(b.curve, b.upper, b.below, b.above); };
+  std::sort(result.borders.begin(), result.borders.end(), [&](const auto& a, const auto& b) {
+    return std::pair(key(a), a.x[0].low) < std::pair(key(b), b.x[0].low);
+  });
+  std::vector<Light_partition::Border> joined;
+  for (const Light_partition::Border& border : result.borders) {
+    if (!joined.empty() && key(joined.back()) == key(border) && joined.back().x[1].high >= border.x[0].low) {
+      if (joined.back().x[1].high >= border.x[1].high) continue;  // narrower than doubles tell
+      joined.back().x[1] = border.x[1];
+      joined.back().y[1] = border.y[1];
+    } else joined.push_back(border);
+  }
+  result.borders = std::move(joined);
+  // 2. Upright ones.
+  std::vector<Light_partition::Upright> uprights;
+  for (const Upright_contact& contact : uprights_) {
+    const std::size_t left = cell_of_[contact.left], right = cell_of_[contact.right];
+    if (left != right)
+      uprights.push_back(
+          {{contact.x0, contact.x1}, left, right, {{{contact.y0, contact.y0}, {contact.y1, contact.y1}}}});
+  }
+  const auto upright_key = [](const auto& u) { return std::tuple(u.left, u.right, u.x.low); };
+  std::sort(uprights.begin(), uprights.end(), [&](const auto& a, const auto& b) {
+    return std::pair(upright_key(a), a.y[0].low) < std::pair(upright_key(b), b.y[0].low);
+  });
+  for (const Light_partition::Upright& upright : uprights) {
+    constexpr double near = 0x1p-45;
+    if (!result.uprights.empty() && result.uprights.back().left == upright.left &&
+        result.uprights.back().right == upright.right &&
+        std::fabs(result.uprights.back().x.low - upright.x.low) < near &&
+        upright.y[0].low - result.uprights.back().y[1].high < near)
+      result.uprights.back().y[1] = upright.y[1];
+    else result.uprights.push_back(upright);
+  }
+  for (const Light_partition::Upright& upright : result.uprights)
+    result.border_lines.push_back({{upright.x.low, upright.y[0].low}, {upright.x.low, upright.y[1].low}});
+  // 3. Strips.
+  for (const Leaf& leaf : leaves_)
+    for (std::size_t s = 0; s < leaf.first.size(); ++s) {
+      const Curve_arrangement::Slab& slab = leaf.arrangement.slabs()[s];
+      const double from = leaf.arrangement.limit(s).low, to = leaf.arrangement.limit(s + 1).high;
+      const auto points = [&](std::size_t k) {  // k arcs are below it
+        std::vector<std::array<double, 2>> found;
+        const bool is_side = k == 0 || k > slab.arcs.size();
+        const int steps = is_side || curves_[leaf.curves[slab.arcs[k - 1].curve]].curve.is_line() ? 1 : 8;
+        for (int n = 0; n <= steps; ++n) {
+          const double x = n == steps ? to : from + (to - from) * n / steps;
+          found.push_back({x, k == 0    ? leaf.box.y0
+                              : is_side ? leaf.box.y1
+                                        : leaf.arrangement.near(slab.arcs[k - 1], x)});
+        }
+        return found;
+      };
+      for (std::size_t k = 0; k < slab.y.size(); ++k) {
+        const std::size_t cell = cell_of_[leaf.first[s] + k];
+        if (cell != Light_partition::none) result.strips.push_back({cell, points(k), points(k + 1)});
+        if (k < slab.arcs.size() && cell != cell_of_[leaf.first[s] + k + 1])
+          result.border_lines.push_back(points(k + 1));
+      }
+    }
+}
+
+}  // namespace
+
+std::array<Bounded, lights> Light_partition::shares() const {
+  std::array<Interval, lights> sums{0, 0, 0, 0};
+  for (const Cell& cell : cells) sums[static_cast<std::size_t>(cell.light)] += Interval(cell.area.low, cell.area.high);
+  std::array<Bounded, lights> found;
+  for (std::size_t k = 0; k < lights; ++k) found[k] = {std::max(sums[k].inf(), 0.0), std::min(sums[k].sup(), 1.0)};
+  return found;
+}
+
+std::size_t Light_partition::cell_at(const Rational& x, const Rational& y) const {
+  if (x <= 0 || x >= 1 || y <= 0 || y >= 1) return none;
+  // The nearest borders below and above.
+  const Quadratic_root here(y.get_num(), 0, Integer(0), y.get_den());
+  std::optional<Quadratic_root> low, high;
+  std::size_t under = none, over = none;
+  for (const Border& border : borders) {
+    const Bounded &from = border.x[0], &to = border.x[1];
+    if (x < exact(from.low) || x > exact(to.high)) continue;
+    if (x <= exact(from.high) || x >= exact(to.low)) return none;
+    const std::optional<Quadratic_root> at = curves[border.curve].height(x, border.upper);
+    const int order = at ? compare(*at, here) : 0;
+    if (order == 0) return none;
+    if (order < 0 && (!low || *low < *at)) {
+      low = at;
+      under = border.above;
+    }
+    if (order > 0 && (!high || *at < *high)) {
+      high = at;
+      over = border.below;
+    }
+  }
+  if (low) return under;
+  if (high) return over;
+  // One cell from the lower to the upper side.
+  for (const Strip& strip : strips)
+    if (exact(strip.lower.front()[0]) < x && x < exact(strip.lower.back()[0])) return strip.cell;
+  return none;
+}
+
+Light_partition Light_partitioner::partition(std::uint32_t piece, const std::vector<std::vector<Exact_point>>& sources,
+                                             const Partition_options& options, Partition_counters& counters) const {
+  const Occluders& occluders = merged_->occluders;
+  const auto located = [&](const std::vector<Exact_point>& points) { return weak_source(occluders, points); };
+  std::vector<Exact_point> corners;
+  for (const Piece_corner& corner : scene_->corners(scene_->pieces()[piece]))
+    corners.push_back(scene_->position(corner.point));
+  const Weak_source receiver = located(corners);
+  std::vector<Weak_source> located_sources;
+  for (const std::vector<Exact_point>& source : sources) located_sources.push_back(located(source));
+  Light_partition result;
+  result.piece = piece;
+  const Plane_chart chart(occluders.frame(), receiver.polygon, receiver.plane);
+  const auto position = [&](long x, long y) {
+    return occluders.scene().position(chart.point(Rational(x), Rational(y)));
+  };
+  result.chart[0] = position(0, 0);
+  for (std::size_t k = 0; k < 3; ++k) {
+    result.chart[1][k] = position(1, 0)[k] - result.chart[0][k];
+    result.chart[2][k] = position(0, 1)[k] - result.chart[0][k];
+  }
+  Partition_builder(occluders, receiver.polygon, receiver.plane, located_sources, options, counters).run(result);
+  return result;
+}
+
+}  // namespace sightline

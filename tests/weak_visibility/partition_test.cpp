@@ -1,0 +1,322 @@
+// What is lit, in penumbra and in umbra: by hand, and against what an eye sees from points of the face.
+// SIGHTLINE_LONG: so many times the scenes, for a long run.
+
+#include "rays.h"
+#include "scenes.h"
+#include "../sample.h"
+
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/weak_visibility/partition/partition.h>
+
+#include <gtest/gtest.h>
+
+namespace weak_partition {
+namespace {
+
+using namespace sightline;
+using generate::Random;
+using weak_scenes::Faces;
+using weak_scenes::Points;
+using weak_scenes::ratio;
+using weak_scenes::reversed;
+using weak_scenes::soup_of;
+
+Exact_point at(Rational x, Rational y, Rational z) { return {std::move(x), std::move(y), std::move(z)}; }
+/// From a corner, along two sides.
+Points parallelogram(const Exact_point& corner, const Exact_point& u, const Exact_point& v) {
+  const Exact_point next = oracle::along(corner, 1, u);
+  return {corner, next, oracle::along(next, 1, v), oracle::along(corner, 1, v)};
+}
+
+Exact_point area_vector(const Points& polygon) {
+  Exact_point sum{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Exact_point part =
+        oracle::cross(oracle::minus(polygon[i], polygon[0]), oracle::minus(polygon[i + 1], polygon[0]));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+  }
+  return sum;
+}
+
+/// What an eye sees of a source: another algorithm, on the scene with the source as its first face.
+class Eyes {
+ public:
+  Eyes(const Polygon_soup& soup, const Points& source) : source_(area_vector(source)) {
+    std::vector<Point_id> ids;
+    for (const Exact_point& p : source) ids.push_back(with_.add_point(p[0], p[1], p[2]));
+    with_.add_face(ids);
+    for (Point_id p = 0; p < soup.point_count(); ++p) {
+      const Exact_point at = soup.point(p);
+      with_.add_point(at[0], at[1], at[2]);
+    }
+    for (Face_id f = 0; f < soup.face_count(); ++f) {
+      const auto shifted = [&](std::size_t loop) {
+        std::vector<Point_id> own;
+        for (const Point_id p : soup.loop(f, loop)) own.push_back(p + static_cast<Point_id>(source.size()));
+        return own;
+      };
+      with_.add_face(shifted(0));
+      for (std::size_t k = 1; k < soup.loop_count(f); ++k) with_.add_hole(shifted(k));
+    }
+    scene_.emplace(with_);
+    boxes_.emplace(*scene_);
+  }
+
+  /// `front`: the side of the face's plane that counts.
+  Light light_at(const Exact_point& eye, const weak_oracle::Half_space& front) const {
+    const Exact_view view(*scene_, eye);
+    Visible_options options;
+    options.threads = 1;
+    const auto surface = visible_surface(view, *boxes_, options);
+    Rational seen = 0;
+    for (const auto& part : surface.parts) {
+      if (part.piece == surface.nothing || scene_->pieces()[part.piece].face != 0 ||
+          view.eye_side(part.piece) != CGAL::POSITIVE)
+        continue;
+      // In front of the face.
+      Points polygon = vertices(view, surface, part), kept;
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        const Rational a = front.height(p), b = front.height(q);
+        if (a >= 0) kept.push_back(p);
+        if (sgn(a) * sgn(b) < 0) kept.push_back(oracle::along(p, a / (a - b), oracle::minus(q, p)));
+      }
+      if (kept.size() >= 3) seen += oracle::dot(area_vector(kept), source_);
+    }
+    return seen == 0 ? Light::umbra : seen == oracle::dot(source_, source_) ? Light::lit : Light::penumbra;
+  }
+
+ private:
+  Exact_point source_;
+  Polygon_soup with_;
+  std::optional<Scene> scene_;
+  std::optional<Piece_boxes> boxes_;
+};
+
+struct Tally {
+  std::array<std::size_t, lights> points{};
+  std::size_t conics = 0, cells = 0, borders = 0;
+};
+
+/// Each cell's point, and points at random, are as the eye says; shares add up to one.
+void expect_right(const Polygon_soup& soup, const Points& source, Face_id face, std::size_t samples, Random& random,
+                  Tally& tally, bool all_borders = false) {
+  const Scene scene(soup);
+  const Light_partitioner partitioner(scene);
+  const Eyes eyes(soup, source);
+  Partition_options options;
+  options.all_borders = all_borders;
+  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece) {
+    if (scene.pieces()[piece].face != face) continue;
+    Partition_counters counters;
+    const Light_partition found = partitioner.partition(piece, {source}, options, counters);
+    const std::array<Rational, 4> h = scene.file_coefficients(scene.pieces()[piece].support);
+    const weak_oracle::Half_space front{{h[0], h[1], h[2]}, Rational(-h[3])};
+    const auto point = [&](const Rational& x, const Rational& y) {
+      return oracle::along(oracle::along(found.chart[0], x, found.chart[1]), y, found.chart[2]);
+    };
+    for (const Light_partition::Cell& cell : found.cells) {
+      const Exact_point p = point(cell.at[0], cell.at[1]);
+      EXPECT_EQ(cell.light, eyes.light_at(p, front)) << "face " << face;
+      const std::size_t there = found.cell_at(cell.at[0], cell.at[1]);
+      if (there != Light_partition::none && cell.area.low > 1e-6) {
+        EXPECT_EQ(&cell, &found.cells[there]) << "face " << face;
+      }
+      EXPECT_LE(cell.area.low, cell.area.high);
+      EXPECT_GT(cell.area.high, 0);
+    }
+    double low = 0, high = 0;
+    for (const Bounded& share : found.shares()) low += share.low, high += share.high;
+    EXPECT_LE(low, 1.0);
+    EXPECT_GE(high, 1.0);
+    EXPECT_LT(high - low, 1e-6);
+    for (std::size_t k = 0; k < samples; ++k) {
+      const Rational x = ratio(2 * static_cast<long>(random.below(1 << 20)) + 1, 1 << 21),
+                     y = ratio(2 * static_cast<long>(random.below(1 << 20)) + 1, 1 << 21);
+      const std::size_t cell = found.cell_at(x, y);
+      if (cell == Light_partition::none) continue;
+      const Light light = eyes.light_at(point(x, y), front);
+      EXPECT_EQ(found.cells[cell].light, light) << "face " << face << " at " << x << ", " << y;
+      ++tally.points[static_cast<std::size_t>(light)];
+    }
+    tally.cells += found.cells.size();
+    for (const Light_partition::Border& border : found.borders)
+      if (border.below != Light_partition::none && border.above != Light_partition::none) {
+        ++tally.borders;
+        tally.conics += !found.curves[border.curve].is_line();
+      }
+  }
+}
+
+// ---- By hand
+
+void expect_share(const Bounded& share, const Rational& exact_share) {
+  EXPECT_LE(exact(share.low), exact_share);
+  EXPECT_GE(exact(share.high), exact_share);
+  EXPECT_LT(share.high - share.low, 1e-9);
+}
+
+Light_partition partition_of(const Polygon_soup& soup, const Points& source, std::uint32_t piece) {
+  const Scene scene(soup);
+  Partition_counters counters;
+  return Light_partitioner(scene).partition(piece, {source}, {}, counters);
+}
+
+/// A floor of side 8, a square lamp of side 1 four above its middle, looking down, and a square table between.
+Polygon_soup table(const Rational& half, const Rational& height) {
+  Faces faces;
+  faces.push_back(parallelogram(at(-4, -4, 0), at(8, 0, 0), at(0, 8, 0)));
+  faces.push_back(parallelogram({-half, -half, height}, {2 * half, 0, 0}, {0, 2 * half, 0}));
+  return soup_of(faces);
+}
+Points lamp() { return reversed(parallelogram({ratio(-1, 2), ratio(-1, 2), 4}, at(1, 0, 0), at(0, 1, 0))); }
+
+TEST(Partition_by_hand, a_square_table_under_a_square_lamp) {
+  // From a corner of the lamp at s, the table's edge at 1, one above the floor, throws its shadow to s + (1 - s) 4 / 3.
+  const Light_partition found = partition_of(table(1, 1), lamp(), 0);
+  const auto shares = found.shares();
+  expect_share(shares[2], ratio(49, 9) / 64);  // (7 / 3)^2
+  expect_share(shares[0], 1 - ratio(9, 64));   // 3^2
+  expect_share(shares[1], ratio(9, 64) - ratio(49, 9) / 64);
+  EXPECT_EQ(found.cells.size(), 3u);
+}
+
+TEST(Partition_by_hand, a_small_table_leaves_no_umbra_and_a_touching_one_hides_what_it_covers) {
+  const auto small = partition_of(table(ratio(1, 16), 1), lamp(), 0).shares();
+  EXPECT_EQ(small[2].high, 0);
+  // s + (1 / 16 - s) 4 / 3 at s = -1 / 2: 1 / 4; so a square of side 1 / 2.
+  expect_share(small[1], ratio(1, 256));
+  const auto lying = partition_of(table(1, 0), lamp(), 0).shares();
+  expect_share(lying[0], 1);  // what lies in the face's plane hides nothing of what is in front of it
+}
+
+TEST(Partition_by_hand, half_of_a_face_behind_the_source_is_dark) {
+  // A wall with a lamp in the plane that halves it.
+  Faces faces;
+  faces.push_back(parallelogram(at(0, 0, 0), at(0, 4, 0), at(0, 0, 4)));  // in x = 0, looks along x
+  const Points looks_up = parallelogram({1, 1, 2}, at(1, 0, 0), at(0, 1, 0));
+  const auto shares = partition_of(soup_of(faces), looks_up, 0).shares();
+  expect_share(shares[0], ratio(1, 2));
+  expect_share(shares[2], ratio(1, 2));
+}
+
+TEST(Partition_by_hand, a_source_across_the_plane_of_the_face_is_never_seen_whole) {
+  Faces faces;
+  faces.push_back(parallelogram(at(0, 0, 0), at(4, 0, 0), at(0, 4, 0)));
+  const Points across = parallelogram(at(-1, 0, -1), at(0, 1, 0), at(0, 0, 2));  // looks along x
+  const auto shares = partition_of(soup_of(faces), across, 0).shares();
+  expect_share(shares[1], 1);
+}
+
+// ---- Against the eye
+
+TEST(Partition, is_as_the_eye_says_in_all_families) {
+  Tally tally;
+  Random random(7);
+  for (const weak_scenes::Family& family : weak_scenes::families())
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 4); ++seed) {
+      const weak_scenes::Weak_scene scene = family.make(seed);
+      SCOPED_TRACE(scene.name);
+      for (const Face_id face : scene.targets) expect_right(scene.soup, scene.source, face, 6, random, tally);
+    }
+  EXPECT_GT(tally.points[0] + tally.points[1] + tally.points[2], test_scenes::least(400u));
+  EXPECT_GT(tally.points[1], test_scenes::least(40u));
+  EXPECT_GT(tally.points[2], test_scenes::least(40u));
+}
+
+/// Triangles at random between a lamp and a floor.
+Polygon_soup triangles(Random& random, long count, long size) {
+  Faces faces;
+  faces.push_back(parallelogram(at(0, 0, 0), at(16, 0, 0), at(0, 16, 0)));
+  for (long k = 0; k < count; ++k) {
+    const auto coordinate = [&](long low, long high) { return low + static_cast<long>(random.below(high - low + 1)); };
+    const long x = coordinate(3, 13), y = coordinate(3, 13), z = coordinate(3, 9);
+    Points corners;
+    for (int n = 0; n < 3; ++n)
+      corners.push_back(at(x + coordinate(-size, size), y + coordinate(-size, size), z + coordinate(-2, 2)));
+    faces.push_back(corners);
+  }
+  return soup_of(faces);
+}
+
+TEST(Partition, of_floors_under_triangles_has_conics_and_is_as_the_eye_says) {
+  Tally tally;
+  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 12); ++seed) {
+    Random random(seed);  // 11: a point of a sector in the plane of a triangle
+    const Polygon_soup soup = triangles(random, 8, 6);
+    SCOPED_TRACE(seed);
+    expect_right(soup, reversed(parallelogram(at(6, 6, 12), at(4, 0, 0), at(0, 4, 0))), 0, 40, random, tally);
+  }
+  EXPECT_GT(tally.conics, test_scenes::least(4u));
+  EXPECT_GT(tally.points[2], test_scenes::least(10u));
+}
+
+TEST(Partition, with_all_borders_is_the_same_in_more_cells) {
+  Tally few, many;
+  for (std::uint64_t seed = 0; seed < 2; ++seed) {
+    Random random(seed), again(seed);
+    const Polygon_soup soup = triangles(random, 3, 6);
+    const Points source = reversed(parallelogram(at(6, 6, 12), at(4, 0, 0), at(0, 4, 0)));
+    expect_right(soup, source, 0, 0, again, few);
+    expect_right(soup, source, 0, 20, again, many, true);
+  }
+  EXPECT_GT(many.cells, few.cells);
+}
+
+TEST(Partition, without_time_is_undecided) {
+  Partition_options options;
+  options.out_of_time = [] { return true; };
+  Partition_counters counters;
+  const Polygon_soup soup = table(1, 1);
+  const Scene scene(soup);
+  expect_share(Light_partitioner(scene).partition(0, {lamp()}, options, counters).shares()[3], 1);
+}
+
+// ---- The arrangement
+
+TEST(Curve_arrangement, of_a_circle_and_a_line_has_their_areas) {
+  // (x - 1/2)^2 + (y - 1/2)^2 = 1/16, and y = x.
+  const std::vector<Plane_curve> curves{{{7, -16, -16, 16, 0, 16}}, {{0, -1, 1, 0, 0, 0}}};
+  const Curve_arrangement found(curves, {0, 1, 0, 1});
+  double low = 0, high = 0;
+  for (std::size_t s = 0; s < found.slabs().size(); ++s)
+    for (const Curve_arrangement::Arc& arc : found.slabs()[s].arcs) {
+      if (arc.curve != 0) continue;
+      const Bounded area = found.area_below(arc, s);
+      low += arc.upper ? area.low : -area.high;
+      high += arc.upper ? area.high : -area.low;
+    }
+  const double circle = std::acos(-1.0) / 16;
+  EXPECT_LE(low, circle);
+  EXPECT_GE(high, circle);
+  EXPECT_LT(high - low, 1e-6);
+  for (const Curve_arrangement::Slab& slab : found.slabs())
+    for (std::size_t k = 0; k < slab.y.size(); ++k)
+      for (const Plane_curve& curve : curves) EXPECT_NE(curve.sign(slab.x, slab.y[k]), 0);
+}
+
+TEST(Real_root, equal_ones_of_different_polynomials_are_one) {
+  std::vector<Real_root> roots;
+  append_real_roots({-1, 0, 2}, 0, 1, roots);        // 2 x^2 = 1
+  append_real_roots({1, 0, -4, 0, 4}, 0, 1, roots);  // its square
+  append_real_roots({0, -1, 0, 2}, -1, 1, roots);    // x (2 x^2 - 1)
+  append_real_roots({-1, 0, 0, 2}, 0, 1, roots);     // 2 x^3 = 1
+  sort_distinct(roots);
+  ASSERT_EQ(roots.size(), 4u);  // -sqrt(1/2), 0, sqrt(1/2), cube root
+  EXPECT_EQ(compare(roots[0], roots[1]), -1);
+  EXPECT_EQ(compare(roots[3], roots[2]), 1);
+}
+
+TEST(Plane_curve, falls_apart_into_lines_over_the_rationals) {
+  // (x + 2 y - 1)(3 x - y + 2), (x - 1)(y + x), (2 x - 1)(x + 3), and x^2 - 2 y^2, which does not.
+  EXPECT_EQ(components({{-2, -1, 5, 3, 5, -2}}).size(), 2u);
+  EXPECT_EQ(components({{0, -1, -1, 1, 1, 0}}).size(), 2u);
+  EXPECT_EQ(components({{-3, 5, 0, 2, 0, 0}}).size(), 2u);
+  EXPECT_EQ(components({{0, 0, 0, 1, 0, -2}}).size(), 1u);
+  EXPECT_EQ(components({{1, 0, 0, 1, 0, 0}}).size(), 0u);
+  for (const Plane_curve& line : components({{-2, -1, 5, 3, 5, -2}})) EXPECT_TRUE(line.is_line());
+}
+
+}  // namespace
+}  // namespace weak_partition
