@@ -75,6 +75,28 @@ TEST_F(Weak, walks_through_a_door_along_a_path) {
   EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--partition", "0"}).code, usage);
 }
 
+TEST_F(Weak, divides_a_wall_behind_a_door_into_penumbra_and_umbra) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string(), picture = path("wall.svg").string(),
+                    lamp = "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10";
+  const Json wall = weak({rooms, "--from", lamp, "--partition", "84", "--svg", picture})["result"]["partition"];
+  EXPECT_EQ(wall["lit"], Json::array({0.0, 0.0}));
+  EXPECT_LT(wall["umbra"][0].get<double>(), 0.241130005188);
+  EXPECT_GT(wall["umbra"][1].get<double>(), 0.241130005187);
+  ASSERT_EQ(wall["cells"].size(), 2u);
+  EXPECT_EQ(wall["cells"][0]["light"], "umbra");
+  EXPECT_EQ(wall["cells"][1]["light"], "penumbra");
+  ASSERT_EQ(wall["borders"].size(), 2u);
+  EXPECT_EQ(wall["borders"][0]["kind"], "conic");
+  EXPECT_EQ(wall["borders"][0]["curve"], Json::array({"-81", "90", "-55", "0", "50", "0"}));
+  EXPECT_NE(read_file(picture).find("<polygon"), std::string::npos);
+  // What it does not go with, and faces that there are not.
+  for (const char* other : {"--certificate", "--obj"})
+    EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--partition", "84", other, path("x.obj").string()}).code, usage);
+  EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--partition", "84", "--method", "events"}).code, usage);
+  EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--partition", "500"}).code, usage);
+  EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--all-borders"}).code, usage);
+}
+
 TEST_F(Weak, lights_two_rooms_through_the_door_between_them) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), to = path("rooms.json").string();
   const Json lit = weak({rooms, "--from", "1,1,29/10 1,2,29/10 2,2,29/10 2,1,29/10", "--certificate", to});
