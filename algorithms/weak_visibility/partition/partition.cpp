@@ -461,8 +461,8 @@ void Partition_builder::classify(Sector& sector, const Blockers& blockers) {
       continue;
     }
     const Seen_part part(source.lines, point, blockers[s]);
-    none += part.seen() == Seen::none;
-    all += part.seen() == Seen::all && source.whole;
+    none += part.seen() == Seen_share::none;
+    all += part.seen() == Seen_share::all && source.whole;
     if (options_->all_borders) outline[s] = part.outline();
   }
   const std::size_t count = sources_.size() + never_seen_;

@@ -12,7 +12,7 @@
 namespace sightline {
 
 /// Up to measure zero.
-enum class Seen : char { all, some, none };
+enum class Seen_share : char { all, some, none };
 
 /// The part of a source, the target of event lines, that a point of the receiver, their source, sees past blockers.
 class Seen_part {
@@ -27,7 +27,7 @@ class Seen_part {
   /// each blocker is taken from each of the convex parts that are left. Exact: yes. Proof: P-86
   Seen_part(const Event_lines& lines, const Homogeneous& point, std::span<const std::uint32_t> blockers);
 
-  Seen seen() const { return parts_.empty() ? Seen::none : cut_ ? Seen::some : Seen::all; }
+  Seen_share seen() const { return parts_.empty() ? Seen_share::none : cut_ ? Seen_share::some : Seen_share::all; }
   /// Convex, apart from each other, in the source's plane.
   const std::vector<Polygon>& parts() const { return parts_; }
   /// The lines, by number, whose images bound what is seen, in order. Pre: images of two lines are not one.
