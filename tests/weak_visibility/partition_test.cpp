@@ -273,6 +273,35 @@ TEST(Partition, without_time_is_undecided) {
   expect_share(Light_partitioner(scene).partition(0, {lamp()}, options, counters).shares()[3], 1);
 }
 
+TEST(Partition, that_time_ends_says_nothing_else_than_the_whole_one) {
+  Random random(5);
+  const Polygon_soup soup = triangles(random, 4, 6);
+  const Points source = reversed(parallelogram(at(6, 6, 12), at(4, 0, 0), at(0, 4, 0)));
+  const Scene scene(soup);
+  const Light_partitioner partitioner(scene);
+  Partition_counters counters;
+  Partition_options options;
+  std::size_t calls = 0, end = 0, decided = 0, open = 0;
+  options.out_of_time = [&] { return ++calls == end; };  // once: the next time it is asked there is time again
+  const Light_partition whole = partitioner.partition(0, {source}, options, counters);
+  const std::size_t all = calls;
+  ASSERT_GT(all, 20u);
+  for (std::size_t k = 0; k < 24; ++k) {
+    calls = 0;
+    end = 1 + k * (all - 1) / 23;
+    for (const Light_partition::Cell& cell : partitioner.partition(0, {source}, options, counters).cells) {
+      const std::size_t there = whole.cell_at(cell.at[0], cell.at[1]);
+      if (cell.light == Light::undecided) ++open;
+      else if (there != Light_partition::none) {
+        ++decided;
+        EXPECT_EQ(cell.light, whole.cells[there].light) << end;
+      }
+    }
+  }
+  EXPECT_GT(decided, 20u);
+  EXPECT_GT(open, 20u);
+}
+
 // ---- The arrangement
 
 TEST(Curve_arrangement, of_a_circle_and_a_line_has_their_areas) {

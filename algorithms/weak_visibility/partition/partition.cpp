@@ -98,6 +98,9 @@ class Partition_builder {
   std::size_t root(std::size_t sector);
 
   void collect_cells(Light_partition& result);
+
+  /// Once time is out it stays so: where candidates may be missing nothing is decided.
+  bool is_over() { return is_over_ |= options_->out_of_time && options_->out_of_time(); }
   void collect_borders(Light_partition& result);
 
   const Occluders* occluders_;
@@ -123,6 +126,7 @@ class Partition_builder {
   std::map<std::vector<std::vector<std::uint32_t>>, std::size_t> outlines_;
   std::vector<std::size_t> parents_, cell_of_;
   double done_ = 0;
+  bool is_over_ = false;
 };
 
 Partition_builder::Partition_builder(const Occluders& occluders, const Near_polygon& piece, const Near_plane& plane,
@@ -156,7 +160,8 @@ Partition_builder::Partition_builder(const Occluders& occluders, const Near_poly
     sources_.push_back({{source.plane.exact, near(source.plane)},
                         at == 1,
                         Event_lines(occluders, receiver, plane, seen, source.plane, 1)});
-    Border_search search(occluders, sources_.back().lines, chart_, options.out_of_time, counters.borders);
+    Border_search search(
+        occluders, sources_.back().lines, chart_, [this] { return is_over(); }, counters.borders);
     for (Border_curve& curve : search.run()) add(std::move(curve));
     if (is_across(source.plane, piece))
       for (const Plane_curve& line : components(chart_.trace(source.plane.exact))) add({line, true, {everywhere}});
@@ -242,7 +247,7 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
     if (out) rim.push_back(number);
   }
   std::sort(rim.begin(), rim.end());
-  if (options_->out_of_time && options_->out_of_time()) {
+  if (is_over()) {
     arrange(box, rim, given, Light::undecided);
     return leave();
   }
