@@ -13,7 +13,7 @@
 namespace sightline {
 namespace {
 
-constexpr std::size_t cells_of_proof_search = 800;  // proofs that were found took fewer
+constexpr std::size_t cells_of_proof_search = 2000;  // proofs that were found took fewer
 
 struct Cell {
   Near_polygon source, target;

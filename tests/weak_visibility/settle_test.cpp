@@ -89,7 +89,7 @@ TEST(Hidden_by_events, are_proved) {
     }
   std::cout << scenes << " scenes, " << unproved << " faces unproved\n";
   EXPECT_GE(open, 2u);
-  EXPECT_LE(unproved, scenes / 300);  // 4 of 3,003: lines that are 2^-40 from concurrent, a limit on the page
+  EXPECT_LE(unproved, scenes / 300);  // 3 of 3,003: lines that are 2^-40 from concurrent, a limit on the page
 }
 
 /// What is undecided with so few cells and edges, over and over, and after all of it.
