@@ -91,7 +91,7 @@ struct Light_partition {
 
   std::array<Bounded, lights> shares() const;  ///< of the piece
   /// The cell that a point is in. `none`: outside of the piece, on a border, or straight above or below an end of one
-  /// as far as doubles tell. Cost: all borders. Exact: yes
+  /// as far as doubles tell. Pre: no cell is undecided. Cost: all borders. Exact: yes
   std::size_t cell_at(const Rational& x, const Rational& y) const;
 };
 
