@@ -14,6 +14,8 @@ std::optional<Format> format_of_ending(const std::filesystem::path& path) {
   if (ending == ".qoff") return Format::qoff;
   if (ending == ".ply") return Format::ply;
   if (ending == ".stl") return Format::stl;
+  if (ending == ".map") return Format::map;
+  if (ending == ".bsp") return Format::bsp;
   return std::nullopt;
 }
 

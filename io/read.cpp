@@ -4,6 +4,8 @@
 #include <sightline/io/obj.h>
 #include <sightline/io/off.h>
 #include <sightline/io/ply.h>
+#include <sightline/io/quake_bsp.h>
+#include <sightline/io/quake_map.h>
 #include <sightline/io/stl.h>
 #include <sightline/io/text.h>
 
@@ -14,9 +16,11 @@ namespace detail {
 
 std::optional<Format> format_of_content(const Input& input) {
   if (has_binary_stl_size(input.bytes) || looks_like_stl_text(input)) return Format::stl;
+  if (looks_like_quake_level(input.bytes)) return Format::bsp;
   Text_reader text(input, Text_reader::Comments::hash);
   const std::string_view word = text.next_token_of_any_line();
   if (word == "ply") return Format::ply;
+  if (word == "{" || word.starts_with("//")) return Format::map;
   if (word.size() < 10 && word.ends_with("OFF")) return Format::off;
   for (const std::string_view statement : {"v", "vt", "vn", "f", "g", "o", "s", "usemtl", "mtllib"})
     if (word == statement) return Format::obj;
@@ -36,6 +40,8 @@ Polygon_soup read_scene(std::string_view bytes, Format format, const std::string
       case Format::off: return read_off(input, options);
       case Format::qoff: return read_qoff(input, options);
       case Format::stl: return read_stl(input, options);
+      case Format::map: return read_map(input, options);
+      case Format::bsp: return read_quake_bsp(input);
       default: return read_ply(input, options);
     }
   }();
@@ -53,7 +59,8 @@ Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& o
   if (!format) format = detail::format_of_content({name, bytes});
   if (!format)
     throw Input_error::of_file(
-        name, std::string("neither its ending nor its content is of a known format; give one of ") + supported_formats);
+        name, std::string("neither its ending nor its content is of a known format; give one of ") + supported_formats +
+                  ", or of " + read_only_formats);
   return read_scene(bytes, *format, name, options);
 }
 

@@ -1,5 +1,6 @@
 #include <sightline/io/write.h>
 
+#include <sightline/io/exact_text.h>
 #include <sightline/io/file.h>
 #include <sightline/io/obj.h>
 #include <sightline/io/off.h>
@@ -21,6 +22,8 @@ void write_scene(const Polygon_soup& soup, std::ostream& out, Format format) {
     case Format::ply: return write_ply(soup, out, false);
     case Format::ply_binary: return write_ply(soup, out, true);
     case Format::stl: return write_stl(soup, out);
+    case Format::map:
+    case Format::bsp: throw Not_representable("levels are read only; write .qoff, which holds any scene without holes");
   }
 }
 

@@ -1,0 +1,248 @@
+#include <sightline/io/quake_map.h>
+
+#include <sightline/io/decimal.h>
+#include <sightline/io/text.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/quoted.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sightline {
+namespace {
+
+/// A side of a brush, a half space: normal x - offset <= 0 within the brush, in integers without a common factor.
+struct Side {
+  std::array<Integer, 3> normal;
+  Integer offset;
+  bool is_drawn;
+  friend bool operator==(const Side& a, const Side& b) { return a.normal == b.normal && a.offset == b.offset; }
+};
+
+/// The half space behind three points that run clockwise as seen from outside; nothing where they are on a line.
+std::optional<Side> side_through(const std::array<Exact_point, 3>& points) {
+  const Exact_point normal = cross(minus(points[2], points[1]), minus(points[0], points[1]));
+  if (is_zero(normal)) return std::nullopt;
+  const std::array<Rational, 4> row{-normal[0], -normal[1], -normal[2], Rational(-dot(normal, points[1]))};
+  Integer denominators = 1, common = 0;
+  for (const Rational& value : row) denominators = lcm(denominators, value.get_den());
+  std::array<Integer, 4> whole;
+  for (std::size_t k = 0; k < 4; ++k) {
+    whole[k] = Rational(row[k] * denominators).get_num();
+    common = gcd(common, whole[k]);
+  }
+  for (Integer& value : whole) value /= common;
+  return Side{{whole[0], whole[1], whole[2]}, whole[3], true};
+}
+
+Rational beyond(const Side& side, const Exact_point& p) {
+  return side.normal[0] * p[0] + side.normal[1] * p[1] + side.normal[2] * p[2] - side.offset;
+}
+
+/// A square in a side's plane, counterclockwise as seen from outside, whose corners have two coordinates of size
+/// `reach`.
+std::vector<Exact_point> square_in(const Side& side, const Integer& reach) {
+  std::size_t k = 0;  // the coordinate that the plane gives
+  for (std::size_t i = 1; i < 3; ++i)
+    if (abs(side.normal[i]) > abs(side.normal[k])) k = i;
+  const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
+  std::vector<Exact_point> square;
+  for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+    Exact_point p;
+    p[i] = x * reach;
+    p[j] = y * reach;
+    p[k] = (side.offset - side.normal[i] * p[i] - side.normal[j] * p[j]) / Rational(side.normal[k]);
+    square.push_back(std::move(p));
+  }
+  if (sgn(side.normal[k]) < 0) std::reverse(square.begin(), square.end());
+  return square;
+}
+
+/// The part of a convex polygon within a half space; nothing where it only touches it. Pre: not all in its plane.
+std::vector<Exact_point> within(const Side& side, std::vector<Exact_point> polygon) {
+  std::vector<Rational> values;
+  for (const Exact_point& p : polygon) values.push_back(beyond(side, p));
+  const auto is_out = [](const Rational& value) { return value > 0; };
+  const auto is_in = [](const Rational& value) { return value < 0; };
+  if (std::none_of(values.begin(), values.end(), is_out)) return polygon;
+  if (std::none_of(values.begin(), values.end(), is_in)) return {};
+  std::vector<Exact_point> part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const std::size_t next = i + 1 == polygon.size() ? 0 : i + 1;
+    if (values[i] <= 0) part.push_back(polygon[i]);
+    if (sgn(values[i]) * sgn(values[next]) >= 0) continue;
+    const Rational t = values[i] / (values[i] - values[next]);
+    Exact_point& crossing = part.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) crossing[k] = polygon[i][k] + t * (polygon[next][k] - polygon[i][k]);
+  }
+  return part;
+}
+
+class Map_reader {
+ public:
+  Map_reader(const Input& input, const Read_options& options)
+      : text_(input, Text_reader::Comments::none), options_(options) {}
+
+  Polygon_soup read() {
+    for (std::string_view word = next_word(); !word.empty(); word = next_word()) {
+      if (word != "{") text_.fail(word, "unexpected " + quoted(word) + "; an entity begins with {");
+      read_entity();
+    }
+    return std::move(soup_);
+  }
+
+ private:
+  /// The next token that is not in a comment; an empty one at the end of the text.
+  std::string_view next_word() {
+    for (;;) {
+      const std::string_view word = text_.next_token_of_any_line();
+      if (!word.starts_with("//")) return word;
+      text_.finish_line();
+    }
+  }
+  std::string_view next_word(const char* expected) {
+    const std::string_view word = next_word();
+    if (word.empty())
+      text_.fail_at_end(std::string("the file ends where ") + expected +
+                        " should follow; fetch it again if it is cut off");
+    return word;
+  }
+
+  /// Keys and values of an entity, and its brushes, of which it is known only at its end whether they are of the world.
+  void read_entity() {
+    bool is_world = false;
+    std::vector<Brush> brushes;
+    for (;;) {
+      const std::string_view word = next_word("} or a brush");
+      if (word == "}") break;
+      if (word.starts_with('"')) {
+        if (word == "\"classname\"") is_world = is_part_of_world(text_.next_token());
+        text_.finish_line();
+      } else if (word == "{") {
+        brushes.push_back(read_brush(word));
+      } else {
+        text_.fail(word, "unexpected " + quoted(word) + "; write \"KEY\" \"VALUE\", { or } here");
+      }
+    }
+    if (!is_world) return;
+    for (const Brush& brush : brushes) add_faces(brush);
+  }
+  static bool is_part_of_world(std::string_view value) {
+    for (const std::string_view name : {"\"worldspawn\"", "\"func_group\"", "\"func_detail\"", "\"func_detail_wall\""})
+      if (value == name) return true;
+    return false;
+  }
+
+  struct Brush {
+    std::string_view at;  // its brace, for messages
+    std::vector<Side> sides;
+  };
+  Brush read_brush(std::string_view brace) {
+    Brush brush{brace, {}};
+    for (;;) {
+      const std::string_view word = next_word("( or }");
+      if (word == "}") return brush;
+      if (word != "(")
+        text_.fail(word,
+                   "unexpected " + quoted(word) +
+                       "; a side of a brush is ( x y z ) ( x y z ) ( x y z ) TEXTURE ..., and brushes and patches "
+                       "of later games are not read: export Quake's format");
+      if (brush.sides.size() == most_brush_sides)
+        text_.fail(word, "a brush of more than " + std::to_string(most_brush_sides) + " sides; cut it in parts");
+      brush.sides.push_back(read_side(word));
+    }
+  }
+  Side read_side(std::string_view begin) {
+    std::array<Exact_point, 3> points;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (i > 0) expect("(");
+      for (Rational& coordinate : points[i])
+        coordinate = value_of(read_coordinate(text_, text_.next_token(), Number_syntax::decimal, options_));
+      expect(")");
+    }
+    std::optional<Side> side = side_through(points);
+    if (!side) text_.fail(begin, "the three points of this side lie on a line; give three that span its plane");
+    side->is_drawn = is_drawn(text_.next_token());
+    text_.finish_line();
+    return *std::move(side);
+  }
+  void expect(const char* word) {
+    const std::string_view token = text_.next_token();
+    if (token != word)
+      text_.fail(token, std::string("no ") + word + " here; a point is ( x y z ), with blanks between");
+  }
+  static bool is_drawn(std::string_view texture) {
+    std::string name(texture);
+    for (char& c : name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    for (const std::string_view hidden : {"clip", "hint", "hintskip", "skip", "trigger", "origin"})
+      if (name == hidden) return false;
+    return true;
+  }
+
+  /// The faces of a brush: of each side what all others leave of it.
+  void add_faces(const Brush& brush) {
+    if (std::none_of(brush.sides.begin(), brush.sides.end(), [](const Side& side) { return side.is_drawn; })) return;
+    // Three planes of coefficients below 2^b meet in a point p/q with p below 6 2^3b, and q an integer.
+    std::size_t bits = 1;
+    for (const Side& side : brush.sides) {
+      for (const Integer& value : side.normal) bits = std::max(bits, bit_length(value));
+      bits = std::max(bits, bit_length(side.offset));
+    }
+    Integer reach;
+    mpz_setbit(reach.get_mpz_t(), 3 * bits + 4);
+    std::vector<std::vector<Exact_point>> faces;
+    for (std::size_t i = 0; i < brush.sides.size(); ++i) {
+      std::vector<Exact_point> face = face_of(brush.sides, i, reach);
+      const auto is_far = [&](const Exact_point& p) {
+        return std::any_of(p.begin(), p.end(), [&](const Rational& x) { return 2 * abs(x) >= reach; });
+      };
+      if (std::any_of(face.begin(), face.end(), is_far))
+        text_.fail(brush.at, "this brush has no end; add the sides that bound it");
+      if (!face.empty()) faces.push_back(std::move(face));
+    }
+    if (faces.size() < 4)
+      text_.fail(brush.at,
+                 "this brush has no volume; give its sides' points clockwise as seen from outside, or remove it");
+    for (const std::vector<Exact_point>& face : faces) add_face(face);
+  }
+  static std::vector<Exact_point> face_of(const std::vector<Side>& sides, std::size_t i, const Integer& reach) {
+    std::vector<Exact_point> face = square_in(sides[i], reach);
+    for (std::size_t j = 0; j < sides.size() && !face.empty(); ++j) {
+      if (j == i) continue;
+      const bool is_in_plane =
+          std::all_of(face.begin(), face.end(), [&](const Exact_point& p) { return beyond(sides[j], p) == 0; });
+      if (!is_in_plane) face = within(sides[j], std::move(face));
+      else if (!(sides[j] == sides[i]) || j < i) return {};  // no room between two sides, or given before
+    }
+    return face;
+  }
+
+  void add_face(const std::vector<Exact_point>& face) {
+    std::vector<Point_id> corners;
+    for (const Exact_point& p : face) {
+      const auto [place, fresh] = ids_.try_emplace(p, static_cast<Point_id>(ids_.size()));
+      if (fresh) soup_.add_point(p[0], p[1], p[2]);
+      corners.push_back(place->second);
+    }
+    soup_.add_face(corners);
+  }
+
+  Text_reader text_;
+  const Read_options& options_;
+  Polygon_soup soup_;
+  std::map<Exact_point, Point_id> ids_;
+};
+
+}  // namespace
+
+Polygon_soup read_map(const Input& input, const Read_options& options) { return Map_reader(input, options).read(); }
+
+}  // namespace sightline
