@@ -26,6 +26,11 @@ enum Lump : std::size_t {
 };
 constexpr std::size_t header_bytes = 4 + 8 * lumps;
 
+/// Where a part of the file is, and how long.
+struct Quake_lump {
+  std::size_t offset, size;
+};
+
 template <class Value>
 Value at(std::string_view bytes, std::size_t offset) {
   return load<Value>(bytes, offset, std::endian::little);
@@ -43,6 +48,7 @@ class Level_reader {
 
   Quake_level read() {
     check_header();
+    check_lumps();
     read_planes();
     read_soup();
     read_leaves();
@@ -61,7 +67,21 @@ class Level_reader {
                                  "; compile it for Quake");
   }
 
-  Quake_lump lump(Lump which) const {
+  /// No two lumps have a byte in common, so that one may be replaced.
+  void check_lumps() const {
+    std::vector<std::pair<Quake_lump, std::size_t>> all;
+    for (std::size_t i = 0; i < lumps; ++i)
+      if (const Quake_lump found = lump(i); found.size > 0) all.push_back({found, i});
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.first.offset < b.first.offset; });
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      const std::size_t before = k == 0 ? header_bytes : all[k - 1].first.offset + all[k - 1].first.size;
+      if (all[k].first.offset < before)
+        input_.fail_at_byte(4 + 8 * all[k].second, "lump " + std::to_string(all[k].second) +
+                                                       " begins within another or the header; compile the level again");
+    }
+  }
+
+  Quake_lump lump(std::size_t which) const {
     const std::size_t entry = 4 + 8 * which;
     const std::int64_t offset = at<std::int32_t>(bytes_, entry), size = at<std::int32_t>(bytes_, entry + 4);
     if (offset < 0 || size < 0 || offset + size > static_cast<std::int64_t>(bytes_.size()))

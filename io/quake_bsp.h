@@ -44,11 +44,6 @@ struct Quake_level {
   std::vector<std::size_t> seen_from(std::size_t leaf) const;
 };
 
-/// Where and how long the parts of a file are that may be replaced.
-struct Quake_lump {
-  std::size_t offset, size;
-};
-
 /// Whether the bytes begin as a level of version 29 does.
 bool looks_like_quake_level(std::string_view bytes);
 

@@ -29,9 +29,9 @@ struct Side {
 
 /// The half space behind three points that run clockwise as seen from outside; nothing where they are on a line.
 std::optional<Side> side_through(const std::array<Exact_point, 3>& points) {
-  const Exact_point normal = cross(minus(points[2], points[1]), minus(points[0], points[1]));
+  const Exact_point normal = cross(minus(points[0], points[1]), minus(points[2], points[1]));
   if (is_zero(normal)) return std::nullopt;
-  const std::array<Rational, 4> row{-normal[0], -normal[1], -normal[2], Rational(-dot(normal, points[1]))};
+  const std::array<Rational, 4> row{normal[0], normal[1], normal[2], dot(normal, points[1])};
   Integer denominators = 1, common = 0;
   for (const Rational& value : row) denominators = lcm(denominators, value.get_den());
   std::array<Integer, 4> whole;

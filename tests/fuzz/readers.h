@@ -4,6 +4,7 @@
 
 #include "support.h"
 
+#include <sightline/io/quake_bsp.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 #include <sightline/io/exact_text.h>
@@ -72,12 +73,13 @@ inline void check_reader(std::string_view bytes, Format format) {
     for (const Point_id p : soup->loop(f)) require(p < soup->point_count(), "corners are points that there are");
   }
   if (const std::optional<Polygon_soup> rounded = scene_in(bytes, format, {true})) {
-    require(rounded->face_count() == soup->face_count(), "rounding leaves the faces");
-    if (format != Format::stl)
+    require(format == Format::map || rounded->face_count() == soup->face_count(), "rounding leaves the faces");
+    if (format != Format::stl && format != Format::map)
       require(rounded->point_count() == soup->point_count() && same_faces(*soup, *rounded),
               "rounding leaves the points' numbers");
   }
   require(comes_back(*soup, Format::qoff), "QOFF holds any scene that was read");
+  if (format == Format::map || format == Format::bsp) return;  // read only
   if (format == Format::stl ? triangles && soup->face_count() > 0 : format != Format::qoff)
     require(comes_back(*soup, format), "a format holds what was read from it");
   if (format == Format::ply) comes_back(*soup, Format::ply_binary);  // where coordinates are doubles
@@ -88,5 +90,23 @@ inline void read_off(std::string_view bytes) { check_reader(bytes, Format::off);
 inline void read_qoff(std::string_view bytes) { check_reader(bytes, Format::qoff); }
 inline void read_ply(std::string_view bytes) { check_reader(bytes, Format::ply); }
 inline void read_stl(std::string_view bytes) { check_reader(bytes, Format::stl); }
+/// A level's brushes, each of which bounds a solid.
+inline void read_map(std::string_view bytes) { check_reader(bytes, Format::map); }
+/// A level's faces; and its table, which is the same when written and read.
+inline void read_bsp(std::string_view bytes) {
+  check_reader(bytes, Format::bsp);
+  if (!scene_in(bytes, Format::bsp)) return;
+  const Quake_level level = read_quake_level({"scene", bytes});
+  if (level.visible_leaves > 2000) return;
+  std::vector<std::vector<bool>> rows;
+  for (std::size_t l = 1; l <= level.visible_leaves; ++l) {
+    rows.emplace_back(level.visible_leaves);
+    for (const std::size_t seen : level.seen_from(l)) rows.back()[seen - 1] = true;
+  }
+  const std::string again = with_visibility(bytes, rows);
+  const Quake_level same = read_quake_level({"scene", again});
+  for (std::size_t l = 1; l <= level.visible_leaves; ++l)
+    require(same.seen_from(l) == level.seen_from(l), "a table that is written is the same when read");
+}
 
 }  // namespace fuzz

@@ -45,6 +45,8 @@ inline const std::vector<Target>& targets() {
                                        {"read_qoff", read_qoff, {".qoff", ".off"}},
                                        {"read_ply", read_ply, {".ply"}},
                                        {"read_stl", read_stl, {".stl"}},
+                                       {"read_map", read_map, {".map"}},
+                                       {"read_bsp", read_bsp, {".bsp"}},
                                        {"decimal", decimal, {".off", ".qoff", ".obj"}},
                                        {"read_certificate", read_certificate, {"certificates/", "forms/"}},
                                        {"query", query, {"queries/"}},
