@@ -219,13 +219,11 @@ class Level_reader {
   void check_visibility() {
     const Quake_lump found = lump(lump_visibility);
     level_.visibility = bytes_.substr(found.offset, found.size);
-    if (level_.visibility.empty()) {
-      for (Quake_level::Leaf& leaf : level_.leaves) leaf.visible_at = -1;
-      return;
-    }
+    for (std::size_t l = 0; l < level_.leaves.size(); ++l)
+      if (level_.visibility.empty() || l == 0 || l > level_.visible_leaves) level_.leaves[l].visible_at = -1;
     const std::size_t row = (level_.visible_leaves + 7) / 8;
     const Records leaves = records(lump_leaves, 28);
-    for (std::size_t l = 1; l < level_.leaves.size(); ++l) {
+    for (std::size_t l = 1; l <= level_.visible_leaves && !level_.leaves.empty(); ++l) {
       const std::int64_t begin = level_.leaves[l].visible_at;
       if (begin == -1) continue;
       const std::size_t place = leaves[l] + 4;
