@@ -1,0 +1,428 @@
+#include <sightline/algorithms/levels/cells.h>
+
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/query.h>
+#include <sightline/algorithms/levels/wall_polygon.h>
+#include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+#include <span>
+#include <utility>
+
+namespace sightline {
+
+using levels_detail::Wall_cutter;
+using levels_detail::Wall_halves;
+using levels_detail::Wall_polygon;
+
+using Box_planes = std::array<std::array<Plane, 2>, 3>;
+
+struct Level_cells::Space {
+  Scene scene;
+  Box_planes box;
+  Exact_traits traits;
+  Exact_tree tree;
+  std::vector<std::array<Cell_id, 2>> leaves;  // by node: the cells in front and behind, where those are leaves
+
+  Space(const Polygon_soup& soup, const Cell_options& options)
+      : scene(soup), box(box_about(scene)), traits(scene), tree(build_bsp(traits, bsp_options(options))) {}
+
+  /// Beyond all points of the scene: its coordinates on the grid are less than 2^bits.
+  static Box_planes box_about(Scene& scene) {
+    Integer reach;
+    mpz_setbit(reach.get_mpz_t(), static_cast<mp_bitcnt_t>(scene.bits()));
+    Box_planes box;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::array<Integer, 4> low{0, 0, 0, reach}, high{0, 0, 0, reach};
+      low[k] = 1;
+      high[k] = -1;
+      box[k] = {scene.add_plane(low), scene.add_plane(high)};
+    }
+    return box;
+  }
+  static Bsp_options bsp_options(const Cell_options& options) {
+    Bsp_options bsp;
+    bsp.candidates = options.candidates;
+    bsp.seed = options.seed;
+    bsp.threads = options.threads;
+    return bsp;
+  }
+};
+
+namespace {
+
+/// Divides the planes of a tree's nodes into walls between its leaves.
+class Wall_builder {
+ public:
+  using Tree = Exact_tree;
+
+  Wall_builder(const Exact_traits& traits, const Tree& tree, const Box_planes& box,
+               std::vector<std::array<Cell_id, 2>>& leaves)
+      : traits_(traits), tree_(tree), box_(box), leaves_(leaves), cutter_(traits.predicates()) {}
+
+  void number_leaves() {
+    leaves_.assign(tree_.nodes.size(), {no_cell, no_cell});
+    for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
+      if (tree_.nodes[n].front == Tree::leaf) leaves_[n][0] = cells_++;
+      if (tree_.nodes[n].behind == Tree::leaf) leaves_[n][1] = cells_++;
+    }
+    if (tree_.nodes.empty()) cells_ = 1;
+  }
+
+  void build(const std::function<void(std::size_t, std::size_t)>& progress) {
+    // 1. Walls in the planes of nodes: what their ancestors leave of them.
+    struct Waiting {
+      std::int32_t node;
+      std::size_t depth;
+    };
+    std::vector<Waiting> stack;
+    std::vector<std::pair<std::int32_t, bool>> path;  // nodes above, and whether this is in front of them
+    if (!tree_.nodes.empty()) stack.push_back({0, 0});
+    std::size_t done = 0;
+    while (!stack.empty()) {
+      const auto [node, depth] = stack.back();
+      stack.pop_back();
+      path.resize(depth);
+      if (depth > 0) path.back().second = tree_.nodes[static_cast<std::size_t>(path.back().first)].front == node;
+      divide_node(node, path);
+      if (progress) progress(++done, tree_.nodes.size());
+      const auto& here = tree_.nodes[static_cast<std::size_t>(node)];
+      path.push_back({node, true});
+      if (here.behind != Tree::leaf) stack.push_back({here.behind, depth + 1});
+      if (here.front != Tree::leaf) stack.push_back({here.front, depth + 1});
+    }
+
+    // 2. Walls at the end of the world: those of the box, to the inside.
+    for (const std::array<Plane, 2>& axis : box_)
+      for (const Plane plane : axis) {
+        const auto keep = [&](Wall_polygon part, Cell_id cell) { add_wall(std::move(part), cell, no_cell, {}); };
+        push(cutter_.section(plane, box_), tree_.nodes.empty() ? Tree::leaf : 0, 0, keep);
+      }
+  }
+
+  std::vector<Cell_wall> walls;
+  std::vector<Exact_point> points;
+  std::vector<int> steps;  // by wall: by how much the winding number behind it is more than in front
+  std::size_t cells() const { return cells_; }
+  const Wall_cutter& cutter() const { return cutter_; }
+
+ private:
+  /// Sends a wall down a subtree, from the side that its cells are on; `keep` gets each part with its leaf.
+  /// Pre: `node` is an inner node, or `cell` a leaf.
+  template <class Keep>
+  void push(Wall_polygon polygon, std::int32_t node, Cell_id cell, const Keep& keep, bool from_front = true) {
+    struct Part {
+      Wall_polygon polygon;
+      std::int32_t node;
+      Cell_id cell;
+    };
+    std::vector<Part> stack;
+    stack.push_back({std::move(polygon), node, cell});
+    while (!stack.empty()) {
+      Part part = std::move(stack.back());
+      stack.pop_back();
+      if (part.polygon.empty()) continue;
+      if (part.node == Tree::leaf) {
+        keep(std::move(part.polygon), part.cell);
+        continue;
+      }
+      const auto n = static_cast<std::size_t>(part.node);
+      const auto& here = tree_.nodes[n];
+      Wall_halves halves = cutter_.cut(part.polygon, here.plane);
+      if (halves.is_in_plane) {  // the cells are on that side of it that they are on of the wall
+        const bool same = is_same_side(part.polygon.plane, here.plane);
+        (same == from_front ? halves.front : halves.behind) = std::move(part.polygon);
+      }
+      stack.push_back({std::move(halves.behind), here.behind, leaves_[n][1]});
+      stack.push_back({std::move(halves.front), here.front, leaves_[n][0]});
+    }
+  }
+  /// Whether two names of one plane have their fronts on one side.
+  bool is_same_side(Plane g, Plane h) const {
+    if (g.id() == h.id()) return g.flipped() == h.flipped();
+    const std::array<Integer, 4> a = traits_.predicates().coefficients(g), b = traits_.predicates().coefficients(h);
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0;
+  }
+
+  void divide_node(std::int32_t node, const std::vector<std::pair<std::int32_t, bool>>& path) {
+    const auto n = static_cast<std::size_t>(node);
+    const auto& here = tree_.nodes[n];
+    Wall_polygon polygon = cutter_.section(here.plane, box_);
+    for (const auto& [above, in_front] : path) {
+      const Plane plane = tree_.nodes[static_cast<std::size_t>(above)].plane;
+      polygon = cutter_.in_front(polygon, in_front ? plane : plane.opposite());
+    }
+    const auto keep_behind = [&](Wall_polygon part, Cell_id front) {
+      push(std::move(part), here.behind, leaves_[n][1],
+           [&](Wall_polygon wall, Cell_id behind) { add_wall(std::move(wall), front, behind, tree_.on(here)); }, false);
+    };
+    push(std::move(polygon), here.front, leaves_[n][0], keep_behind);
+  }
+
+  using Fragments = std::span<const Fragment<Exact_traits>>;
+
+  void add_wall(Wall_polygon polygon, Cell_id front, Cell_id behind, Fragments fragments) {
+    Cell_wall wall{front, behind, ids_of(polygon), {}, {}, {}};
+    const std::array<double, 6> box = box_of(polygon.corners, [](const auto& corner) { return corner.vertex; });
+    std::vector<Wall_polygon> open{polygon};
+    Wall_polygon covered;  // a part of it that some faces cover wholly and the others not at all
+    int step = 0;
+    for (const Fragment<Exact_traits>& fragment : fragments) {
+      if (!overlap(box, box_of(fragment.polygon, [](const auto& corner) { return *corner.vertex; }))) continue;
+      const Wall_polygon common = within(polygon, fragment);
+      if (common.empty()) continue;
+      (fragment.same_sense ? wall.faces_front : wall.faces_behind).push_back(traits_.face(fragment.polygon.piece));
+      open = without(open, fragment);
+      const Wall_polygon of_both = covered.empty() ? common : within(covered, fragment);
+      if (of_both.empty()) continue;
+      covered = of_both;
+      step += (fragment.same_sense ? 1 : -1) * times_[fragment.polygon.piece];
+    }
+    for (std::vector<Face_id>* faces : {&wall.faces_front, &wall.faces_behind}) {
+      std::sort(faces->begin(), faces->end());
+      faces->erase(std::unique(faces->begin(), faces->end()), faces->end());
+    }
+    if (behind != no_cell)
+      for (const Wall_polygon& part : open) wall.open.push_back(ids_of(part));
+    steps.push_back(open.empty() ? step : 0);
+    walls.push_back(std::move(wall));
+  }
+
+  template <class Corners, class Vertex_of>
+  static std::array<double, 6> box_of(const Corners& corners, Vertex_of vertex_of) {
+    constexpr double far = std::numeric_limits<double>::infinity();
+    std::array<double, 6> box{far, far, far, -far, -far, -far};
+    for (const auto& corner : corners) {
+      const Vertex& v = vertex_of(corner);
+      const double p[3] = {v.x, v.y, v.z};
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double low = v.error < far ? p[k] - v.error * (1 + 0x1p-50) - 0x1p-50 * std::fabs(p[k]) : -far,
+                     high = v.error < far ? p[k] + v.error * (1 + 0x1p-50) + 0x1p-50 * std::fabs(p[k]) : far;
+        box[k] = std::min(box[k], low);
+        box[k + 3] = std::max(box[k + 3], high);
+      }
+    }
+    return box;
+  }
+  static bool overlap(const std::array<double, 6>& a, const std::array<double, 6>& b) {
+    for (std::size_t k = 0; k < 3; ++k)
+      if (a[k] > b[k + 3] || b[k] > a[k + 3]) return false;
+    return true;
+  }
+
+  /// What a polygon has in common with a fragment in its plane.
+  Wall_polygon within(Wall_polygon polygon, const Fragment<Exact_traits>& fragment) {
+    for (const auto& corner : fragment.polygon) {
+      if (polygon.empty()) break;
+      polygon = cutter_.in_front(polygon, corner.edge.bound);
+    }
+    return polygon;
+  }
+  /// What of polygons a fragment in their plane leaves, in convex parts.
+  std::vector<Wall_polygon> without(const std::vector<Wall_polygon>& polygons, const Fragment<Exact_traits>& fragment) {
+    std::vector<Wall_polygon> left;
+    for (const Wall_polygon& polygon : polygons) {
+      if (within(polygon, fragment).empty()) {
+        left.push_back(polygon);
+        continue;
+      }
+      Wall_polygon rest = polygon;
+      for (const auto& corner : fragment.polygon) {
+        Wall_halves halves = cutter_.cut(rest, corner.edge.bound);
+        if (!halves.behind.empty()) left.push_back(std::move(halves.behind));
+        rest = std::move(halves.front);
+      }
+    }
+    return left;
+  }
+
+  std::vector<std::uint32_t> ids_of(const Wall_polygon& polygon) {
+    std::vector<std::uint32_t> ids;
+    for (const Wall_polygon::Corner& corner : polygon.corners) {
+      const auto [place, fresh] =
+          ids_.try_emplace(traits_.position(corner.vertex), static_cast<std::uint32_t>(points.size()));
+      if (fresh) points.push_back(place->first);
+      ids.push_back(place->second);
+    }
+    return ids;
+  }
+
+  const Exact_traits& traits_;
+  const Tree& tree_;
+  const Box_planes& box_;
+  std::vector<std::array<Cell_id, 2>>& leaves_;
+  Wall_cutter cutter_;
+  Cell_id cells_ = 0;
+  std::vector<int> times_ = times_given(traits_.scene());
+  std::map<Exact_point, std::uint32_t> ids_;
+};
+
+/// Calls visit(neighbour, wall) for each wall of a cell that another is beyond.
+template <class Visit>
+void each_neighbour(const std::vector<Level_cell>& cells, const std::vector<Cell_wall>& walls, Cell_id cell,
+                    Visit visit) {
+  for (const std::uint32_t w : cells[cell].walls) {
+    const Cell_id other = walls[w].front == cell ? walls[w].behind : walls[w].front;
+    if (other != no_cell) visit(other, w);
+  }
+}
+
+/// Winding numbers, from the end of the world on.
+void find_windings(std::vector<Level_cell>& cells, const std::vector<Cell_wall>& walls, const std::vector<int>& steps) {
+  std::vector<char> is_known(cells.size(), 0);
+  std::queue<Cell_id> waiting;
+  for (Cell_id c = 0; c < cells.size(); ++c)
+    if (cells[c].is_outside) {
+      is_known[c] = 1;
+      waiting.push(c);
+    }
+  for (; !waiting.empty(); waiting.pop()) {
+    const Cell_id cell = waiting.front();
+    each_neighbour(cells, walls, cell, [&](Cell_id other, std::uint32_t w) {
+      if (is_known[other] != 0) return;
+      is_known[other] = 1;
+      cells[other].winding = cells[cell].winding + (walls[w].front == cell ? steps[w] : -steps[w]);
+      waiting.push(other);
+    });
+  }
+  int least = 0;
+  for (const Level_cell& cell : cells) least = std::min(least, cell.winding);
+  for (Level_cell& cell : cells) cell.is_solid = cell.winding > least;
+}
+
+std::size_t find_regions(std::vector<Level_cell>& cells, const std::vector<Cell_wall>& walls) {
+  constexpr std::uint32_t none = ~std::uint32_t{0};
+  for (Level_cell& cell : cells) cell.region = none;
+  std::uint32_t regions = 0;
+  for (Cell_id c = 0; c < cells.size(); ++c) {
+    if (cells[c].region != none) continue;
+    cells[c].region = regions;
+    std::vector<Cell_id> stack{c};
+    while (!stack.empty()) {
+      const Cell_id cell = stack.back();
+      stack.pop_back();
+      each_neighbour(cells, walls, cell, [&](Cell_id other, std::uint32_t w) {
+        if (walls[w].open.empty() || cells[other].region != none || cells[other].is_solid != cells[cell].is_solid)
+          return;
+        cells[other].region = regions;
+        stack.push_back(other);
+      });
+    }
+    ++regions;
+  }
+  return regions;
+}
+
+}  // namespace
+
+Level_cells::Level_cells(const Polygon_soup& soup, const Cell_options& options)
+    : space_(std::make_unique<Space>(soup, options)) {
+  // 1. Walls between leaves.
+  Wall_builder builder(space_->traits, space_->tree, space_->box, space_->leaves);
+  builder.number_leaves();
+  builder.build(options.progress);
+  walls_ = std::move(builder.walls);
+  points_ = std::move(builder.points);
+  cells_.resize(builder.cells());
+  for (std::uint32_t w = 0; w < walls_.size(); ++w) {
+    const Cell_wall& wall = walls_[w];
+    Level_cell& front = cells_[wall.front];
+    front.walls.push_back(w);
+    front.faces.insert(front.faces.end(), wall.faces_front.begin(), wall.faces_front.end());
+    if (wall.behind == no_cell) {
+      front.is_outside = true;
+      continue;
+    }
+    Level_cell& behind = cells_[wall.behind];
+    behind.walls.push_back(w);
+    behind.faces.insert(behind.faces.end(), wall.faces_behind.begin(), wall.faces_behind.end());
+  }
+  for (Level_cell& cell : cells_) {
+    std::sort(cell.faces.begin(), cell.faces.end());
+    cell.faces.erase(std::unique(cell.faces.begin(), cell.faces.end()), cell.faces.end());
+  }
+
+  // 2. What is solid, and what is connected.
+  closed_ = closure(space_->scene).closed;
+  if (closed_) find_windings(cells_, walls_, builder.steps);
+  counters_.regions = find_regions(cells_, walls_);
+
+  counters_.cells = cells_.size();
+  for (const Level_cell& cell : cells_) {
+    counters_.solid += cell.is_solid;
+    counters_.outside += cell.is_outside;
+  }
+  counters_.walls = walls_.size();
+  for (const Cell_wall& wall : walls_) {
+    counters_.portals += !wall.open.empty() && !cells_[wall.front].is_solid && !cells_[wall.behind].is_solid;
+    counters_.covered += wall.behind != no_cell && wall.open.empty();
+  }
+  counters_.contacts = builder.cutter().contacts();
+  counters_.nodes = space_->tree.counters.nodes;
+  counters_.splits = space_->tree.counters.splits;
+}
+
+Level_cells::~Level_cells() = default;
+Level_cells::Level_cells(Level_cells&&) noexcept = default;
+
+const Scene& Level_cells::scene() const { return space_->scene; }
+
+std::vector<Exact_point> Level_cells::polygon(const std::vector<std::uint32_t>& corners) const {
+  std::vector<Exact_point> polygon;
+  for (const std::uint32_t p : corners) polygon.push_back(points_[p]);
+  return polygon;
+}
+
+Exact_point Level_cells::inside(Cell_id cell) const {
+  std::vector<std::uint32_t> corners;
+  for (const std::uint32_t w : cells_[cell].walls)
+    corners.insert(corners.end(), walls_[w].corners.begin(), walls_[w].corners.end());
+  std::sort(corners.begin(), corners.end());
+  corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+  Exact_point sum{};
+  for (const std::uint32_t p : corners)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += points_[p][k];
+  for (Rational& x : sum) x /= static_cast<long>(corners.size());
+  return sum;
+}
+
+Cell_id Level_cells::at(const Exact_point& point) const {
+  Predicate_counts counts;
+  for (const std::array<Plane, 2>& axis : space_->box)
+    for (const Plane plane : axis)
+      if (space_->traits.side(space_->traits.eye(point), plane, counts) == CGAL::NEGATIVE) return no_cell;
+  const Bsp_leaf leaf = find_leaf(space_->traits, space_->tree, point, counts);
+  if (leaf.node == Exact_tree::leaf) return 0;
+  return space_->leaves[static_cast<std::size_t>(leaf.node)][leaf.in_front ? 0 : 1];
+}
+
+std::vector<Cell_id> Level_cells::way_out(const Exact_point& point) const {
+  const Cell_id start = at(point);
+  if (start == no_cell || cells_[start].is_solid) return {};
+  std::vector<Cell_id> from(cells_.size(), no_cell);
+  from[start] = start;
+  std::queue<Cell_id> waiting;
+  for (waiting.push(start); !waiting.empty(); waiting.pop()) {
+    const Cell_id cell = waiting.front();
+    if (cells_[cell].is_outside) {
+      std::vector<Cell_id> way{cell};
+      while (way.back() != start) way.push_back(from[way.back()]);
+      std::reverse(way.begin(), way.end());
+      return way;
+    }
+    each_neighbour(cells_, walls_, cell, [&](Cell_id other, std::uint32_t w) {
+      if (walls_[w].open.empty() || cells_[other].is_solid || from[other] != no_cell) return;
+      from[other] = cell;
+      waiting.push(other);
+    });
+  }
+  return {};
+}
+
+}  // namespace sightline
