@@ -159,8 +159,9 @@ class Wall_builder {
       polygon = cutter_.in_front(polygon, in_front ? plane : plane.opposite());
     }
     const auto keep_behind = [&](Wall_polygon part, Cell_id front) {
-      push(std::move(part), here.behind, leaves_[n][1],
-           [&](Wall_polygon wall, Cell_id behind) { add_wall(std::move(wall), front, behind, tree_.on(here)); }, false);
+      push(
+          std::move(part), here.behind, leaves_[n][1],
+          [&](Wall_polygon wall, Cell_id behind) { add_wall(std::move(wall), front, behind, tree_.on(here)); }, false);
     };
     push(std::move(polygon), here.front, leaves_[n][0], keep_behind);
   }

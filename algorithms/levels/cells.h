@@ -18,7 +18,7 @@ inline constexpr Cell_id no_cell = ~Cell_id{0};
 
 /// What two cells have in common: a convex polygon, counterclockwise as seen from the cell in front.
 struct Cell_wall {
-  Cell_id front, behind;  ///< `behind` is no_cell at the end of the world
+  Cell_id front, behind;                         ///< `behind` is no_cell at the end of the world
   std::vector<std::uint32_t> corners;            ///< points of Level_cells
   std::vector<std::vector<std::uint32_t>> open;  ///< convex parts that no face covers; all of it in one where none does
   std::vector<Face_id> faces_front, faces_behind;  ///< that cover some of it, and look into the cell in front, behind
@@ -57,7 +57,7 @@ struct Cell_counters {
 struct Cell_options {
   unsigned candidates = 5;  ///< face planes tried for each node of the tree
   std::uint64_t seed = 1;
-  int threads = 0;                                                 ///< 0: as many as there are processors
+  int threads = 0;                                                       ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< nodes
 };
 

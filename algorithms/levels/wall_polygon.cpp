@@ -39,7 +39,7 @@ Wall_halves Wall_cutter::cut(const Wall_polygon& polygon, Plane plane) {
       continue;
     }
     std::vector<Wall_polygon::Corner>&own = here == CGAL::POSITIVE ? halves.front.corners : halves.behind.corners,
-                                &other = here == CGAL::POSITIVE ? halves.behind.corners : halves.front.corners;
+    &other = here == CGAL::POSITIVE ? halves.behind.corners : halves.front.corners;
     own.push_back(corner);
     if (next != -here) continue;
     const Vertex crossing = predicates_.meet(polygon.plane.id(), corner.bound.id(), plane.id());

@@ -105,9 +105,8 @@ void check(const Polygon_soup& soup, std::size_t points, std::uint32_t seed) {
     }
     EXPECT_GT(own, 0);
     volume += own;
-    EXPECT_EQ(cell.is_outside, std::any_of(cell.walls.begin(), cell.walls.end(), [&](std::uint32_t w) {
-                return level.walls()[w].behind == no_cell;
-              }));
+    EXPECT_EQ(cell.is_outside, std::any_of(cell.walls.begin(), cell.walls.end(),
+                                           [&](std::uint32_t w) { return level.walls()[w].behind == no_cell; }));
   }
   EXPECT_EQ(volume, 6 * (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]));
 

@@ -1,0 +1,257 @@
+#include <sightline/algorithms/levels/pvs.h>
+
+#include <sightline/algorithms/weak_visibility/search/line_search.h>
+#include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/kernel/threads.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <atomic>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+namespace sightline {
+namespace {
+
+/// A way from one cell to the next: an open part of a wall, as a source that looks into that.
+struct Way {
+  Cell_id from, to;
+  Weak_source source;
+  std::vector<Pluecker> edges;
+  std::vector<Ends> ends;
+};
+
+/// The way `from` takes through a part of a wall: counterclockwise as seen from where it leads.
+std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall& wall,
+                                      const std::vector<std::uint32_t>& part, Cell_id from) {
+  std::vector<Exact_point> polygon = level.polygon(part);
+  if (wall.front == from) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+class Pvs_maker {
+ public:
+  Pvs_maker(const Level_cells& level, const Pvs_options& options)
+      : level_(level), options_(options), occluders_(level.scene()) {
+    choose_cells();
+    for (const Cell_wall& wall : level.walls()) {
+      if (wall.behind == no_cell || !pvs_.is_asked[wall.front] || !pvs_.is_asked[wall.behind]) continue;
+      for (const std::vector<std::uint32_t>& part : wall.open)
+        for (const Cell_id from : {wall.front, wall.behind})
+          add_way(from, from == wall.front ? wall.behind : wall.front, looking_from(level, wall, part, from));
+    }
+  }
+
+  Pvs make() {
+    find_starts();
+    struct Column {
+      std::vector<Cell_id> visible, undecided;
+      Pvs_counters counters;
+    };
+    std::vector<Column> columns(faces_.size());
+    std::atomic<std::size_t> done{0};
+    run_with_threads(options_.threads, [&] {
+      parallel_for(faces_.size(), [&](std::size_t f) {
+        if (f % options_.shards == options_.shard)
+          columns[f].counters = flood(faces_[f], columns[f].visible, columns[f].undecided);
+        if (options_.progress) options_.progress(++done, faces_.size());
+      });
+    });
+    pvs_.visible.resize(level_.cells().size());
+    pvs_.undecided.resize(level_.cells().size());
+    Pvs_counters& c = pvs_.counters;
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      for (const Cell_id cell : columns[f].visible) pvs_.visible[cell].push_back(faces_[f].face);
+      for (const Cell_id cell : columns[f].undecided) pvs_.undecided[cell].push_back(faces_[f].face);
+      const Pvs_counters& own = columns[f].counters;
+      if (f % options_.shards == options_.shard) c.pairs += c.cells;
+      c.visible += columns[f].visible.size();
+      c.undecided += columns[f].undecided.size();
+      c.within += own.within;
+      c.extended += own.extended;
+      c.searched += own.searched;
+      c.hidden += own.hidden;
+      c.unreached += own.unreached;
+      c.by_events += own.by_events;
+      c.search += own.search;
+    }
+    c.faces = faces_.size();
+    return std::move(pvs_);
+  }
+
+ private:
+  struct Target {
+    Face_id face;
+    std::vector<std::uint32_t> pieces;
+    std::vector<Cell_id> starts;  // cells that it looks into
+  };
+  /// A line along which the face is seen: from a point of a way, and on its way back to there from inside a cell.
+  struct Sightline {
+    std::array<Triple, 2> points;
+    Cell_id cell;
+  };
+
+  void choose_cells() {
+    const std::vector<Level_cell>& cells = level_.cells();
+    std::vector<char> has_way_out(level_.counters().regions, 0);
+    for (const Level_cell& cell : cells)
+      if (cell.is_outside) has_way_out[cell.region] = 1;
+    const auto is_inside = [&](const Level_cell& cell) { return !cell.is_solid && has_way_out[cell.region] == 0; };
+    const bool all = options_.outside || std::none_of(cells.begin(), cells.end(), is_inside);
+    for (const Level_cell& cell : cells) {
+      pvs_.is_asked.push_back(all ? !cell.is_solid : is_inside(cell));
+      pvs_.counters.cells += pvs_.is_asked.back() != 0;
+    }
+    into_.resize(cells.size());
+  }
+
+  void add_way(Cell_id from, Cell_id to, const std::vector<Exact_point>& polygon) {
+    into_[to].push_back(ways_.size());
+    Way& way = ways_.emplace_back(Way{from, to, weak_source(occluders_, polygon), {}, {}});
+    const Near_polygon& corners = way.source.polygon;
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Triple &a = corners[i].near, &b = corners[(i + 1) % corners.size()].near;
+      way.edges.push_back(pluecker_of_edge(a, b));
+      way.ends.push_back(ends(size(a), size(b)));
+    }
+  }
+
+  /// The faces that look into cells that are asked about.
+  void find_starts() {
+    const std::vector<Piece>& pieces = level_.scene().pieces();
+    std::vector<std::vector<Cell_id>> starts(level_.scene().counters().faces_read);
+    for (Cell_id c = 0; c < level_.cells().size(); ++c)
+      if (pvs_.is_asked[c] != 0)
+        for (const Face_id face : level_.cells()[c].faces) starts[face].push_back(c);
+    for (std::uint32_t i = 0; i < pieces.size(); ++i) {
+      const Face_id face = pieces[i].face;
+      if (starts[face].empty()) continue;
+      if (faces_.empty() || faces_.back().face != face) faces_.push_back({face, {}, starts[face]});
+      faces_.back().pieces.push_back(i);
+    }
+  }
+
+  /// All cells that see a face, outwards from where it is.
+  Pvs_counters flood(const Target& target, std::vector<Cell_id>& visible, std::vector<Cell_id>& undecided) {
+    Pvs_counters counters;
+    enum class Known : char { nothing, is_hidden, is_undecided, is_visible };
+    std::vector<Known> known(level_.cells().size(), Known::nothing);
+    std::vector<Sightline> sightlines;
+    std::vector<Cell_id> waiting = target.starts;
+    for (const Cell_id cell : waiting) known[cell] = Known::is_visible;
+    counters.within = waiting.size();
+    for (std::size_t next = 0; next < waiting.size(); ++next) {
+      for (const std::size_t w : into_[waiting[next]]) {
+        const Way& way = ways_[w];
+        Known& of_cell = known[way.from];
+        if (of_cell == Known::is_visible) continue;
+        const Weak_status found = look_through(way, target, sightlines, counters);
+        if (found == Weak_status::hidden) {
+          of_cell = std::max(of_cell, Known::is_hidden);
+          continue;
+        }
+        if (of_cell < Known::is_undecided) waiting.push_back(way.from);
+        of_cell = found == Weak_status::visible ? Known::is_visible : Known::is_undecided;
+      }
+    }
+    for (Cell_id c = 0; c < known.size(); ++c) {
+      if (known[c] == Known::is_visible) visible.push_back(c);
+      if (known[c] == Known::is_undecided) undecided.push_back(c);
+      counters.unreached += known[c] == Known::nothing && pvs_.is_asked[c] != 0;
+    }
+    return counters;
+  }
+
+  Weak_status look_through(const Way& way, const Target& target, std::vector<Sightline>& sightlines,
+                           Pvs_counters& counters) {
+    // 1. What is seen through the next way is seen from this one, if the sightline made longer comes through it.
+    for (Sightline& sightline : sightlines)
+      if (sightline.cell == way.to && comes_through(way, sightline)) {
+        sightline.cell = way.from;
+        ++counters.extended;
+        return Weak_status::visible;
+      }
+
+    // 2. A search.
+    ++counters.searched;
+    Weak_status status = Weak_status::hidden;
+    for (const std::uint32_t piece : target.pieces) {
+      const Weak_answer answer = Line_search(occluders_, way.source.polygon, way.source.plane,
+                                             occluders_.polygon(piece), piece, options_.search)
+                                     .run(counters.search);
+      if (answer.status == Weak_status::visible) {
+        sightlines.push_back({{answer.sightline[0].near, answer.sightline[1].near}, way.from});
+        return Weak_status::visible;
+      }
+      if (answer.status == Weak_status::undecided) status = Weak_status::undecided;
+    }
+
+    // 3. What that leaves open.
+    if (status == Weak_status::undecided && options_.event_edges > 0) {
+      status = by_events(way, target);
+      counters.by_events += status != Weak_status::undecided;
+    }
+    counters.hidden += status == Weak_status::hidden;
+    return status;
+  }
+
+  /// Whether the line comes through the inside of a way for certain, which then leads to where it is seen along: cells
+  /// are convex and empty. In doubles, with bounds.
+  static bool comes_through(const Way& way, const Sightline& sightline) {
+    const auto& [p, q] = sightline.points;
+    const Pluecker pair = pluecker_of_pair(p, q);
+    const Ends of_pair = ends(size(p), size(q));
+    bool all_positive = true, all_negative = true;
+    for (std::size_t i = 0; i < way.edges.size(); ++i) {
+      const double side = dot(pair, way.edges[i]), error = side_error(of_pair, way.ends[i]);
+      all_positive = all_positive && side > error;
+      all_negative = all_negative && side < -error;
+    }
+    return all_positive || all_negative;
+  }
+
+  Weak_status by_events(const Way& way, const Target& target) const {
+    Weak_options options;
+    options.search = options_.search;
+    options.faces = {target.face};
+    options.threads = 1;
+    const std::vector<Weak_source> sources{way.source};
+    Weakly_visible found = weakly_visible(occluders_, sources, options);
+    Events_options events;
+    events.two_sided = options_.search.two_sided;
+    events.seed = options_.search.seed;
+    events.threads = 1;
+    events.out_of_time = options_.search.out_of_time;
+    settle_by_events(occluders_, sources, options_.event_edges, events, found);
+    if (!found.undecided.empty()) decide_the_rest(occluders_, sources, options, options_.event_edges, events, found);
+    return !found.visible.empty()  ? Weak_status::visible
+           : !found.hidden.empty() ? Weak_status::hidden
+                                   : Weak_status::undecided;
+  }
+
+  const Level_cells& level_;
+  const Pvs_options& options_;
+  Occluders occluders_;
+  std::vector<Way> ways_;
+  std::vector<std::vector<std::size_t>> into_;  // ways that lead into a cell
+  std::vector<Target> faces_;
+  Pvs pvs_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Exact_point>> portals_of(const Level_cells& level, Cell_id cell) {
+  std::vector<std::vector<Exact_point>> portals;
+  for (const std::uint32_t w : level.cells()[cell].walls)
+    for (const std::vector<std::uint32_t>& part : level.walls()[w].open)
+      portals.push_back(looking_from(level, level.walls()[w], part, cell));
+  return portals;
+}
+
+Pvs potentially_visible(const Level_cells& level, const Pvs_options& options) {
+  return Pvs_maker(level, options).make();
+}
+
+}  // namespace sightline
