@@ -33,10 +33,10 @@ struct Level_cells::Space {
   Space(const Polygon_soup& soup, const Cell_options& options)
       : scene(soup), box(box_about(scene)), traits(scene), tree(build_bsp(traits, bsp_options(options))) {}
 
-  /// Beyond all points of the scene: its coordinates on the grid are less than 2^bits.
+  /// Beyond all points of the scene: its coordinates on the grid are less than that.
   static Box_planes box_about(Scene& scene) {
     Integer reach;
-    mpz_setbit(reach.get_mpz_t(), static_cast<mp_bitcnt_t>(scene.bits()));
+    mpz_setbit(reach.get_mpz_t(), static_cast<mp_bitcnt_t>(scene.points().bits()));
     Box_planes box;
     for (std::size_t k = 0; k < 3; ++k) {
       std::array<Integer, 4> low{0, 0, 0, reach}, high{0, 0, 0, reach};

@@ -3,6 +3,7 @@
 
 #include <sightline/harness/laws/cutset.h>
 #include <sightline/harness/laws/graph.h>
+#include <sightline/harness/laws/levels.h>
 #include <sightline/harness/laws/order.h>
 #include <sightline/harness/laws/render.h>
 #include <sightline/harness/laws/see.h>
@@ -13,6 +14,6 @@
 
 namespace sightline::harness {
 
-inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak(), render()}; }
+inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak(), render(), pvs()}; }
 
 }  // namespace sightline::harness

@@ -1,0 +1,308 @@
+#include <sightline/harness/laws/levels.h>
+
+#include <sightline/algorithms/levels/pvs.h>
+#include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/volume.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace sightline::harness {
+
+namespace levels_subject {
+
+using generate::Points;
+
+constexpr std::size_t most_undecided_cells = 3000;  // of a search; more are for `fuzz weak`
+
+// ---- Brute force, on corners alone
+
+Rational six_cones(const Points& polygon) {
+  Rational sum = 0;
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) sum += dot(polygon[0], cross(polygon[i], polygon[i + 1]));
+  return sum;
+}
+Exact_point normal_of(const Points& polygon) {
+  Exact_point sum{};
+  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
+  }
+  return sum;
+}
+/// Side of a point in the plane of a convex polygon: 1 inside, 0 on its boundary, -1 outside.
+int side_within(const Points& polygon, const Exact_point& normal, const Exact_point& p) {
+  int side = 1;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Exact_point& a = polygon[i];
+    side = std::min(side, sgn(dot(cross(minus(polygon[(i + 1) % polygon.size()], a), minus(p, a)), normal)));
+  }
+  return side;
+}
+
+struct Flat {
+  Face_id face;
+  Points polygon;
+  Exact_point normal;
+};
+std::vector<Flat> flats_of(const Scene& scene) {
+  std::vector<Flat> flats;
+  for (const Piece& piece : scene.pieces()) {
+    Flat flat{piece.face, {}, {}};
+    for (const Piece_corner& corner : scene.corners(piece)) flat.polygon.push_back(scene.position(corner.point));
+    flat.normal = normal_of(flat.polygon);
+    flats.push_back(std::move(flat));
+  }
+  return flats;
+}
+
+/// Where a ray meets a piece, t > 0; nothing beside it and where the ray runs along it.
+struct Meeting {
+  Rational t;
+  int side;     // within the piece: 1 inside, 0 on an edge
+  bool leaves;  // through its front, from behind
+};
+std::optional<Meeting> meeting(const Flat& flat, const Exact_point& p, const Exact_point& direction) {
+  const Rational slope = dot(flat.normal, direction);
+  if (slope == 0) return std::nullopt;
+  const Rational t = dot(flat.normal, minus(flat.polygon[0], p)) / slope;
+  if (t <= 0) return std::nullopt;
+  Exact_point hit;
+  for (std::size_t k = 0; k < 3; ++k) hit[k] = p[k] + t * direction[k];
+  const int side = side_within(flat.polygon, flat.normal, hit);
+  if (side < 0) return std::nullopt;
+  return Meeting{t, side, slope > 0};
+}
+
+/// The winding number about a point along a ray; nothing where the ray meets an edge.
+std::optional<int> winding_along(const std::vector<Flat>& flats, const Exact_point& p, const Exact_point& direction) {
+  int sum = 0;
+  for (const Flat& flat : flats)
+    if (const std::optional<Meeting> at = meeting(flat, p, direction)) {
+      if (at->side == 0) return std::nullopt;
+      sum += at->leaves ? 1 : -1;
+    }
+  return sum;
+}
+
+/// The face whose front a ray meets first, in its inside and no other there; else nothing.
+std::optional<Face_id> first_front(const std::vector<Flat>& flats, const Exact_point& p, const Exact_point& direction) {
+  std::optional<Rational> nearest;
+  std::optional<Face_id> face;
+  for (const Flat& flat : flats) {
+    const std::optional<Meeting> at = meeting(flat, p, direction);
+    if (!at || (nearest && at->t > *nearest)) continue;
+    const bool again = nearest && at->t == *nearest;
+    nearest = at->t;
+    face = at->side > 0 && !at->leaves && !again ? std::optional<Face_id>(flat.face) : std::nullopt;
+  }
+  return face;
+}
+
+Exact_point any_direction(Random& random) {
+  for (;;) {
+    const Exact_point direction{generate::integer(random, -99, 99), generate::integer(random, -99, 99),
+                                generate::integer(random, -99, 99)};
+    if (!is_zero(direction)) return direction;
+  }
+}
+
+// ---- Checks
+
+/// Cells are convex, with their points inside, and fill a box.
+Outcome fill(const Level_cells& level) {
+  Exact_point low = level.points()[0], high = low;
+  for (const Exact_point& p : level.points())
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], p[k]);
+      high[k] = std::max(high[k], p[k]);
+    }
+  Rational volume = 0;
+  for (Cell_id c = 0; c < level.cells().size(); ++c) {
+    const Exact_point inside = level.inside(c);
+    const std::string cell = "cell " + std::to_string(c);
+    if (level.at(inside) != c) return Outcome::failed(cell + " does not hold the mean of its corners");
+    bool outside = false;
+    for (const std::uint32_t w : level.cells()[c].walls) {
+      const Cell_wall& wall = level.walls()[w];
+      const Points polygon = level.polygon(wall.corners);
+      const int side = sgn(dot(normal_of(polygon), minus(inside, polygon[0])));
+      if (side != (wall.front == c ? 1 : -1))
+        return Outcome::failed(cell + " is on the other side of wall " + std::to_string(w));
+      volume += wall.front == c ? -six_cones(polygon) : six_cones(polygon);
+      outside |= wall.behind == no_cell;
+    }
+    if (outside != level.cells()[c].is_outside) return Outcome::failed(cell + ": whether it has an end");
+  }
+  if (volume != 6 * (high[0] - low[0]) * (high[1] - low[1]) * (high[2] - low[2]))
+    return Outcome::failed("cells do not fill their box");
+  return {};
+}
+
+/// A random point of a wall is on a face that the wall names, or in an open part of it.
+Outcome point_of_wall(const Level_cells& level, const std::vector<Flat>& flats, Random& random) {
+  const std::size_t w = random.below(level.walls().size());
+  const Cell_wall& wall = level.walls()[w];
+  const Points polygon = level.polygon(wall.corners);
+  const Exact_point normal = normal_of(polygon);
+  Exact_point p{};
+  long sum = 0;
+  for (const Exact_point& corner : polygon) {
+    const long weight = static_cast<long>(random.between(1, 1000));
+    sum += weight;
+    for (std::size_t k = 0; k < 3; ++k) p[k] += weight * corner[k];
+  }
+  for (Rational& x : p) x /= sum;
+  int covered = -1, open = -1;  // 1: inside; 0: on the boundary
+  for (const Flat& flat : flats) {
+    if (dot(flat.normal, minus(p, flat.polygon[0])) != 0 || !is_zero(cross(flat.normal, normal))) continue;
+    const int side = side_within(flat.polygon, flat.normal, p);
+    covered = std::max(covered, side);
+    const std::vector<Face_id>& faces = dot(flat.normal, normal) > 0 ? wall.faces_front : wall.faces_behind;
+    if (side > 0 && !std::binary_search(faces.begin(), faces.end(), flat.face))
+      return Outcome::failed("wall " + std::to_string(w) + " does not name " + face_name(flat.face));
+  }
+  for (const std::vector<std::uint32_t>& part : wall.open)
+    open = std::max(open, side_within(level.polygon(part), normal, p));
+  if (wall.behind == no_cell) return {};
+  if (std::max(covered, open) < 0)
+    return Outcome::failed("a point of wall " + std::to_string(w) + " is on no face and in no open part");
+  if (covered > 0 && open > 0)
+    return Outcome::failed("a point of wall " + std::to_string(w) + " is on a face and in an open part");
+  return {};
+}
+
+Outcome windings(const Level_cells& level, const std::vector<Flat>& flats, Random& random) {
+  int least = 0;
+  for (const Level_cell& cell : level.cells()) least = std::min(least, cell.winding);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Cell_id c = static_cast<Cell_id>(random.below(level.cells().size()));
+    std::optional<int> expected;
+    while (!expected) expected = winding_along(flats, level.inside(c), any_direction(random));
+    const Level_cell& cell = level.cells()[c];
+    if (cell.winding != *expected || cell.is_solid != (*expected > least))
+      return Outcome::failed("cell " + std::to_string(c) + " has the winding number " + std::to_string(*expected) +
+                             ", not " + std::to_string(cell.winding));
+  }
+  return {};
+}
+
+Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
+  const Level_cells level(posed.soup);
+  const std::vector<Flat> flats = flats_of(level.scene());
+  if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
+  for (std::size_t k = 0; k < 20; ++k)
+    if (const Outcome outcome = point_of_wall(level, flats, random); outcome.state != Outcome::State::passed)
+      return outcome;
+  if (level.is_closed() && level.scene().counters().duplicates == 0) return windings(level, flats, random);
+  return {};
+}
+
+/// A cell as a closed polyhedron, fronts outwards.
+Polygon_soup polyhedron(const Level_cells& level, Cell_id cell) {
+  Polygon_soup soup;
+  for (const std::uint32_t w : level.cells()[cell].walls) {
+    Points polygon = level.polygon(level.walls()[w].corners);
+    if (level.walls()[w].front == cell) std::reverse(polygon.begin(), polygon.end());
+    std::vector<Point_id> loop;
+    for (const Exact_point& p : polygon) loop.push_back(soup.add_point(p[0], p[1], p[2]));
+    soup.add_face(loop);
+  }
+  return soup;
+}
+
+/// What a cell sees, asked of it alone: what portals see outwards, and what the polyhedron sees from within.
+Weakly_visible seen_alone(const Level_cells& level, const Occluders& occluders, Cell_id cell) {
+  std::vector<Weak_source> sources;
+  for (const Points& portal : portals_of(level, cell)) sources.push_back(weak_source(occluders, portal));
+  Weak_options options;
+  options.threads = 1;
+  options.search.cells = most_undecided_cells;
+  Weakly_visible found;
+  if (!sources.empty()) found = weakly_visible(occluders, sources, options);
+  else
+    for (const Piece& piece : level.scene().pieces())
+      if (found.hidden.empty() || found.hidden.back() != piece.face) found.hidden.push_back(piece.face);
+  add_seen_from_within(level.scene(), Weak_volume(polyhedron(level, cell)), false, found);
+  return found;
+}
+
+Pvs_options options_of(Random& random) {
+  Pvs_options options;
+  options.threads = 1;
+  options.search.cells = most_undecided_cells;
+  options.event_edges = 0;
+  options.outside = random.chance(1, 2);
+  return options;
+}
+
+/// What random rays from inside cells meet first is visible from there.
+Outcome sightlines(const Posed_scene& posed, const Answer&, Random& random) {
+  const Level_cells level(posed.soup);
+  const Pvs pvs = potentially_visible(level, options_of(random));
+  const std::vector<Flat> flats = flats_of(level.scene());
+  for (std::size_t k = 0; k < 60; ++k) {
+    const Cell_id c = static_cast<Cell_id>(random.below(level.cells().size()));
+    if (pvs.is_asked[c] == 0) continue;
+    const std::optional<Face_id> face = first_front(flats, level.inside(c), any_direction(random));
+    if (face && !std::binary_search(pvs.visible[c].begin(), pvs.visible[c].end(), *face) &&
+        !std::binary_search(pvs.undecided[c].begin(), pvs.undecided[c].end(), *face))
+      return Outcome::failed("cell " + std::to_string(c) + " sees " + face_name(*face) +
+                             ", which is said to be hidden");
+  }
+  return {};
+}
+
+/// A cell by itself sees what it is said to see.
+Outcome alone(const Posed_scene& posed, const Answer&, Random& random) {
+  const Level_cells level(posed.soup);
+  const Pvs pvs = potentially_visible(level, options_of(random));
+  const Occluders occluders(level.scene());
+  bool undecided = false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Cell_id c = static_cast<Cell_id>(random.below(level.cells().size()));
+    if (pvs.is_asked[c] == 0) continue;
+    const Weakly_visible found = seen_alone(level, occluders, c);
+    undecided |= !found.undecided.empty() || !pvs.undecided[c].empty();
+    for (const bool visible : {true, false}) {
+      const std::vector<Face_id>& said = visible ? pvs.visible[c] : found.visible;
+      const std::vector<Face_id>& other = visible ? found.visible : pvs.visible[c];
+      const std::vector<Face_id>& open = visible ? found.undecided : pvs.undecided[c];
+      for (const Face_id face : said)
+        if (!std::binary_search(other.begin(), other.end(), face) &&
+            !std::binary_search(open.begin(), open.end(), face))
+          return Outcome::failed("cell " + std::to_string(c) +
+                                 (visible ? " by itself does not see " : " by itself sees ") + face_name(face));
+    }
+  }
+  return undecided ? Outcome::undecided() : Outcome{};
+}
+
+/// Nothing is asked of faces alone: cells are the program's choice.
+Answer nothing(const Posed_scene& posed) {
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  return answer;
+}
+
+}  // namespace levels_subject
+
+Subject pvs() {
+  Subject subject;
+  subject.name = "pvs";
+  subject.what = "cells of a level, their walls, and what each sees";
+  subject.answer = levels_subject::nothing;
+  subject.checks = {{"cells", "cells fill a box; points of walls are on faces or open; winding numbers along rays",
+                     levels_subject::of_cells},
+                    {"sightlines", "what random rays from cells meet first is visible", levels_subject::sightlines},
+                    {"alone", "a cell by itself sees the same", levels_subject::alone}};
+  return subject;
+}
+
+}  // namespace sightline::harness
