@@ -1,71 +1,400 @@
-// sightline pvs: for each cell of a level the faces that are visible from it.
+// sightline pvs: for each cell of a level the faces that are visible from it, as a table, with certificates, in parts;
+// sightline merge: parts together.
 
-#include "support/common.h"
+#include "methods/methods.h"
+#include "methods/weak.h"
 
 #include <sightline/algorithms/levels/pvs.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
+#include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/io/file.h>
+#include <sightline/io/visibility_table.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <iostream>
 
 namespace sightline::app {
 
 namespace {
 
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t blocks = 64;  // parts that --resume saves what is done in
+
 struct Pvs_arguments {
   Common common;
   unsigned candidates = 5;
-  bool outside = false;
-  std::string out;
+  bool outside = false, resume = false;
+  std::string out, shard, obj, certificates;
+  std::vector<std::uint32_t> show;
 };
 
-Exit run(const Pvs_arguments& arguments) {
+/// The table of a level that a command line asks for, and its parts.
+class Table_maker {
+ public:
+  Table_maker(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_cells& level)
+      : arguments_(arguments), level_(level), faces_(soup.face_count()), search_(level, options()) {
+    question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}", fingerprint(soup), arguments.candidates,
+                            arguments.common.seed, arguments.outside ? ", outside" : "");
+  }
+
+  /// Of all faces whose id is shard modulo shards.
+  Visibility_table make(std::uint32_t shard, std::uint32_t shards) {
+    const Pvs pvs = search_.ask(shard, shards);
+    counters_ += pvs.counters;
+    Visibility_table table{question_, std::vector<bool>(level_.cells().size()), std::vector<bool>(faces_), {}};
+    for (std::size_t f = shard; f < faces_; f += shards) table.faces[f] = true;
+    for (Cell_id c = 0; c < level_.cells().size(); ++c)
+      if (pvs.is_asked[c] != 0) {
+        table.cells[c] = true;
+        table.rows.push_back({pvs.visible[c], pvs.undecided[c]});
+      }
+    return table;
+  }
+
+  /// The same block by block, each kept in a folder beside the output until all are there.
+  Visibility_table resumed(std::uint32_t shard, std::uint32_t shards) {
+    const fs::path folder = arguments_.out + ".parts";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+      throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another --out");
+    std::vector<Visibility_table> parts;
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+      const fs::path path = folder / fmt::format("{}-of-{}.pvs", shard + shards * b, shards * blocks);
+      std::optional<Visibility_table> part = kept(path);
+      if (!part) {
+        part = make(shard + shards * b, shards * blocks);
+        const bool whole = std::all_of(part->rows.begin(), part->rows.end(),
+                                       [](const Visibility_table::Row& row) { return row.undecided.empty(); });
+        if (whole) write_bytes(path, table_bytes(*part));  // what time left open is asked again
+      } else {
+        ++blocks_kept_;
+      }
+      parts.push_back(std::move(*part));
+    }
+    Visibility_table table = together(parts);
+    fs::remove_all(folder, error);
+    return table;
+  }
+  void clear() { progress_.clear(); }
+  const Pvs_counters& counters() const { return counters_; }
+  std::uint32_t blocks_kept() const { return blocks_kept_; }
+
+ private:
+  Pvs_options options() {
+    Pvs_options options;
+    options.outside = arguments_.outside;
+    options.threads = arguments_.common.threads;
+    options.search.seed = arguments_.common.seed;
+    options.progress = [this](std::size_t done, std::size_t all) { progress_(done, all); };
+    if (const double budget = arguments_.common.budget; budget > 0)
+      options.search.out_of_time = [this, budget] { return watch_.seconds() > budget; };
+    return options;
+  }
+
+  /// A part that was made before; nothing where there is none, or it is of another question.
+  std::optional<Visibility_table> kept(const fs::path& path) const {
+    if (!fs::exists(path)) return std::nullopt;
+    try {
+      const std::string bytes = read_bytes(path);
+      Visibility_table table = read_table({path.string(), bytes});
+      if (table.question == question_) return table;
+    } catch (const Input_error&) {
+    }
+    return std::nullopt;
+  }
+  /// Parts of one shard, which need not have all faces.
+  static Visibility_table together(const std::vector<Visibility_table>& parts) {
+    Visibility_table table = parts[0];
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      for (std::size_t f = 0; f < table.faces.size(); ++f)
+        if (parts[i].faces[f]) table.faces[f] = true;
+      for (std::size_t r = 0; r < table.rows.size(); ++r)
+        for (const auto faces : {&Visibility_table::Row::visible, &Visibility_table::Row::undecided}) {
+          std::vector<Face_id>& own = table.rows[r].*faces;
+          own.insert(own.end(), (parts[i].rows[r].*faces).begin(), (parts[i].rows[r].*faces).end());
+        }
+    }
+    for (Visibility_table::Row& row : table.rows)
+      for (std::vector<Face_id>* faces : {&row.visible, &row.undecided}) std::sort(faces->begin(), faces->end());
+    return table;
+  }
+
+  const Pvs_arguments& arguments_;
+  const Level_cells& level_;
+  Stopwatch watch_;
+  Progress progress_{"looking"};
+  std::size_t faces_;
+  Pvs_search search_;
+  std::string question_;
+  Pvs_counters counters_;
+  std::uint32_t blocks_kept_ = 0;
+};
+
+/// I/N as --shard has it, or what an array of jobs says where that is not given.
+std::array<std::uint32_t, 2> shard_of(const std::string& text) {
+  if (text.empty()) {
+    const char *const id = std::getenv("SLURM_ARRAY_TASK_ID"), *const count = std::getenv("SLURM_ARRAY_TASK_COUNT"),
+                      *const least = std::getenv("SLURM_ARRAY_TASK_MIN");
+    if (id == nullptr || count == nullptr) return {0, 1};
+    const auto number = [](const char* digits) {
+      return static_cast<std::uint32_t>(std::strtoul(digits, nullptr, 10));
+    };
+    const std::uint32_t shard = number(id) - (least == nullptr ? 0 : number(least)), shards = number(count);
+    if (shards == 0 || shard >= shards)
+      throw Usage_error("SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT name no shard; give --shard I/N");
+    std::cerr << fmt::format("sightline: shard {}/{}, as the array of jobs says\n", shard, shards);
+    return {shard, shards};
+  }
+  const std::size_t slash = text.find('/');
+  const std::optional<std::uint64_t> none;
+  const auto number = [&](const std::string& digits) -> std::optional<std::uint64_t> {
+    if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos) return none;
+    return std::stoul(digits);
+  };
+  const auto shard = slash == std::string::npos ? none : number(text.substr(0, slash)),
+             shards = slash == std::string::npos ? none : number(text.substr(slash + 1));
+  if (!shard || !shards || *shards == 0 || *shard >= *shards)
+    throw Usage_error("--shard " + text + ": write I/N with I from 0 to N - 1, as in 3/8");
+  return {static_cast<std::uint32_t>(*shard), static_cast<std::uint32_t>(*shards)};
+}
+
+Json table_json(const Visibility_table& table) {
+  Json cells = Json::array();
+  std::size_t r = 0;
+  for (std::size_t c = 0; c < table.cells.size(); ++c)
+    if (table.cells[c]) {
+      cells.push_back({{"cell", c}, {"visible", table.rows[r].visible}, {"undecided", table.rows[r].undecided}});
+      ++r;
+    }
+  return {{"format", "sightline pvs 1"}, {"question", table.question}, {"cells", std::move(cells)}};
+}
+
+std::string table_csv(const Visibility_table& table) {
+  std::string text = "cell,face,state\n";
+  std::size_t r = 0;
+  for (std::size_t c = 0; c < table.cells.size(); ++c) {
+    if (!table.cells[c]) continue;
+    for (const Face_id face : table.rows[r].visible) text += fmt::format("{},{},visible\n", c, face);
+    for (const Face_id face : table.rows[r].undecided) text += fmt::format("{},{},undecided\n", c, face);
+    ++r;
+  }
+  return text;
+}
+
+void write_table(const std::string& out, const Visibility_table& table) {
+  write_file(out, out.ends_with(".json")  ? to_text(table_json(table)) + "\n"
+                  : out.ends_with(".csv") ? table_csv(table)
+                                          : table_bytes(table));
+}
+
+/// The scene's pieces in groups "visible", "hidden" and "undecided", and cells in groups of their own. Rounded.
+std::string obj_text(const Level_cells& level, const Visibility_table& table, const std::vector<Cell_id>& cells) {
+  const Scene& scene = level.scene();
+  std::vector<const char*> names(scene.counters().faces_read, "hidden");
+  for (const bool visible : {false, true})
+    for (const Cell_id cell : cells)
+      for (const Face_id face : visible ? table.row_of(cell)->visible : table.row_of(cell)->undecided)
+        names[face] = visible ? "visible" : "undecided";
+  std::string text;
+  std::size_t points = 0;
+  const auto add = [&](const std::string& group, const std::vector<Exact_point>& polygon) {
+    std::string face = "f";
+    for (const Exact_point& p : polygon) {
+      text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
+      face += fmt::format(" {}", ++points);
+    }
+    text += fmt::format("g {0}\nusemtl {0}\n{1}\n", group, face);
+  };
+  for (const Piece& piece : scene.pieces()) {
+    std::vector<Exact_point> polygon;
+    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
+    add(names[piece.face], polygon);
+  }
+  for (const Cell_id cell : cells)
+    for (const std::uint32_t w : level.cells()[cell].walls)
+      add(fmt::format("cell-{}", cell), level.polygon(level.walls()[w].corners));
+  return text;
+}
+
+/// A certificate for each cell that is asked about, of what its portals see outwards; and an index of them.
+void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
+  const fs::path folder = arguments.certificates;
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another folder");
+  const Occluders occluders(level.scene());
+  Progress progress("proving");
+  Json index = Json::array();
+  for (Cell_id cell = 0; cell < table.cells.size(); ++cell) {
+    progress(cell, table.cells.size());
+    if (!table.cells[cell]) continue;
+    Sources sources;
+    for (const std::vector<Exact_point>& portal : portals_of(level, cell)) {
+      sources.polygons.push_back(weak_source(occluders, portal));
+      sources.points.push_back(portal);
+    }
+    const std::string name = fmt::format("cell-{}.json", cell);
+    Json entry{{"cell", cell}, {"within", level.cells()[cell].faces}, {"certificate", nullptr}};
+    if (!sources.polygons.empty()) {
+      Weak_task task;
+      task.threads = arguments.common.threads;
+      task.seed = arguments.common.seed;
+      const Weak_outcome outcome = run_weak_method("lines", occluders, sources, task);
+      write_file((folder / name).string(), [&](std::ostream& out) {
+        write_certificate(out, weak_certificate(level.scene(), sources.points, false, outcome.found));
+      });
+      entry["certificate"] = name;
+      entry["unproved"] = outcome.found.unproved;
+    }
+    index.push_back(std::move(entry));
+  }
+  progress.clear();
+  write_file(
+      (folder / "index.json").string(),
+      to_text({{"format", "sightline pvs certificates 1"}, {"question", table.question}, {"cells", index}}) + "\n");
+}
+
+std::size_t count_of(const Visibility_table& table, std::vector<Face_id> Visibility_table::Row::*faces) {
+  std::size_t sum = 0;
+  for (const Visibility_table::Row& row : table.rows) sum += (row.*faces).size();
+  return sum;
+}
+
+Exit run_pvs(const Pvs_arguments& arguments) {
   const Common& common = arguments.common;
+  const auto [shard, shards] = shard_of(arguments.shard);
+  if (arguments.resume && (arguments.out.empty() || arguments.out == "-"))
+    throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
+  if (shards > 1 && (!arguments.show.empty() || !arguments.certificates.empty()))
+    throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
   const Polygon_soup soup = common.read();
   Cell_options cell_options;
   cell_options.candidates = arguments.candidates;
   cell_options.seed = common.seed;
   cell_options.threads = common.threads;
-  Stopwatch watch;
+  const Stopwatch watch;
   const Level_cells level(soup, cell_options);
   const double cells_seconds = watch.seconds();
 
-  Progress progress("looking");
-  Pvs_options options;
-  options.outside = arguments.outside;
-  options.threads = common.threads;
-  options.search.seed = common.seed;
-  options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
-  if (common.budget > 0) options.search.out_of_time = [&] { return watch.seconds() > common.budget; };
-  const Pvs pvs = potentially_visible(level, options);
+  Table_maker maker(arguments, soup, level);
+  const Visibility_table table = arguments.resume ? maker.resumed(shard, shards) : maker.make(shard, shards);
+  maker.clear();
   const double seconds = watch.seconds() - cells_seconds;
-  progress.clear();
-  const Pvs_counters& c = pvs.counters;
-  const Exit exit = c.undecided > 0 ? Exit::undecided : Exit::done;
-  const Json result{
-      {"cells", c.cells}, {"faces", c.faces}, {"pairs", c.pairs}, {"visible", c.visible}, {"undecided", c.undecided}};
-  if (write_json(common, "pvs", level.scene(), result, counters_json(c), {{"cells", cells_seconds}, {"pvs", seconds}}))
+  for (const Cell_id cell : arguments.show)
+    if (table.row_of(cell) == nullptr)
+      throw Usage_error(
+          fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
+  if (!arguments.out.empty()) write_table(arguments.out, table);
+  if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(level, table, arguments.show));
+  if (!arguments.certificates.empty()) write_certificates(arguments, level, table);
+
+  const std::size_t visible = count_of(table, &Visibility_table::Row::visible),
+                    undecided = count_of(table, &Visibility_table::Row::undecided);
+  const Exit exit = undecided > 0 ? Exit::undecided : Exit::done;
+  const Pvs_counters& c = maker.counters();
+  Json result{{"cells", table.rows.size()},
+              {"faces", std::count(table.faces.begin(), table.faces.end(), true)},
+              {"visible", visible},
+              {"undecided", undecided},
+              {"blocks_kept", maker.blocks_kept()}};
+  Json shown = Json::array();
+  for (const Cell_id cell : arguments.show)
+    shown.push_back({{"cell", cell},
+                     {"point", point_json(level.inside(cell))},
+                     {"visible", table.row_of(cell)->visible},
+                     {"undecided", table.row_of(cell)->undecided}});
+  if (!shown.empty()) result["shown"] = shown;
+  Json counters = counters_json(c);
+  counters["cells"] = counters_json(level.counters());
+  if (write_json(common, "pvs", level.scene(), std::move(result), std::move(counters),
+                 {{"cells", cells_seconds}, {"pvs", seconds}}))
     return exit;
   scene_rows(level.scene());
-  row("cells", fmt::format("{} of {} are asked about", c.cells, level.counters().cells));
-  row("pairs", fmt::format("{}: {} visible ({:.3g}%), {} undecided", c.pairs, c.visible,
-                           100.0 * double(c.visible) / double(std::max<std::size_t>(1, c.pairs)), c.undecided));
-  row("seen", fmt::format("{} within their cell, {} by a neighbour's sightline, {} searches of which {} found hidden; "
-                          "{} pairs not reached",
-                          c.within, c.extended, c.searched, c.hidden, c.unreached));
+  row("cells", fmt::format("{} of {} are asked about", table.rows.size(), level.counters().cells));
+  row("pairs",
+      fmt::format("{} of a cell and a face: {} visible ({:.3g}%), {} undecided", c.pairs, visible,
+                  100.0 * static_cast<double>(visible) / static_cast<double>(std::max<std::size_t>(1, c.pairs)),
+                  undecided));
+  row("seen", fmt::format("{} within their cell, {} by a neighbour's sightline; {} searches, {} of which found hidden, "
+                          "{} left to events; {} pairs were not reached",
+                          c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
+  if (arguments.resume) row("resumed", fmt::format("{} of {} blocks were there", maker.blocks_kept(), blocks));
+  for (const Cell_id cell : arguments.show)
+    row(fmt::format("cell {}", cell), fmt::format("sees {}", fmt::join(table.row_of(cell)->visible, " ")));
   row("seconds", fmt::format("{:.3f} for cells, {:.3f} for what they see", cells_seconds, seconds));
   return exit;
+}
+
+// ---- Merging
+
+struct Merge_arguments {
+  std::vector<std::string> parts;
+  std::string out;
+};
+
+Exit run_merge(const Merge_arguments& arguments) {
+  std::vector<Visibility_table> parts;
+  for (const std::string& file : arguments.parts) {
+    const std::string bytes = read_input(file);
+    parts.push_back(read_table({file, bytes}));
+  }
+  try {
+    const Visibility_table table = merged(parts, arguments.parts);
+    write_table(arguments.out, table);
+    if (arguments.out != "-")
+      row("merged", fmt::format("{} parts: {} cells, {} faces, {} pairs visible, {} undecided", parts.size(),
+                                table.rows.size(), table.faces.size(), count_of(table, &Visibility_table::Row::visible),
+                                count_of(table, &Visibility_table::Row::undecided)));
+  } catch (const Merge_error& error) {
+    throw std::runtime_error(std::string("merge: ") + error.what());
+  }
+  return Exit::done;
 }
 
 }  // namespace
 
 void add_pvs(Command program) {
-  const Command command = program.add_command("pvs", "What each cell of a level can see, exactly");
+  const Command command =
+      program.add_command("pvs", "What each cell of a level can see, exactly: a table, in parts, with certificates");
   auto a = std::make_shared<Pvs_arguments>();
   a->common.add_to(command);
-  command.add_option("--candidates", a->candidates, "face planes tried for each node of the tree")
+  command.add_option("--out", a->out, "write the table: .json, .csv, or else binary").writes_file();
+  command.add_option("--candidates", a->candidates, "face planes tried for each node of the tree of cells")
       .check(range(1, 1000))
       .show_default();
   command.add_flag("--outside", a->outside, "ask about cells too from which there is a way out of the level");
-  command.set_action([a] { return run(*a); });
+  command.add_option("--show", a->show, "print what this cell sees; may be repeated");
+  command
+      .add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided from --show, and the cells")
+      .writes_file()
+      .check(ending(".obj"));
+  command
+      .add_option("--certificates", a->certificates, "write a certificate for each cell, and an index, to this folder")
+      .check(not_empty());
+  command.add_option("--shard", a->shard,
+                     "I/N: the faces whose id is I modulo N; by default what SLURM_ARRAY_TASK_ID and _COUNT say");
+  command.add_flag("--resume", a->resume, "keep blocks of faces beside --out, and do not ask again what they hold");
+  command.footer(
+      "Example: sightline pvs level.map --out level.pvs\n"
+      "         for i in 0 1 2 3; do sightline pvs level.map --shard $i/4 --out part$i.pvs --resume & done; wait\n"
+      "         sightline merge part?.pvs --out level.pvs\n"
+      "Cells are those of `sightline cells` with the same --candidates and --seed. Exit code 4: pairs are undecided.");
+  command.set_action([a] { return run_pvs(*a); });
+}
+
+void add_merge(Command program) {
+  const Command command = program.add_command("merge", "Makes one table of the parts that `pvs --shard` wrote");
+  auto a = std::make_shared<Merge_arguments>();
+  command.add_option("PARTS", a->parts, "tables of one scene, with the same options").required().reads_file();
+  command.add_option("--out", a->out, "write the table: .json, .csv, or else binary").required().writes_file();
+  command.footer(
+      "Refuses parts of other scenes or options, a face twice, and a face in none; then it says which shards "
+      "to run again.");
+  command.set_action([a] { return run_merge(*a); });
 }
 
 }  // namespace sightline::app

@@ -1,6 +1,7 @@
 #include <sightline/io/quake_bsp.h>
 
 #include <sightline/io/binary.h>
+#include <sightline/io/bit_rows.h>
 
 #include <algorithm>
 #include <bit>
@@ -221,25 +222,13 @@ class Level_reader {
     level_.visibility = bytes_.substr(found.offset, found.size);
     for (std::size_t l = 0; l < level_.leaves.size(); ++l)
       if (level_.visibility.empty() || l == 0 || l > level_.visible_leaves) level_.leaves[l].visible_at = -1;
-    const std::size_t row = (level_.visible_leaves + 7) / 8;
     const Records leaves = records(lump_leaves, 28);
     for (std::size_t l = 1; l <= level_.visible_leaves && !level_.leaves.empty(); ++l) {
       const std::int64_t begin = level_.leaves[l].visible_at;
       if (begin == -1) continue;
-      const std::size_t place = leaves[l] + 4;
-      std::size_t i = begin < 0 ? found.size : static_cast<std::size_t>(begin);
-      for (std::size_t told = 0; told < row;) {
-        if (i >= found.size || (level_.visibility[i] == 0 && (i + 1 >= found.size || level_.visibility[i + 1] == 0)))
-          input_.fail_at_byte(place, "the row of what leaf " + std::to_string(l) +
-                                         " sees does not end within its lump; compile the level again");
-        if (level_.visibility[i] != 0) {
-          ++told;
-          ++i;
-        } else {
-          told += static_cast<unsigned char>(level_.visibility[i + 1]);
-          i += 2;
-        }
-      }
+      if (begin < 0 || !unpacked_row(level_.visibility, static_cast<std::size_t>(begin), level_.visible_leaves))
+        input_.fail_at_byte(leaves[l] + 4, "the row of what leaf " + std::to_string(l) +
+                                               " sees does not end within its lump; compile the level again");
     }
   }
 
@@ -248,28 +237,6 @@ class Level_reader {
   Quake_level level_;
   std::size_t world_faces_ = 0, root_place_ = 0, visible_place_ = 0;
 };
-
-/// A row of bits in the run-length form of the table.
-std::string packed(const std::vector<bool>& row) {
-  std::string bytes((row.size() + 7) / 8, '\0');
-  for (std::size_t i = 0; i < row.size(); ++i)
-    if (row[i]) bytes[i / 8] = static_cast<char>(static_cast<unsigned char>(bytes[i / 8]) | 1u << i % 8);
-  std::string packed;
-  for (std::size_t i = 0; i < bytes.size();) {
-    packed += bytes[i];
-    if (bytes[i] != 0) {
-      ++i;
-      continue;
-    }
-    std::size_t run = 0;
-    while (i < bytes.size() && bytes[i] == 0 && run < 255) {
-      ++run;
-      ++i;
-    }
-    packed += static_cast<char>(run);
-  }
-  return packed;
-}
 
 }  // namespace
 
@@ -280,21 +247,11 @@ bool looks_like_quake_level(std::string_view bytes) {
 std::vector<std::size_t> Quake_level::seen_from(std::size_t leaf) const {
   std::vector<std::size_t> seen;
   const std::int32_t begin = leaves[leaf].visible_at;
-  if (begin < 0) {
-    for (std::size_t l = 1; l <= visible_leaves; ++l) seen.push_back(l);
-    return seen;
-  }
-  std::size_t first = 1;  // leaf of the next bit
-  for (std::size_t i = static_cast<std::size_t>(begin); first <= visible_leaves; ++i) {
-    const unsigned char byte = static_cast<unsigned char>(visibility[i]);
-    if (byte == 0) {
-      first += 8 * std::size_t{static_cast<unsigned char>(visibility[++i])};
-      continue;
-    }
-    for (std::size_t bit = 0; bit < 8; ++bit)
-      if ((byte >> bit & 1) != 0 && first + bit <= visible_leaves) seen.push_back(first + bit);
-    first += 8;
-  }
+  const std::vector<bool> row = begin < 0
+                                    ? std::vector<bool>(visible_leaves, true)
+                                    : unpacked_row(visibility, static_cast<std::size_t>(begin), visible_leaves)->row;
+  for (std::size_t l = 0; l < row.size(); ++l)
+    if (row[l]) seen.push_back(l + 1);
   return seen;
 }
 
@@ -308,7 +265,7 @@ std::string with_visibility(std::string_view bytes, const std::vector<std::vecto
   std::map<std::string, std::int32_t> begins;
   std::vector<std::int32_t> begin;
   for (const std::vector<bool>& row : rows) {
-    std::string bytes_of_row = packed(row);
+    std::string bytes_of_row = packed_row(row);
     const auto [place, fresh] = begins.try_emplace(bytes_of_row, static_cast<std::int32_t>(lump.size()));
     if (fresh) lump += bytes_of_row;
     begin.push_back(place->second);

@@ -13,7 +13,7 @@
 #include <utility>
 
 namespace sightline {
-namespace {
+namespace levels_detail {
 
 /// A way from one cell to the next: an open part of a wall, as a source that looks into that.
 struct Way {
@@ -33,19 +33,22 @@ std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall&
 
 class Pvs_maker {
  public:
-  Pvs_maker(const Level_cells& level, const Pvs_options& options)
-      : level_(level), options_(options), occluders_(level.scene()) {
+  Pvs_maker(const Level_cells& level, Pvs_options options)
+      : level_(level), options_(std::move(options)), occluders_(level.scene()) {
     choose_cells();
     for (const Cell_wall& wall : level.walls()) {
-      if (wall.behind == no_cell || !pvs_.is_asked[wall.front] || !pvs_.is_asked[wall.behind]) continue;
+      if (wall.behind == no_cell || !is_asked_[wall.front] || !is_asked_[wall.behind]) continue;
       for (const std::vector<std::uint32_t>& part : wall.open)
         for (const Cell_id from : {wall.front, wall.behind})
           add_way(from, from == wall.front ? wall.behind : wall.front, looking_from(level, wall, part, from));
     }
+    find_starts();
   }
 
-  Pvs make() {
-    find_starts();
+  Pvs make(std::uint32_t shard, std::uint32_t shards) const {
+    Pvs pvs;
+    pvs.is_asked = is_asked_;
+    const auto is_mine = [&](Face_id face) { return face % shards == shard; };
     struct Column {
       std::vector<Cell_id> visible, undecided;
       Pvs_counters counters;
@@ -54,19 +57,19 @@ class Pvs_maker {
     std::atomic<std::size_t> done{0};
     run_with_threads(options_.threads, [&] {
       parallel_for(faces_.size(), [&](std::size_t f) {
-        if (f % options_.shards == options_.shard)
-          columns[f].counters = flood(faces_[f], columns[f].visible, columns[f].undecided);
+        if (is_mine(faces_[f].face)) columns[f].counters = flood(faces_[f], columns[f].visible, columns[f].undecided);
         if (options_.progress) options_.progress(++done, faces_.size());
       });
     });
-    pvs_.visible.resize(level_.cells().size());
-    pvs_.undecided.resize(level_.cells().size());
-    Pvs_counters& c = pvs_.counters;
+    pvs.visible.resize(level_.cells().size());
+    pvs.undecided.resize(level_.cells().size());
+    Pvs_counters& c = pvs.counters;
+    c.cells = cells_asked_;
     for (std::size_t f = 0; f < faces_.size(); ++f) {
-      for (const Cell_id cell : columns[f].visible) pvs_.visible[cell].push_back(faces_[f].face);
-      for (const Cell_id cell : columns[f].undecided) pvs_.undecided[cell].push_back(faces_[f].face);
+      for (const Cell_id cell : columns[f].visible) pvs.visible[cell].push_back(faces_[f].face);
+      for (const Cell_id cell : columns[f].undecided) pvs.undecided[cell].push_back(faces_[f].face);
       const Pvs_counters& own = columns[f].counters;
-      if (f % options_.shards == options_.shard) c.pairs += c.cells;
+      if (is_mine(faces_[f].face)) c.pairs += c.cells;
       c.visible += columns[f].visible.size();
       c.undecided += columns[f].undecided.size();
       c.within += own.within;
@@ -78,7 +81,7 @@ class Pvs_maker {
       c.search += own.search;
     }
     c.faces = faces_.size();
-    return std::move(pvs_);
+    return pvs;
   }
 
  private:
@@ -101,8 +104,8 @@ class Pvs_maker {
     const auto is_inside = [&](const Level_cell& cell) { return !cell.is_solid && has_way_out[cell.region] == 0; };
     const bool all = options_.outside || std::none_of(cells.begin(), cells.end(), is_inside);
     for (const Level_cell& cell : cells) {
-      pvs_.is_asked.push_back(all ? !cell.is_solid : is_inside(cell));
-      pvs_.counters.cells += pvs_.is_asked.back() != 0;
+      is_asked_.push_back(all ? !cell.is_solid : is_inside(cell));
+      cells_asked_ += is_asked_.back() != 0;
     }
     into_.resize(cells.size());
   }
@@ -123,7 +126,7 @@ class Pvs_maker {
     const std::vector<Piece>& pieces = level_.scene().pieces();
     std::vector<std::vector<Cell_id>> starts(level_.scene().counters().faces_read);
     for (Cell_id c = 0; c < level_.cells().size(); ++c)
-      if (pvs_.is_asked[c] != 0)
+      if (is_asked_[c] != 0)
         for (const Face_id face : level_.cells()[c].faces) starts[face].push_back(c);
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
       const Face_id face = pieces[i].face;
@@ -134,7 +137,7 @@ class Pvs_maker {
   }
 
   /// All cells that see a face, outwards from where it is.
-  Pvs_counters flood(const Target& target, std::vector<Cell_id>& visible, std::vector<Cell_id>& undecided) {
+  Pvs_counters flood(const Target& target, std::vector<Cell_id>& visible, std::vector<Cell_id>& undecided) const {
     Pvs_counters counters;
     enum class Known : char { nothing, is_hidden, is_undecided, is_visible };
     std::vector<Known> known(level_.cells().size(), Known::nothing);
@@ -159,13 +162,13 @@ class Pvs_maker {
     for (Cell_id c = 0; c < known.size(); ++c) {
       if (known[c] == Known::is_visible) visible.push_back(c);
       if (known[c] == Known::is_undecided) undecided.push_back(c);
-      counters.unreached += known[c] == Known::nothing && pvs_.is_asked[c] != 0;
+      counters.unreached += known[c] == Known::nothing && is_asked_[c] != 0;
     }
     return counters;
   }
 
   Weak_status look_through(const Way& way, const Target& target, std::vector<Sightline>& sightlines,
-                           Pvs_counters& counters) {
+                           Pvs_counters& counters) const {
     // 1. What is seen through the next way is seen from this one, if the sightline made longer comes through it.
     for (Sightline& sightline : sightlines)
       if (sightline.cell == way.to && comes_through(way, sightline)) {
@@ -232,26 +235,34 @@ class Pvs_maker {
   }
 
   const Level_cells& level_;
-  const Pvs_options& options_;
+  Pvs_options options_;
   Occluders occluders_;
   std::vector<Way> ways_;
   std::vector<std::vector<std::size_t>> into_;  // ways that lead into a cell
   std::vector<Target> faces_;
-  Pvs pvs_;
+  std::vector<char> is_asked_;
+  std::size_t cells_asked_ = 0;
 };
 
-}  // namespace
+}  // namespace levels_detail
+
+using levels_detail::Pvs_maker;
 
 std::vector<std::vector<Exact_point>> portals_of(const Level_cells& level, Cell_id cell) {
   std::vector<std::vector<Exact_point>> portals;
   for (const std::uint32_t w : level.cells()[cell].walls)
     for (const std::vector<std::uint32_t>& part : level.walls()[w].open)
-      portals.push_back(looking_from(level, level.walls()[w], part, cell));
+      portals.push_back(levels_detail::looking_from(level, level.walls()[w], part, cell));
   return portals;
 }
 
 Pvs potentially_visible(const Level_cells& level, const Pvs_options& options) {
-  return Pvs_maker(level, options).make();
+  return Pvs_search(level, options).ask(0, 1);
 }
+
+Pvs_search::Pvs_search(const Level_cells& level, Pvs_options options)
+    : maker_(std::make_unique<Pvs_maker>(level, std::move(options))) {}
+Pvs_search::~Pvs_search() = default;
+Pvs Pvs_search::ask(std::uint32_t shard, std::uint32_t shards) const { return maker_->make(shard, shards); }
 
 }  // namespace sightline

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <vector>
 
 namespace sightline {
@@ -19,8 +20,7 @@ struct Pvs_options {
   std::size_t event_edges =
       300;               ///< what a search leaves undecided goes to events where no more edges are near; 0: not
   bool outside = false;  ///< cells too from which there is a way out of a level that has rooms without
-  std::uint32_t shard = 0, shards = 1;  ///< of the faces, those whose place among the kept ones is shard mod shards
-  int threads = 0;                      ///< 0: as many as there are processors
+  int threads = 0;       ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< faces; called by any thread
 };
 
@@ -59,6 +59,22 @@ struct Pvs {
   Pvs_counters counters;
 };
 
+namespace levels_detail {
+class Pvs_maker;
+}
+
+/// The question asked in parts: of the faces whose id is `shard` modulo `shards`. What parts have in common is made
+/// once.
+class Pvs_search {
+ public:
+  explicit Pvs_search(const Level_cells& level, Pvs_options options = {});
+  ~Pvs_search();
+  Pvs ask(std::uint32_t shard, std::uint32_t shards) const;
+
+ private:
+  std::unique_ptr<levels_detail::Pvs_maker> maker_;
+};
+
 /// The open parts of a cell's walls, as sources that look out of it.
 std::vector<std::vector<Exact_point>> portals_of(const Level_cells& level, Cell_id cell);
 
@@ -66,9 +82,9 @@ std::vector<std::vector<Exact_point>> portals_of(const Level_cells& level, Cell_
 /// that look into it, and those that are weakly visible from an open part of one of its walls, outwards. Asked face by
 /// face, from the cells that it looks into on: a cell can only see what the neighbour sees that it looks through, so
 /// beyond cells from which a face is hidden nothing is asked. Post: the same at any number of threads, and the union of
-/// all shards, unless time runs out. Degenerate: grazing is not visibility, as everywhere. Cost: a search for each pair
-/// of a cell and a face that is visible, and for each on the border of these. Exact: yes, or undecided. Source: lecture
-/// slides "Visibility Computation" (PVS); Plantinga. Proof: P-89
+/// all parts of a Pvs_search, unless time runs out. Degenerate: grazing is not visibility, as everywhere. Cost: a
+/// search for each pair of a cell and a face that is visible, and for each on the border of these. Exact: yes, or
+/// undecided. Source: lecture slides "Visibility Computation" (PVS); Plantinga. Proof: P-89
 Pvs potentially_visible(const Level_cells& level, const Pvs_options& options = {});
 
 }  // namespace sightline

@@ -18,6 +18,7 @@ void add_weak(Command program);
 void add_render(Command program);
 void add_cells(Command program);
 void add_pvs(Command program);
+void add_merge(Command program);
 void add_generate(Command program);
 void add_fuzz(Command program);
 void add_reduce(Command program);

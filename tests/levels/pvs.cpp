@@ -46,9 +46,9 @@ TEST(Pvs, is_the_same_on_any_number_of_threads_and_in_shards) {
   EXPECT_EQ(potentially_visible(level, options).visible, one.visible);
   std::vector<std::vector<Face_id>> merged(level.cells().size());
   std::size_t pairs = 0;
-  options.shards = 4;
-  for (options.shard = 0; options.shard < options.shards; ++options.shard) {
-    const Pvs part = potentially_visible(level, options);
+  const Pvs_search search(level, options);
+  for (std::uint32_t shard = 0; shard < 4; ++shard) {
+    const Pvs part = search.ask(shard, 4);
     pairs += part.counters.pairs;
     for (Cell_id c = 0; c < merged.size(); ++c)
       merged[c].insert(merged[c].end(), part.visible[c].begin(), part.visible[c].end());
