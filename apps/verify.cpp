@@ -7,7 +7,10 @@
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <random>
 
 namespace sightline::app {
 
@@ -40,7 +43,63 @@ static Certificate certificate_of(const std::string& file) {
   }
 }
 
-static Exit run(const Common& common, const std::string& file) {
+/// The certificates that the index of a folder names, in its order.
+static std::vector<std::string> certificates_in(const std::filesystem::path& folder) {
+  const std::string index = (folder / "index.json").string();
+  const nlohmann::json json = parse_json(read_bytes(index), index);
+  std::vector<std::string> files;
+  if (json.is_object() && json.contains("cells") && json["cells"].is_array())
+    for (const nlohmann::json& cell : json["cells"])
+      if (cell.is_object() && cell.contains("certificate") && cell["certificate"].is_string())
+        files.push_back((folder / cell["certificate"].get<std::string>()).string());
+  if (files.empty())
+    throw Input_error::of_file(index,
+                               "names no certificates; `sightline pvs --certificates FOLDER` writes such an index");
+  return files;
+}
+
+/// All certificates of a folder, or so many of them, drawn at random.
+static Exit run_folder(const Common& common, const std::string& folder, std::size_t sample) {
+  const Polygon_soup soup = common.read();
+  std::vector<std::string> files = certificates_in(folder);
+  const std::size_t all = files.size();
+  if (sample > 0 && sample < all) {
+    std::mt19937_64 random(common.seed);
+    std::shuffle(files.begin(), files.end(), random);
+    files.resize(sample);
+  }
+  const Stopwatch watch;
+  Progress progress("verifying");
+  Verify_options options;
+  options.threads = common.threads;
+  Json rejected = Json::array();
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    progress(i, files.size());
+    if (common.budget > 0 && watch.seconds() > common.budget)
+      throw Out_of_budget(fmt::format("the budget ran out after {} of {} certificates", i, files.size()));
+    const Certificate certificate = certificate_of(files[i]);
+    const Verdict verdict =
+        std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
+    if (!verdict.accepted) rejected.push_back({{"file", files[i]}, {"why", verdict.why}});
+  }
+  const double seconds = watch.seconds();
+  progress.clear();
+  const Exit exit = rejected.empty() ? Exit::done : Exit::disagreement;
+  const std::string what = fmt::format("{} of {} certificates, {} rejected", files.size(), all, rejected.size());
+  if (!common.json.empty()) {
+    const Json result{{"accepted", rejected.empty()}, {"why", what}, {"rejected", rejected}};
+    if (write_json(common, "verify", Scene(soup), result, {{"certificates", files.size()}}, {{"verify", seconds}}))
+      return exit;
+  }
+  row(rejected.empty() ? "accepted" : "REJECTED", what);
+  for (const Json& one : rejected) row("", one["file"].get<std::string>() + ": " + one["why"].get<std::string>());
+  row("seconds", fmt::format("{:.3f}", seconds));
+  return exit;
+}
+
+static Exit run(const Common& common, const std::string& file, std::size_t sample) {
+  if (std::filesystem::is_directory(file)) return run_folder(common, file, sample);
+  if (sample > 0) throw Usage_error("--sample is for a folder of certificates; this is a file");
   const Polygon_soup soup = common.read();
   const Certificate certificate = certificate_of(file);
   const Stopwatch watch;
@@ -69,9 +128,15 @@ void add_verify(Command program) {
   auto common = std::make_shared<Common>();
   auto certificate = std::make_shared<std::string>();
   common->add_to(command);
-  command.add_option("CERTIFICATE", *certificate, "a file that --certificate wrote").required().reads_file();
+  auto sample = std::make_shared<std::uint64_t>(0);
+  command
+      .add_option("CERTIFICATE", *certificate,
+                  "a file that --certificate wrote, or a folder that `pvs --certificates` wrote")
+      .required()
+      .reads_file();
+  command.add_option("--sample", *sample, "of a folder, so many certificates, drawn by --seed").check(whole_number());
   command.footer("Exit code 0: accepted; 1: rejected; 3: scene or certificate cannot be read.");
-  command.set_action([common, certificate] { return run(*common, *certificate); });
+  command.set_action([common, certificate, sample] { return run(*common, *certificate, *sample); });
 }
 
 }  // namespace sightline::app

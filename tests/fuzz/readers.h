@@ -6,6 +6,7 @@
 
 #include <sightline/io/quake_bsp.h>
 #include <sightline/io/read.h>
+#include <sightline/io/visibility_table.h>
 #include <sightline/io/write.h>
 #include <sightline/io/exact_text.h>
 
@@ -92,6 +93,20 @@ inline void read_ply(std::string_view bytes) { check_reader(bytes, Format::ply);
 inline void read_stl(std::string_view bytes) { check_reader(bytes, Format::stl); }
 /// A level's brushes, each of which bounds a solid.
 inline void read_map(std::string_view bytes) { check_reader(bytes, Format::map); }
+/// A table of what cells see; what was read and is written is the same when it is read.
+inline void read_table(std::string_view bytes) {
+  std::optional<Visibility_table> table;
+  try {
+    table = sightline::read_table({"scene", bytes});
+  } catch (const Input_error& error) {
+    require(error.byte && *error.byte <= bytes.size(), "an error in a table is at a place in the file");
+    return;
+  }
+  const std::string written = table_bytes(*table);
+  const Visibility_table again = sightline::read_table({"scene", written});
+  require(table_bytes(again) == written && again.cells == table->cells && again.faces == table->faces,
+          "a table that is written is the same when read");
+}
 /// A level's faces; and its table, which is the same when written and read.
 inline void read_bsp(std::string_view bytes) {
   check_reader(bytes, Format::bsp);

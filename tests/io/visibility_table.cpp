@@ -1,0 +1,126 @@
+// Tables of what cells see: rows of bits, files, parts.
+
+#include <sightline/io/bit_rows.h>
+#include <sightline/io/visibility_table.h>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace sightline {
+namespace {
+
+TEST(Bit_rows, are_as_quake_has_them) {
+  using Bits = std::vector<bool>;
+  EXPECT_EQ(packed_row({}), "");
+  EXPECT_EQ(packed_row(Bits{true, false, true}), "\x05");
+  EXPECT_EQ(packed_row(Bits(9)), std::string("\0\x02", 2));
+  Bits row(8 * 300);
+  row[8 * 300 - 1] = true;  // 299 bytes of 0 in two runs
+  EXPECT_EQ(packed_row(row), std::string("\0\xFF\0\x2C\x80", 5));
+}
+
+TEST(Bit_rows, come_back) {
+  std::mt19937 random(1);
+  for (int k = 0; k < 300; ++k) {
+    std::vector<bool> row(random() % 5000);
+    for (std::size_t i = 0; i < row.size(); ++i) row[i] = random() % (1 + static_cast<unsigned>(k)) == 0;
+    const std::string packed = packed_row(row);
+    const auto found = unpacked_row("xy" + packed + "z", 2, row.size());
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->row, row);
+    EXPECT_EQ(found->end, 2 + packed.size());
+    for (std::size_t cut = 0; cut < packed.size(); ++cut)
+      EXPECT_FALSE(unpacked_row(std::string_view(packed).substr(0, cut), 0, row.size()));
+  }
+  EXPECT_FALSE(unpacked_row(std::string("\0\0\x01", 3), 0, 9));  // a run of none
+}
+
+Visibility_table some_table() {
+  return {"scene 1, candidates 5", {true, false, true}, {true, true, true, true}, {{{0, 3}, {}}, {{1}, {2, 3}}}};
+}
+
+TEST(Visibility_table, comes_back) {
+  const Visibility_table table = some_table();
+  const std::string bytes = table_bytes(table);
+  const Visibility_table again = read_table({"t", bytes});
+  EXPECT_EQ(again.question, table.question);
+  EXPECT_EQ(again.cells, table.cells);
+  EXPECT_EQ(again.faces, table.faces);
+  ASSERT_NE(again.row_of(2), nullptr);
+  EXPECT_EQ(again.row_of(1), nullptr);
+  EXPECT_EQ(again.row_of(9), nullptr);
+  EXPECT_EQ(again.row_of(0)->visible, (std::vector<Face_id>{0, 3}));
+  EXPECT_EQ(again.row_of(2)->visible, (std::vector<Face_id>{1}));
+  EXPECT_EQ(again.row_of(2)->undecided, (std::vector<Face_id>{2, 3}));
+  EXPECT_EQ(table_bytes(again), bytes);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THROW(read_table({"t", std::string_view(bytes).substr(0, size)}), Input_error) << size;
+  EXPECT_THROW(read_table({"t", bytes + "x"}), Input_error);
+}
+
+TEST(Visibility_table, that_announces_more_than_it_holds_is_refused) {
+  std::string bytes = table_bytes({"", {}, {}, {}});
+  for (std::size_t k = 0; k < 4; ++k) bytes[bytes.size() - 8 + k] = '\xFF';  // four thousand million cells
+  EXPECT_THROW(read_table({"t", bytes}), Input_error);
+}
+
+/// The part of a table with the faces of a shard.
+Visibility_table part_of(Visibility_table table, std::size_t shard, std::size_t shards) {
+  const auto is_other = [&](std::size_t face) { return face % shards != shard; };
+  for (std::size_t f = 0; f < table.faces.size(); ++f)
+    if (is_other(f)) table.faces[f] = false;
+  for (Visibility_table::Row& row : table.rows) {
+    std::erase_if(row.visible, is_other);
+    std::erase_if(row.undecided, is_other);
+  }
+  return table;
+}
+std::string error_of(const std::vector<Visibility_table>& parts) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < parts.size(); ++i) names.push_back("part" + std::to_string(i));
+  try {
+    merged(parts, names);
+  } catch (const Merge_error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Visibility_table, is_made_of_its_parts_in_any_order) {
+  const Visibility_table table = some_table();
+  EXPECT_EQ(table_bytes(merged({part_of(table, 1, 2), part_of(table, 0, 2)}, {"a", "b"})), table_bytes(table));
+  EXPECT_EQ(table_bytes(merged({part_of(table, 2, 3), part_of(table, 0, 3), part_of(table, 1, 3)}, {"a", "b", "c"})),
+            table_bytes(table));
+  EXPECT_EQ(table_bytes(merged({table}, {"a"})), table_bytes(table));
+}
+
+TEST(Visibility_table, of_parts_that_do_not_fit_is_refused) {
+  const Visibility_table table = some_table();
+  Visibility_table other = part_of(table, 1, 2);
+  other.question = "scene 2";
+  EXPECT_NE(error_of({part_of(table, 0, 2), other}).find("another question"), std::string::npos);
+  EXPECT_NE(error_of({part_of(table, 0, 2), part_of(table, 0, 2)}).find("both have face 0"), std::string::npos);
+  EXPECT_NE(error_of({part_of(table, 0, 2), table}).find("both have face 0"), std::string::npos);
+  EXPECT_NE(error_of({part_of(table, 0, 2)}).find("run again --shard 1/2"), std::string::npos)
+      << error_of({part_of(table, 0, 2)});
+  EXPECT_NE(error_of({}).find("no part"), std::string::npos);
+}
+
+TEST(Fingerprint, tells_scenes_apart) {
+  const auto scene = [](int x, std::initializer_list<Point_id> face) {
+    Polygon_soup soup;
+    soup.add_point(x, 0, 0);
+    soup.add_point(Rational(1, 3), 0, 0);
+    soup.add_point(0, 1, 0);
+    soup.add_face(face);
+    return fingerprint(soup);
+  };
+  EXPECT_EQ(scene(1, {0, 1, 2}), scene(1, {0, 1, 2}));
+  EXPECT_NE(scene(1, {0, 1, 2}), scene(2, {0, 1, 2}));
+  EXPECT_NE(scene(1, {0, 1, 2}), scene(1, {0, 2, 1}));
+  EXPECT_NE(scene(1, {0, 1, 2}), scene(1, {0, 1}));
+}
+
+}  // namespace
+}  // namespace sightline

@@ -1,0 +1,125 @@
+// sightline cells, pvs, merge: levels in cells, tables whole and in parts, certificates in a folder.
+
+#include "program.h"
+
+#include <fstream>
+
+namespace program {
+
+class Levels : public Program {
+ protected:
+  const std::string rooms = (corpus / "general" / "two_rooms.map").string();
+
+  std::string bytes_of(const std::string& file) {
+    std::ifstream in(path(file), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  std::string out(const std::string& file) { return path(file).string(); }
+};
+
+TEST_F(Levels, cells_are_counted_and_written) {
+  const Outcome r = run({"cells", rooms, "--seal", "64,64,24", "--out", out("cells.json"), "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  EXPECT_EQ(result["closed"], true);
+  EXPECT_EQ(result["leaks"].size(), 0u);
+  const Json file = Json::parse(bytes_of("cells.json"));
+  EXPECT_EQ(file["cells"].size(), result["cells"]);
+  std::size_t portals = 0;
+  for (const Json& wall : file["walls"])
+    portals += !wall["open"].empty() && !file["cells"][wall["cells"][0].get<std::size_t>()]["solid"].get<bool>() &&
+               !file["cells"][wall["cells"][1].get<std::size_t>()]["solid"].get<bool>();
+  EXPECT_EQ(portals, result["portals"]);
+}
+
+TEST_F(Levels, a_leak_is_found_and_a_solid_point_refused) {
+  const Outcome leak = run({"cells", rooms, "--seal", "-20,0,0", "--json", "-"});
+  EXPECT_EQ(leak.code, disagreement) << leak;
+  EXPECT_EQ(leak.json()["result"]["leaks"].size(), 1u);
+  const Outcome solid = run({"cells", rooms, "--seal", "-8,0,0"});
+  EXPECT_EQ(solid.code, usage) << solid;
+  EXPECT_NE(solid.err.find("solid cell"), std::string::npos) << solid;
+}
+
+TEST_F(Levels, a_table_is_the_same_however_it_was_divided) {
+  ASSERT_EQ(run({"pvs", rooms, "--out", out("whole.pvs"), "--threads", "1"}).code, done);
+  ASSERT_EQ(run({"pvs", rooms, "--out", out("threads.pvs"), "--threads", "3"}).code, done);
+  EXPECT_EQ(bytes_of("threads.pvs"), bytes_of("whole.pvs"));
+  for (const char* shard : {"0", "1", "2"})
+    ASSERT_EQ(
+        run({"pvs", rooms, "--shard", std::string(shard) + "/3", "--resume", "--out", out(std::string("part") + shard)})
+            .code,
+        done);
+  const Outcome merged = run({"merge", out("part2"), out("part0"), out("part1"), "--out", out("merged.pvs")});
+  EXPECT_EQ(merged.code, done) << merged;
+  EXPECT_EQ(bytes_of("merged.pvs"), bytes_of("whole.pvs"));
+  const Outcome gap = run({"merge", out("part2"), out("part0"), "--out", out("gap.pvs")});
+  EXPECT_EQ(gap.code, bad_input) << gap;
+  EXPECT_NE(gap.err.find("run again --shard 1/3"), std::string::npos) << gap;
+  EXPECT_FALSE(std::filesystem::exists(path("gap.pvs")));
+  EXPECT_EQ(run({"merge", rooms, "--out", out("gap.pvs")}).code, bad_input);
+}
+
+TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {
+  ASSERT_EQ(run({"pvs", rooms, "--out", out("whole.pvs")}).code, done);
+  // Blocks of another run, one of another question, one broken.
+  std::filesystem::create_directories(path("again.pvs.parts"));
+  for (const int block : {3, 5, 9})
+    ASSERT_EQ(run({"pvs", rooms, "--shard", std::to_string(block) + "/64", "--out",
+                   out("again.pvs.parts/" + std::to_string(block) + "-of-64.pvs"), "--seed", block == 5 ? "2" : "1"})
+                  .code,
+              done);
+  std::ofstream(path("again.pvs.parts/9-of-64.pvs"), std::ios::app) << "more";
+  const Outcome again = run({"pvs", rooms, "--resume", "--out", out("again.pvs"), "--json", "-"});
+  ASSERT_EQ(again.code, done) << again;
+  EXPECT_EQ(again.json()["result"]["blocks_kept"], 1);
+  EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
+  EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
+}
+
+TEST_F(Levels, tables_are_text_too_and_show_cells) {
+  ASSERT_EQ(run({"pvs", rooms, "--out", out("t.json")}).code, done);
+  ASSERT_EQ(run({"pvs", rooms, "--out", out("t.csv")}).code, done);
+  const Json table = Json::parse(bytes_of("t.json"));
+  std::string csv = "cell,face,state\n";
+  for (const Json& cell : table["cells"])
+    for (const Json& face : cell["visible"]) csv += cell["cell"].dump() + "," + face.dump() + ",visible\n";
+  EXPECT_EQ(bytes_of("t.csv"), csv);
+  const std::string cell = table["cells"][0]["cell"].dump();
+  const Outcome shown = run({"pvs", rooms, "--show", cell, "--obj", out("t.obj"), "--json", "-"});
+  ASSERT_EQ(shown.code, done) << shown;
+  EXPECT_EQ(shown.json()["result"]["shown"][0]["visible"], table["cells"][0]["visible"]);
+  EXPECT_NE(bytes_of("t.obj").find("g cell-" + cell), std::string::npos);
+  EXPECT_EQ(run({"pvs", rooms, "--show", "100000"}).code, usage);
+}
+
+TEST_F(Levels, certificates_of_all_cells_are_accepted_and_agree_with_the_table) {
+  ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs"), "--out", out("t.json")}).code, done);
+  const Outcome all = run({"verify", rooms, out("proofs"), "--json", "-"});
+  EXPECT_EQ(all.code, done) << all;
+  EXPECT_EQ(all.json()["result"]["accepted"], true);
+  const Json index = Json::parse(bytes_of("proofs/index.json")), table = Json::parse(bytes_of("t.json"));
+  ASSERT_EQ(index["cells"].size(), table["cells"].size());
+  EXPECT_EQ(run({"verify", rooms, out("proofs"), "--sample", "2"}).code, done);
+  // Of another scene none is.
+  EXPECT_EQ(run({"verify", (corpus / "general" / "cube.off").string(), out("proofs")}).code, disagreement);
+  EXPECT_EQ(run({"verify", rooms, rooms, "--sample", "2"}).code, usage);
+}
+
+TEST_F(Levels, shards_come_from_an_array_of_jobs) {
+  EXPECT_EQ(run({"pvs", rooms, "--shard", "3/3"}).code, usage);
+  EXPECT_EQ(run({"pvs", rooms, "--shard", "-1/3"}).code, usage);
+  EXPECT_EQ(run({"pvs", rooms, "--shard", "1"}).code, usage);
+  EXPECT_EQ(run({"pvs", rooms, "--resume"}).code, usage);
+  EXPECT_EQ(run({"pvs", rooms, "--shard", "0/2", "--show", "1"}).code, usage);
+  const Json whole = run({"pvs", rooms, "--json", "-"}).json()["result"];
+  setenv("SLURM_ARRAY_TASK_ID", "3", 1);
+  setenv("SLURM_ARRAY_TASK_COUNT", "2", 1);
+  setenv("SLURM_ARRAY_TASK_MIN", "2", 1);
+  const Json part = run({"pvs", rooms, "--json", "-"}).json()["result"];
+  for (const char* name : {"SLURM_ARRAY_TASK_ID", "SLURM_ARRAY_TASK_COUNT", "SLURM_ARRAY_TASK_MIN"}) unsetenv(name);
+  EXPECT_EQ(whole["faces"], 71);
+  EXPECT_EQ(part["faces"], 35);  // 1, 3, ... 69
+}
+
+}  // namespace program
