@@ -3,10 +3,12 @@
 
 #include "methods/methods.h"
 #include "methods/weak.h"
+#include "support/picture.h"
 
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/io/file.h>
 #include <sightline/io/visibility_table.h>
 
@@ -24,9 +26,10 @@ constexpr std::uint32_t blocks = 64;  // parts that --resume saves what is done 
 
 struct Pvs_arguments {
   Common common;
+  View_arguments view;
   unsigned candidates = 5;
   bool outside = false, resume = false;
-  std::string out, shard, obj, certificates;
+  std::string out, shard, svg, eye, obj, certificates;
   std::vector<std::uint32_t> show;
 };
 
@@ -219,6 +222,63 @@ std::string obj_text(const Level_cells& level, const Visibility_table& table, co
   return text;
 }
 
+/// The faces that look into cells that are asked about, from their fronts, so that one looks into rooms, and the cells.
+void draw(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_cells& level,
+          const Visibility_table& table) {
+  // 1. The faces of rooms, and what is known of them.
+  std::vector<char> seen(soup.face_count(), 0);  // 1: hidden, 2: undecided, 3: visible
+  for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
+    if (table.cells[cell])
+      for (const Face_id face : level.cells()[cell].faces) seen[face] = 1;
+  for (const Cell_id cell : arguments.show) {
+    for (const Face_id face : table.row_of(cell)->undecided) seen[face] = std::max<char>(seen[face], 2);
+    for (const Face_id face : table.row_of(cell)->visible) seen[face] = 3;
+  }
+  std::vector<Face_id> shown;
+  for (Face_id face = 0; face < seen.size(); ++face)
+    if (seen[face] != 0) shown.push_back(face);
+  const Polygon_soup rooms = generate::with_faces(soup, shown);
+  Scene scene(rooms);
+
+  // 2. From above, or from where one asks for, farthest first.
+  constexpr double room_for_the_legend = 36;
+  const Exact_point eye = eye_of(arguments.eye, scene);
+  std::vector<Exact_point> corners;
+  for (const Piece& piece : scene.pieces())
+    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+  const View view = arguments.view.view(eye, scene, corners, room_for_the_legend);
+  Task task;
+  task.eye = eye;
+  task.bsp.threads = arguments.common.threads;
+  task.near = near_plane(view, scene);
+  std::vector<Drawn> drawn = run_method("exact", scene, task).drawn;
+  std::erase_if(drawn, [](const Drawn& item) { return item.side != CGAL::POSITIVE; });
+  Svg svg = empty_picture(view);
+  paint(svg, view, drawn, true, [&](const Drawn& item, double shade) {
+    const Face_id face = shown[item.fragment.face];
+    const auto [hue, strength, light] = seen[face] == 3   ? std::tuple(38, 85, 62)
+                                        : seen[face] == 2 ? std::tuple(290, 60, 55)
+                                                          : std::tuple(215, 12, 60);
+    return Look{fmt::format("hsl({},{}%,{:.0f}%)", hue, strength, light + 14 * shade),
+                fmt::format("face {}: {}", face,
+                            seen[face] == 3   ? "visible"
+                            : seen[face] == 2 ? "undecided"
+                                              : "hidden")};
+  });
+
+  // 3. The cells that look, in outline.
+  for (const Cell_id cell : arguments.show)
+    for (const std::uint32_t w : level.cells()[cell].walls) {
+      std::vector<Flat_point> outline;
+      for (const Exact_point& p : level.polygon(level.walls()[w].corners)) outline.push_back(projected(view, p));
+      svg.polygon(std::move(outline), "#d0204020", "#d02040", 1.6, fmt::format("cell-{}-{}", cell, w),
+                  fmt::format("cell {}", cell));
+    }
+  svg.label(12, 22, 14, "orange: visible, grey: hidden, violet: undecided, red: the cell that looks", "start",
+            ink_on(view.background));
+  write_file(arguments.svg, svg.text());
+}
+
 /// A certificate for each cell that is asked about, of what its portals see outwards; and an index of them.
 void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
   const fs::path folder = arguments.certificates;
@@ -271,6 +331,9 @@ Exit run_pvs(const Pvs_arguments& arguments) {
     throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
   if (shards > 1 && (!arguments.show.empty() || !arguments.certificates.empty()))
     throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
+  if (arguments.show.empty() && (!arguments.svg.empty() || !arguments.obj.empty()))
+    throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
+  arguments.view.check_usage();
   const Polygon_soup soup = common.read();
   Cell_options cell_options;
   cell_options.candidates = arguments.candidates;
@@ -289,6 +352,7 @@ Exit run_pvs(const Pvs_arguments& arguments) {
       throw Usage_error(
           fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
   if (!arguments.out.empty()) write_table(arguments.out, table);
+  if (!arguments.svg.empty()) draw(arguments, soup, level, table);
   if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(level, table, arguments.show));
   if (!arguments.certificates.empty()) write_certificates(arguments, level, table);
 
@@ -372,6 +436,12 @@ void add_pvs(Command program) {
       .add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided from --show, and the cells")
       .writes_file()
       .check(ending(".obj"));
+  command
+      .add_option("--svg", a->svg, "draw the rooms and what --show sees of them, without what has its back to the eye")
+      .writes_file()
+      .check(ending(".svg"));
+  command.add_option("--eye", a->eye, "with --svg: X,Y,Z; by default a place outside the scene").check(not_empty());
+  a->view.add_to(command);
   command
       .add_option("--certificates", a->certificates, "write a certificate for each cell, and an index, to this folder")
       .check(not_empty());
