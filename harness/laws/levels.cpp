@@ -181,7 +181,7 @@ Outcome point_of_wall(const Level_cells& level, const std::vector<Flat>& flats, 
 Outcome windings(const Level_cells& level, const std::vector<Flat>& flats, Random& random) {
   int least = 0;
   for (const Level_cell& cell : level.cells()) least = std::min(least, cell.winding);
-  for (std::size_t k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < 8; ++k) {
     const Cell_id c = static_cast<Cell_id>(random.below(level.cells().size()));
     std::optional<int> expected;
     while (!expected) expected = winding_along(flats, level.inside(c), any_direction(random));
@@ -202,6 +202,35 @@ Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
       return outcome;
   if (level.is_closed() && level.scene().counters().duplicates == 0) return windings(level, flats, random);
   return {};
+}
+
+/// Boxes on a small lattice, some of them inside out, that touch, overlap and have faces in common, faces whole or in
+/// two: winding numbers.
+Outcome of_boxes(const Posed_scene&, const Answer&, Random& random) {
+  generate::Faces faces;
+  for (std::size_t boxes = 1 + random.below(4); boxes > 0; --boxes) {
+    const Exact_point low = generate::lattice(random, 2);
+    Exact_point high;
+    for (std::size_t k = 0; k < 3; ++k) high[k] = low[k] + generate::integer(random, 1, 3);
+    const bool inside_out = random.chance(1, 3);
+    for (const Points& face : generate::box(low, high)) {
+      const Points turned = inside_out ? generate::reversed(face) : face;
+      if (random.chance(1, 2)) {
+        faces.push_back(turned);
+        continue;
+      }
+      const Exact_point p = generate::centroid({turned[0], turned[1]}), q = generate::centroid({turned[2], turned[3]});
+      faces.push_back({turned[0], p, q, turned[3]});
+      faces.push_back({p, turned[1], turned[2], q});
+    }
+  }
+  generate::shuffle(faces, random);
+  const Level_cells level(generate::soup_of(faces));
+  if (!level.is_closed()) return Outcome::failed("boxes do not close up");
+  std::vector<Flat> flats;  // of the boxes themselves: a scene sets duplicates aside
+  for (const Points& face : faces) flats.push_back({static_cast<Face_id>(flats.size()), face, normal_of(face)});
+  if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
+  return windings(level, flats, random);
 }
 
 /// A cell as a closed polyhedron, fronts outwards.
@@ -300,6 +329,8 @@ Subject pvs() {
   subject.answer = levels_subject::nothing;
   subject.checks = {{"cells", "cells fill a box; points of walls are on faces or open; winding numbers along rays",
                      levels_subject::of_cells},
+                    {"boxes", "winding numbers of cells among boxes that touch, overlap and are inside out",
+                     levels_subject::of_boxes},
                     {"sightlines", "what random rays from cells meet first is visible", levels_subject::sightlines},
                     {"alone", "a cell by itself sees the same", levels_subject::alone}};
   return subject;
