@@ -8,6 +8,7 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
+#include <sightline/harness/laws/weak_partition.h>
 
 #include <gtest/gtest.h>
 
@@ -96,7 +97,7 @@ class Eyes {
 
 struct Tally {
   std::array<std::size_t, lights> points{};
-  std::size_t conics = 0, cells = 0, borders = 0;
+  std::size_t conics = 0, cells = 0, borders = 0, edges = 0;
 };
 
 /// Each cell's point, and points at random, are as the eye says; shares add up to one.
@@ -119,6 +120,11 @@ void expect_right(const Polygon_soup& soup, const Points& source, Face_id face, 
     for (const Light_partition::Cell& cell : found.cells) {
       const Exact_point p = point(cell.at[0], cell.at[1]);
       EXPECT_EQ(cell.light, eyes.light_at(p, front)) << "face " << face;
+      if (all_borders) {
+        ASSERT_EQ(cell.edges.size(), 1u);
+        EXPECT_EQ(harness::flaw_of_edges(scene, piece, source, p, cell.edges[0]), "") << "face " << face;
+        tally.edges += cell.edges[0].size();
+      }
       const std::size_t there = found.cell_at(cell.at[0], cell.at[1]);
       if (there != Light_partition::none && cell.area.low > 1e-6) {
         EXPECT_EQ(&cell, &found.cells[there]) << "face " << face;
@@ -138,6 +144,10 @@ void expect_right(const Polygon_soup& soup, const Points& source, Face_id face, 
       if (cell == Light_partition::none) continue;
       const Light light = eyes.light_at(point(x, y), front);
       EXPECT_EQ(found.cells[cell].light, light) << "face " << face << " at " << x << ", " << y;
+      if (all_borders) {
+        EXPECT_EQ(harness::flaw_of_edges(scene, piece, source, point(x, y), found.cells[cell].edges[0]), "")
+            << "face " << face << " at " << x << ", " << y;
+      }
       ++tally.points[static_cast<std::size_t>(light)];
     }
     tally.cells += found.cells.size();
@@ -262,6 +272,37 @@ TEST(Partition, with_all_borders_is_the_same_in_more_cells) {
     expect_right(soup, source, 0, 20, again, many, true);
   }
   EXPECT_GT(many.cells, few.cells);
+  EXPECT_GT(many.edges, 3 * many.cells);
+}
+
+TEST(Partition, with_all_borders_names_the_edges_that_brute_force_finds) {
+  Tally tally;
+  Random random(9);
+  for (const weak_scenes::Family& family : weak_scenes::families())
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 2); ++seed) {
+      const weak_scenes::Weak_scene scene = family.make(seed);
+      if (Scene(scene.soup).pieces().size() > 8) continue;
+      SCOPED_TRACE(scene.name);
+      expect_right(scene.soup, scene.source, scene.targets.front(), 4, random, tally, true);
+    }
+  EXPECT_GT(tally.edges, test_scenes::least(400u));
+}
+
+TEST(Partition, has_edges_of_each_source_by_its_number) {
+  // The first lamp looks away; the second one is whole over the first rows, where its own four edges bound it.
+  Partition_options options;
+  options.all_borders = true;
+  Partition_counters counters;
+  const Scene scene(table(1, 1));
+  const auto cells = Light_partitioner(scene).partition(0, {reversed(lamp()), lamp()}, options, counters).cells;
+  bool some = false;
+  for (const Light_partition::Cell& cell : cells) {
+    ASSERT_EQ(cell.edges.size(), 2u);
+    EXPECT_TRUE(cell.edges[0].empty());
+    EXPECT_NE(cell.light, Light::lit);
+    some |= cell.edges[1].size() == 4;
+  }
+  EXPECT_TRUE(some);
 }
 
 TEST(Partition, without_time_is_undecided) {

@@ -37,6 +37,7 @@ using Interval = CGAL::Interval_nt<>;
 
 /// A source as a piece sees it.
 struct Seen_source {
+  std::size_t number;  ///< among all sources
   Filtered plane;
   bool whole;  ///< all of it is in front of the piece
   Event_lines lines;
@@ -149,7 +150,8 @@ Partition_builder::Partition_builder(const Occluders& occluders, const Near_poly
   constexpr Plane_chart::Bounds everywhere{-1, 2, -1, 2};
 
   // 1. The sources, and where what is seen of them changes.
-  for (const Weak_source& source : sources) {
+  for (std::size_t number = 0; number < sources.size(); ++number) {
+    const Weak_source& source = sources[number];
     const Near_polygon receiver = clip(frame, piece, source.plane, true),
                        seen = clip(frame, source.polygon, plane, true);
     if (receiver.size() < 3 || seen.size() < 3) {
@@ -157,7 +159,8 @@ Partition_builder::Partition_builder(const Occluders& occluders, const Near_poly
       continue;
     }
     const int at = side(plane, source.polygon);
-    sources_.push_back({{source.plane.exact, near(source.plane)},
+    sources_.push_back({number,
+                        {source.plane.exact, near(source.plane)},
                         at == 1,
                         Event_lines(occluders, receiver, plane, seen, source.plane, 1)});
     Border_search search(
@@ -618,8 +621,10 @@ void Partition_builder::collect_cells(Light_partition& result) {
     if (!sectors_[k].inside || sectors_[k].light == Light::undecided || known[cell_of_[k]] != 0) continue;
     known[cell_of_[k]] = 1;
     const auto& outline = *outlines[sectors_[k].outline];
+    auto& all = result.cells[cell_of_[k]].edges;
+    all.resize(sources_.size() + never_seen_);
     for (std::size_t s = 0; s < sources_.size(); ++s) {
-      auto& edges = result.cells[cell_of_[k]].edges.emplace_back();
+      auto& edges = all[sources_[s].number];
       for (const std::uint32_t line : outline[s]) {
         const std::array<Filtered, 2>& hull = sources_[s].lines.lines()[line].hull;
         edges.push_back({occluders_->scene().position(hull[0].exact), occluders_->scene().position(hull[1].exact)});
