@@ -219,6 +219,49 @@ TEST(Partition_by_hand, a_source_across_the_plane_of_the_face_is_never_seen_whol
   expect_share(shares[1], 1);
 }
 
+TEST(Partition_by_hand, shares_of_a_face_of_several_pieces_are_those_of_all_of_it) {
+  // An L in x = 0, of area 8; what is above z = 1 / 3, its foot but a third, is lit.
+  const Faces faces{{at(0, 0, 0), at(0, 6, 0), at(0, 6, 1), at(0, 1, 1), at(0, 1, 3), at(0, 0, 3)}};
+  const Scene scene(soup_of(faces));
+  ASSERT_EQ(scene.pieces().size(), 2u);
+  const Points looks_up = parallelogram({1, 1, ratio(1, 3)}, at(1, 0, 0), at(0, 1, 0));
+  std::vector<Light_partition> pieces;
+  Partition_counters counters;
+  const Light_partitioner partitioner(scene);
+  for (std::uint32_t piece = 0; piece < 2; ++piece)
+    pieces.push_back(partitioner.partition(piece, {looks_up}, {}, counters));
+  const auto shares = shares_of_face(scene, pieces);
+  expect_share(shares[0], ratio(3, 4));
+  expect_share(shares[2], ratio(1, 4));
+  EXPECT_LT(shares[0].high - shares[0].low, 0x1p-45);
+}
+
+TEST(Partition_by_hand, a_face_that_is_bent_has_the_areas_of_its_triangles) {
+  // Whichever diagonal bends it, the triangles have other areas than their shadows in z = 0; a lamp below sees none.
+  const Faces faces{{at(0, 0, 0), at(4, 0, 0), at(4, 3, 0), at(0, 3, 4)}};
+  const Scene scene(soup_of(faces));
+  ASSERT_EQ(scene.pieces().size(), 2u);
+  const Points looks_along_x = parallelogram(at(1, -9, 9), at(0, 1, 0), at(0, 0, 1));  // lights what is beyond x = 1
+  std::vector<Light_partition> pieces;
+  Partition_counters counters;
+  double whole = 0, lit = 0;
+  for (std::uint32_t piece = 0; piece < 2; ++piece) {
+    pieces.push_back(Light_partitioner(scene).partition(piece, {looks_along_x}, {}, counters));
+    Points corners;
+    for (const Piece_corner& corner : scene.corners(scene.pieces()[piece]))
+      corners.push_back(scene.position(corner.point));
+    const Exact_point n = area_vector(corners);
+    const double area = std::sqrt(Rational(oracle::dot(n, n)).get_d());
+    whole += area;
+    lit += area * pieces.back().shares()[0].high;
+  }
+  const Bounded share = shares_of_face(scene, pieces)[0];
+  EXPECT_GT(share.low, 0.1);
+  EXPECT_NEAR(share.low, lit / whole, 1e-12);
+  EXPECT_NEAR(share.high, lit / whole, 1e-12);
+  EXPECT_NE(pieces[0].shares()[0].high, pieces[1].shares()[0].high);
+}
+
 // ---- Against the eye
 
 TEST(Partition, is_as_the_eye_says_in_all_families) {

@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -94,6 +95,9 @@ struct Light_partition {
   /// as far as doubles tell. Pre: no cell is undecided. Cost: all borders. Exact: yes
   std::size_t cell_at(const Rational& x, const Rational& y) const;
 };
+
+/// Of a face that consists of these pieces. Surfaces that are not planar have roots as areas. Exact: bounds
+std::array<Bounded, lights> shares_of_face(const Scene& scene, std::span<const Light_partition> pieces);
 
 /// The partition of the front of a piece by what it sees of sources. Cells of one light are
 /// one where doubles tell that a stretch of their border is open; so a region may come as several cells where it is as
