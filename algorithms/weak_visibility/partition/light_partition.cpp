@@ -1,10 +1,12 @@
+#include <sightline/algorithms/weak_visibility/partition/light_partition.h>
+
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
-#include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/kernel/vectors.h>
 
 #include <CGAL/Interval_nt.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace sightline {
 
