@@ -9,6 +9,7 @@ namespace sightline::app {
 struct Partition_arguments {
   std::vector<Face_id> faces;
   bool all_borders = false;
+  std::size_t rays = 0;  ///< what so many make of the first face; 0: none are asked
 
   bool asked_for() const { return !faces.empty(); }
   Option add_to(Command command);

@@ -1,5 +1,6 @@
 #include <sightline/io/svg.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -21,6 +22,49 @@ void Svg::polygon(std::vector<Flat_point> points, std::string_view fill, std::st
   body_ += " fill=\"" + std::string(fill) + "\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
            number(stroke_width) +
            (title.empty() ? "\"/>\n" : "\"><title>" + std::string(title) + "</title></polygon>\n");
+}
+
+namespace {
+
+/// "Mx,y x,y ...", each place once in a row; empty where fewer than so many are left.
+std::string chain_of(std::vector<std::string> places, std::size_t least) {
+  places.erase(std::unique(places.begin(), places.end()), places.end());
+  if (places.size() < least) return {};
+  std::string path;
+  for (std::size_t k = 0; k < places.size(); ++k) path += (k == 0 ? 'M' : ' ') + places[k];
+  return path;
+}
+
+}  // namespace
+
+void Svg::shape(const std::vector<std::vector<Flat_point>>& polygons, std::string_view fill) {
+  std::string path;
+  for (const std::vector<Flat_point>& polygon : polygons) {
+    if (std::any_of(polygon.begin(), polygon.end(),
+                    [](const Flat_point& p) { return !std::isfinite(p[0]) || !std::isfinite(p[1]); }))
+      continue;
+    // A corner is rounded alike wherever it stands; what that leaves without a width is left out.
+    std::vector<std::string> places;
+    for (const Flat_point& p : clipped(polygon)) places.push_back(number(p[0]) + ',' + number(p[1]));
+    while (places.size() > 1 && places.front() == places.back()) places.pop_back();
+    if (const std::string chain = chain_of(std::move(places), 3); !chain.empty()) path += chain + 'Z';
+  }
+  if (!path.empty()) body_ += "<path d=\"" + path + "\" fill=\"" + std::string(fill) + "\"/>\n";
+}
+
+void Svg::chains(const std::vector<std::vector<Flat_point>>& lines, std::string_view stroke, double stroke_width) {
+  std::string path;
+  for (const std::vector<Flat_point>& line : lines) {
+    if (!std::all_of(line.begin(), line.end(),
+                     [](const Flat_point& p) { return std::fabs(p[0]) < 1e6 && std::fabs(p[1]) < 1e6; }))
+      continue;
+    std::vector<std::string> places;
+    for (const Flat_point& p : line) places.push_back(number(p[0]) + ',' + number(p[1]));
+    path += chain_of(std::move(places), 2);
+  }
+  if (!path.empty())
+    body_ += "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + std::string(stroke) + "\" stroke-width=\"" +
+             number(stroke_width) + "\" stroke-linecap=\"round\"/>\n";
 }
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view fill) {

@@ -25,6 +25,12 @@ class Svg {
   void polygon(std::vector<Flat_point> points, std::string_view fill, std::string_view stroke, double stroke_width,
                std::string_view id = {}, std::string_view title = {});
 
+  /// Polygons that run round in one sense, filled as one shape without an outline: where they touch, nothing shows
+  /// between them. Degenerate: as polygon().
+  void shape(const std::vector<std::vector<Flat_point>>& polygons, std::string_view fill);
+  /// Chains of straight lines, as one. Degenerate: a chain is left out as line() is.
+  void chains(const std::vector<std::vector<Flat_point>>& lines, std::string_view stroke, double stroke_width);
+
   /// A filled rectangle without an outline, its edges sharp. Pre: finite numbers.
   void rectangle(double x, double y, double width, double height, std::string_view fill);
   /// A straight line with round ends, dashed or not. Degenerate: with coordinates that are no numbers, or that an SVG

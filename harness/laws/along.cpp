@@ -6,6 +6,7 @@
 #include <sightline/algorithms/weak_visibility/along/along.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/laws/along_edges.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
@@ -130,7 +131,17 @@ Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
       return Outcome::failed(at(t) + " " + path + " an eye sees " + listed(truth) + ", but by events " +
                              listed(by_events));
   }
-  // 2. The way back.
+  // 2. Why.
+  constexpr std::size_t most_changes = 12;
+  std::size_t changes = 0;
+  for (const Along_event& event : found.events)
+    for (const Along_event::Change& change : event.changes) {
+      if (++changes > most_changes) break;
+      if (const std::string flaw = flaw_of_change(scene, from, to, event.t, change); !flaw.empty())
+        return Outcome::failed("near t = " + std::to_string(event.t.near()) + ' ' + path + " of " +
+                               face_name(change.face) + ": " + flaw);
+    }
+  // 3. The way back.
   const Visible_along back = visible_along(occluders, to, from, options);
   bool same = back.events.size() == found.events.size() && back.visible == found.visible;
   for (std::size_t k = 0; k < found.events.size() && same; ++k) {

@@ -4,7 +4,8 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
-#include <sightline/kernel/scene/scene.h>
+#include <sightline/harness/laws/weak_outline.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -13,15 +14,19 @@ namespace sightline::harness {
 
 namespace {
 
+Exact_point point_of(const Light_partition& partition, const std::array<Rational, 2>& at) {
+  Exact_point p = partition.chart[0];
+  for (std::size_t k = 0; k < 3; ++k) p[k] += at[0] * partition.chart[1][k] + at[1] * partition.chart[2][k];
+  return p;
+}
+
 /// What segments from a point of a cell to the source contradict: one that is free, umbra; one that is not, or does not
 /// begin in front of both, lit. Segments at random, so that none only touches something.
 bool is_contradicted(const Occluders& occluders, const Weak_source& source, std::uint32_t piece,
                      const Light_partition& partition, const Light_partition::Cell& cell, Random& random) {
   constexpr int segments = 6;
   const Near_plane& plane = occluders.plane(piece);
-  Exact_point at = partition.chart[0];
-  for (std::size_t k = 0; k < 3; ++k) at[k] += cell.at[0] * partition.chart[1][k] + cell.at[1] * partition.chart[2][k];
-  const Located_point located = occluders.scene().locate(at);
+  const Located_point located = occluders.scene().locate(point_of(partition, cell.at));
   const Near_point p = near_point(occluders.frame(), {located.x, located.y, located.z, located.w});
   for (int k = 0; k < segments; ++k) {
     Homogeneous sum{0, 0, 0, 0};
@@ -38,6 +43,41 @@ bool is_contradicted(const Occluders& occluders, const Weak_source& source, std:
 }
 
 }  // namespace
+
+std::string flaw_of_edges(const Scene& scene, std::uint32_t piece, const generate::Points& source,
+                          const Exact_point& eye, const std::vector<std::array<Exact_point, 2>>& edges) {
+  using weak_flats::Level;
+  const std::vector<generate::Points> all = weak_flats::polygons(scene);
+  const Level front = weak_flats::level_of(all[piece]), of_source = weak_flats::level_of(source);
+  if (of_source.side(eye) <= 0) return edges.empty() ? "" : "a source is not seen from behind, but has edges";
+  // 1. That there are such edges.
+  const auto is_on = [](const std::array<Exact_point, 2>& line, const generate::Points& polygon) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Exact_point &a = polygon[i], along = minus(polygon[(i + 1) % polygon.size()], a);
+      if (is_zero(cross(along, minus(line[0], a))) && is_zero(cross(along, minus(line[1], a)))) return true;
+    }
+    return false;
+  };
+  const auto is_in = [](const std::array<Exact_point, 2>& line, const Level& level) {
+    return level.side(line[0]) == 0 && level.side(line[1]) == 0;
+  };
+  for (const auto& line : edges) {
+    const bool is_edge = is_on(line, source) || (is_in(line, of_source) && is_in(line, front)) ||
+                         std::any_of(all.begin(), all.end(), [&](const generate::Points& polygon) {
+                           return is_on(line, polygon) || (is_in(line, weak_flats::level_of(polygon)) &&
+                                                           (is_in(line, of_source) || is_in(line, front)));
+                         });
+    if (!is_edge) return "a line that bounds what is seen is no edge";
+  }
+  // 2. That they are those that bound it.
+  std::vector<weak_flats::Flat_line> images;
+  for (const auto& line : edges) images.push_back(weak_flats::image_of(source, eye, line));
+  std::sort(images.begin(), images.end());
+  const std::vector<weak_flats::Flat_line> outline = weak_flats::seen_outline(all, source, front, eye);
+  if (images == outline) return "";
+  return std::to_string(edges.size()) + " edges bound what is seen, " + std::to_string(outline.size()) +
+         " by brute force" + (images.size() == outline.size() ? ", others" : "");
+}
 
 Check partition_check() {
   return {"partition",
@@ -77,6 +117,37 @@ Check partition_check() {
             if (!some_light && open) return Outcome::undecided();
             return Outcome::failed(face_name(face) + (some_light ? " has light in its partition, but is hidden"
                                                                  : " is all in umbra, but visible"));
+          }};
+}
+
+Check outline_check() {
+  return {"outline", "the edges that bound what cells of a face see of the source, against all shadows",
+          [](const Posed_scene& posed, const Answer& answer, Random& random) {
+            constexpr std::size_t most_pieces = 8;
+            constexpr int most_bits = 64;
+            const Scene scene(posed.soup);
+            if (scene.pieces().empty() || scene.pieces().size() > most_pieces || scene.bits() > most_bits)
+              return Outcome::not_applicable();
+            const auto piece = static_cast<std::uint32_t>(random.below(scene.pieces().size()));
+            if (answer.labels[scene.pieces()[piece].face] == Answer::none) return Outcome::not_applicable();
+            std::size_t asked = 0;
+            Partition_options options;
+            options.all_borders = true;
+            constexpr std::size_t most_rectangles = 1000;
+            options.out_of_time = [&] { return ++asked > most_rectangles; };
+            Partition_counters counters;
+            const Light_partition partition =
+                Light_partitioner(scene).partition(piece, {posed.source}, options, counters);
+            constexpr std::size_t most_cells = 6;
+            for (const auto& cell : partition.cells) {
+              if (cell.light == Light::undecided ||
+                  !random.chance(most_cells, std::max(most_cells, partition.cells.size())))
+                continue;
+              const std::string flaw =
+                  flaw_of_edges(scene, piece, posed.source, point_of(partition, cell.at), cell.edges.at(0));
+              if (!flaw.empty()) return Outcome::failed("from a cell of piece " + std::to_string(piece) + ": " + flaw);
+            }
+            return partition.cells.empty() ? Outcome::not_applicable() : Outcome{};
           }};
 }
 

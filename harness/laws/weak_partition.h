@@ -1,11 +1,26 @@
 #pragma once
 // Partitions of faces by the light of a source, held to which faces the source sees.
 
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/subject.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace sightline::harness {
 
+/// What is wrong with edges, two points on each, as those that bound what a point of a piece's inside sees of a source;
+/// empty: nothing. Each has to lie on an edge, or where a piece's plane meets that of the source or of the piece, and
+/// their images have to be those that brute force finds. Pre: the source is convex. Exact: yes
+std::string flaw_of_edges(const Scene& scene, std::uint32_t piece, const generate::Points& source,
+                          const Exact_point& eye, const std::vector<std::array<Exact_point, 2>>& edges);
+
 /// That a face is hidden iff all of it is in umbra, of a share of small scenes; one of its faces each.
 Check partition_check();
+/// The edges that bound what is seen from cells, of a share of the smallest.
+Check outline_check();
 
 }  // namespace sightline::harness

@@ -34,6 +34,17 @@ TEST(Svg, writes_words_in_black_unless_told_otherwise) {
   EXPECT_NE(svg.text().find("fill=\"#eeeeee\" text-anchor=\"end\">light<"), std::string::npos) << svg.text();
 }
 
+TEST(Svg, fills_polygons_as_one_shape_and_leaves_out_what_has_no_width) {
+  Svg svg(100, 100);
+  svg.shape({{{0, 0}, {5, 0}, {5, 5}}, {{5, 0}, {5.001, 0}, {5.002, 5}, {5, 5}}, {{5, 0}, {9, 0}, {9, 9}, {5, 5}}},
+            "#ff0000");
+  EXPECT_NE(svg.text().find("<path d=\"M0,0 5,0 5,5ZM5,0 9,0 9,9 5,5Z\" fill=\"#ff0000\"/>"), std::string::npos)
+      << svg.text();
+  svg.chains({{{1, 1}, {2, 2}, {2, 2.001}, {3, 1}}, {{4, 4}, {4, 4}}}, "#00ff00", 2);
+  EXPECT_NE(svg.text().find("<path d=\"M1,1 2,2 3,1\" fill=\"none\" stroke=\"#00ff00\""), std::string::npos)
+      << svg.text();
+}
+
 /// The colour of each series of a plot, from the line before its name.
 std::map<std::string, std::string> colours_of(const Log_plot& plot, const std::set<std::string>& series) {
   std::map<std::string, std::string> colours;

@@ -88,7 +88,16 @@ TEST_F(Weak, divides_a_wall_behind_a_door_into_penumbra_and_umbra) {
   ASSERT_EQ(wall["borders"].size(), 2u);
   EXPECT_EQ(wall["borders"][0]["kind"], "conic");
   EXPECT_EQ(wall["borders"][0]["curve"], Json::array({"-81", "90", "-55", "0", "50", "0"}));
-  EXPECT_NE(read_file(picture).find("<polygon"), std::string::npos);
+  EXPECT_NE(read_file(picture).find("<path"), std::string::npos);
+  // What rays make of it, beside it.
+  const Json sampled = weak({rooms, "--from", lamp, "--partition", "84", "--beside-rays", "1600", "--svg",
+                             picture})["result"]["partition"]["sampled"];
+  EXPECT_EQ(sampled["rays"], 1600);
+  EXPECT_EQ(sampled["lit"], 0.0);
+  EXPECT_GT(sampled["umbra"].get<double>(), 0.25);  // corners of the lamp are missed
+  EXPECT_NEAR(sampled["umbra"].get<double>() + sampled["penumbra"].get<double>(), 1, 1e-9);
+  EXPECT_NE(read_file(picture).find("1600 rays:"), std::string::npos);
+  EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--beside-rays", "100"}).code, usage);
   // What it does not go with, and faces that there are not.
   for (const char* other : {"--certificate", "--obj"})
     EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--partition", "84", other, path("x.obj").string()}).code, usage);

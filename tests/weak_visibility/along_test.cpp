@@ -9,6 +9,7 @@
 #include <sightline/algorithms/weak_visibility/along/along.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/along_edges.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/vectors.h>
 
@@ -127,7 +128,7 @@ std::vector<Face_id> after_events(const Visible_along& along, const Quadratic_ro
 
 /// What was met in all scenes.
 struct Met {
-  std::size_t scenes = 0, events = 0, irrational = 0, momentary = 0, contacts = 0;
+  std::size_t scenes = 0, events = 0, irrational = 0, momentary = 0, contacts = 0, triples = 0;
 };
 
 void expect_events_among_candidates(const Polygon_soup& soup, const Exact_point& from, const Exact_point& to,
@@ -147,6 +148,9 @@ void expect_events_among_candidates(const Polygon_soup& soup, const Exact_point&
     EXPECT_TRUE(std::binary_search(all.begin(), all.end(), event.t)) << event.t.near();
     met.irrational += !event.t.rational();
     for (const Along_event::Change& change : event.changes) {
+      EXPECT_EQ(harness::flaw_of_change(scene, from, to, event.t, change), "")
+          << "face " << change.face << " at " << event.t.near();
+      met.triples += change.kind == Along_kind::triple;
       met.momentary += change.before == change.after;
       met.contacts += change.kind == Along_kind::contact;
     }

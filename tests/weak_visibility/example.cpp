@@ -3,6 +3,7 @@
 #include <sightline/algorithms/weak_visibility/along/along.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/events/active_subranges.h>
+#include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 
 #include <iostream>
@@ -36,6 +37,18 @@ void walk(const sightline::Polygon_soup& soup, const sightline::Exact_point& fro
       if (change.after && !change.before) out << "face " << change.face << " at t = " << event.t.near() << '\n';
 }
 
+/// What of a face is lit, in penumbra and in umbra, and a point of each part.
+void divide(const sightline::Scene& scene, std::uint32_t piece, const std::vector<sightline::Exact_point>& lamp,
+            std::ostream& out) {
+  const sightline::Light_partitioner partitioner(scene);  // serves any number of pieces and sources
+  sightline::Partition_counters counters;
+  const auto found = partitioner.partition(piece, {lamp}, {}, counters);
+  for (const auto& cell : found.cells)
+    out << name_of(cell.light) << " around " << cell.at[0] << ", " << cell.at[1] << '\n';
+  const auto lit = found.shares()[0];  // between two doubles
+  out << "lit: " << lit.low << " to " << lit.high << " of it\n";
+}
+
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -59,6 +72,16 @@ TEST(Weak_visibility_example, bars_leave_gaps) {
   std::ostringstream out;
   look_through(100, out);
   EXPECT_EQ(out.str(), "50 gaps, the last from 0.989949\n");
+}
+TEST(Weak_visibility_example, divides_a_wall_that_a_lamp_is_level_with) {
+  sightline::Polygon_soup soup;  // a wall in x = 0; the lamp is at half its height and looks up
+  const auto a = soup.add_point(0, 0, 0), b = soup.add_point(0, 4, 0), c = soup.add_point(0, 4, 4),
+             d = soup.add_point(0, 0, 4);
+  soup.add_face({a, b, c, d});
+  std::ostringstream out;
+  divide(sightline::Scene(soup), 0, {{1, 1, 2}, {2, 1, 2}, {2, 2, 2}, {1, 2, 2}}, out);
+  EXPECT_NE(out.str().find("lit: 0.5 to 0.5 of it\n"), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find("umbra around "), std::string::npos) << out.str();
 }
 TEST(Weak_visibility_example, a_walk_past_a_floor) {
   sightline::Polygon_soup soup;

@@ -8,6 +8,7 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
+#include <sightline/harness/laws/weak_partition.h>
 
 #include <gtest/gtest.h>
 
@@ -96,7 +97,7 @@ class Eyes {
 
 struct Tally {
   std::array<std::size_t, lights> points{};
-  std::size_t conics = 0, cells = 0, borders = 0;
+  std::size_t conics = 0, cells = 0, borders = 0, edges = 0;
 };
 
 /// Each cell's point, and points at random, are as the eye says; shares add up to one.
@@ -119,6 +120,11 @@ void expect_right(const Polygon_soup& soup, const Points& source, Face_id face, 
     for (const Light_partition::Cell& cell : found.cells) {
       const Exact_point p = point(cell.at[0], cell.at[1]);
       EXPECT_EQ(cell.light, eyes.light_at(p, front)) << "face " << face;
+      if (all_borders) {
+        ASSERT_EQ(cell.edges.size(), 1u);
+        EXPECT_EQ(harness::flaw_of_edges(scene, piece, source, p, cell.edges[0]), "") << "face " << face;
+        tally.edges += cell.edges[0].size();
+      }
       const std::size_t there = found.cell_at(cell.at[0], cell.at[1]);
       if (there != Light_partition::none && cell.area.low > 1e-6) {
         EXPECT_EQ(&cell, &found.cells[there]) << "face " << face;
@@ -138,6 +144,10 @@ void expect_right(const Polygon_soup& soup, const Points& source, Face_id face, 
       if (cell == Light_partition::none) continue;
       const Light light = eyes.light_at(point(x, y), front);
       EXPECT_EQ(found.cells[cell].light, light) << "face " << face << " at " << x << ", " << y;
+      if (all_borders) {
+        EXPECT_EQ(harness::flaw_of_edges(scene, piece, source, point(x, y), found.cells[cell].edges[0]), "")
+            << "face " << face << " at " << x << ", " << y;
+      }
       ++tally.points[static_cast<std::size_t>(light)];
     }
     tally.cells += found.cells.size();
@@ -209,6 +219,49 @@ TEST(Partition_by_hand, a_source_across_the_plane_of_the_face_is_never_seen_whol
   expect_share(shares[1], 1);
 }
 
+TEST(Partition_by_hand, shares_of_a_face_of_several_pieces_are_those_of_all_of_it) {
+  // An L in x = 0, of area 8; what is above z = 1 / 3, its foot but a third, is lit.
+  const Faces faces{{at(0, 0, 0), at(0, 6, 0), at(0, 6, 1), at(0, 1, 1), at(0, 1, 3), at(0, 0, 3)}};
+  const Scene scene(soup_of(faces));
+  ASSERT_EQ(scene.pieces().size(), 2u);
+  const Points looks_up = parallelogram({1, 1, ratio(1, 3)}, at(1, 0, 0), at(0, 1, 0));
+  std::vector<Light_partition> pieces;
+  Partition_counters counters;
+  const Light_partitioner partitioner(scene);
+  for (std::uint32_t piece = 0; piece < 2; ++piece)
+    pieces.push_back(partitioner.partition(piece, {looks_up}, {}, counters));
+  const auto shares = shares_of_face(scene, pieces);
+  expect_share(shares[0], ratio(3, 4));
+  expect_share(shares[2], ratio(1, 4));
+  EXPECT_LT(shares[0].high - shares[0].low, 0x1p-45);
+}
+
+TEST(Partition_by_hand, a_face_that_is_bent_has_the_areas_of_its_triangles) {
+  // Whichever diagonal bends it, the triangles have other areas than their shadows in z = 0; a lamp below sees none.
+  const Faces faces{{at(0, 0, 0), at(4, 0, 0), at(4, 3, 0), at(0, 3, 4)}};
+  const Scene scene(soup_of(faces));
+  ASSERT_EQ(scene.pieces().size(), 2u);
+  const Points looks_along_x = parallelogram(at(1, -9, 9), at(0, 1, 0), at(0, 0, 1));  // lights what is beyond x = 1
+  std::vector<Light_partition> pieces;
+  Partition_counters counters;
+  double whole = 0, lit = 0;
+  for (std::uint32_t piece = 0; piece < 2; ++piece) {
+    pieces.push_back(Light_partitioner(scene).partition(piece, {looks_along_x}, {}, counters));
+    Points corners;
+    for (const Piece_corner& corner : scene.corners(scene.pieces()[piece]))
+      corners.push_back(scene.position(corner.point));
+    const Exact_point n = area_vector(corners);
+    const double area = std::sqrt(Rational(oracle::dot(n, n)).get_d());
+    whole += area;
+    lit += area * pieces.back().shares()[0].high;
+  }
+  const Bounded share = shares_of_face(scene, pieces)[0];
+  EXPECT_GT(share.low, 0.1);
+  EXPECT_NEAR(share.low, lit / whole, 1e-12);
+  EXPECT_NEAR(share.high, lit / whole, 1e-12);
+  EXPECT_NE(pieces[0].shares()[0].high, pieces[1].shares()[0].high);
+}
+
 // ---- Against the eye
 
 TEST(Partition, is_as_the_eye_says_in_all_families) {
@@ -262,6 +315,37 @@ TEST(Partition, with_all_borders_is_the_same_in_more_cells) {
     expect_right(soup, source, 0, 20, again, many, true);
   }
   EXPECT_GT(many.cells, few.cells);
+  EXPECT_GT(many.edges, 3 * many.cells);
+}
+
+TEST(Partition, with_all_borders_names_the_edges_that_brute_force_finds) {
+  Tally tally;
+  Random random(9);
+  for (const weak_scenes::Family& family : weak_scenes::families())
+    for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 2); ++seed) {
+      const weak_scenes::Weak_scene scene = family.make(seed);
+      if (Scene(scene.soup).pieces().size() > 8) continue;
+      SCOPED_TRACE(scene.name);
+      expect_right(scene.soup, scene.source, scene.targets.front(), 4, random, tally, true);
+    }
+  EXPECT_GT(tally.edges, test_scenes::least(400u));
+}
+
+TEST(Partition, has_edges_of_each_source_by_its_number) {
+  // The first lamp looks away; the second one is whole over the first rows, where its own four edges bound it.
+  Partition_options options;
+  options.all_borders = true;
+  Partition_counters counters;
+  const Scene scene(table(1, 1));
+  const auto cells = Light_partitioner(scene).partition(0, {reversed(lamp()), lamp()}, options, counters).cells;
+  bool some = false;
+  for (const Light_partition::Cell& cell : cells) {
+    ASSERT_EQ(cell.edges.size(), 2u);
+    EXPECT_TRUE(cell.edges[0].empty());
+    EXPECT_NE(cell.light, Light::lit);
+    some |= cell.edges[1].size() == 4;
+  }
+  EXPECT_TRUE(some);
 }
 
 TEST(Partition, without_time_is_undecided) {

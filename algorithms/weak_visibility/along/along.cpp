@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -17,9 +18,10 @@ struct Timed_change {
   Quadratic_root t;
   Along_event::Change change;
 };
-struct Why {
-  Quadratic_root t;
-  Along_cause cause;
+/// What is seen of one piece, and the search that knows why it ends.
+struct Seen_piece {
+  Piece_along* search;
+  Parameter_range seen;
 };
 
 bool by_low(const Parameter_range& a, const Parameter_range& b) { return a.low < b.low; }
@@ -38,17 +40,17 @@ bool is_seen_on_the_way(const Face& face) {
 }
 
 /// When the face of some pieces is seen: what of them is, put together.
-Face seen_of(const Along_scene& scene, std::span<Piece_along> pieces, Face_id id, std::vector<Why>& why) {
+Face seen_of(const Along_scene& scene, std::span<Piece_along> pieces, Face_id id, std::vector<Seen_piece>& all) {
   Face face{id, {}, {}};
   std::vector<Rational> contacts;  // at which it is seen
-  for (const Rational& t : scene.contacts())
+  for (const Rational& t : scene.stops())
     if (std::any_of(pieces.begin(), pieces.end(), [&](Piece_along& piece) { return piece.is_seen_at(moment(t)); }))
       contacts.push_back(t);
   std::vector<Parameter_range> parts;
   for (Piece_along& piece : pieces)
-    for (std::size_t k = 0; k + 1 < scene.contacts().size(); ++k)
-      for (Parameter_range& part : piece.seen_within({moment(scene.contacts()[k]), moment(scene.contacts()[k + 1])})) {
-        for (const Quadratic_root* end : {&part.low, &part.high}) why.push_back({*end, piece.cause(*end)});
+    for (std::size_t k = 0; k + 1 < scene.stops().size(); ++k)
+      for (Parameter_range& part : piece.seen_within({moment(scene.stops()[k]), moment(scene.stops()[k + 1])})) {
+        all.push_back({&piece, part});
         parts.push_back(std::move(part));
       }
   // Ranges of different pieces overlap; where they only meet nothing is seen, but perhaps from a contact.
@@ -70,7 +72,7 @@ Face seen_of(const Along_scene& scene, std::span<Piece_along> pieces, Face_id id
   return face;
 }
 
-std::vector<Timed_change> changes_of(const Along_scene& scene, const Face& face, const std::vector<Why>& why) {
+std::vector<Timed_change> changes_of(const Along_scene& scene, const Face& face, std::span<const Seen_piece> pieces) {
   std::vector<Quadratic_root> ends;
   for (const Rational& t : face.moments) ends.push_back(moment(t));
   for (const Parameter_range& range : face.seen) {
@@ -89,16 +91,18 @@ std::vector<Timed_change> changes_of(const Along_scene& scene, const Face& face,
     if (t == Quadratic_root(0)) change.before = change.at;
     if (t == Quadratic_root(1)) change.after = change.at;
     if (change.before == change.at && change.at == change.after) continue;
-    const Along_cause* cause = nullptr;
-    for (const Why& reason : why)
-      if (reason.t == t && (cause == nullptr || reason.cause.kind < cause->kind)) cause = &reason.cause;
     const auto& contacts = scene.contacts();
     const bool is_contact =
         std::any_of(contacts.begin(), contacts.end(), [&](const Rational& c) { return moment(c) == t; });
-    if (cause != nullptr && (cause->kind == Along_kind::plane || !is_contact)) {
+    std::optional<Along_cause> cause;
+    for (const auto& [search, seen] : pieces) {
+      if (!(seen.low == t || seen.high == t) || (is_contact && !search->is_edge_on(t))) continue;
+      Along_cause own = search->cause(t, seen);
+      if (!cause || own.kind < cause->kind) cause = std::move(own);
+    }
+    if (cause) {
       change.kind = cause->kind;
-      for (const std::uint32_t line : cause->lines)
-        if (line < scene.lines().size()) change.edges.push_back(scene.edge(line));
+      change.edges = std::move(cause->edges);
     }
     changes.push_back({t, std::move(change)});
   }
@@ -126,9 +130,9 @@ Visible_along visible_along(const Occluders& occluders, const Exact_point& from,
         if (side == 1 || options.two_sided) searches.emplace_back(scene, piece, side);
     }
     Result& result = results[f];
-    std::vector<Why> why;
-    result.face = seen_of(scene, searches, pieces[first[f]].face, why);
-    result.changes = changes_of(scene, result.face, why);
+    std::vector<Seen_piece> seen;
+    result.face = seen_of(scene, searches, pieces[first[f]].face, seen);
+    result.changes = changes_of(scene, result.face, seen);
     for (const Piece_along& search : searches) result.counters += search.counters();
   };
   for_each_face(pieces, first, options.threads, options.progress, decide);

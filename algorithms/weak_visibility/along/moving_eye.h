@@ -9,6 +9,7 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <array>
+#include <cmath>
 
 namespace sightline {
 
@@ -45,6 +46,12 @@ Eye_line eye_line(const Moving_eye& eye, const Near_frame& frame, const Exact_pl
 /// The determinant of three such normals: zero where the eye sees the three lines through one point. The third power
 /// of t falls out: all changes are across the eye's way. Exact: yes. Proof: P-87
 Quadratic determinant(const Eye_line& i, const Eye_line& j, const Eye_line& k);
+
+/// Of a direction, for what doubles propose; itself where it is zero.
+inline Triple unit(const Triple& a) {
+  const double length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+  return length > 0 ? Triple{a[0] / length, a[1] / length, a[2] / length} : a;
+}
 
 /// The side of a point of the plane through the eye and a line: linear. Exact: yes
 Quadratic side(const Moving_eye& eye, const Eye_line& line, const Homogeneous& point);

@@ -133,7 +133,9 @@ bool may_meet(const Plane_curve& curve, const Chart_box& box) {
   return !(std::fabs(middle) > reach + 0x1p-44);
 }
 
-Curve_arrangement::Curve_arrangement(std::span<const Plane_curve> curves, const Chart_box& box) : box_(box) {
+Curve_arrangement::Curve_arrangement(std::span<const Plane_curve> curves, const Chart_box& box,
+                                     const std::function<bool()>& out_of_time)
+    : box_(box) {
   const Rational x0 = exact(box.x0), x1 = exact(box.x1), y0 = exact(box.y0), y1 = exact(box.y1);
 
   // 1. Where the order of curves may change.
@@ -145,10 +147,12 @@ Curve_arrangement::Curve_arrangement(std::span<const Plane_curve> curves, const 
     if (degree == 0) continue;
     append_real_roots(at_height(f, y0), x0, x1, roots);
     append_real_roots(at_height(f, y1), x0, x1, roots);
-    for (std::size_t j = 0; j < i; ++j)
+    for (std::size_t j = 0; j < i; ++j) {
+      if (out_of_time && out_of_time()) return;
       if (degree_in_y(curves[j]) > 0) append_real_roots(resultant(f, curves[j]), x0, x1, roots);
+    }
   }
-  sort_distinct(roots);
+  if (!sort_distinct(roots, out_of_time)) return;
 
   // 2. What the curves are between.
   const Quadratic_root bottom(y0.get_num(), 0, Integer(0), y0.get_den()),

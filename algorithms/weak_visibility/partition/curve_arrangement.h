@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,7 +36,10 @@ bool may_meet(const Plane_curve& curve, const Chart_box& box);
 /// resultants; n sectors a slab. Exact: yes; but for areas and values at limits, which are bounds. Proof: P-86
 class Curve_arrangement {
  public:
-  Curve_arrangement(std::span<const Plane_curve> curves, const Chart_box& box);
+  Curve_arrangement(std::span<const Plane_curve> curves, const Chart_box& box,
+                    const std::function<bool()>& out_of_time = {});
+  /// Whether time ran out: then there are no slabs.
+  bool ended() const { return slabs_.empty(); }
 
   struct Arc {
     std::uint32_t curve;

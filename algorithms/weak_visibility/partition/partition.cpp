@@ -17,11 +17,6 @@
 
 namespace sightline {
 
-const char* name_of(Light light) {
-  constexpr const char* names[] = {"lit", "penumbra", "umbra", "undecided"};
-  return names[static_cast<std::size_t>(light)];
-}
-
 struct Light_partitioner::Merged {
   explicit Merged(const Scene& of) : scene(merged_pieces(of)), occluders(scene) {}
   Scene scene;
@@ -37,6 +32,7 @@ using Interval = CGAL::Interval_nt<>;
 
 /// A source as a piece sees it.
 struct Seen_source {
+  std::size_t number;  ///< among all sources
   Filtered plane;
   bool whole;  ///< all of it is in front of the piece
   Event_lines lines;
@@ -83,8 +79,9 @@ class Partition_builder {
   /// one of them, or one of them is hidden from all.
   void probe(const std::array<Filtered, 4>& corners, const Blockers& blockers, bool& some_seen,
              bool& some_hidden) const;
-  void arrange(const Chart_box& box, const std::vector<std::size_t>& curves, const Blockers& blockers,
-               std::optional<Light> known);
+  /// `rim`: those of the curves that are edges of the piece. Undecided where time runs out.
+  void arrange(const Chart_box& box, const std::vector<std::size_t>& rim, const std::vector<std::size_t>& curves,
+               const Blockers& blockers, std::optional<Light> known);
   bool is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const;
   /// A point in the plane of a piece does not see it: another one of the same sector, that is in none.
   void leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
@@ -149,7 +146,8 @@ Partition_builder::Partition_builder(const Occluders& occluders, const Near_poly
   constexpr Plane_chart::Bounds everywhere{-1, 2, -1, 2};
 
   // 1. The sources, and where what is seen of them changes.
-  for (const Weak_source& source : sources) {
+  for (std::size_t number = 0; number < sources.size(); ++number) {
+    const Weak_source& source = sources[number];
     const Near_polygon receiver = clip(frame, piece, source.plane, true),
                        seen = clip(frame, source.polygon, plane, true);
     if (receiver.size() < 3 || seen.size() < 3) {
@@ -157,7 +155,8 @@ Partition_builder::Partition_builder(const Occluders& occluders, const Near_poly
       continue;
     }
     const int at = side(plane, source.polygon);
-    sources_.push_back({{source.plane.exact, near(source.plane)},
+    sources_.push_back({number,
+                        {source.plane.exact, near(source.plane)},
                         at == 1,
                         Event_lines(occluders, receiver, plane, seen, source.plane, 1)});
     Border_search search(
@@ -248,7 +247,7 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
   }
   std::sort(rim.begin(), rim.end());
   if (is_over()) {
-    arrange(box, rim, given, Light::undecided);
+    arrange(box, rim, rim, given, Light::undecided);
     return leave();
   }
 
@@ -265,7 +264,7 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
   const bool is_penumbra = some_seen && some_hidden;
   if (known || is_penumbra) {
     ++counters_->alike;
-    arrange(box, rim, blockers, known ? *known : Light::penumbra);
+    arrange(box, rim, rim, blockers, known ? *known : Light::penumbra);
     return leave();
   }
 
@@ -302,7 +301,7 @@ void Partition_builder::divide(const Chart_box& box, const Blockers& given,
   curves.insert(curves.end(), rim.begin(), rim.end());
   std::sort(curves.begin(), curves.end());
   ++counters_->arrangements;
-  arrange(box, curves, blockers, std::nullopt);
+  arrange(box, rim, curves, blockers, std::nullopt);
   leave();
 }
 
@@ -398,11 +397,16 @@ void Partition_builder::probe(const std::array<Filtered, 4>& corners, const Bloc
   }
 }
 
-void Partition_builder::arrange(const Chart_box& box, const std::vector<std::size_t>& curves, const Blockers& blockers,
+void Partition_builder::arrange(const Chart_box& box, const std::vector<std::size_t>& rim,
+                                const std::vector<std::size_t>& curves, const Blockers& blockers,
                                 std::optional<Light> known) {
   std::vector<Plane_curve> own;
   for (const std::size_t k : curves) own.push_back(curves_[k].curve);
-  Leaf& leaf = leaves_.emplace_back(Leaf{Curve_arrangement(own, box), curves, {}, box});
+  const bool is_open = known == Light::undecided;
+  Curve_arrangement arrangement(
+      own, box, is_open ? std::function<bool()>() : [this] { return is_over(); });
+  if (arrangement.ended()) return arrange(box, rim, rim, blockers, Light::undecided);
+  Leaf& leaf = leaves_.emplace_back(Leaf{std::move(arrangement), curves, {}, box});
   const bool is_whole = std::none_of(rim_.begin(), rim_.end(), [&](const auto& edge) {
     return std::binary_search(curves.begin(), curves.end(), edge.second);
   });
@@ -411,8 +415,8 @@ void Partition_builder::arrange(const Chart_box& box, const std::vector<std::siz
     for (const Rational& y : slab.y) {
       Sector sector{true, Light::undecided, 0, slab.x, y, 0};
       sector.inside = is_whole || is_inside(sector.x, sector.y);
-      if (sector.inside && known && (!options_->all_borders || *known == Light::undecided)) sector.light = *known;
-      else if (sector.inside) {
+      if (sector.inside && known && (!options_->all_borders || is_open)) sector.light = *known;
+      else if (sector.inside && !is_over()) {
         leave_planes(sector, own, box, blockers);
         classify(sector, blockers);
       }
@@ -618,8 +622,10 @@ void Partition_builder::collect_cells(Light_partition& result) {
     if (!sectors_[k].inside || sectors_[k].light == Light::undecided || known[cell_of_[k]] != 0) continue;
     known[cell_of_[k]] = 1;
     const auto& outline = *outlines[sectors_[k].outline];
+    auto& all = result.cells[cell_of_[k]].edges;
+    all.resize(sources_.size() + never_seen_);
     for (std::size_t s = 0; s < sources_.size(); ++s) {
-      auto& edges = result.cells[cell_of_[k]].edges.emplace_back();
+      auto& edges = all[sources_[s].number];
       for (const std::uint32_t line : outline[s]) {
         const std::array<Filtered, 2>& hull = sources_[s].lines.lines()[line].hull;
         edges.push_back({occluders_->scene().position(hull[0].exact), occluders_->scene().position(hull[1].exact)});
@@ -709,44 +715,6 @@ void Partition_builder::collect_borders(Light_partition& result) {
 }
 
 }  // namespace
-
-std::array<Bounded, lights> Light_partition::shares() const {
-  std::array<Interval, lights> sums{0, 0, 0, 0};
-  for (const Cell& cell : cells) sums[static_cast<std::size_t>(cell.light)] += Interval(cell.area.low, cell.area.high);
-  std::array<Bounded, lights> found;
-  for (std::size_t k = 0; k < lights; ++k) found[k] = {std::max(sums[k].inf(), 0.0), std::min(sums[k].sup(), 1.0)};
-  return found;
-}
-
-std::size_t Light_partition::cell_at(const Rational& x, const Rational& y) const {
-  if (x <= 0 || x >= 1 || y <= 0 || y >= 1) return none;
-  // The nearest borders below and above.
-  const Quadratic_root here(y.get_num(), 0, Integer(0), y.get_den());
-  std::optional<Quadratic_root> low, high;
-  std::size_t under = none, over = none;
-  for (const Border& border : borders) {
-    const Bounded &from = border.x[0], &to = border.x[1];
-    if (x < exact(from.low) || x > exact(to.high)) continue;
-    if (x <= exact(from.high) || x >= exact(to.low)) return none;
-    const std::optional<Quadratic_root> at = curves[border.curve].height(x, border.upper);
-    const int order = at ? compare(*at, here) : 0;
-    if (order == 0) return none;
-    if (order < 0 && (!low || *low < *at)) {
-      low = at;
-      under = border.above;
-    }
-    if (order > 0 && (!high || *at < *high)) {
-      high = at;
-      over = border.below;
-    }
-  }
-  if (low) return under;
-  if (high) return over;
-  // One cell from the lower to the upper side.
-  for (const Strip& strip : strips)
-    if (exact(strip.lower.front()[0]) < x && x < exact(strip.lower.back()[0])) return strip.cell;
-  return none;
-}
 
 Light_partition Light_partitioner::partition(std::uint32_t piece, const std::vector<std::vector<Exact_point>>& sources,
                                              const Partition_options& options, Partition_counters& counters) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 namespace sightline {
@@ -152,6 +153,7 @@ void Real_root::refine_to(unsigned long bits) {
 
 int compare(Real_root& a, Real_root& b) {
   constexpr int tries = 24;
+  std::optional<Polynomial> common;  // once it is asked for
   for (int round = 0;; ++round) {
     if (a.is_rational() && b.is_rational()) return cmp(a.low_, b.low_) < 0 ? -1 : cmp(a.low_, b.low_) > 0;
     // The interval of what is not rational is open.
@@ -165,10 +167,10 @@ int compare(Real_root& a, Real_root& b) {
       a.refine();
     } else {
       if (round >= tries) {
-        const Polynomial common = common_divisor(*a.f_, *b.f_);
-        if (common.size() > 1 && count_roots(common, a.low_, a.high_) == 1 &&
-            count_roots(common, b.low_, b.high_) == 1 &&
-            count_roots(common, std::min(a.low_, b.low_), std::max(a.high_, b.high_)) == 1)
+        if (!common) common = common_divisor(*a.f_, *b.f_);
+        if (common->size() > 1 && count_roots(*common, a.low_, a.high_) == 1 &&
+            count_roots(*common, b.low_, b.high_) == 1 &&
+            count_roots(*common, std::min(a.low_, b.low_), std::max(a.high_, b.high_)) == 1)
           return 0;
       }
       (a.high_ - a.low_ > b.high_ - b.low_ ? a : b).refine();
@@ -192,12 +194,13 @@ void append_real_roots(Polynomial f, const Rational& low, const Rational& high, 
   isolate(free, bernstein(*free, low, high), low, high, roots);
 }
 
-void sort_distinct(std::vector<Real_root>& roots) {
+bool sort_distinct(std::vector<Real_root>& roots, const std::function<bool()>& out_of_time) {
   std::sort(roots.begin(), roots.end(),
             [](const Real_root& a, const Real_root& b) { return cmp(a.low() + a.high(), b.low() + b.high()) < 0; });
   // Nearly in order: by insertion, equal ones left out.
   std::vector<Real_root> sorted;
   for (Real_root& root : roots) {
+    if (out_of_time && out_of_time()) return false;
     std::size_t at = sorted.size();
     int order = 1;
     while (at > 0 && (order = compare(root, sorted[at - 1])) < 0) --at;
@@ -205,6 +208,7 @@ void sort_distinct(std::vector<Real_root>& roots) {
     sorted.insert(sorted.begin() + static_cast<std::ptrdiff_t>(at), std::move(root));
   }
   roots = std::move(sorted);
+  return true;
 }
 
 Rational between(Real_root& a, Real_root& b) {

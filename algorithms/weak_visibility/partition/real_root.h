@@ -3,6 +3,7 @@
 
 #include <sightline/kernel/number.h>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -42,8 +43,8 @@ class Real_root {
 /// low < high, dyadic. Cost: bisections by Descartes' rule of signs. Exact: yes
 void append_real_roots(Polynomial f, const Rational& low, const Rational& high, std::vector<Real_root>& roots);
 
-/// In order, each once.
-void sort_distinct(std::vector<Real_root>& roots);
+/// In order, each once. Returns false, and leaves them in any order, where time ran out.
+bool sort_distinct(std::vector<Real_root>& roots, const std::function<bool()>& out_of_time = {});
 
 /// A dyadic rational strictly between two different numbers, a < b, of few bits.
 Rational between(Real_root& a, Real_root& b);

@@ -38,7 +38,7 @@ Cell_proofs::Relaxation Cell_proofs::by_relaxation(const Line_cell& cell, std::v
   Rational value;
   if (!solve_basis(
           rows, game_.tight_columns(), [&](std::size_t k, std::size_t c) { return cell.exact_value(k, c); }, weights,
-          value))
+          value, out_of_time_))
     return Relaxation::unclear;
   std::vector<Weighted> kept;
   for (std::size_t k = 0; k < rows.size(); ++k) {
@@ -151,7 +151,7 @@ bool Cell_proofs::by_forms(const Line_cell& cell, bool source, bool thoroughly, 
     const std::vector<std::size_t>& rows = wide_.tight_rows();
     std::vector<Rational> solved;
     Rational exact_result;
-    if (!solve_basis(rows, wide_.tight_columns(), coefficient, solved, exact_result)) return false;
+    if (!solve_basis(rows, wide_.tight_columns(), coefficient, solved, exact_result, out_of_time_)) return false;
     for (std::size_t k = 0; k < rows.size(); ++k) {
       if (sgn(solved[k]) < 0) return false;
       if (sgn(solved[k]) > 0) weights.push_back({rows[k], solved[k]});

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,8 +33,13 @@ class Cell_proofs {
   enum class Relaxation { empty, has_room, unclear };
 
   Cell_proofs(const Occluders& occluders, const Edge_lines& lines, const Near_plane& source_plane,
-              const Near_plane& target_plane)
-      : occluders_(&occluders), lines_(&lines), planes_{&source_plane, &target_plane} {}
+              const Near_plane& target_plane, std::function<bool()> out_of_time = {})
+      : occluders_(&occluders),
+        lines_(&lines),
+        planes_{&source_plane, &target_plane},
+        out_of_time_(std::move(out_of_time)) {
+    exact_game_.end_when(out_of_time_);
+  }
 
   /// The relaxation in doubles, weights for all pairs of vertices at once: its value, and the game itself.
   double relax(const Line_cell& cell, Weak_counters& counters);
@@ -98,6 +104,7 @@ class Cell_proofs {
   const Occluders* occluders_;
   const Edge_lines* lines_;
   std::array<const Near_plane*, 2> planes_;  // of source and target
+  std::function<bool()> out_of_time_;
   Matrix_game<double> game_, wide_;
   Matrix_game<Rational> exact_game_;
   std::size_t exact_games_ = 0;  // of forms, that were tried

@@ -37,7 +37,7 @@ Line_search::Line_search(const Occluders& occluders, Near_polygon source, const 
       options_(&options),
       dice_(options.seed * 0x9e3779b97f4a7c15u + target_piece),
       lines_(occluders),
-      proofs_(occluders, lines_, source_plane, *target_plane_) {
+      proofs_(occluders, lines_, source_plane, *target_plane_, options.out_of_time) {
   domains_.push_back(std::make_unique<Line_domain>(std::make_shared<const Near_polygon>(std::move(source)),
                                                    std::make_shared<const Near_polygon>(std::move(target))));
 }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <type_traits>
 #include <utility>
@@ -21,6 +22,8 @@ namespace sightline {
 template <class Number>
 class Matrix_game {
  public:
+  /// Asked before each step: solve() ends where it says so, with what a check will not accept.
+  void end_when(std::function<bool()> out_of_time) { out_of_time_ = std::move(out_of_time); }
   void restart(std::size_t columns) {
     columns_ = columns;
     rows_ = 0;
@@ -104,7 +107,7 @@ class Matrix_game {
   void run() {
     for (int step = 0; step < max_steps; ++step) {
       const std::size_t entering = entering_row(step);
-      if (entering == rows_) break;
+      if (entering == rows_ || (out_of_time_ && out_of_time_())) break;
       const std::size_t leaving = leaving_column(entering);
       if (leaving == columns_) break;  // by rounding only: entries are positive
       pivot(leaving, entering);
@@ -174,17 +177,20 @@ class Matrix_game {
     return 1 / rows - shift;
   }
 
+  std::function<bool()> out_of_time_;
   std::size_t columns_ = 0, rows_ = 0;
   std::vector<Number> entries_, tableau_, x_, y_;
   std::vector<std::size_t> basic_, other_, tight_columns_, tight_rows_;
 };
 
 /// Gauss and Jordan: the solution of n equations, lines of n factors and a right side. False where there is no single
-/// one. Cost: O(n^3). Exact: with rational numbers
+/// one, or no time. Cost: O(n^3). Exact: with rational numbers
 template <class Number>
-bool solve_equations(std::vector<std::vector<Number>>& a, std::vector<Number>& solution) {
+bool solve_equations(std::vector<std::vector<Number>>& a, std::vector<Number>& solution,
+                     const std::function<bool()>& out_of_time = {}) {
   const std::size_t n = a.size();
   for (std::size_t k = 0; k < n; ++k) {
+    if (out_of_time && out_of_time()) return false;
     std::size_t pivot = k;
     for (std::size_t i = k + 1; i < n; ++i)
       if (cmp(abs(a[i][k]), abs(a[pivot][k])) > 0) pivot = i;
@@ -204,11 +210,11 @@ bool solve_equations(std::vector<std::vector<Number>>& a, std::vector<Number>& s
 /// The mixture of rows of a game's basis that gives all of its columns the same value: a square system, a(row, column)
 /// by `entry`. (For the mixture of columns: with their roles exchanged.) A value that is clear of zero stays so when
 /// weights are rounded, so that they are found, and returned, with 512 bits; rationals, whose length grows with that of
-/// the entries and their number, are left for values that may be zero. False where there is no single solution, or more
-/// than 16 rows. Exact: where the value is zero; otherwise a proposal that is checked by those who ask.
+/// the entries and their number, are left for values that may be zero. False where there is no single solution, no
+/// time, or more than 16 rows. Exact: where the value is zero; otherwise a proposal that is checked by those who ask.
 template <class Entry>
 bool solve_basis(const std::vector<std::size_t>& rows, const std::vector<std::size_t>& columns, Entry entry,
-                 std::vector<Rational>& weights, Rational& value) {
+                 std::vector<Rational>& weights, Rational& value, const std::function<bool()>& out_of_time = {}) {
   const std::size_t n = rows.size() + 1;
   if (columns.size() != rows.size() || n > 17) return false;
   std::vector<std::vector<Rational>> a(n, std::vector<Rational>(n + 1));
@@ -233,7 +239,7 @@ bool solve_basis(const std::vector<std::size_t>& rows, const std::vector<std::si
     for (std::size_t k = 0; k < n; ++k)
       if (is_clear(rounded[k])) mpq_set_f(weights[k].get_mpq_t(), rounded[k].get_mpf_t());
     // 2. In rationals.
-  } else if (!solve_equations(a, weights)) {
+  } else if (!solve_equations(a, weights, out_of_time)) {
     return false;
   }
   value = weights.back();
