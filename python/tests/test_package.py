@@ -1,0 +1,95 @@
+"""The package as one imports it: annotations, stubs, how soon it is there."""
+
+import ast
+import doctest
+import importlib
+import inspect
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import sightline
+from sightline import _sightline
+
+package = Path(__file__).parents[1] / "sightline"
+
+
+def public(owner):
+    return {name: thing for name, thing in vars(owner).items() if not name.startswith("_")}
+
+
+def test_all_that_is_public_is_explained_and_typed():
+    for name in sightline.__all__:
+        thing = getattr(sightline, name)
+        assert thing.__doc__, name
+        members = [(name, thing)] if inspect.isfunction(thing) else [
+            (f"{name}.{member}", getattr(value, "fget", None) or getattr(value, "__func__", value))
+            for member, value in public(thing).items()
+        ]  # fmt: skip
+        for path, function in members:
+            if not inspect.isfunction(function):
+                continue
+            assert function.__doc__, path
+            signature = inspect.signature(function)
+            assert signature.return_annotation is not inspect.Signature.empty, path
+            for parameter in signature.parameters.values():
+                assert parameter.name == "self" or parameter.annotation is not inspect.Parameter.empty, path
+    assert set(public(sightline)) == set(sightline.__all__)
+    assert (package / "py.typed").is_file()
+
+
+def parameters_of(docstring):
+    """Of the first line of what pybind11 says: the names."""
+    inside = docstring.split("\n")[0].split("(", 1)[1].rsplit(") ->", 1)[0]
+    return re.findall(r"(?:^|, )(\w+)(?:: |$|, )", re.sub(r"\[[^][]*\]", "", re.sub(r"\[[^][]*\]", "", inside)))
+
+
+def test_the_stub_is_the_module():
+    tree = ast.parse((package / "_sightline.pyi").read_text())
+    stub = {node.name: node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))}
+    module = {name: thing for name, thing in public(_sightline).items() if callable(thing)}
+    assert set(stub) == set(module)
+
+    def compare(path, node, function):
+        names = [a.arg for a in node.args.args]
+        assert parameters_of(function.__doc__) == names, path
+
+    for name, node in stub.items():
+        if isinstance(node, ast.FunctionDef):
+            compare(name, node, module[name])
+            continue
+        members = {member.name: member for member in node.body if isinstance(member, ast.FunctionDef)}
+        assert set(public(module[name])) == {member for member in members if not member.startswith("_")}, name
+        for member, of in members.items():
+            value = vars(module[name])[member]
+            if isinstance(value, property) or member == "__len__":
+                continue
+            found = parameters_of(getattr(module[name], member).__doc__)
+            wanted = [a.arg for a in of.args.args]
+            assert found == wanted, f"{name}.{member}"
+
+
+def test_examples_do_what_they_say():
+    modules = [importlib.import_module(f"sightline.{file.stem}") for file in package.glob("_[!_]*.py")]
+    tried = 0
+    for module in [sightline, *modules]:
+        result = doctest.testmod(module)
+        assert result.failed == 0, module.__name__
+        tried += result.attempted
+    assert tried > 10
+
+
+def test_the_import_takes_less_than_three_tenths_of_a_second():
+    # Of processor time, the best of three: the machine may be busy.
+    code = "import os, sightline; t = os.times(); print(t.user + t.system)"
+    seconds = [
+        float(subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True).stdout)
+        for _ in range(3)
+    ]
+    assert min(seconds) < (3 if os.environ.get("SIGHTLINE_SANITIZED") else 0.6), seconds  # the interpreter's own start too
+    imported = subprocess.run(
+        [sys.executable, "-c", "import sightline, sys; print(*sys.modules)"], check=True, capture_output=True, text=True
+    ).stdout.split()
+    assert not {"matplotlib", "tqdm", "trimesh", "pyvista", "meshio"} & set(imported)
