@@ -231,10 +231,10 @@ class View(Answer):
         return self._by_face(self.parts._parts.solid_angles(self.eye))
 
     def plot(self, ax: Any = None, **style: Any) -> Any:
-        """Draws the parts that are seen, coloured by face, and returns the axes (matplotlib, 3D)."""
-        from ._drawing import draw_parts
+        """Draws the parts that are seen, coloured by face, in perspective, and returns the axes (matplotlib)."""
+        from ._drawing import draw_view
 
-        return draw_parts(self.parts, ax, style)
+        return draw_view(self, ax, style)
 
     def __repr__(self) -> str:
         return f"<View: {len(self.visible)} of {self.scene.face_count} faces visible, in {len(self.parts)} parts>"
@@ -264,11 +264,15 @@ class WeakView(Answer):
             lines.setdefault(face, (point(entry["from"]), point(entry["to"])))
         return lines
 
-    def plot(self, ax: Any = None, **style: Any) -> Any:
-        """Draws the scene, visible faces orange, hidden grey, undecided violet, and returns the axes (matplotlib)."""
+    def plot(self, ax: Any = None, *, eye: Any = None, **style: Any) -> Any:
+        """Draws fronts of faces, visible orange, hidden grey, undecided violet, and returns the axes (matplotlib).
+
+        eye: from where; by default from outside. What is in front is painted over what is behind, in an exact order.
+        """
         from ._drawing import draw_faces
 
-        return draw_faces(self.scene, {"orange": self.visible, "silver": self.hidden, "violet": self.undecided}, ax, style)
+        groups = {"orange": self.visible, "lightsteelblue": self.hidden, "violet": self.undecided}
+        return draw_faces(self.scene, groups, eye, ax, style)
 
     def __repr__(self) -> str:
         return f"<WeakView: {len(self.visible)} visible, {len(self.hidden)} hidden, {len(self.undecided)} undecided>"

@@ -228,9 +228,16 @@ def test_interrupts_end_a_question_at_once():
 def test_pictures():
     pytest.importorskip("matplotlib")
     scene = lamp_and_lid()
-    ax = scene.see((0, 0, 2)).plot()
-    assert len(ax.collections) == 1 and ax.get_xlim() == (-4, 4)
-    assert len(scene.weakly_visible(2).plot().collections) == 2
+    ax = scene.see((0, 0, 10)).plot()
+    (drawn,) = ax.collections
+    assert len(drawn.get_paths()) == len(scene.see((0, 0, 10)).parts) > 1
+    (drawn,) = scene.weakly_visible(2).plot(eye="0,-9,9").collections
+    paths = [path.vertices for path in drawn.get_paths()]
+    assert len(paths) == 2  # of the lamp its back is seen, which is not drawn
+    assert np.ptp(paths[0], axis=0)[0] > np.ptp(paths[1], axis=0)[0]  # the floor is painted first
+    red, green, blue = drawn.get_facecolors()[0][:3]
+    assert red > green > blue == 0  # orange
+    scene.see((0, 0, 1)).plot()  # from within: what is behind the eye is not drawn
 
 
 def test_progress_bar():

@@ -10,10 +10,13 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 import sightline
 from sightline import _sightline
 
-package = Path(__file__).parents[1] / "sightline"
+root = Path(__file__).parents[2]
+package = root / "python" / "sightline"
 
 
 def public(owner):
@@ -93,3 +96,18 @@ def test_the_import_takes_less_than_three_tenths_of_a_second():
         [sys.executable, "-c", "import sightline, sys; print(*sys.modules)"], check=True, capture_output=True, text=True
     ).stdout.split()
     assert not {"matplotlib", "tqdm", "trimesh", "pyvista", "meshio"} & set(imported)
+
+
+def test_pip_installs_it(tmp_path):
+    build = os.environ.get("SIGHTLINE_BUILD_DIR")
+    if build is None or subprocess.run([sys.executable, "-m", "pip", "--version"], capture_output=True).returncode != 0:
+        pytest.skip("no build folder, or no pip")
+    settings = ["--config-settings", f"prebuilt={build}"]
+    command = [sys.executable, "-m", "pip", "install", "--no-deps", "--no-index", "--target", tmp_path, *settings, root]
+    subprocess.run(command, check=True, capture_output=True)
+    code = "import sightline; print(sightline.__file__, sightline.Scene([[0, 0, 0]] * 3, [[0, 1, 2]]).left_out)"
+    environment = {**os.environ, "PYTHONPATH": str(tmp_path)}
+    said = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True, env=environment,
+                          cwd=tmp_path)  # fmt: skip
+    assert said.stdout == f"{tmp_path}/sightline/__init__.py [(0, 'zero area')]\n"
+    assert (tmp_path / f"sightline-{sightline.__version__}.dist-info" / "METADATA").is_file()
