@@ -15,7 +15,7 @@ struct Case_options {
   Question question = Question::see;
   bool two_sided = false;
   bool doubles = true;     ///< coordinates are rounded to doubles, which any program reads
-  bool triangles = false;  ///< faces are cut into triangles, each a face of its own
+  bool triangles = false;  ///< faces are cut into triangles, each a face of its own; of polygons without area is none
 };
 
 /// A scene and a query about it, or why there is none.

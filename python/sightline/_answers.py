@@ -177,7 +177,7 @@ class Order(Answer):
 
 
 class Graph(Answer):
-    """Which faces may obscure which, from anywhere: strongly connected components, those that may obscure others first."""
+    """Which faces may obscure which, from anywhere: components, those that may obscure others first."""
 
     def __init__(
         self, scene: "Scene", components: List[Ids], cyclic: int, certifier: "_sightline.Certifier"
@@ -218,7 +218,7 @@ class View(Answer):
 
     def _by_face(self, measures: NDArray[np.float64]) -> NDArray[np.float64]:
         counted = np.ones(len(self.parts), bool) if self._two_sided else self.parts.fronts
-        return np.bincount(self.parts.faces[counted], measures[counted], minlength=self.scene.face_count)
+        return np.bincount(self.parts.faces[counted], measures[counted], minlength=self.scene.face_count).astype(float)
 
     @property
     def areas(self) -> NDArray[np.float64]:
@@ -258,7 +258,7 @@ class WeakView(Answer):
             return Fraction(texts[0]), Fraction(texts[1]), Fraction(texts[2])
 
         data = self.certificate().data
-        lines = {}
+        lines: Dict[int, Tuple[Point, Point]] = {}
         for entry in data["visible"]:
             face = data["fragments"][entry["fragment"]]["face"]
             lines.setdefault(face, (point(entry["from"]), point(entry["to"])))

@@ -2,14 +2,14 @@
 
 import operator
 import warnings
-from typing import Any, List, Optional, Sequence, Tuple
+from typing import Any, List, Optional, Sequence, Set, Tuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Faces = Tuple[NDArray[Any], NDArray[np.int64], NDArray[np.int64]]
 
-_kept = {np.dtype(t) for t in (np.float64, np.float32, np.int64, np.int32, object)}
+_kept: Set[Any] = {np.dtype(t) for t in (np.float64, np.float32, np.int64, np.int32, object)}
 
 
 def points(V: Any) -> NDArray[Any]:
@@ -25,9 +25,9 @@ def points(V: Any) -> NDArray[Any]:
         wider = np.float64 if array.dtype.kind == "f" else np.int64  # of other bytes or fewer: each number fits
         return array.astype(wider, casting="safe")
     if array.dtype.kind in "fu":  # long double, uint64
-        exact = np.empty(array.shape, dtype=object)
-        exact.flat = [x if array.dtype.kind == "f" else int(x) for x in array.flat]
-        return exact
+        exact = np.empty(array.size, dtype=object)
+        exact[:] = [x if array.dtype.kind == "f" else int(x) for x in array.flat]
+        return exact.reshape(array.shape)
     raise TypeError(f"V has the type {array.dtype}; give floats, integers, or objects such as Fraction")
 
 

@@ -32,7 +32,8 @@ def _polygons(parts: "Parts") -> Polygons:
 
 def _unit(v: Doubles) -> Doubles:
     length: np.float64 = np.linalg.norm(v)
-    return v / length if length > 0 else v
+    unit: Doubles = v / length if length > 0 else v
+    return unit
 
 
 def _normal(polygon: Doubles) -> Doubles:
@@ -82,14 +83,16 @@ def _doubles(point: Any) -> Doubles:
     """A point that a question took, rounded."""
     coordinates = point.split(",") if isinstance(point, str) else point
     fractions = importlib.import_module("fractions")
-    return np.array([float(fractions.Fraction(x) if isinstance(x, str) else x) for x in coordinates])
+    rounded: Doubles = np.array([float(fractions.Fraction(x) if isinstance(x, str) else x) for x in coordinates])
+    return rounded
 
 
 def _outside(scene: "Scene") -> Doubles:
     """An eye from which all of a scene is in view."""
     box = scene.info()["box"]
     low, high = np.array(box if box is not None else [(0, 0, 0), (1, 1, 1)], dtype=float)
-    return (low + high) / 2 + (high - low).max() * np.array([-0.6, -1.1, 1.1])
+    eye: Doubles = (low + high) / 2 + (high - low).max() * np.array([-0.6, -1.1, 1.1])
+    return eye
 
 
 def draw_faces(scene: "Scene", groups: Dict[str, NDArray[np.int64]], eye: Any, ax: Any, style: Dict[str, Any]) -> Any:

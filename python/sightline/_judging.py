@@ -152,7 +152,7 @@ class _Court:
         self.seconds = 0.0  # of the function
 
     def judge(self, case: "_sightline.Case") -> Tuple[str, Optional[Failure]]:
-        """The mark, and a failure where the contract is broken; "not asked" where there is nothing to be right about."""
+        """The mark, and a failure where the contract is broken; "not asked" where nothing could be right."""
         if case.not_asked:
             return "not asked", None
         truth = _sightline.truth_of(case, self.cycles, self.question)
@@ -270,8 +270,8 @@ def judge(
 
     function(V, F, eye) returns the faces that are seen (`see`, query="see"), or all faces, farthest first ("order");
     function(V, F, source) those that are weakly visible from a convex polygon ("weak"). V is (n, 3) doubles that are
-    exactly what is asked about, or, if exact, Fractions; F is a list of arrays of corners, or, if triangles, (m, 3); eye
-    is (3,), source (k, 3). Instead of faces it may return one truth value for each face, or a dictionary
+    exactly what is asked about, or, if exact, Fractions; F is a list of arrays of corners, or, if triangles, (m, 3);
+    eye is (3,), source (k, 3). Instead of faces it may return one truth value for each face, or a dictionary
     {"visible": faces, "abstained": faces}. Only fronts are seen, unless two_sided.
 
     contract: what it promises: "exact" (no wrong face), "conservative" (never hides a visible one), "aggressive" (never
@@ -356,9 +356,10 @@ def fuzz(
 ) -> FuzzReport:
     """Draws scenes until a function contradicts the exact answer or itself, and makes the scene that shows it small.
 
-    function: as of judge(), for query="see" or "weak". Checks: "exact", and laws: the answer does not change where a loop
-    begins elsewhere, faces are permuted, the scene is moved, scaled, turned or mirrored, a face is cut in two, or a face
-    is added that nobody can see. Where doubles cannot hold the changed scene, a law is not applicable; if exact, all are.
+    function: as of judge(), for query="see" or "weak". Checks: "exact", and laws: the answer does not change where a
+    loop begins elsewhere, faces are permuted, the scene is moved, scaled, turned or mirrored, a face is cut in two, or
+    a face is added that nobody can see. Where doubles cannot hold the changed scene, a law is not applicable; if exact,
+    all are.
     seconds: how long to draw; scenes: draw so many instead.
 
     >>> fuzz(lambda V, F, eye: [], scenes=20).finding.wrong_hidden

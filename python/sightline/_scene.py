@@ -93,7 +93,7 @@ class Scene:
     def areas(self) -> NDArray[np.float64]:
         """The area of each face, (faces,), 0 for one that is left out."""
         parts = self.parts
-        return np.bincount(parts.faces, parts.areas, minlength=self.face_count)
+        return np.bincount(parts.faces, parts.areas, minlength=self.face_count).astype(float)
 
     def info(self) -> Dict[str, Any]:
         """What the scene is made of, and the arithmetic that it takes: the program's `info`.
@@ -124,15 +124,15 @@ class Scene:
         try:
             trimesh = importlib.import_module("trimesh")
         except ImportError as error:
-            raise ImportError("to_trimesh() needs the package trimesh; scene.parts.triangles() has the arrays") from error
+            raise ImportError("to_trimesh() needs trimesh; scene.parts.triangles() has the arrays") from error
         V, F, ids = self.parts.triangles()
         return trimesh.Trimesh(vertices=V, faces=F, process=False, face_attributes={"face": ids})
 
     def __repr__(self) -> str:
         return f"<Scene: {self.face_count} faces, {self.point_count} points>"
 
-    # ---- Questions. Of all: threads, 0 for one each processor, the answer does not depend on them; progress, a callable
-    # of (done, all), or True for a bar by tqdm; budget, seconds, 0 for no limit. Ctrl-C ends them.
+    # ---- Questions. Of all: threads, 0 for one each processor, the answer does not depend on them; progress, a
+    # callable of (done, all), or True for a bar by tqdm; budget, seconds, 0 for no limit. Ctrl-C ends them.
 
     def order(self, eye: Any, *, threads: int = 0, progress: Progress = None, budget: float = 0) -> Order:
         """All faces back to front as seen from a point, cut where they cross or hide each other in turn.
