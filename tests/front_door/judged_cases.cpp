@@ -36,8 +36,9 @@ TEST(Cases, in_triangles_have_the_same_surface_and_look_the_same) {
       for (Face_id f = 0; f < fans.soup.face_count(); ++f) EXPECT_LE(fans.soup.loop(f).size(), 3u);
       fanned += fans.soup.face_count() > plain.soup.face_count();
       const Model one(plain.soup), other(fans.soup);
-      if (other.left_out().empty())  // a triangle may be a double of another face's
+      if (other.left_out().empty()) {  // a triangle may be a double of another face's
         EXPECT_NEAR(surface(one), surface(other), 1e-9 * surface(one)) << name << ' ' << seed;
+      }
       EXPECT_NEAR(view(one, plain.query.eye), view(other, fans.query.eye), 1e-9) << name << ' ' << seed;
     }
   EXPECT_GT(fanned, 0u);
