@@ -62,7 +62,7 @@ bool add_faces(Polygon_soup& soup, const py::array& corners, std::span<const std
   const std::size_t points = soup.point_count();
   std::vector<Point_id> loop;
   const auto push_corner = [&](std::size_t face, T corner) {
-    if (corner < T{0} || static_cast<std::uint64_t>(corner) >= points)
+    if (static_cast<std::uint64_t>(corner) >= points)  // a negative one too
       fail_corner(face, static_cast<std::int64_t>(corner), points);
     loop.push_back(static_cast<Point_id>(corner));
   };

@@ -167,7 +167,7 @@ def test_threads_change_nothing():
 
 def slow_scene():
     """Asking it takes long."""
-    return sightline.generate("city_rotated", size=3000).scene
+    return sightline.generate("triangles_between_squares", size=3000).scene
 
 
 def test_budget_progress_and_other_threads():
@@ -205,7 +205,7 @@ def test_what_progress_raises_ends_the_question():
     with pytest.raises(Enough):
         scene.weakly_visible(0, progress=enough)
     assert time.perf_counter() - start < 10
-    assert len(scene.see((-3, -5, 50)).visible) > 0  # and the scene is as it was
+    assert scene.see((-3, -5, 50)).certificate().text  # and the scene is as it was
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="signals")
@@ -221,7 +221,7 @@ def test_interrupts_end_a_question_at_once():
     timer = threading.Timer(0.3, interrupt)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        scene.weakly_visible(0)
+        scene.weakly_visible(0, budget=60)
     assert time.perf_counter() - sent[0] < 5
 
 
