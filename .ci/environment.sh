@@ -22,6 +22,10 @@ librapidcheck-dev|rapidcheck.h|tests of laws on random input
 libembree-dev|embree3/rtcore.h|render --method rays, and an adapter of judge; their tests say that they are skipped where it is missing
 clang-format-14|clang-format-14|a test that every file has the format of .clang-format; skipped where it is missing
 z3|z3|a second opinion on weak visibility; tests skip what needs it where it is missing
+python3-dev|python3-config|the Python module; its tests are skipped where this or what follows is missing
+pybind11-dev|pybind11-config|the Python module
+python3-numpy|f2py3|the Python module
+python3-pytest|pytest-3|tests of the Python module
 '
 
 is_debian_12() { (. /etc/os-release 2>/dev/null && [ "$ID" = debian ] && [ "$VERSION_ID" = 12 ]); }

@@ -14,10 +14,13 @@
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/threads.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <numbers>
@@ -51,15 +54,6 @@ namespace {
 /// The root of a rational in doubles, where that is within their range, to three units in the last place.
 double root(const Rational& square) { return std::sqrt(nearest_double(square)); }
 
-double area_of(const std::vector<Exact_point>& corners) {
-  Exact_point twice{0, 0, 0};
-  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-    const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
-    for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
-  }
-  return root(dot(twice, twice)) / 2;
-}
-
 /// Of a triangle by Van Oosterom and Strackee's formula: the volume is exact, so thin triangles keep their precision.
 double solid_angle_of(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
   const double volume = std::fabs(nearest_double(dot(a, cross(b, c))));
@@ -70,36 +64,74 @@ double solid_angle_of(const Exact_point& a, const Exact_point& b, const Exact_po
   return angle < 0 ? angle + 4 * std::numbers::pi : angle;
 }
 
-double solid_angle_of(const std::vector<Exact_point>& corners, const Exact_point& eye) {
+void require_index(std::uint32_t index, std::size_t count) {
+  if (index >= count)
+    throw std::out_of_range("corner " + std::to_string(index) + " is no point: there are " + std::to_string(count));
+}
+
+// ---- Budgets
+
+/// Whether the seconds of a question are over, from now on.
+std::function<bool()> end_of_budget(const Asking& asking) {
+  if (!(asking.budget > 0)) return {};
+  const auto start = std::chrono::steady_clock::now();
+  return [start, seconds = asking.budget] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
+  };
+}
+
+/// The question's progress, which ends it by Out_of_budget once its seconds are over.
+std::function<void(std::size_t, std::size_t)> progress_within_budget(const Asking& asking) {
+  const std::function<bool()> is_over = end_of_budget(asking);
+  if (!is_over) return asking.progress;
+  return [is_over, progress = asking.progress](std::size_t done, std::size_t all) {
+    if (is_over()) throw Out_of_budget("undecided: the budget ran out; give it more seconds, or a smaller scene");
+    if (progress) progress(done, all);
+  };
+}
+
+}  // namespace
+
+double Part::area() const {
+  Exact_point twice{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
+    for (std::size_t k = 0; k < 3; ++k) twice[k] += part[k];
+  }
+  return root(dot(twice, twice)) / 2;
+}
+
+double Part::solid_angle(const Exact_point& eye) const {
   double sum = 0;
   for (std::size_t i = 1; i + 1 < corners.size(); ++i)
     sum += solid_angle_of(minus(corners[0], eye), minus(corners[i], eye), minus(corners[i + 1], eye));
   return sum;
 }
 
-void require_index(std::uint32_t index, std::size_t count) {
-  if (index >= count)
-    throw std::out_of_range("corner " + std::to_string(index) + " is no point: there are " + std::to_string(count));
-}
-
-}  // namespace
-
 // ---- The model
 
 struct Model::Inside {
   explicit Inside(Polygon_soup from) : soup(std::move(from)), scene(soup), traits(scene) {
     for (const Set_aside& entry : scene.set_aside()) left_out.push_back({entry.face, entry.why});
-    for (const Piece& piece : scene.pieces()) {
-      Part& part = parts.emplace_back(Part{piece.face, piece.number, {}});
-      for (const Piece_corner& corner : scene.corners(piece)) part.corners.push_back(scene.position(corner.point));
-    }
+  }
+
+  const std::vector<Part>& parts() const {
+    return parts_.get([&] {
+      std::vector<Part> parts;
+      parts.reserve(scene.pieces().size());
+      for (const Piece& piece : scene.pieces()) {
+        Part& part = parts.emplace_back(Part{piece.face, piece.number, {}});
+        for (const Piece_corner& corner : scene.corners(piece)) part.corners.push_back(scene.position(corner.point));
+      }
+      return parts;
+    });
   }
 
   const Bsp_tree<Exact_traits>& tree(const Asking& asking) const {
     return tree_.get([&] {
       Bsp_options options;
       options.threads = asking.threads;
-      options.progress = asking.progress;
+      options.progress = progress_within_budget(asking);
       return build_bsp(traits, options);
     });
   }
@@ -109,17 +141,32 @@ struct Model::Inside {
   const Occluders& occluders() const {
     return occluders_.get([&] { return Occluders(scene); });
   }
+  const Facts& facts() const {
+    return facts_.get([&] {
+      const Scene_counters& c = scene.counters();
+      std::vector<bool> supports(scene.planes().size());
+      for (const Piece& piece : scene.pieces()) supports[piece.support.id()] = true;
+      const auto planes = static_cast<std::size_t>(std::count(supports.begin(), supports.end(), true));
+      Facts found{c.points_read, c.points,     c.faces_read, c.faces,      c.pieces, c.concave,
+                  c.non_planar,  c.with_holes, planes,       scene.bits(), {},       closure(scene).closed,
+                  std::nullopt};
+      found.arithmetic = name(scene.predicates().arithmetic());
+      if (c.faces > 0) found.box = scene.box();
+      return found;
+    });
+  }
 
   const Polygon_soup soup;
   const Scene scene;
   const Exact_traits traits;
   std::vector<Left_out> left_out;
-  std::vector<Part> parts;
 
  private:
+  Once<std::vector<Part>> parts_;
   Once<Bsp_tree<Exact_traits>> tree_;
   Once<Piece_boxes> boxes_;
   Once<Occluders> occluders_;
+  Once<Facts> facts_;
 };
 
 Model::Model(Polygon_soup soup) : inside_(std::make_shared<const Inside>(std::move(soup))) {}
@@ -157,14 +204,16 @@ Model Model::of_polygons(std::span<const std::array<double, 3>> points, std::spa
 
 std::size_t Model::face_count() const { return inside_->soup.face_count(); }
 const std::vector<Left_out>& Model::left_out() const { return inside_->left_out; }
-const std::vector<Part>& Model::parts() const { return inside_->parts; }
+const std::vector<Part>& Model::parts() const { return inside_->parts(); }
 const Polygon_soup& Model::soup() const { return inside_->soup; }
 const std::shared_ptr<const Model::Inside>& Model::inside() const { return inside_; }
+
+Facts Model::facts() const { return inside_->facts(); }
 
 double Model::area(Face_id face) const {
   double sum = 0;
   for (const Part& part : parts())
-    if (part.face == face) sum += area_of(part.corners);
+    if (part.face == face) sum += part.area();
   return sum;
 }
 
@@ -199,7 +248,7 @@ Priority priority_graph(const Model& model, const Asking& asking) {
   const auto faces = std::make_shared<const Priority_relation<Exact_traits>>(inside->traits);
   Implicit_priority_graph<Priority_relation<Exact_traits>> graph(*faces);
   Component_trees trees;
-  const Priority_components found = graph.find_components(&trees, asking.progress);
+  const Priority_components found = graph.find_components(&trees, progress_within_budget(asking));
   Priority answer;
   for (std::size_t c = 0; c < found.size(); ++c) answer.components.emplace_back(found[c].begin(), found[c].end());
   answer.cyclic = found.cyclic();
@@ -273,7 +322,7 @@ Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
   const auto view = std::make_shared<const Exact_view>(inside->scene, eye);
   Visible_options options;
   options.threads = asking.threads;
-  options.progress = asking.progress;
+  options.progress = progress_within_budget(asking);
   const auto surface =
       std::make_shared<const Visible_surface<Exact_view>>(visible_surface(*view, inside->boxes(), options));
   Seen answer;
@@ -300,14 +349,14 @@ Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
 double Seen::area(Face_id face) const {
   double sum = 0;
   for (const Visible_part& part : parts)
-    if (part.face == face && part.from_front) sum += area_of(part.corners);
+    if (part.face == face && part.from_front) sum += part.area();
   return sum;
 }
 
 double Seen::solid_angle(Face_id face) const {
   double sum = 0;
   for (const Visible_part& part : parts)
-    if (part.face == face && part.from_front) sum += solid_angle_of(part.corners, eye);
+    if (part.face == face && part.from_front) sum += part.solid_angle(eye);
   return sum;
 }
 
@@ -322,18 +371,22 @@ Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector
   Weak_options options;
   options.threads = asking.threads;
   options.progress = asking.progress;
+  options.search.two_sided = asking.two_sided;
+  options.search.out_of_time = end_of_budget(asking);
   const auto found = std::make_shared<Weakly_visible>(weakly_visible(occluders, polygons, options));
   Events_options events;
   events.threads = asking.threads;
   events.progress = asking.progress;
+  events.two_sided = asking.two_sided;
+  events.out_of_time = options.search.out_of_time;
   settle_by_events(occluders, polygons, usual_event_edges, events, *found);
   decide_the_rest(occluders, polygons, options, usual_event_edges, events, *found);
   Weak_visibility answer;
   answer.visible = found->visible;
   answer.hidden = found->hidden;
   answer.undecided = found->undecided;
-  answer.certificate_ = [inside, sources, found] {
-    return certificate_text(weak_certificate(inside->scene, sources, false, *found));
+  answer.certificate_ = [inside, sources, found, two_sided = asking.two_sided] {
+    return certificate_text(weak_certificate(inside->scene, sources, two_sided, *found));
   };
   return answer;
 }
@@ -353,7 +406,7 @@ Checked verify(const Model& model, const std::string& certificate, const Asking&
   std::istringstream in(certificate);
   const Certificate claim = read_certificate(in);
   Verify_options options;
-  options.progress = asking.progress;
+  options.progress = progress_within_budget(asking);
   const Polygon_soup& soup = model.soup();
   struct Check {
     const Polygon_soup& soup;

@@ -11,7 +11,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,6 +24,14 @@ struct Asking {
   int threads = 0;                                                  ///< 0: as many as there are processors
   std::function<void(std::size_t done, std::size_t all)> progress;  ///< any thread may call it; what it throws ends the
                                                                     ///< question, and comes out of it
+  double budget = 0;  ///< seconds; 0: none. What weak visibility has not decided then is undecided; other questions
+                      ///< throw Out_of_budget
+  bool two_sided = false;  ///< of weak visibility: faces seen from behind count too
+};
+
+/// The budget of a question ran out before there was an answer.
+struct Out_of_budget : std::runtime_error {
+  using std::runtime_error::runtime_error;
 };
 
 /// A face that is not modelled, and why.
@@ -35,6 +45,19 @@ struct Part {
   Face_id face;
   std::uint32_t piece;  ///< of the face, 0 for a convex one
   std::vector<Exact_point> corners;
+
+  double area() const;                               ///< to about 2^-50
+  double solid_angle(const Exact_point& eye) const;  ///< in steradians, of 4 pi
+};
+
+/// What a scene is made of, and the arithmetic that it takes.
+struct Facts {
+  std::size_t points_read, points, faces_read, faces, parts;  ///< different points; faces that are modelled
+  std::size_t concave, non_planar, with_holes, planes;        ///< supporting planes
+  int bits;                                                   ///< of the largest coordinate on the scene's integer grid
+  std::string arithmetic;                                     ///< the narrowest exact one that fits
+  bool closed;                                                ///< whether the faces bound a solid
+  std::optional<std::array<Exact_point, 2>> box;              ///< of the points of faces; none: there are none
 };
 
 /// A scene made ready, once, for all questions. Copies share it; it never changes, so any threads may ask it, and what
@@ -58,8 +81,9 @@ class Model {
   std::size_t face_count() const;  ///< of the input
   const std::vector<Left_out>& left_out() const;
   const std::vector<Part>& parts() const;  ///< what is modelled: each kept face in convex parts, in order
-  double area(Face_id face) const;         ///< of all its parts, to about 2^-50; 0 for one that was left out
+  double area(Face_id face) const;         ///< of all its parts; 0 for one that was left out
   const Polygon_soup& soup() const;
+  Facts facts() const;  ///< Cost: O(edges), once
 
   struct Inside;
   const std::shared_ptr<const Inside>& inside() const;  ///< for what is behind the door
@@ -122,13 +146,13 @@ struct Seen : Answer {
   /// The visible parts of faces, those seen from behind too. They do not overlap: where several faces lie in one plane
   /// all of them are visible, and the part is of one of them, of one seen from its front if there is one.
   std::vector<Visible_part> parts;
-  double area(Face_id face) const;         ///< of its parts that are seen from its front, to about 2^-48
+  double area(Face_id face) const;         ///< of its parts that are seen from its front
   double solid_angle(Face_id face) const;  ///< the same in steradians, of 4 pi
 };
 Seen see(const Model& model, const Exact_point& eye, const Asking& asking = {});
 
 /// The faces some point of which is seen from some point of the sources. Every kept face is in one list; lists are
-/// sorted. It goes on until nothing is undecided; what `progress` throws ends it.
+/// sorted. It goes on until nothing is undecided, or the budget is spent; what `progress` throws ends it.
 struct Weak_visibility : Answer {
   std::vector<Face_id> visible, hidden, undecided;
 };

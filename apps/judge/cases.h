@@ -2,8 +2,7 @@
 // The cases that `sightline judge` asks about: families at several distances from their degeneracies, or scenes of a
 // folder.
 
-#include <sightline/harness/generate/families.h>
-#include <sightline/harness/judge/truth.h>
+#include <sightline/harness/judge/case.h>
 
 #include <functional>
 #include <string>
@@ -11,31 +10,9 @@
 
 namespace sightline::app {
 
-struct Case_options {
-  judge::Question question = judge::Question::see;
-  bool two_sided = false;
-  bool doubles = true;  ///< coordinates are rounded to doubles, which any program reads
-};
-
-/// A scene and a query about it, or why there is none.
-struct Judge_case {
-  Polygon_soup soup;
-  judge::Query query;
-  std::vector<Face_id> visible, hidden;  ///< what construction knows of a weak query, where it is as given
-  bool as_given = true;                  ///< nothing was rounded, no face cut
-  std::string not_asked;
-};
-
-/// A case of a family. Where weak visibility is asked and the family names no source, a face of the scene looks. The
-/// same arguments give the same case.
-Judge_case case_of(const generate::Family& family, const generate::Family_parameters& parameters,
-                   const Case_options& options);
-
-/// A query about a scene.
-Judge_case case_of(const Polygon_soup& scene, const judge::Query& query, const Case_options& options);
-
-/// A case of a scene of somebody's: an eye in or about its box, or a small square there that looks along an axis.
-Judge_case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_options& options);
+using judge::case_of;
+using judge::Case_options;
+using Judge_case = judge::Case;
 
 /// Which cases are wanted.
 struct Case_choice {

@@ -48,6 +48,26 @@ TEST(Model, knows_its_faces_areas_and_what_it_left_out) {
   EXPECT_EQ(model.area(3), 0);
 }
 
+TEST(Model, says_what_it_is_made_of) {
+  const Facts open = lamp_and_lid().facts();
+  EXPECT_EQ(open.points_read, 12u);
+  EXPECT_EQ(open.points, 12u);
+  EXPECT_EQ(open.faces_read, 4u);
+  EXPECT_EQ(open.faces, 3u);
+  EXPECT_EQ(open.parts, 3u);
+  EXPECT_EQ(open.planes, 3u);
+  EXPECT_EQ(open.concave + open.non_planar + open.with_holes, 0u);
+  EXPECT_FALSE(open.closed);
+  ASSERT_TRUE(open.box);
+  EXPECT_EQ((*open.box)[0], (Exact_point{-4, -4, 0}));
+  EXPECT_EQ((*open.box)[1], (Exact_point{4, 4, 3}));
+  const Facts closed = cube().facts();
+  EXPECT_TRUE(closed.closed);
+  EXPECT_EQ(closed.planes, 6u);
+  EXPECT_FALSE(closed.arithmetic.empty());
+  EXPECT_FALSE(Model(Polygon_soup()).facts().box);
+}
+
 TEST(Model, refuses_what_is_no_scene) {
   const Points points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<std::array<std::uint32_t, 3>> bad{{0, 1, 3}};
@@ -181,6 +201,34 @@ TEST(Weak, a_lamp_lights_lid_and_floor_and_both_answers_are_proved) {
   EXPECT_EQ(weakly_visible(model, below).visible, (std::vector<Face_id>{0}));
   EXPECT_THROW(weakly_visible(model, Face_id{3}), std::out_of_range);
   EXPECT_THROW(weakly_visible(model, {{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}), std::invalid_argument);
+}
+
+TEST(Weak, counts_backs_where_both_sides_count_and_is_proved) {
+  const Model model = lamp_and_lid();
+  // From a square below the floor that looks up: the floor's back alone is to be seen.
+  const std::vector<std::vector<Exact_point>> below{{{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}}};
+  EXPECT_TRUE(weakly_visible(model, below).visible.empty());
+  Asking both;
+  both.two_sided = true;
+  const Weak_visibility seen = weakly_visible(model, below, both);
+  EXPECT_EQ(seen.visible, (std::vector<Face_id>{0}));
+  EXPECT_TRUE(verify(model, seen.certificate()).accepted);
+}
+
+TEST(Answers, say_that_the_budget_ran_out) {
+  const Model model = lamp_and_lid();
+  Asking hasty;
+  hasty.budget = 1e-9;
+  EXPECT_THROW(order(model, {0, 0, 10}, hasty), Out_of_budget);
+  EXPECT_THROW(see(model, {0, 0, 10}, hasty), Out_of_budget);
+  const Weak_visibility open = weakly_visible(model, 2, hasty);
+  EXPECT_EQ(open.visible.size() + open.hidden.size() + open.undecided.size(), 3u);
+  EXPECT_FALSE(open.undecided.empty());
+  EXPECT_TRUE(verify(model, open.certificate()).accepted);
+  Asking patient;
+  patient.budget = 1e9;
+  EXPECT_EQ(order(model, {0, 0, 10}, patient).parts.size(), 3u);
+  EXPECT_TRUE(weakly_visible(model, 2, patient).undecided.empty());
 }
 
 TEST(Answers, are_the_same_at_any_number_of_threads_and_outlive_the_model) {

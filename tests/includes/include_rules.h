@@ -104,6 +104,7 @@ inline const std::vector<Room>& rooms() {
       {"harness/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}},
       {"sightline/", {"kernel/", "algorithms/", "io/", "sightline/"}},
       {"apps/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}},
+      {"python/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}},
       {"tests/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}},
       {"bench/", {"kernel/", "algorithms/", "io/", "harness/", "sightline/"}}};
   return all;
@@ -123,7 +124,8 @@ inline constexpr std::array<const char*, 5> library_layers{"kernel", "algorithms
 /// Every breach of the rules, as "file:line: what is wrong"; sorted by file. Empty: all is well.
 inline std::vector<std::string> breaches(const Rules& rules) {
   std::vector<std::string> found;
-  for (const std::string layer : {"algorithms", "apps", "bench", "harness", "io", "kernel", "sightline", "tests"}) {
+  for (const std::string layer :
+       {"algorithms", "apps", "bench", "harness", "io", "kernel", "python", "sightline", "tests"}) {
     const bool library = std::find(library_layers.begin(), library_layers.end(), layer) != library_layers.end();
     for (const std::string& file : sources_in(rules.root, layer)) {
       const std::filesystem::path path = rules.root / file;

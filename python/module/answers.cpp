@@ -1,0 +1,86 @@
+// Questions, and their answers as arrays, parts and certificates.
+
+#include "bindings.h"
+
+namespace sightline::python {
+
+namespace {
+
+template <class Found>
+Certifier certifier(const Found& found) {
+  return {found.certificate_};
+}
+
+/// The parts of an answer, which keeps them.
+template <class Found>
+Parts parts_in(const std::shared_ptr<const Found>& found) {
+  return {found->parts.size(), [found](std::size_t i) -> const Part& { return found->parts[i]; }, {}};
+}
+
+py::tuple order_of(const Model& model, const py::object& at, const Question& question) {
+  const Exact_point eye = point_of(at, "eye");
+  const auto found = answer_to(question, [&](const Asking& asking) {
+    return std::make_shared<const Visibility_order>(order(model, eye, asking));
+  });
+  return py::make_tuple(parts_in(found), certifier(*found));
+}
+
+py::tuple graph_of(const Model& model, const Question& question) {
+  const Priority found = answer_to(question, [&](const Asking& asking) { return priority_graph(model, asking); });
+  py::list components;
+  for (const std::vector<std::uint32_t>& component : found.components) components.append(ids(component));
+  return py::make_tuple(components, found.cyclic, certifier(found));
+}
+
+py::tuple seen_by(const Model& model, const py::object& at, const Question& question) {
+  const Exact_point eye = point_of(at, "eye");
+  const auto found =
+      answer_to(question, [&](const Asking& asking) { return std::make_shared<const Seen>(see(model, eye, asking)); });
+  Parts parts = parts_in(found);
+  parts.from_front = [found](std::size_t i) { return found->parts[i].from_front; };
+  return py::make_tuple(ids(found->visible), ids(found->from_behind), std::move(parts), certifier(*found));
+}
+
+/// From a face of that number, or from polygons.
+py::tuple weak_from(const Model& model, const py::object& source, const Question& question) {
+  const bool is_face = py::isinstance<py::int_>(source);
+  const auto polygons = is_face ? std::vector<std::vector<Exact_point>>() : polygons_of(source, "source");
+  if (is_face && (py::cast<std::int64_t>(source) < 0 || py::cast<std::uint64_t>(source) >= model.face_count()))
+    throw std::out_of_range("face " + std::string(py::str(source)) + " is not there: there are " +
+                            std::to_string(model.face_count()) + ", counted from 0");
+  const Weak_visibility found =
+      answer_to(question, [&, face = is_face ? py::cast<Face_id>(source) : 0](const Asking& asking) {
+        return is_face ? weakly_visible(model, face, asking) : weakly_visible(model, polygons, asking);
+      });
+  return py::make_tuple(ids(found.visible), ids(found.hidden), ids(found.undecided), certifier(found));
+}
+
+py::tuple verdict_on(const Model& model, const std::string& certificate, const Question& question) {
+  const Checked checked = answer_to(question, [&](const Asking& asking) { return verify(model, certificate, asking); });
+  return py::make_tuple(checked.accepted, checked.why);
+}
+
+}  // namespace
+
+void add_answers(py::module_& module) {
+  py::class_<Certifier>(module, "Certifier").def("text", [](const Certifier& certifier) {
+    return answer_to(Question{0, py::none(), 0, false}, [&](const Asking&) { return certifier.text(); });
+  });
+
+  py::class_<Tracker>(module, "Tracker")
+      .def(py::init([](const Model& model) { return track(model); }), py::arg("model"))
+      .def(
+          "move_to", [](Tracker& tracker, const py::object& eye) { return ids(tracker.move_to(point_of(eye, "eye"))); },
+          py::arg("eye"))
+      .def(
+          "is_on_view", [](const Tracker& tracker, Face_id face) { return tracker.on_view(face); }, py::arg("face"))
+      .def("on_view", [](const Tracker& tracker) { return ids(tracker.on_view()); });
+
+  module.def("order", &order_of, py::arg("model"), py::arg("eye"), py::arg("question"));
+  module.def("graph", &graph_of, py::arg("model"), py::arg("question"));
+  module.def("see", &seen_by, py::arg("model"), py::arg("eye"), py::arg("question"));
+  module.def("weakly_visible", &weak_from, py::arg("model"), py::arg("source"), py::arg("question"));
+  module.def("verify", &verdict_on, py::arg("model"), py::arg("certificate"), py::arg("question"));
+}
+
+}  // namespace sightline::python

@@ -1,0 +1,53 @@
+#pragma once
+// What the module consists of: each source adds its part. Everything is named and explained for users in
+// python/sightline; here C++ answers, and answers become arrays.
+
+#include "exact.h"
+#include "waiting.h"
+
+#include <sightline/sightline.h>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace sightline::python {
+
+/// Parts of faces, which stay in C++ until they are looked at.
+struct Parts {
+  std::size_t count = 0;
+  std::function<const Part&(std::size_t)> at;
+  std::function<bool(std::size_t)> from_front;  ///< where that is known
+};
+
+/// A certificate that is made when it is asked for.
+struct Certifier {
+  std::function<std::string()> text;
+};
+
+template <class T>
+py::array_t<std::int64_t> ids(const std::vector<T>& values) {
+  py::array_t<std::int64_t> array(static_cast<py::ssize_t>(values.size()));
+  std::copy(values.begin(), values.end(), array.mutable_data());
+  return array;
+}
+inline py::array_t<double> doubles(const std::vector<double>& values) {
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+/// Corners of polygons as (n, 3) doubles, each the nearest.
+py::array_t<double> rounded(const std::vector<const std::vector<Exact_point>*>& polygons);
+/// All points of a soup as (n, 3): doubles, each the nearest, or objects: Fractions.
+py::array points_of(const Polygon_soup& soup, bool exact);
+/// Its faces: corners one loop after the other, where loops begin, and where faces begin among loops.
+py::tuple faces_of(const Polygon_soup& soup);
+
+void add_scene(py::module_& module);
+void add_answers(py::module_& module);
+void add_harness(py::module_& module);
+
+}  // namespace sightline::python

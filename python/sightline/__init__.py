@@ -1,0 +1,39 @@
+"""Exact 3D visibility: who can see what, with answers that can be checked.
+
+>>> import sightline
+>>> scene = sightline.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+>>> scene.see((0, 0, 1)).visible
+array([0])
+"""
+
+from ._answers import Answer, Certificate, Graph, Order, Part, Parts, Tracker, Verdict, View, WeakView
+from ._errors import InputError, OutOfBudget
+from ._judging import Failure, FuzzReport, Generated, Report, families, fuzz, generate, judge
+from ._scene import Scene, read, verify
+from ._sightline import version as __version__
+
+__all__ = [
+    "Answer",
+    "Certificate",
+    "Failure",
+    "FuzzReport",
+    "Generated",
+    "Graph",
+    "InputError",
+    "Order",
+    "OutOfBudget",
+    "Part",
+    "Parts",
+    "Report",
+    "Scene",
+    "Tracker",
+    "Verdict",
+    "View",
+    "WeakView",
+    "families",
+    "fuzz",
+    "generate",
+    "judge",
+    "read",
+    "verify",
+]

@@ -1,0 +1,138 @@
+"""Meshes as Python has them, made ready for C++: which array holds what. No number is changed here."""
+
+import operator
+import warnings
+from typing import Any, List, Optional, Sequence, Set, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+Faces = Tuple[NDArray[Any], NDArray[np.int64], NDArray[np.int64]]
+
+_kept: Set[Any] = {np.dtype(t) for t in (np.float64, np.float32, np.int64, np.int32, object)}
+
+
+def points(V: Any) -> NDArray[Any]:
+    """V as (n, 3) of a type that C++ reads, without a copy where it has one. Lists become Python's own numbers."""
+    array = V if isinstance(V, np.ndarray) else np.array(V, dtype=object)
+    if array.size == 0 and array.ndim <= 2 and array.shape[-1] in (0, 3):
+        return np.empty((0, 3))
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"V has the shape {array.shape}; give points as (n, 3)")
+    if array.dtype in _kept:
+        return array
+    if array.dtype.kind == "f" and array.dtype.itemsize <= 8 or array.dtype.kind in "iu" and array.dtype != np.uint64:
+        wider = np.float64 if array.dtype.kind == "f" else np.int64  # of other bytes or fewer: each number fits
+        return array.astype(wider, casting="safe")
+    if array.dtype.kind in "fu":  # long double, uint64
+        exact = np.empty(array.size, dtype=object)
+        exact[:] = [x if array.dtype.kind == "f" else int(x) for x in array.flat]
+        return exact.reshape(array.shape)
+    raise TypeError(f"V has the type {array.dtype}; give floats, integers, or objects such as Fraction")
+
+
+def _whole(numbers: NDArray[Any], name: str) -> NDArray[Any]:
+    """Integers of a type that C++ reads."""
+    if numbers.size == 0:
+        return numbers.astype(np.int64)
+    if numbers.dtype == object:
+        return np.array([operator.index(x) for x in numbers.flat], dtype=np.int64).reshape(numbers.shape)
+    if numbers.dtype.kind not in "iu":
+        raise TypeError(f"{name} has the type {numbers.dtype}; corners are integers, counted from 0")
+    if numbers.dtype in (np.int64, np.int32, np.uint32, np.uint64) and numbers.dtype.isnative:
+        return numbers
+    return numbers.astype(np.uint64 if numbers.dtype.kind == "u" else np.int64)
+
+
+def is_index(x: Any) -> bool:
+    """Whether it is one integer."""
+    return isinstance(x, (int, np.integer))
+
+
+def _starts(numbers: Any) -> NDArray[np.int64]:
+    """Where something begins, and the last ends."""
+    return np.ascontiguousarray(numbers, dtype=np.int64)
+
+
+_none = _starts([])
+
+
+def _of_lists(F: Sequence[Any]) -> Faces:
+    """Faces of corners, or of loops of corners."""
+    corners: List[int] = []
+    loops, faces = [0], [0]
+    for face in F:
+        nested = len(face) > 0 and not is_index(face[0])
+        for loop in face if nested else [face]:
+            corners.extend(operator.index(c) for c in loop)
+            loops.append(len(corners))
+        faces.append(len(loops) - 1)
+    return np.array(corners, dtype=np.int64), _starts(loops), _starts(faces)
+
+
+def faces(F: Any, offsets: Any, face_offsets: Any) -> Faces:
+    """F as (m, k), or one row of corners with where loops and faces begin."""
+    if not isinstance(F, np.ndarray):
+        if offsets is None and len(F) > 0 and not is_index(F[0]):
+            return _of_lists(F)
+        F = np.array(F, dtype=object) if len(F) > 0 else np.empty((0, 3) if offsets is None else 0, dtype=np.int64)
+    corners = _whole(F, "F")
+    if corners.ndim == 2:
+        if offsets is not None or face_offsets is not None:
+            raise ValueError("F is two-dimensional, and offsets are for a flat one; leave one of them out")
+        return corners, _none, _none
+    if corners.ndim != 1:
+        raise ValueError(f"F has the shape {corners.shape}; give faces as (m, 3), (m, 4), or flat with offsets")
+    if corners.size == 0 and offsets is None:
+        return corners.reshape(0, 3), _none, _none
+    if offsets is None:
+        raise ValueError("F is flat; say by offsets where its loops begin, and where the last ends")
+    loops = _starts(_whole(np.asarray(offsets), "offsets"))
+    if face_offsets is None:
+        return corners, loops, np.arange(len(loops))
+    return corners, loops, _starts(_whole(np.asarray(face_offsets), "face_offsets"))
+
+
+def _of_padded(padded: NDArray[Any]) -> Faces:
+    """Faces as VTK has them, each after the number of its corners: [3, a, b, c, 4, a, b, c, d, ...]."""
+    padded = _whole(padded, "faces")
+    starts, at = [], 0
+    while at < len(padded):
+        starts.append(at)
+        if padded[at] < 0 or at + 1 + padded[at] > len(padded):
+            raise ValueError(f"faces[{at}] says that {padded[at]} corners follow, which are not there")
+        at += 1 + int(padded[at])
+    loops = _starts(np.concatenate([[0], np.cumsum(padded[starts])]))
+    return np.delete(padded, starts), loops, np.arange(len(loops))
+
+
+def _of_cells(cells: Any) -> Faces:
+    """Faces as meshio has them: blocks of one type each."""
+    rows: List[Any] = []
+    for block in cells:
+        kind, data = (block.type, block.data) if hasattr(block, "type") else block
+        if kind in ("triangle", "quad") or kind.startswith("polygon"):
+            rows.extend(data)
+        elif kind in ("vertex", "line"):
+            warnings.warn(f"{len(data)} cells of the type {kind} are no faces, and are left out", stacklevel=4)
+        else:
+            raise ValueError(f"cells of the type {kind} are no polygons; give triangles, quads and polygons")
+    return _of_lists(rows)
+
+
+def mesh(thing: Any) -> Tuple[NDArray[Any], Faces]:
+    """Points and faces of what has .vertices or .points, and .faces, .triangles or .cells."""
+    where = getattr(thing, "vertices", getattr(thing, "points", None))
+    what: Optional[Any] = None
+    for name in ("faces", "triangles", "cells"):
+        what = getattr(thing, name, None) if what is None else what
+    if where is None or what is None:
+        raise TypeError(
+            f"a {type(thing).__name__} is no mesh: it has no .vertices and .faces, .points and .faces, or .points and "
+            ".cells; give V and F"
+        )
+    V = points(np.asarray(where))
+    if getattr(thing, "faces", None) is None and getattr(thing, "triangles", None) is None:
+        return V, _of_cells(what)
+    F = np.asarray(what)
+    return V, (_of_padded(F) if F.ndim == 1 and F.size > 0 and F.dtype != object else faces(what, None, None))

@@ -1,0 +1,209 @@
+"""Scenes, and the questions that one asks them."""
+
+import importlib
+import operator
+import os
+from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays, _sightline
+from ._answers import Certificate, Graph, Ids, Order, Parts, Tracker, Verdict, View, WeakView
+from ._progress import Progress, followed
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+def _question(threads: int, progress: Any, budget: float, two_sided: bool = False) -> "_sightline.Question":
+    if not 0 <= operator.index(threads) <= 1024:
+        raise ValueError(f"threads is {threads}; give 0, one for each processor, up to 1024")
+    if not budget >= 0 or budget == float("inf"):
+        raise ValueError(f"budget is {budget}; give seconds, or 0 for no limit")
+    return _sightline.Question(threads, progress, budget, two_sided)
+
+
+class Scene:
+    """A scene of polygons, made ready once for all questions, with exact coordinates. It never changes.
+
+    V: points, (n, 3): float64, float32, integers, or objects (Fraction, int, Decimal, text "0.1" or "p/q"). Each number
+       is taken as it is: nothing is rounded.
+    F: faces, corners counted from 0: (m, 3), (m, 4), lists of corners (or of loops: further loops are holes), or flat,
+       with offsets, (loops + 1,), where its loops begin and the last ends, and, where faces have holes, face_offsets,
+       (faces + 1,), where faces begin among loops. Fronts are where corners run counterclockwise.
+
+    In place of V and F: anything that has .vertices and .faces, .points and .faces, or .points and .cells (trimesh,
+    pyvista, open3d, meshio).
+
+    >>> scene = Scene([[0, 0, 0], [1, 0, 0], ["1/3", 1, 0]], [[0, 1, 2]])
+    >>> scene.see((0, 0, 2)).visible
+    array([0])
+    >>> scene.points(exact=True)[2, 0]
+    Fraction(1, 3)
+    """
+
+    _model: "_sightline.Model"
+
+    def __init__(self, V: Any, F: Any = None, *, offsets: Any = None, face_offsets: Any = None) -> None:
+        if F is None:
+            points, faces = _arrays.mesh(V)
+        else:
+            points, faces = _arrays.points(V), _arrays.faces(F, offsets, face_offsets)
+        self._model = _sightline.Model.of_arrays(points, *faces, _question(0, None, 0))
+
+    @staticmethod
+    def _of(model: "_sightline.Model") -> "Scene":
+        scene = Scene.__new__(Scene)
+        scene._model = model
+        return scene
+
+    @staticmethod
+    def read(path: Path) -> "Scene":
+        """A scene of a file: OBJ, OFF, PLY, STL, or OFF with rational coordinates. Errors: InputError."""
+        return Scene._of(_sightline.Model.read(os.fspath(path), _question(0, None, 0)))
+
+    @staticmethod
+    def from_trimesh(mesh: Any) -> "Scene":
+        """A scene of a trimesh, or of anything that Scene() takes."""
+        return Scene(mesh)
+
+    # ---- What it is
+
+    @property
+    def face_count(self) -> int:
+        """Faces of the input: their ids are places in it."""
+        return self._model.face_count
+
+    @property
+    def point_count(self) -> int:
+        """Points of the input."""
+        return self._model.point_count
+
+    @property
+    def parts(self) -> Parts:
+        """What is modelled: each kept face in convex parts, in order."""
+        return Parts(self._model.parts())
+
+    @property
+    def left_out(self) -> List[Tuple[int, str]]:
+        """Faces that are not modelled, and why."""
+        return self._model.left_out()
+
+    @property
+    def areas(self) -> NDArray[np.float64]:
+        """The area of each face, (faces,), 0 for one that is left out."""
+        parts = self.parts
+        return np.bincount(parts.faces, parts.areas, minlength=self.face_count).astype(float)
+
+    def info(self) -> Dict[str, Any]:
+        """What the scene is made of, and the arithmetic that it takes: the program's `info`.
+
+        Counts of points_read and of different points; of faces_read, faces that are kept, convex parts, concave,
+        non_planar and with_holes faces, and supporting planes; bits of the largest coordinate on the scene's integer
+        grid; arithmetic; closed: whether the faces bound a solid; box: two points, or None; left_out.
+        """
+        return {**self._model.facts(), "left_out": self.left_out}
+
+    def points(self, exact: bool = False) -> NDArray[Any]:
+        """The points as (n, 3): the nearest doubles, or, if exact, Fractions."""
+        return self._model.points(exact)
+
+    def faces(self) -> List[Any]:
+        """The corners of each face; where it has holes, a list of its loops."""
+        corners, loops, faces = self._model.faces()
+        each = np.split(corners, loops[1:-1]) if len(loops) > 1 else []
+        groups = [each[a:b] for a, b in zip(faces[:-1], faces[1:])]
+        return [group[0] if len(group) == 1 else group for group in groups]
+
+    def write(self, path: Path) -> None:
+        """Writes the scene exactly, in the format that the ending says. Errors: ValueError where it cannot hold it."""
+        self._model.write(os.fspath(path))
+
+    def to_trimesh(self) -> Any:
+        """The convex parts as a trimesh.Trimesh: coordinates rounded; face_attributes["face"] are the ids of faces."""
+        try:
+            trimesh = importlib.import_module("trimesh")
+        except ImportError as error:
+            raise ImportError("to_trimesh() needs trimesh; scene.parts.triangles() has the arrays") from error
+        V, F, ids = self.parts.triangles()
+        return trimesh.Trimesh(vertices=V, faces=F, process=False, face_attributes={"face": ids})
+
+    def __repr__(self) -> str:
+        return f"<Scene: {self.face_count} faces, {self.point_count} points>"
+
+    # ---- Questions. Of all: threads, 0 for one each processor, the answer does not depend on them; progress, a
+    # callable of (done, all), or True for a bar by tqdm; budget, seconds, 0 for no limit. Ctrl-C ends them.
+
+    def order(self, eye: Any, *, threads: int = 0, progress: Progress = None, budget: float = 0) -> Order:
+        """All faces back to front as seen from a point, cut where they cross or hide each other in turn.
+
+        >>> from sightline import generate
+        >>> cube = generate("boxes", size=1).scene
+        >>> cube.order((5, 5, 5)).certificate().verify().accepted
+        True
+        """
+        with followed(progress, "order") as told:
+            found = _sightline.order(self._model, eye, _question(threads, told, budget))
+        return Order(self, eye, *found)
+
+    def graph(self, *, threads: int = 0, progress: Progress = None, budget: float = 0) -> Graph:
+        """Which faces may obscure which, from anywhere: the components of the priority graph."""
+        with followed(progress, "graph") as told:
+            return Graph(self, *_sightline.graph(self._model, _question(threads, told, budget)))
+
+    def tracker(self) -> Tracker:
+        """The faces that a moving viewpoint is in front of."""
+        return Tracker(self)
+
+    def see(
+        self, eye: Any, *, two_sided: bool = False, threads: int = 0, progress: Progress = None, budget: float = 0
+    ) -> View:
+        """What is seen from a point, all around; two_sided: faces seen from behind count as visible too.
+
+        >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> seen = lid.see((0, 0, 2))
+        >>> seen.visible, seen.areas
+        (array([0, 1]), array([6. , 0.5]))
+        """
+        with followed(progress, "see") as told:
+            found = _sightline.see(self._model, eye, _question(threads, told, budget))
+        return View(self, eye, two_sided, *found)
+
+    def weakly_visible(
+        self, source: Any, *, two_sided: bool = False, threads: int = 0, progress: Progress = None, budget: float = 0
+    ) -> WeakView:
+        """The faces some point of which is seen from some point of the source.
+
+        source: the id of a face that looks to its front; a convex polygon, (k, 3), counterclockwise as seen from the
+        side that it looks to; or a list of polygons. What `budget` leaves open is undecided.
+        """
+        if _arrays.is_index(source):
+            source = int(source)
+        elif len(source) > 0 and np.ndim(source[0][0]) == 0:
+            source = [source]
+        with followed(progress, "weak") as told:
+            return WeakView(
+                self, *_sightline.weakly_visible(self._model, source, _question(threads, told, budget, two_sided))
+            )
+
+    def verify(
+        self, certificate: Union[Certificate, str, "os.PathLike[str]"], *, progress: Progress = None, budget: float = 0
+    ) -> Verdict:
+        """Checks a certificate, its text, or the file of a path, by code that shares nothing with what made it."""
+        if isinstance(certificate, os.PathLike):
+            with open(certificate, encoding="utf-8") as file:
+                text = file.read()
+        else:
+            text = certificate.text if isinstance(certificate, Certificate) else certificate
+        with followed(progress, "verify") as told:
+            return Verdict(*_sightline.verify(self._model, text, _question(0, told, budget)))
+
+
+def read(path: Path) -> Scene:
+    """A scene of a file: OBJ, OFF, PLY, STL, or OFF with rational coordinates. Errors: InputError."""
+    return Scene.read(path)
+
+
+def verify(scene: Scene, certificate: Union[Certificate, str, "os.PathLike[str]"]) -> Verdict:
+    """Checks a certificate about a scene, its text, or the file of a path."""
+    return scene.verify(certificate)

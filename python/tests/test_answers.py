@@ -1,0 +1,254 @@
+"""Answers: what is worked out by hand, what the program says, and what the checker accepts."""
+
+import json
+import math
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import sightline
+
+corpus = Path(__file__).parents[2] / "tests" / "corpus" / "general"
+program = Path(os.environ.get("SIGHTLINE_BUILD_DIR", "")) / "sightline"
+
+
+def lamp_and_lid():
+    """A floor, a lid above it that hides it in part, a lamp above both that looks down."""
+    square = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
+    V = np.concatenate([4 * square, square + [0, 0, 1], square + [0, 0, 3]])
+    return sightline.Scene(V, [[0, 1, 2, 3], [4, 5, 6, 7], [11, 10, 9, 8]])
+
+
+def by_program(tmp_path, *arguments):
+    if not program.is_file():
+        pytest.skip("the program is not built here")
+    out = tmp_path / "out.json"
+    subprocess.run([program, *map(str, arguments), "--json", str(out)], check=True, capture_output=True)
+    return json.loads(out.read_text())["result"]
+
+
+def corners_of(parts):
+    return [[[str(x) for x in p] for p in part.corners] for part in parts]
+
+
+def test_see_by_hand():
+    seen = lamp_and_lid().see((0, 0, 2))
+    assert seen.visible.tolist() == [0, 1, 2] and seen.from_behind.tolist() == []
+    assert seen.areas == pytest.approx([64 - 16, 4, 4])  # the lid hides [-2, 2]^2 of the floor
+    # A square of side 2 at distance 1: 4 atan(1 / sqrt 3) = 2 pi / 3.
+    assert seen.solid_angles[1:] == pytest.approx([2 * math.pi / 3] * 2)
+    assert seen.certificate().verify()
+    above = lamp_and_lid().see((0, 0, 10))
+    assert above.visible.tolist() == [0] and above.from_behind.tolist() == [2]
+    both = lamp_and_lid().see((0, 0, 10), two_sided=True)
+    assert both.visible.tolist() == [0, 2] and above.areas[2] == 0 and both.areas[2] == pytest.approx(4)
+    assert {part.face for part in above.parts if part.from_front is False} == {2}
+
+
+def test_order_graph_and_tracker_by_hand():
+    scene = lamp_and_lid()
+    order = scene.order(["0", Fraction(0), 10])
+    assert order.faces.tolist() == [0, 1, 2] and order.certificate().verify()
+    assert scene.order((0, 0, -10)).faces.tolist() == [2, 1, 0]
+    graph = scene.graph()
+    assert sorted(f for faces in graph.faces for f in faces) == [0, 1, 2] and graph.cyclic == 0
+    assert graph.certificate().verify()
+    tracker = scene.tracker()
+    assert tracker.on_view.tolist() == []
+    assert tracker.move_to((0, 0, 2)).tolist() == [0, 1, 2]
+    assert tracker.move_to((0, 0, 10)).tolist() == [2] and tracker.on_view.tolist() == [0, 1]
+    assert tracker.move_to("0,0,0").tolist() == [0, 1, 2] and tracker.on_view.tolist() == [2]  # in the floor's plane
+
+
+def test_weak_by_hand():
+    scene = lamp_and_lid()
+    lit = scene.weakly_visible(2)
+    assert (lit.visible.tolist(), lit.hidden.tolist(), lit.undecided.tolist()) == ([0, 1], [2], [])
+    assert lit.certificate().verify()
+    for face, (p, q) in lit.sightlines().items():
+        assert p[2] == 3 and q[2] == (0, 1)[face] and all(isinstance(x, Fraction) for x in p + q)
+    assert scene.weakly_visible(np.int64(2)).visible.tolist() == [0, 1]
+    below = [[-1, -1, -1], [1, -1, -1], [1, 1, -1], [-1, 1, -1]]
+    assert scene.weakly_visible(below).visible.tolist() == []
+    assert scene.weakly_visible(below, two_sided=True).visible.tolist() == [0]
+    assert scene.weakly_visible([np.array(below), below], two_sided=True).visible.tolist() == [0]
+
+
+def test_the_program_says_the_same(tmp_path):
+    file = corpus / "two_rooms.off"
+    scene = sightline.read(file)
+    seen, said = scene.see((1, 1, 2)), by_program(tmp_path, "see", file, "--eye", "1,1,2", "--two-sided")
+    assert seen.visible.tolist() == said["visible"] and seen.from_behind.tolist() == said["from_behind"]
+    assert corners_of(seen.parts) == [piece["vertices"] for piece in said["pieces"]]
+    assert [part.piece for part in seen.parts] == [piece["piece"] for piece in said["pieces"]]
+    assert ["front" if part.from_front else "back" for part in seen.parts] == [p["side"] for p in said["pieces"]]
+    order, said = scene.order("1/3,1,2"), by_program(tmp_path, "order", file, "--eye", "1/3,1,2")
+    assert order.faces.tolist() == [fragment["face"] for fragment in said["fragments"]]
+    assert corners_of(order.parts) == [fragment["vertices"] for fragment in said["fragments"]]
+    weak, said = scene.weakly_visible(0), by_program(tmp_path, "weak", file, "--from-face", 0)
+    assert [weak.visible.tolist(), weak.hidden.tolist()] == [said["visible"], said["hidden"]]
+    info, said = scene.info(), by_program(tmp_path, "info", file)
+    assert info["closed"] == said["closed"] and info["parts"] == said["pieces"]
+    assert info["planes"] == said["supporting_planes"] and info["points"] == said["points"]
+    assert [[str(x) for x in p] for p in info["box"]] == said["box"]
+
+
+def test_the_program_takes_the_certificates(tmp_path):
+    if not program.is_file():
+        pytest.skip("the program is not built here")
+    file = corpus / "two_rooms.off"
+    scene = sightline.read(file)
+    for answer in (scene.see((1, 1, 2)), scene.order((1, 1, 2)), scene.weakly_visible(0), scene.graph()):
+        answer.certificate().save(tmp_path / "certificate.json")
+        subprocess.run([program, "verify", file, tmp_path / "certificate.json"], check=True, capture_output=True)
+        assert sightline.verify(scene, tmp_path / "certificate.json")
+        assert sightline.verify(scene, (tmp_path / "certificate.json").read_text())
+
+
+def test_a_false_certificate_is_rejected():
+    scene = lamp_and_lid()
+    certificate = scene.order((0, 0, 10)).certificate()
+    assert certificate.data["eye"] == ["0", "0", "10"]
+    verdict = scene.verify(certificate.text.replace('"10"', '"-10"'))
+    assert not verdict and not verdict.accepted and verdict.why
+    with pytest.raises(ValueError):
+        scene.verify("{}")
+
+
+def test_what_is_no_question_is_refused():
+    scene = lamp_and_lid()
+    for eye, error in (
+        ((0, 0), ValueError),
+        ((0, 0, 0, 0), ValueError),
+        ((0, 0, float("nan")), ValueError),
+        ((0, 0, np.float32("inf")), ValueError),
+        ("1,2", ValueError),
+        ("a,b,c", ValueError),
+        ((0, 0, None), TypeError),
+        ((0, 0, True), TypeError),
+        ((0, 0, 1j), TypeError),
+        (7, TypeError),
+    ):
+        for ask in (scene.see, scene.order, scene.tracker().move_to):
+            with pytest.raises(error):
+                ask(eye)
+    for source, error in ((3, IndexError), (-1, IndexError), ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], ValueError)):
+        with pytest.raises(error):
+            scene.weakly_visible(source)
+    with pytest.raises(ValueError, match="budget"):
+        scene.see((0, 0, 0), budget=-1)
+    with pytest.raises(ValueError, match="threads"):
+        scene.see((0, 0, 0), threads=-1)
+    with pytest.raises(TypeError, match="progress"):
+        scene.see((0, 0, 0), progress=7)
+
+
+def test_threads_change_nothing():
+    scene = sightline.generate("city_rotated", size=30).scene
+    one, four = scene.see((-3, -5, 5), threads=1), scene.see((-3, -5, 5), threads=4)
+    assert one.certificate().text == four.certificate().text
+    found = [None] * 4
+
+    def ask(i):
+        found[i] = scene.see((-3, -5, 5)).visible.tolist()
+
+    threads = [threading.Thread(target=ask, args=(i,)) for i in range(4)]
+    [t.start() for t in threads], [t.join() for t in threads]
+    assert found == [one.visible.tolist()] * 4
+
+
+def slow_scene():
+    """Asking it takes long."""
+    return sightline.generate("triangles_between_squares", size=3000).scene
+
+
+def test_budget_progress_and_other_threads():
+    scene = slow_scene()
+    told, ticks, stop = [], [], threading.Event()
+
+    def tick():
+        while not stop.wait(0.005):
+            ticks.append(0)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.perf_counter()
+    open_ = scene.weakly_visible(0, budget=0.5, progress=lambda done, of: told.append((done, of)))
+    seconds = time.perf_counter() - start
+    stop.set()
+    thread.join()
+    assert len(open_.visible) + len(open_.hidden) + len(open_.undecided) == scene.info()["faces"]
+    assert told and all(0 <= done <= of for done, of in told) and told[-1][0] == told[-1][1]
+    assert len(ticks) > 20 * min(seconds, 1)  # the interpreter went on meanwhile
+    with pytest.raises(sightline.OutOfBudget):
+        scene.order((-3, -5, 5), budget=1e-6)
+
+
+def test_what_progress_raises_ends_the_question():
+    scene = slow_scene()
+
+    class Enough(Exception):
+        pass
+
+    def enough(done, of):
+        raise Enough
+
+    start = time.perf_counter()
+    with pytest.raises(Enough):
+        scene.weakly_visible(0, progress=enough)
+    assert time.perf_counter() - start < 10
+    assert scene.see((-3, -5, 50)).certificate().text  # and the scene is as it was
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_interrupts_end_a_question_at_once():
+    scene = slow_scene()
+    scene.weakly_visible(0, budget=1e-9)  # what is made when first asked for
+    sent = []
+
+    def interrupt():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(0.3, interrupt)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        scene.weakly_visible(0, budget=60)
+    assert time.perf_counter() - sent[0] < 5
+
+
+def test_pictures():
+    pytest.importorskip("matplotlib")
+    scene = lamp_and_lid()
+    ax = scene.see((0, 0, 10)).plot()
+    (drawn,) = ax.collections
+    assert len(drawn.get_paths()) == len(scene.see((0, 0, 10)).parts) > 1
+    (drawn,) = scene.weakly_visible(2).plot(eye="0,-9,9").collections
+    paths = [path.vertices for path in drawn.get_paths()]
+    assert len(paths) == 2  # of the lamp its back is seen, which is not drawn
+    assert np.ptp(paths[0], axis=0)[0] > np.ptp(paths[1], axis=0)[0]  # the floor is painted first
+    red, green, blue = drawn.get_facecolors()[0][:3]
+    assert red > green > blue == 0  # orange
+    scene.see((0, 0, 1)).plot()  # from within: what is behind the eye is not drawn
+
+
+def test_progress_bar():
+    pytest.importorskip("tqdm")
+    assert lamp_and_lid().see((0, 0, 2), progress=True).visible.tolist() == [0, 1, 2]
+
+
+def test_triangles_fan_the_parts_out():
+    scene = sightline.read(corpus / "two_rooms.off")
+    V, F, faces = scene.see((1, 1, 2)).parts.triangles()
+    corners = V[F]
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    areas = np.bincount(faces, np.linalg.norm(normals, axis=1) / 2, minlength=scene.face_count)
+    assert areas == pytest.approx(scene.see((1, 1, 2), two_sided=True).areas, abs=1e-9)
