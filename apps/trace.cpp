@@ -22,18 +22,6 @@ struct Trace_arguments {
   bool all = false, closed = false;
 };
 
-/// The rays of a file.
-std::vector<Exact_ray> read_rays(const std::string& file) {
-  std::vector<Exact_ray> rays;
-  read_lines(file, "a ray is X,Y,Z,DX,DY,DZ: its origin, and its direction, which is not 0",
-             [&](const std::vector<Rational>& n) {
-               if (n.size() != 6 || (n[3] == 0 && n[4] == 0 && n[5] == 0)) return false;
-               rays.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
-               return true;
-             });
-  return rays;
-}
-
 /// What each ray meets, and what that took.
 struct Traced {
   std::vector<std::vector<Face_hit>> hits;

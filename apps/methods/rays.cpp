@@ -127,6 +127,9 @@ void Traced_scene::Handles::trace(const Pixel_view& pixels, std::uint32_t y, Hit
 }
 
 Traced_hit Traced_scene::first(const Double_ray& ray) const {
+  constexpr double most = 1.8e18;  // of what Embree takes
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(std::fabs(ray.origin[k]) < most && std::fabs(ray.direction[k]) < most)) return {};
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit hit{};

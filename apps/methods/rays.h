@@ -37,7 +37,7 @@ class Traced_scene {
   Traced_scene(Traced_scene&&) noexcept;
   ~Traced_scene();
 
-  /// What one ray meets first, at t > 0.
+  /// What one ray meets first, at t > 0. Nothing where its numbers are 1.8e18 or more, which Embree does not take.
   Traced_hit first(const Double_ray& ray) const;
   /// What rays through pixel centres meet first, from an eye and directions in floats.
   Piece_image image(const Pixel_view& pixels, const Image_options& options) const;
