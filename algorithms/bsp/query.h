@@ -2,6 +2,7 @@
 // Points and rays against an exact BSP tree, by descent.
 
 #include <sightline/algorithms/bsp/tree.h>
+#include <sightline/algorithms/rays/ray.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -33,11 +34,6 @@ struct Point_location {
   Location location;
   Bsp_leaf leaf;
   std::vector<Face_id> faces;
-};
-
-/// A ray from `origin` along `direction`, in the file's coordinates. Pre: direction != 0.
-struct Exact_ray {
-  Exact_point origin, direction;
 };
 
 /// The first point of a ray on a face: origin + t direction.

@@ -89,7 +89,7 @@ void add_compare(Command program) {
   auto a = std::make_shared<Compare_arguments>();
   a->common.add_to(command);
   command.add_option("COMMAND", a->command, "the question")
-      .check(one_of({"order", "bsp", "see", "weak", "render"}))
+      .check(one_of({"order", "bsp", "see", "weak", "render", "trace"}))
       .show_default();
   command.add_option("--eye", a->eye, "the eye X,Y,Z, for order, see and render; by default a place outside the scene")
       .check(not_empty());
@@ -138,6 +138,13 @@ void add_compare(Command program) {
                   "are asked where no pair has more")
       .check(whole_number())
       .show_default();
+  command
+      .add_option(
+          "--random", a->random,
+          "trace: so many rays of each kind: anywhere, to corners, to edges, along faces, from faces, from afar")
+      .check(whole_number() & range(1, 10'000'000))
+      .show_default();
+  command.add_option("--ray-file", a->ray_file, "trace: instead, a file with X,Y,Z,DX,DY,DZ a line").reads_file();
   command.add_option("--svg", a->svg, "weak, render: plot the seconds and the errors")
       .writes_file()
       .check(ending(".svg"));
@@ -160,11 +167,15 @@ void add_compare(Command program) {
       "render. Of the pixels whose centres are no ties: wrong: those that show another face than an exact ray meets "
       "first; missing: faces that are shown nowhere, with the most pixels of one.\n"
       "Example: sightline compare town.off render --size 1024x1024\n"
+      "trace. Of a million rays: missed: no face is said to be met where one is; invented: one is where none is; wrong "
+      "face: another than those that are met first. Embree has corners and rays in floats, and no faces edge-on.\n"
+      "Example: sightline compare town.off trace --random 10000\n"
       "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
       "not.");
   command.set_action([a, kernels] {
     a->kernels_given = kernels.given();
     if (a->command == "render") return compare_images(*a);
+    if (a->command == "trace") return compare_rays(*a);
     return a->command == "weak" ? compare_weak(*a) : a->command == "see" ? compare_visible(*a) : compare_orders(*a);
   });
 }

@@ -25,6 +25,8 @@ struct Compare_arguments {
   std::string svg;
   View_arguments view;
   Tint_arguments tints;
+  std::string ray_file;
+  std::size_t random = 1000;  ///< rays of each kind
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.
@@ -41,6 +43,7 @@ Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
 Exit compare_orders(const Compare_arguments& arguments);
 Exit compare_visible(const Compare_arguments& arguments);
 Exit compare_weak(const Compare_arguments& arguments);
+Exit compare_rays(const Compare_arguments& arguments);
 Exit compare_images(const Compare_arguments& arguments);
 
 }  // namespace sightline::app

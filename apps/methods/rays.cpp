@@ -2,9 +2,23 @@
 
 #include "../support/command.h"
 
+#include <sightline/kernel/number.h>
+
+namespace sightline::app {
+
+Double_ray rounded(const Exact_ray& ray) {
+  Double_ray doubles;
+  for (std::size_t k = 0; k < 3; ++k) {
+    doubles.origin[k] = nearest_double(ray.origin[k]);
+    doubles.direction[k] = nearest_double(ray.direction[k]);
+  }
+  return doubles;
+}
+
+}  // namespace sightline::app
+
 #ifdef SIGHTLINE_EMBREE
 
-#include <sightline/kernel/number.h>
 #include <sightline/kernel/threads.h>
 
 #include <embree3/rtcore.h>
@@ -52,7 +66,9 @@ struct Traced_scene::Handles {
 
 bool has_rays() { return true; }
 
-Traced_scene::Traced_scene(const Scene& scene, int threads) : handles_(std::make_unique<Handles>(threads)) {
+Traced_scene::Traced_scene(const Scene& scene, int threads, bool watertight)
+    : handles_(std::make_unique<Handles>(threads)) {
+  if (watertight) rtcSetSceneFlags(handles_->traced, RTC_SCENE_FLAG_ROBUST);
   std::vector<Floats> points;
   std::vector<std::array<unsigned, 3>> triangles;
   for (std::uint32_t p = 0; p < scene.points().size(); ++p) points.push_back(rounded(scene.position(p)));
@@ -110,6 +126,28 @@ void Traced_scene::Handles::trace(const Pixel_view& pixels, std::uint32_t y, Hit
   }
 }
 
+Traced_hit Traced_scene::first(const Double_ray& ray) const {
+  constexpr double most = 1.8e18;  // of what Embree takes
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!(std::fabs(ray.origin[k]) < most && std::fabs(ray.direction[k]) < most)) return {};
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit hit{};
+  hit.ray.org_x = static_cast<float>(ray.origin[0]);
+  hit.ray.org_y = static_cast<float>(ray.origin[1]);
+  hit.ray.org_z = static_cast<float>(ray.origin[2]);
+  hit.ray.dir_x = static_cast<float>(ray.direction[0]);
+  hit.ray.dir_y = static_cast<float>(ray.direction[1]);
+  hit.ray.dir_z = static_cast<float>(ray.direction[2]);
+  hit.ray.tfar = std::numeric_limits<float>::infinity();
+  hit.ray.mask = ~0u;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(handles_->traced, &context, &hit);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  const float ahead = hit.hit.Ng_x * hit.ray.dir_x + hit.hit.Ng_y * hit.ray.dir_y + hit.hit.Ng_z * hit.ray.dir_z;
+  return {handles_->piece_of[hit.hit.primID], static_cast<double>(hit.ray.tfar), ahead > 0};
+}
+
 Piece_image Traced_scene::image(const Pixel_view& pixels, const Image_options& options) const {
   Piece_image image{pixels.width, pixels.height, {}, {}, {}};
   image.pieces.assign(std::size_t{pixels.width} * pixels.height, Piece_image::nothing);
@@ -165,11 +203,12 @@ namespace sightline::app {
 struct Traced_scene::Handles {};
 
 bool has_rays() { return false; }
-Traced_scene::Traced_scene(const Scene&, int) {
+Traced_scene::Traced_scene(const Scene&, int, bool) {
   throw Usage_error("this program was built without Embree (Debian: libembree-dev), so it has no --method rays");
 }
 Traced_scene::Traced_scene(Traced_scene&&) noexcept = default;
 Traced_scene::~Traced_scene() = default;
+Traced_hit Traced_scene::first(const Double_ray&) const { return {}; }
 Piece_image Traced_scene::image(const Pixel_view&, const Image_options&) const { return {}; }
 Mean_image Traced_scene::means(const Pixel_view&, unsigned, const std::function<Colour(std::uint32_t piece)>&,
                                const Image_options&) const {

@@ -23,5 +23,6 @@ void add_generate(Command program);
 void add_fuzz(Command program);
 void add_reduce(Command program);
 void add_judge(Command program);
+void add_trace(Command program);
 
 }  // namespace sightline::app

@@ -48,6 +48,16 @@ void read_lines(const std::string& file, const std::string& wanted,
   read_number_lines({file, bytes}, wanted, take);
 }
 
+std::vector<Exact_ray> read_rays(const std::string& file) {
+  std::vector<Exact_ray> rays;
+  read_lines(file, "X,Y,Z,DX,DY,DZ, an origin and a direction other than 0,0,0,", [&](const std::vector<Rational>& n) {
+    if (n.size() != 6 || (n[3] == 0 && n[4] == 0 && n[5] == 0)) return false;
+    rays.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+    return true;
+  });
+  return rays;
+}
+
 static Path round_scene(const Path_arguments& arguments, const Scene& scene) {
   Exact_point centre{0, 0, 0};
   Rational half = 1;

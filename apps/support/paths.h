@@ -4,6 +4,7 @@
 #include "picture.h"
 
 #include <sightline/algorithms/cutset/motion.h>
+#include <sightline/algorithms/rays/ray.h>
 
 namespace sightline::app {
 
@@ -24,6 +25,9 @@ void check_usage(const Path_arguments& arguments);
 /// no, and for a file without a line.
 void read_lines(const std::string& file, const std::string& wanted,
                 const std::function<bool(const std::vector<Rational>&)>& take);
+
+/// Rays: X,Y,Z,DX,DY,DZ a line, origin and direction. Errors: Input_error with line and column.
+std::vector<Exact_ray> read_rays(const std::string& file);
 
 /// Viewpoints, each made when it is asked for: an orbit of any length takes no memory.
 struct Path {

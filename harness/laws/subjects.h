@@ -8,12 +8,15 @@
 #include <sightline/harness/laws/render.h>
 #include <sightline/harness/laws/see.h>
 #include <sightline/harness/laws/subject.h>
+#include <sightline/harness/laws/trace.h>
 #include <sightline/harness/laws/weak.h>
 
 #include <vector>
 
 namespace sightline::harness {
 
-inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak(), render(), pvs()}; }
+inline std::vector<Subject> subjects() {
+  return {order(), graph(), cutset(), see(), weak(), render(), trace(), pvs()};
+}
 
 }  // namespace sightline::harness

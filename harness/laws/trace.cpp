@@ -1,0 +1,288 @@
+#include <sightline/harness/laws/trace.h>
+
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/rays/by_tree.h>
+#include <sightline/algorithms/rays/tracer.h>
+#include <sightline/harness/generate/rays.h>
+#include <sightline/harness/laws/laws.h>
+#include <sightline/kernel/traits/exact_traits.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace sightline::harness {
+
+namespace trace_subject {
+
+// ---- By the definition
+
+using Loops = std::vector<std::vector<Exact_point>>;
+
+Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Exact_point product(const Exact_point& a, const Exact_point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// The outer loop's Newell normal.
+Exact_point normal_of(const Loops& loops) {
+  Exact_point normal{0, 0, 0};
+  const std::vector<Exact_point>& loop = loops[0];
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const Exact_point n = product(loop[k], loop[(k + 1) % loop.size()]);
+    for (std::size_t i = 0; i < 3; ++i) normal[i] += n[i];
+  }
+  return normal;
+}
+
+/// Whether a point of the plane is on an edge, or inside: an odd number of edges is beyond it along an axis.
+bool holds(const Loops& loops, const Exact_point& normal, const Exact_point& p) {
+  const std::size_t across = normal[2] != 0 ? 2 : normal[1] != 0 ? 1 : 0, x = (across + 1) % 3, y = (across + 2) % 3;
+  bool inside = false;
+  for (const std::vector<Exact_point>& loop : loops)
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Exact_point &a = loop[k], &b = loop[(k + 1) % loop.size()];
+      const Rational turn = (b[x] - a[x]) * (p[y] - a[y]) - (b[y] - a[y]) * (p[x] - a[x]);
+      const bool between = std::min(a[x], b[x]) <= p[x] && p[x] <= std::max(a[x], b[x]) &&
+                           std::min(a[y], b[y]) <= p[y] && p[y] <= std::max(a[y], b[y]);
+      if (turn == 0 && between) return true;
+      if ((a[y] <= p[y]) != (b[y] <= p[y]) && (turn > 0) == (a[y] < b[y])) inside = !inside;
+    }
+  return inside;
+}
+
+void add_parts(Face_id face, const Loops& loops, const Exact_ray& ray, std::vector<Face_hit>& parts) {
+  const Exact_point normal = normal_of(loops);
+  const Rational slope = dot(normal, ray.direction), height = dot(normal, minus(loops[0][0], ray.origin));
+  if (slope != 0) {
+    const Rational t = height / slope;
+    if (t >= 0 && holds(loops, normal, point_at(ray, t)))
+      parts.push_back({face, slope < 0 ? Met_side::front : Met_side::back, t, t});
+    return;
+  }
+  if (height != 0) return;
+  // In the plane: inside or outside changes where an edge is met.
+  std::set<Rational> places{0};
+  const Exact_point across = product(normal, ray.direction);
+  const Rational length = dot(ray.direction, ray.direction);
+  for (const std::vector<Exact_point>& loop : loops)
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Exact_point a = minus(loop[k], ray.origin), b = minus(loop[(k + 1) % loop.size()], ray.origin);
+      const Rational side_a = dot(across, a), side_b = dot(across, b);
+      if (side_a == 0) places.insert(dot(a, ray.direction) / length);
+      if (side_a * side_b < 0) {
+        Exact_point p;
+        for (std::size_t i = 0; i < 3; ++i) p[i] = a[i] + (b[i] - a[i]) * side_a / (side_a - side_b);
+        places.insert(dot(p, ray.direction) / length);
+      }
+    }
+  const Rational* before = nullptr;
+  for (const Rational& t : places) {
+    if (t < 0) continue;
+    if (holds(loops, normal, point_at(ray, t))) parts.push_back({face, Met_side::along, t, t});
+    if (before != nullptr && holds(loops, normal, point_at(ray, Rational((*before + t) / 2))))
+      parts.push_back({face, Met_side::along, *before, t});
+    before = &t;
+  }
+}
+
+// ---- Checks
+
+std::string text_of(const std::vector<Face_hit>& hits) {
+  std::string text;
+  for (const Face_hit& hit : hits)
+    text += (text.empty() ? "" : ", ") + std::to_string(hit.face) + "/" + std::to_string(static_cast<int>(hit.side)) +
+            " at " + to_string(hit.t) + (hit.until == hit.t ? "" : " to " + to_string(hit.until));
+  return text.empty() ? "nothing" : text;
+}
+std::string text_of(const Exact_ray& ray) {
+  std::string text;
+  for (const Exact_point* p : {&ray.origin, &ray.direction})
+    for (const Rational& x : *p) text += (text.empty() ? "" : ",") + to_string(x);
+  return text;
+}
+
+constexpr Ray_start starts[] = {Ray_start::open, Ray_start::closed};
+
+/// What `other` says of random rays, all hits of each, or the first ones.
+template <class Other>
+Check same_hits(const std::string& name, const std::string& what, std::size_t times, Other other) {
+  return {name, what, [times, name, other](const Posed_scene& posed, const Answer&, Random& random) {
+            const Scene scene(posed.soup);
+            const Ray_tracer tracer(scene);
+            const auto theirs = other(posed, scene);
+            Ray_counters counters;
+            for (std::size_t k = 0; k < times; ++k)
+              for (const generate::Ray_kind& kind : generate::ray_kinds()) {
+                const Exact_ray ray = kind.make(posed.soup, random);
+                const Ray_start start = starts[random.below(2)];
+                const auto wrong = [&](const std::vector<Face_hit>& mine, const std::vector<Face_hit>& its) {
+                  return Outcome::failed("ray " + text_of(ray) + ", " + std::string(kind.name) + ": " + text_of(mine) +
+                                         " is met, " + name + " says " + text_of(its));
+                };
+                const std::vector<Face_hit> all = tracer.all(ray, start, counters), its = theirs(ray, start);
+                if (all != its) return wrong(all, its);
+                const std::vector<Face_hit> first = tracer.first(ray, start, counters);
+                if (first != only_first(its)) return wrong(first, only_first(its));
+              }
+            return Outcome{};
+          }};
+}
+
+Check by_tree() {
+  return same_hits("tree", "the same hits by a BSP tree", 3, [](const Posed_scene&, const Scene& scene) {
+    struct Tree {
+      Exact_traits traits;
+      Exact_tree tree;
+    };
+    Bsp_options options;
+    options.threads = 1;
+    auto made = std::make_shared<Tree>(Tree{Exact_traits(scene), {}});
+    made->tree = build_bsp(made->traits, options);
+    return [made](const Exact_ray& ray, Ray_start start) {
+      std::vector<Face_hit> all = all_hits(made->traits, made->tree, ray, start);
+      // Its own first hits, which it finds otherwise.
+      if (first_hits(made->traits, made->tree, ray, start) != only_first(all)) all.clear();
+      return all;
+    };
+  });
+}
+
+Check by_definition() {
+  return same_hits(
+      "definition", "the same hits by the loops of each face", 3, [](const Posed_scene& posed, const Scene& scene) {
+        return [&](const Exact_ray& ray, Ray_start start) { return hits_by_definition(posed.soup, scene, ray, start); };
+      });
+}
+
+/// Rays in doubles, whose first hit is found without exact numbers as a rule.
+Check in_doubles() {
+  return {"doubles", "the same first face, and bounds that hold, for rays in doubles",
+          [](const Posed_scene& posed, const Answer&, Random& random) {
+            const Scene scene(posed.soup);
+            const Ray_tracer tracer(scene);
+            Ray_counters counters;
+            for (std::size_t k = 0; k < 4; ++k)
+              for (const generate::Ray_kind& kind : generate::ray_kinds()) {
+                const Exact_ray drawn = kind.make(posed.soup, random);
+                Double_ray ray;
+                bool finite = true;
+                for (std::size_t i = 0; i < 3; ++i) {
+                  ray.origin[i] = nearest_double(drawn.origin[i]);
+                  ray.direction[i] = nearest_double(drawn.direction[i]);
+                  finite = finite && std::isfinite(ray.origin[i]) && std::isfinite(ray.direction[i]);
+                }
+                if (!finite || ray.direction == std::array<double, 3>{}) continue;
+                const Ray_start start = starts[random.below(2)];
+                const std::vector<Face_hit> exact = tracer.first(ray.exact(), start, counters);
+                const Ray_tracer::Nearest near = tracer.nearest(ray, start, counters);
+                const bool right = exact.empty()
+                                       ? near.face == Ray_tracer::Nearest::nothing
+                                       : near.face == exact[0].face && near.side == exact[0].side &&
+                                             near.tied == (exact.size() > 1) &&
+                                             (!std::isfinite(near.low) || sightline::exact(near.low) <= exact[0].t) &&
+                                             (!std::isfinite(near.high) || exact[0].t <= sightline::exact(near.high));
+                if (!right)
+                  return Outcome::failed("ray " + text_of(ray.exact()) + ": " + text_of(exact) +
+                                         " is met, in doubles face " + std::to_string(near.face));
+              }
+            return Outcome{};
+          }};
+}
+
+/// What an eye sees is what a ray from it meets first.
+Check as_seen() {
+  return {"see", "a ray from the eye to the middle of each part that is seen meets it there first",
+          [](const Posed_scene& posed, const Answer& answer, Random&) {
+            if (!answer.planar) return Outcome::not_applicable();
+            const Scene scene(posed.soup);
+            const Ray_tracer tracer(scene);
+            const Piece_boxes boxes(scene);
+            const Exact_view view(scene, posed.eye);
+            Visible_options options;
+            options.threads = 1;
+            const auto surface = visible_surface(view, boxes, options);
+            Ray_counters counters;
+            for (const auto& part : surface.parts) {
+              if (part.piece == surface.nothing) continue;
+              const std::vector<Exact_point> corners = vertices(view, surface, part);
+              Exact_ray ray{posed.eye, {0, 0, 0}};
+              for (const Exact_point& p : corners)
+                for (std::size_t k = 0; k < 3; ++k) ray.direction[k] += p[k] / static_cast<long>(corners.size());
+              ray.direction = minus(ray.direction, posed.eye);
+              std::vector<Face_hit> hits = tracer.all(ray, Ray_start::open, counters);
+              std::erase_if(hits, [](const Face_hit& hit) { return hit.side == Met_side::along; });  // edge-on
+              const Face_id face = scene.pieces()[part.piece].face;
+              if (hits.empty() || hits[0].t != 1 ||
+                  std::none_of(hits.begin(), hits.end(), [&](const Face_hit& h) { return h.t == 1 && h.face == face; }))
+                return Outcome::failed("face " + std::to_string(face) + " is seen, ray " + text_of(ray) + " meets " +
+                                       text_of(hits));
+            }
+            return Outcome{};
+          }};
+}
+
+/// 1, 2, 4: some ray from the eye to a corner of a piece meets the face first from its front, from behind, along it. Of
+/// faces that are not planar, which a ray may meet from several sides at once, nothing.
+Answer labels(const Posed_scene& posed) {
+  const Scene scene(posed.soup);
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
+  for (const Piece& piece : scene.pieces()) answer.labels[piece.face] = 0;
+  const Ray_tracer tracer(scene);
+  Ray_counters counters;
+  for (const Piece& piece : scene.pieces())
+    for (const Piece_corner& corner : scene.corners(piece)) {
+      const Exact_ray ray{posed.eye, minus(scene.position(corner.point), posed.eye)};
+      if (ray.direction == Exact_point{0, 0, 0}) continue;
+      for (const Face_hit& hit : tracer.first(ray, Ray_start::open, counters))
+        answer.labels[hit.face] |= 1u << static_cast<unsigned>(hit.side);
+    }
+  for (const Face_id face : scene.non_planar()) answer.labels[face] = Answer::none;
+  return answer;
+}
+
+}  // namespace trace_subject
+
+std::vector<Face_hit> hits_by_definition(const Polygon_soup& soup, const Scene& scene, const Exact_ray& ray,
+                                         Ray_start start) {
+  using namespace trace_subject;
+  std::set<Face_id> kept, skew(scene.non_planar().begin(), scene.non_planar().end());
+  for (const Piece& piece : scene.pieces()) kept.insert(piece.face);
+  std::vector<Face_hit> parts;
+  for (const Face_id face : kept) {
+    if (skew.contains(face)) continue;
+    Loops loops(soup.loop_count(face));
+    for (std::size_t k = 0; k < loops.size(); ++k)
+      for (const Point_id p : soup.loop(face, k)) loops[k].push_back(soup.point(p));
+    add_parts(face, loops, ray, parts);
+  }
+  for (const Piece& piece : scene.pieces()) {
+    if (!skew.contains(piece.face)) continue;
+    Loops loops(1);
+    for (const Piece_corner& corner : scene.corners(piece)) loops[0].push_back(scene.position(corner.point));
+    add_parts(piece.face, loops, ray, parts);
+  }
+  return hits_of(std::move(parts), start);
+}
+
+Subject trace() {
+  using namespace trace_subject;
+  Subject subject;
+  subject.name = "trace";
+  subject.what = "what rays meet, first and at all, by boxes, by a BSP tree and by the definition";
+  subject.answer = labels;
+  subject.checks = {by_definition(), by_tree(), in_doubles(), as_seen()};
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
+  return subject;
+}
+
+}  // namespace sightline::harness

@@ -1,0 +1,241 @@
+// Rays by boxes, by a tree and by the definition: worked by hand, drawn at random, and as far as each stage decides.
+
+#include <gtest/gtest.h>
+
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/rays/by_tree.h>
+#include <sightline/algorithms/rays/tracer.h>
+#include <sightline/harness/generate/rays.h>
+#include <sightline/harness/generate/scenes.h>
+#include <sightline/harness/laws/trace.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+using namespace sightline;
+
+namespace {
+
+using Hits = std::vector<Face_hit>;
+
+constexpr Met_side front = Met_side::front, back = Met_side::back, along = Met_side::along;
+constexpr Ray_start open = Ray_start::open, closed = Ray_start::closed;
+
+/// The hits by boxes, if a tree and the definition say the same, first and all.
+Hits hits(const Polygon_soup& soup, const Exact_ray& ray, Ray_start start = open) {
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  const Exact_traits traits(scene);
+  const Exact_tree tree = build_bsp(traits);
+  Ray_counters counters;
+  const Hits all = tracer.all(ray, start, counters);
+  EXPECT_EQ(all, all_hits(traits, tree, ray, start));
+  EXPECT_EQ(all, harness::hits_by_definition(soup, scene, ray, start));
+  EXPECT_EQ(only_first(all), tracer.first(ray, start, counters));
+  EXPECT_EQ(only_first(all), first_hits(traits, tree, ray, start));
+  return all;
+}
+
+Face_id square(Polygon_soup& soup, const Exact_point& corner, std::size_t across, const Rational& side) {
+  std::vector<Point_id> loop;
+  for (const auto& [i, j] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}}) {
+    Exact_point p = corner;
+    p[(across + 1) % 3] += i * side;
+    p[(across + 2) % 3] += j * side;
+    loop.push_back(soup.add_point(p[0], p[1], p[2]));
+  }
+  return soup.add_face(loop);
+}
+
+TEST(Trace, both_sides_are_met_and_named) {
+  Polygon_soup soup;
+  square(soup, {0, 0, 0}, 2, 1);
+  const Rational half(1, 2);
+  EXPECT_EQ(hits(soup, {{half, half, 3}, {0, 0, -2}}), (Hits{{0, front, Rational(3, 2), Rational(3, 2)}}));
+  EXPECT_EQ(hits(soup, {{half, half, -3}, {0, 0, 1}}), (Hits{{0, back, 3, 3}}));
+  EXPECT_EQ(hits(soup, {{half, half, -3}, {0, 0, -1}}), Hits{});
+}
+
+TEST(Trace, a_face_is_met_in_its_corners_and_edges_too) {
+  Polygon_soup soup;
+  square(soup, {0, 0, 0}, 2, 1), square(soup, {1, 0, 0}, 2, 1), square(soup, {1, 1, 0}, 2, 1);
+  const Rational half(1, 2);
+  EXPECT_EQ(hits(soup, {{1, 1, 1}, {0, 0, -1}}), (Hits{{0, front, 1, 1}, {1, front, 1, 1}, {2, front, 1, 1}}));
+  EXPECT_EQ(hits(soup, {{1, half, 1}, {0, 0, -1}}), (Hits{{0, front, 1, 1}, {1, front, 1, 1}}));
+  EXPECT_EQ(hits(soup, {{0, half, 1}, {0, 0, -1}}), (Hits{{0, front, 1, 1}}));
+  const Rational beside = Rational(-1) / Rational(Integer(1) << 200);
+  EXPECT_EQ(hits(soup, {{beside, half, 1}, {0, 0, -1}}), Hits{});
+}
+
+TEST(Trace, a_ray_in_a_plane_meets_faces_in_parts) {
+  Polygon_soup soup;
+  square(soup, {1, 0, 0}, 2, 2);  // 0 from x = 1 to 3
+  square(soup, {3, 0, 0}, 2, 1);  // 1 from 3 to 4
+  square(soup, {2, 0, 0}, 0, 1);  // 2 across, at x = 2
+  EXPECT_EQ(hits(soup, {{0, Rational(1, 2), 0}, {1, 0, 0}}),
+            (Hits{{0, along, 1, 3}, {2, back, 2, 2}, {1, along, 3, 4}}));
+  EXPECT_EQ(hits(soup, {{0, 1, 0}, {Rational(1, 2), 0, 0}}),
+            (Hits{{0, along, 2, 6}, {2, back, 4, 4}, {1, along, 6, 8}}));
+  // Through a corner alone.
+  EXPECT_EQ(hits(soup, {{0, 3, 0}, {1, -1, 0}}), (Hits{{0, along, 1, 3}, {2, back, 2, 2}, {1, along, 3, 3}}));
+}
+
+TEST(Trace, what_holds_an_open_start_is_passed_over_all_along) {
+  Polygon_soup soup;
+  // An L in two pieces or more, and a square in its plane further on.
+  const std::vector<std::array<int, 2>> corners{{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}};
+  std::vector<Point_id> loop;
+  for (const auto& [x, y] : corners) loop.push_back(soup.add_point(Rational(x), Rational(y), 0));
+  soup.add_face(loop);
+  square(soup, {5, 0, 0}, 2, 1);
+  const Exact_ray ray{{Rational(1, 2), Rational(1, 2), 0}, {1, 0, 0}};
+  EXPECT_EQ(hits(soup, ray), (Hits{{1, along, Rational(9, 2), Rational(11, 2)}}));
+  EXPECT_EQ(hits(soup, ray, closed),
+            (Hits{{0, along, 0, Rational(7, 2)}, {1, along, Rational(9, 2), Rational(11, 2)}}));
+  // Out of a leg, across the notch, into the other one: two parts of one face.
+  EXPECT_EQ(hits(soup, {{-1, 4, 0}, {1, -1, 0}}), (Hits{{0, along, 1, 2}, {0, along, 3, 4}}));
+  // From the face, off it.
+  EXPECT_EQ(hits(soup, {{Rational(1, 2), Rational(1, 2), 0}, {0, 0, 1}}), Hits{});
+  EXPECT_EQ(hits(soup, {{Rational(1, 2), Rational(1, 2), 0}, {0, 0, 1}}, closed), (Hits{{0, back, 0, 0}}));
+}
+
+TEST(Trace, a_hole_lets_rays_through_but_not_along_its_edges) {
+  Polygon_soup soup;
+  square(soup, {0, 0, 0}, 2, 3);
+  std::vector<Point_id> hole;
+  for (const auto& [x, y] : {std::pair{1, 1}, {1, 2}, {2, 2}, {2, 1}})
+    hole.push_back(soup.add_point(Rational(x), Rational(y), 0));
+  soup.add_hole(hole);
+  const auto down = [](const Rational& x, const Rational& y) { return Exact_ray{{x, y, 1}, {0, 0, -1}}; };
+  EXPECT_EQ(hits(soup, down(Rational(3, 2), Rational(3, 2))), Hits{});
+  EXPECT_EQ(hits(soup, down(1, Rational(3, 2))), (Hits{{0, front, 1, 1}}));
+  EXPECT_EQ(hits(soup, down(1, 1)), (Hits{{0, front, 1, 1}}));
+  EXPECT_EQ(hits(soup, {{-1, Rational(3, 2), 0}, {1, 0, 0}}), (Hits{{0, along, 1, 2}, {0, along, 3, 4}}));
+}
+
+TEST(Trace, a_direction_must_not_be_zero) {
+  const Scene scene{Polygon_soup()};
+  const Ray_tracer tracer(scene);
+  Ray_counters counters;
+  EXPECT_THROW(tracer.first({{0, 0, 0}, {0, 0, 0}}, open, counters), std::domain_error);
+  EXPECT_THROW(tracer.nearest({{0, 0, 0}, {0, 0, 0}}, open, counters), std::domain_error);
+  EXPECT_TRUE(tracer.all({{0, 0, 0}, {0, 0, 1}}, open, counters).empty());
+}
+
+TEST(Trace, scenes_of_some_size_are_met_as_by_definition) {
+  for (const char* kind : {"city", "soup_constant_density"}) {
+    const Polygon_soup soup = generate::make(kind, 60, 5);
+    const Scene scene(soup);
+    const Ray_tracer tracer(scene);
+    generate::Random random(3);
+    Ray_counters counters;
+    for (int turn = 0; turn < 8; ++turn)
+      for (const generate::Ray_kind& rays : generate::ray_kinds()) {
+        const Exact_ray ray = rays.make(soup, random);
+        EXPECT_EQ(tracer.all(ray, open, counters), harness::hits_by_definition(soup, scene, ray, open)) << rays.name;
+      }
+    EXPECT_LT(counters.pieces, counters.rays * scene.pieces().size() / 2) << "boxes leave out more than half";
+  }
+}
+
+// ---- Stages
+
+/// Rays that pass an edge at 2^-k: doubles are to decide as far as they can, and exact numbers the rest.
+TEST(Trace, doubles_decide_unless_a_ray_is_close_to_an_edge) {
+  Polygon_soup soup;
+  square(soup, {0, 0, 0}, 2, 1);
+  square(soup, {0, 0, -7}, 2, 8);
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  for (int k = 1; k <= 60; ++k)
+    for (const int side : {-1, 1}) {
+      const double x = side * std::ldexp(1.0, -k);
+      Ray_counters counters;
+      const Ray_tracer::Nearest near = tracer.nearest({{x, 0.5, 3}, {0, 0, -1}}, open, counters);
+      EXPECT_EQ(near.face, side > 0 ? 0u : Ray_tracer::Nearest::nothing) << k;
+      if (k <= 38) {
+        EXPECT_EQ(counters.exact_pieces, 0u) << k;
+      } else if (k >= 56) {
+        EXPECT_GE(counters.exact_pieces, 1u) << k;
+      }
+    }
+}
+
+TEST(Trace, faces_closer_than_doubles_tell_are_ordered_exactly) {
+  const Rational gap = Rational(1) / Rational(Integer(1) << 90);
+  Polygon_soup soup;
+  square(soup, {0, 0, 0}, 2, 1);
+  square(soup, {0, 0, gap}, 2, 1);
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  Ray_counters counters;
+  const Double_ray down{{0.375, 0.25, 2}, {0, 0, -1}}, up{{0.375, 0.25, -2}, {0, 0, 1}};
+  EXPECT_EQ(tracer.nearest(down, open, counters).face, 1u);
+  EXPECT_EQ(tracer.nearest(up, open, counters).face, 0u);
+  EXPECT_EQ(counters.exact_orders, 2u);
+  EXPECT_EQ(hits(soup, up.exact()), (Hits{{0, back, 2, 2}, {1, back, 2 + gap, 2 + gap}}));
+}
+
+TEST(Trace, rays_from_afar_are_as_sure) {
+  const Polygon_soup soup = generate::make("city", 20, 9);
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  generate::Random random(11);
+  for (const int power : {4, 19, 30, 60, 300, 1000}) {
+    for (int turn = 0; turn < 4; ++turn) {
+      Exact_ray ray = generate::ray_kinds()[1].make(soup, random);
+      const Exact_point to = point_at(ray, 1);
+      Rational distance = 1;
+      mpq_mul_2exp(distance.get_mpq_t(), distance.get_mpq_t(), static_cast<mp_bitcnt_t>(power));
+      for (std::size_t k = 0; k < 3; ++k) ray.origin[k] = to[k] - distance * ray.direction[k];
+      Ray_counters counters;
+      const Hits all = tracer.all(ray, open, counters);
+      EXPECT_EQ(all, harness::hits_by_definition(soup, scene, ray, open)) << power;
+      EXPECT_FALSE(all.empty());
+      EXPECT_TRUE(power > 900 || counters.exact_pieces < scene.pieces().size()) << power;
+      for (Rational& x : ray.direction) x = -x;
+      EXPECT_TRUE(tracer.all(ray, open, counters).empty());
+    }
+  }
+}
+
+TEST(Trace, boxes_hold_all_that_rays_meet) {
+  // Boxes alone: of points in them, along axes, and with corners on the sides of boxes.
+  generate::Random random(21);
+  std::vector<Ray_boxes::Box> boxes(200);
+  const auto coordinate = [&] { return static_cast<double>(random.between(-16, 16)) / 16; };
+  for (Ray_boxes::Box& box : boxes)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double a = coordinate(), b = random.chance(1, 3) ? a : coordinate();
+      box.low[k] = std::min(a, b);
+      box.high[k] = std::max(a, b);
+    }
+  const Ray_boxes tree(boxes);
+  for (int turn = 0; turn < 400; ++turn) {
+    const Ray_boxes::Box& aim = boxes[random.below(boxes.size())];
+    Ray_boxes::Ray ray{};
+    std::array<double, 3> to;
+    double size = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      to[k] = random.chance(1, 2) ? aim.low[k] : aim.high[k];
+      ray.origin[k] = random.chance(1, 3) ? to[k] : 4 * coordinate();
+      size = std::max(size, std::fabs(to[k] - ray.origin[k]));
+    }
+    if (size == 0) continue;
+    for (std::size_t k = 0; k < 3; ++k) ray.direction[k] = (to[k] - ray.origin[k]) / size;
+    bool found = false;
+    tree.visit(
+        ray,
+        [&](std::uint32_t first, std::uint32_t count) {
+          for (std::uint32_t i = first; i < first + count; ++i) found = found || &boxes[tree.order()[i]] == &aim;
+        },
+        [&] { return size; });
+    EXPECT_TRUE(found) << turn;
+  }
+}
+
+}  // namespace
