@@ -20,5 +20,6 @@ void add_generate(Command program);
 void add_fuzz(Command program);
 void add_reduce(Command program);
 void add_judge(Command program);
+void add_boolean(Command program);
 
 }  // namespace sightline::app
