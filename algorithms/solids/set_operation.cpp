@@ -51,8 +51,12 @@ Fragment_verdict verdict_on(const Operands& operands, const Set_options& options
 Result_fragment reported(const Operands& operands, const Predicates& predicates, const Solid_fragment& fragment,
                          const Fragment_verdict& verdict) {
   const Piece& piece = operands.pieces()[fragment.piece];
-  Result_fragment result{piece.face,  piece.number, {}, {}, verdict.sides.front, operands.position(verdict.sides.at),
-                         verdict.fate};
+  Result_fragment result;
+  result.parts.push_back({piece.face, false});
+  for (const std::uint32_t other : fragment.upon)
+    result.parts.push_back({operands.pieces()[other].face, operands.pieces()[other].support != piece.support});
+  result.front = verdict.sides.front;
+  result.fate = verdict.fate;
   for (const Fragment_corner& corner : fragment.corners)
     result.corners.push_back(operands.position(predicates.homogeneous(corner.vertex)));
   return result;
@@ -129,6 +133,8 @@ Set_result set_operation(const Operands& operands, const Set_options& options) {
     if (!found.touched[i]) {
       ++fragments;
       const Fragment_verdict& verdict = of_heads[head_place[patches.of(i)]];
+      if (options.keep_fragments)
+        result.fragments.push_back(reported(operands, predicates, whole(operands, predicates, i), verdict));
       if (verdict.fate != Result_fragment::Fate::dropped)
         kept.push_back({i, verdict.fate == Result_fragment::Fate::turned, {}});
       continue;

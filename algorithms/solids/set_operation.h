@@ -43,15 +43,19 @@ struct Crowded_edge {
   std::uint32_t faces;
 };
 
-/// A fragment of an operand's face, as certificates have it.
+/// A convex part of the operands' faces that no other face crosses, as certificates have it.
 struct Result_fragment {
-  Face_id face;  ///< counted on through all operands
-  std::uint32_t piece;
+  /// A piece of a face that holds it. `turned`: its front is the fragment's back.
+  struct Part {
+    Face_id face;  ///< counted on through all operands
+    bool turned;
+  };
+  enum class Fate { dropped, kept, turned };
+
+  std::vector<Part> parts;  ///< of all operands; the first gives the fragment its front
   std::vector<Exact_point> corners;
-  std::vector<std::pair<std::uint32_t, int>> steps;  ///< of winding numbers from its front to its back, by operand
   Windings front;
-  Exact_point inside;
-  enum class Fate { dropped, kept, turned } fate;
+  Fate fate = Fate::dropped;
 };
 
 struct Set_counters {

@@ -84,10 +84,13 @@ class Vertical_ray {
   std::size_t u() const { return (axis_ + 1) % 3; }
   std::size_t v() const { return (axis_ + 2) % 3; }
 
-  /// The sign of a plane's value as one goes up.
+  /// The sign of a plane's value as one goes up. Doubles may have lost it to underflow.
   Sign slope(Plane plane) const {
     const Prepared_plane h = predicates_.prepare(plane);
-    return sign_of(axis_ == 0 ? h.a : axis_ == 1 ? h.b : h.c);
+    const double near = axis_ == 0 ? h.a : axis_ == 1 ? h.b : h.c;
+    if (near != 0) return sign_of(near);
+    const int exactly = sgn(operands_.planes().integer(plane.id(), static_cast<int>(axis_)));
+    return static_cast<Sign>(plane.flipped() ? -exactly : exactly);
   }
 
   /// A mean of the corners in doubles, brought to the plane along the axis: whether it is inside.

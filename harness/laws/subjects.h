@@ -6,6 +6,7 @@
 #include <sightline/harness/laws/order.h>
 #include <sightline/harness/laws/render.h>
 #include <sightline/harness/laws/see.h>
+#include <sightline/harness/laws/solids.h>
 #include <sightline/harness/laws/subject.h>
 #include <sightline/harness/laws/weak.h>
 
@@ -13,6 +14,6 @@
 
 namespace sightline::harness {
 
-inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak(), render()}; }
+inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak(), render(), boolean()}; }
 
 }  // namespace sightline::harness
