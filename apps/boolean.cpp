@@ -2,6 +2,7 @@
 
 #include "support/common.h"
 
+#include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
@@ -18,7 +19,7 @@ namespace sightline::app {
 namespace {
 
 struct Boolean_arguments {
-  std::string operation, out, json, inside = "positive", coordinates = "exact";
+  std::string operation, out, json, certificate, inside = "positive", coordinates = "exact";
   std::vector<std::string> solids;
   int threads = 0;
 };
@@ -83,6 +84,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   Set_options options;
   options.operation = named(operations, a.operation);
   options.inside = named(inside_rules, a.inside);
+  options.keep_fragments = !a.certificate.empty();
   Set_result result;
   double prepare_seconds = 0;
   std::optional<Operands> operands;
@@ -99,6 +101,9 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   // 3. What is written.
   const Hole_free flat = without_holes(result.soup);
   if (!a.out.empty()) write_scene(flat.soup, a.out);
+  if (!a.certificate.empty())
+    write_file(a.certificate,
+               [&](std::ostream& out) { write_solid_certificate(out, solid_certificate(*operands, options, result)); });
   Json not_manifold = Json::array();
   for (const Crowded_edge& edge : result.crowded)
     not_manifold.push_back({{"from", point_json(result.soup.point(edge.from))},
@@ -180,6 +185,11 @@ void add_boolean(Command program) {
           "--out", a->out,
           "write the result's surface: .qoff holds it exactly; so do the others where all coordinates are finite "
           "decimals")
+      .writes_file();
+  command
+      .add_option(
+          "--certificate", a->certificate,
+          "write what `sightline verify A CERTIFICATE --solid B ...` reads: all fragments, and why each is kept")
       .writes_file();
   command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
   command

@@ -39,6 +39,7 @@ class Operands {
     return {faces_.corners.data() + pieces()[piece].first, pieces()[piece].size};
   }
   const std::vector<Set_aside>& set_aside() const { return faces_.set_aside; }
+  const std::vector<Face_id>& non_planar() const { return faces_.non_planar; }
   const Scene_counters& counters() const { return faces_.counters; }
   Predicates predicates() const& { return {points(), planes(), incidences_}; }
   Predicates predicates() const&& = delete;

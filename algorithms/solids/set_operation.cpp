@@ -52,9 +52,10 @@ Result_fragment reported(const Operands& operands, const Predicates& predicates,
                          const Fragment_verdict& verdict) {
   const Piece& piece = operands.pieces()[fragment.piece];
   Result_fragment result;
-  result.parts.push_back({piece.face, false});
+  result.parts.push_back({piece.face, piece.number, false});
   for (const std::uint32_t other : fragment.upon)
-    result.parts.push_back({operands.pieces()[other].face, operands.pieces()[other].support != piece.support});
+    result.parts.push_back({operands.pieces()[other].face, operands.pieces()[other].number,
+                            operands.pieces()[other].support != piece.support});
   result.front = verdict.sides.front;
   result.fate = verdict.fate;
   for (const Fragment_corner& corner : fragment.corners)
@@ -63,6 +64,20 @@ Result_fragment reported(const Operands& operands, const Predicates& predicates,
 }
 
 }  // namespace
+
+const char* name(Set_operation operation) {
+  switch (operation) {
+    case Set_operation::unite: return "union";
+    case Set_operation::intersect: return "intersection";
+    case Set_operation::subtract: return "difference";
+    case Set_operation::differ: break;
+  }
+  return "symmetric-difference";
+}
+
+const char* name(Inside_rule rule) {
+  return rule == Inside_rule::positive ? "positive" : rule == Inside_rule::nonzero ? "nonzero" : "odd";
+}
 
 bool is_in_result(Set_operation operation, Inside_rule rule, std::span<const Winding> windings, std::size_t operands) {
   std::size_t inside = 0;

@@ -21,6 +21,11 @@ enum class Set_operation { unite, intersect, subtract, differ };  ///< subtract:
 /// Where an operand is: by its winding number.
 enum class Inside_rule { positive, nonzero, odd };
 
+/// "union", "intersection", "difference", "symmetric-difference"
+const char* name(Set_operation operation);
+/// "positive", "nonzero", "odd"
+const char* name(Inside_rule rule);
+
 /// Whether a point is in the result, given the winding numbers of `operands` operands there. Of no operands nothing is.
 bool is_in_result(Set_operation operation, Inside_rule rule, std::span<const Winding> windings, std::size_t operands);
 
@@ -48,6 +53,7 @@ struct Result_fragment {
   /// A piece of a face that holds it. `turned`: its front is the fragment's back.
   struct Part {
     Face_id face;  ///< counted on through all operands
+    std::uint32_t piece;
     bool turned;
   };
   enum class Fate { dropped, kept, turned };

@@ -1,8 +1,10 @@
 #include <sightline/harness/laws/solids.h>
 
+#include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/algorithms/verify/solids.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/flat_faces.h>
@@ -370,6 +372,56 @@ std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids) {
   return {};
 }
 
+std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random& random) {
+  Set_options options;
+  options.operation = all_operations[random.below(4)];
+  options.inside = all_rules[random.below(3)];
+  options.keep_fragments = true;
+  const Operands operands(solids);
+  const Set_result result = set_operation(operands, options);
+  Solid_certificate claim = solid_certificate(operands, options, result);
+  Verify_options verifying;
+  verifying.threads = 1;
+  const Hole_free flat = without_holes(result.soup);
+  const Verdict verdict = verify_solids(solids, claim, &flat.soup, verifying);
+  if (!verdict.accepted) return "the certificate is rejected: " + verdict.why;
+  // Forged: another thing that would mean something else.
+  if (claim.fragments.empty()) return {};
+  const std::size_t i = random.below(claim.fragments.size());
+  Solid_certificate::Fragment& fragment = claim.fragments[i];
+  std::string how;
+  switch (random.below(7)) {
+    case 0:
+      how = "another fate";
+      fragment.fate = static_cast<Solid_certificate::Fate>((static_cast<std::size_t>(fragment.fate) + 1) % 3);
+      break;
+    case 1:
+      how = "another winding number";
+      if (fragment.front.empty()) fragment.front.emplace_back(0, 1);
+      else fragment.front.back().second += fragment.front.back().second == -1 ? 2 : 1;
+      break;
+    case 2:
+      how = "a fragment left out";
+      claim.fragments.erase(claim.fragments.begin() + static_cast<std::ptrdiff_t>(i));
+      break;
+    case 3:
+      how = "a fragment twice";
+      claim.fragments.push_back(claim.fragments[i]);
+      break;
+    case 4:
+      how = "a part left out";
+      fragment.parts.pop_back();
+      break;
+    case 5:
+      how = "a corner elsewhere";
+      fragment.vertices[random.below(fragment.vertices.size())][random.below(3)] += Rational(1, 1024);
+      break;
+    default: how = "turned round"; std::reverse(fragment.vertices.begin(), fragment.vertices.end());
+  }
+  if (verify_solids(solids, claim, nullptr, verifying).accepted) return "a forged certificate is accepted: " + how;
+  return {};
+}
+
 Subject boolean() {
   Subject subject;
   subject.name = "boolean";
@@ -382,7 +434,10 @@ Subject boolean() {
       check_of_solids("volumes", "volumes of results add up, as rationals",
                       [](const std::vector<Polygon_soup>& solids, Random&) { return flaw_by_volumes(solids); }),
       check_of_solids("surface", "results are closed, planar, without vertices inside edges",
-                      [](const std::vector<Polygon_soup>& solids, Random&) { return flaw_of_surfaces(solids); })};
+                      [](const std::vector<Polygon_soup>& solids, Random&) { return flaw_of_surfaces(solids); }),
+      check_of_solids(
+          "proof", "the certificate is accepted, and rejected when it is forged",
+          [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_certificate(solids, random); })};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut"});
   return subject;
 }
