@@ -3,9 +3,11 @@
 #include "support/common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/solids.h>
 #include <sightline/io/file.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
+#include <sightline/io/read.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -97,17 +99,43 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
   return exit;
 }
 
-static Exit run(const Common& common, const std::string& file, std::size_t sample) {
+/// A set operation: of SCENE, the first solid, and of others.
+struct Solid_files {
+  std::vector<std::string> others;
+  std::string result;
+};
+
+static Verdict verdict_on_solids(const Common& common, const std::string& file, const Solid_files& files,
+                                 const Verify_options& options) {
+  Read_options reading;
+  reading.round_to_double = common.coordinates == "double";
+  std::vector<Polygon_soup> solids{common.read()};
+  for (const std::string& other : files.others) solids.push_back(read_scene(input_path(other), reading));
+  std::optional<Polygon_soup> result;
+  if (!files.result.empty()) result = read_scene(input_path(files.result), reading);
+  Solid_certificate certificate;
+  try {
+    certificate = read_solid_certificate(read_input(file));
+  } catch (const std::invalid_argument& error) {
+    throw Input_error::of_file(file, std::string(error.what()) + "; make the certificate again");
+  }
+  return verify_solids(solids, certificate, result ? &*result : nullptr, options);
+}
+
+static Exit run(const Common& common, const std::string& file, const Solid_files& files, std::size_t sample) {
   if (std::filesystem::is_directory(file)) return run_folder(common, file, sample);
   if (sample > 0) throw Usage_error("--sample is for a folder of certificates; this is a file");
   const Polygon_soup soup = common.read();
-  const Certificate certificate = certificate_of(file);
+  const bool of_solids = !files.others.empty() || !files.result.empty();
+  const Certificate certificate = of_solids ? Certificate() : certificate_of(file);
   const Stopwatch watch;
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const Verdict verdict = std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
+  const Verdict verdict =
+      of_solids ? verdict_on_solids(common, file, files, options)
+                : std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
   const double seconds = watch.seconds();
   progress.clear();
   const Exit exit = verdict.accepted ? Exit::done : Exit::disagreement;
@@ -135,8 +163,19 @@ void add_verify(Command program) {
       .required()
       .reads_file();
   command.add_option("--sample", *sample, "of a folder, so many certificates, drawn by --seed").check(whole_number());
+  auto solids = std::make_shared<Solid_files>();
+  command
+      .add_option(
+          "--solid", solids->others,
+          "of a certificate of `boolean`: another solid, in the order in which they were given; SCENE is the first")
+      .expected(1, 1 << 20)
+      .reads_file();
+  command
+      .add_option("--result", solids->result,
+                  "of a certificate of `boolean`: the result that it wrote; it must be what the certificate keeps")
+      .reads_file();
   command.footer("Exit code 0: accepted; 1: rejected; 3: scene or certificate cannot be read.");
-  command.set_action([common, certificate, sample] { return run(*common, *certificate, *sample); });
+  command.set_action([common, certificate, solids, sample] { return run(*common, *certificate, *solids, *sample); });
 }
 
 }  // namespace sightline::app

@@ -40,6 +40,14 @@ void Coordinates::push(const Rational& value) {
   }
 }
 
+void Coordinates::append(const Coordinates& other) {
+  std::vector<std::int32_t> ids;
+  for (const Integer& d : other.denominators_) ids.push_back(denominator_id(d));
+  for (const Entry& entry : other.entries_)
+    if (entry.denominator == wide) push(other.wide_[static_cast<std::size_t>(entry.numerator)]);
+    else entries_.push_back({entry.numerator, ids[static_cast<std::size_t>(entry.denominator)]});
+}
+
 Rational Coordinates::operator[](std::size_t i) const {
   const Entry& entry = entries_[i];
   if (entry.denominator == wide) return wide_[static_cast<std::size_t>(entry.numerator)];

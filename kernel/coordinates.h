@@ -27,6 +27,9 @@ class Coordinates {
   /// Appends any rational.
   void push(const Rational& value);
 
+  /// Appends all numbers of another column.
+  void append(const Coordinates& other);
+
   Rational operator[](std::size_t i) const;
 
   /// Every denominator, and how many numbers have it; wide numbers are not counted.

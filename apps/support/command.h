@@ -24,5 +24,6 @@ void add_fuzz(Command program);
 void add_reduce(Command program);
 void add_judge(Command program);
 void add_trace(Command program);
+void add_boolean(Command program);
 
 }  // namespace sightline::app

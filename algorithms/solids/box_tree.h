@@ -1,0 +1,102 @@
+#pragma once
+// A tree of boxes over the pieces of all operands: which boxes meet, and which a line along an axis meets.
+
+#include <sightline/algorithms/solids/operands.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+namespace sightline {
+
+/// Boxes in approximate coordinates (Grid_points). These are the true ones, divided and rounded to the nearest double,
+/// and rounding keeps the order: so closed boxes of pieces that meet do meet. Proof: P-110
+class Box_tree {
+ public:
+  struct Box {
+    std::array<double, 3> low, high;
+    bool meets(const Box& other) const {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (low[k] > other.high[k] || other.low[k] > high[k]) return false;
+      return true;
+    }
+  };
+
+  /// Cost: O(n log n), on the threads of run_with_threads().
+  explicit Box_tree(const Operands& operands);
+
+  /// Leaves, in which pieces that are near to each other stand together.
+  std::size_t leaf_count() const { return leaves_.size(); }
+  /// Calls visit(i, j) once for each pair of different pieces whose boxes meet, one of them in the leaf and the other
+  /// in it or in a later one. Thread-safe. Cost: O(log n + pairs) if boxes are small.
+  template <class Visit>
+  void for_each_pair(std::size_t leaf, Visit visit) const;
+
+  /// Calls visit(i) for each piece whose box meets the ray from `from` upwards along an axis. Thread-safe.
+  template <class Visit>
+  void for_each_above(const std::array<double, 3>& from, std::size_t axis, Visit visit) const;
+
+ private:
+  static constexpr std::uint32_t leaf_size = 4;
+  struct Node {
+    Box box;
+    std::uint32_t first, last;  // pieces order_[first, last)
+    std::uint32_t right;        // its second child, the first being the next node; 0: a leaf
+  };
+  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last);
+
+  std::vector<Box> boxes_;            // by place in order_
+  std::vector<std::uint32_t> order_;  // pieces
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> leaves_;  // nodes
+};
+
+template <class Visit>
+void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
+  const Node& own = nodes_[leaves_[leaf]];
+  std::uint32_t stack[64];
+  std::size_t size = 0;
+  stack[size++] = 0;
+  while (size > 0) {
+    const std::uint32_t at = stack[--size];
+    const Node& node = nodes_[at];
+    if (node.last <= own.first || !node.box.meets(own.box)) continue;
+    if (node.right != 0) {
+      stack[size++] = node.right;
+      stack[size++] = at + 1;
+      continue;
+    }
+    for (std::uint32_t i = own.first; i < own.last; ++i)
+      for (std::uint32_t j = std::max(node.first, i + 1); j < node.last; ++j)
+        if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+  }
+}
+
+template <class Visit>
+void Box_tree::for_each_above(const std::array<double, 3>& from, std::size_t axis, Visit visit) const {
+  const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const auto is_below = [&](const Box& box) {
+    return box.low[u] <= from[u] && from[u] <= box.high[u] && box.low[v] <= from[v] && from[v] <= box.high[v] &&
+           from[axis] <= box.high[axis];
+  };
+  std::uint32_t stack[64];
+  std::size_t size = 0;
+  if (!nodes_.empty()) stack[size++] = 0;
+  while (size > 0) {
+    const std::uint32_t at = stack[--size];
+    const Node& node = nodes_[at];
+    if (!is_below(node.box)) continue;
+    if (node.right != 0) {
+      stack[size++] = node.right;
+      stack[size++] = at + 1;
+      continue;
+    }
+    for (std::uint32_t i = node.first; i < node.last; ++i)
+      if (is_below(boxes_[i])) visit(order_[i]);
+  }
+}
+
+}  // namespace sightline

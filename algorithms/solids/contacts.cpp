@@ -1,0 +1,287 @@
+#include <sightline/algorithms/solids/contacts.h>
+
+#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/threads.h>
+
+#include <algorithm>
+#include <optional>
+
+namespace sightline {
+
+namespace {
+
+/// A closed segment, a point of which both ends are one, or nothing.
+struct Stretch {
+  enum class Kind { nothing, point, segment } kind = Kind::nothing;
+  Vertex from, to;
+};
+
+/// What is found of one leaf's pairs.
+struct Leaf_contacts {
+  std::vector<Cut> cuts;
+  std::vector<Touch> touches;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> upon;
+  std::vector<std::uint32_t> touched;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;  ///< corners whose edges have both ends in common
+  std::vector<std::uint8_t> against;                           ///< whether these run against each other
+  std::size_t pairs = 0;
+  Predicate_counts predicates;
+};
+
+class Pair_finder {
+ public:
+  Pair_finder(const Operands& operands, Leaf_contacts& found)
+      : operands_(operands), predicates_(operands.predicates()), found_(found) {}
+
+  void look_at(std::uint32_t i, std::uint32_t j) {
+    ++found_.pairs;
+    if (i > j) std::swap(i, j);
+    const bool coplanar = support(i).id() == support(j).id();
+    // 1. Common corners.
+    const std::span<const Piece_corner> a = operands_.corners(i), b = operands_.corners(j);
+    std::size_t common = 0;
+    std::uint32_t shared = 0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+      for (std::size_t l = 0; l < b.size(); ++l) {
+        if (a[k].point != b[l].point) continue;
+        ++common;
+        shared = a[k].point;
+        const std::size_t k1 = k + 1 == a.size() ? 0 : k + 1, l1 = l + 1 == b.size() ? 0 : l + 1;
+        const std::size_t l0 = l == 0 ? b.size() - 1 : l - 1;
+        const bool with = a[k1].point == b[l1].point, against = a[k1].point == b[l0].point;
+        if (!with && !against) continue;
+        found_.edges.emplace_back(operands_.pieces()[i].first + k, operands_.pieces()[j].first + (with ? l : l0));
+        found_.against.push_back(against);
+        // In different planes they share the line of the edge, and of that line each has no more than the edge.
+        if (!coplanar) return;
+      }
+    if (coplanar) look_at_coplanar(i, j, common > 0);
+    else look_at_crossing(i, j, common == 1 ? std::optional(shared) : std::nullopt);
+  }
+
+ private:
+  Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
+
+  Sign side(const Vertex& v, const Prepared_plane& h) { return predicates_.side(v, h, found_.predicates); }
+
+  /// The sides of a piece's corners to a plane.
+  struct Sides {
+    std::vector<Sign> of;
+    bool front = false, behind = false, on = false;
+  };
+  void find_sides(std::uint32_t i, const Prepared_plane& h, Sides& sides) {
+    const std::size_t size = operands_.corners(i).size();
+    sides.of.resize(size);
+    sides.front = sides.behind = sides.on = false;
+    for (std::size_t k = 0; k < size; ++k) {
+      const Sign s = side(operands_.vertex(predicates_, i, k), h);
+      sides.of[k] = s;
+      sides.front |= s == CGAL::POSITIVE;
+      sides.behind |= s == CGAL::NEGATIVE;
+      sides.on |= s == CGAL::ZERO;
+    }
+  }
+
+  /// Where piece i meets a plane that is not its own.
+  Stretch in_plane(std::uint32_t i, const Sides& sides, Plane plane) const {
+    Stretch stretch;
+    const auto add = [&](const Vertex& v) {
+      if (stretch.kind == Stretch::Kind::nothing) {
+        stretch.kind = Stretch::Kind::point;
+        stretch.from = stretch.to = v;
+      } else {
+        stretch.kind = Stretch::Kind::segment;
+        stretch.to = v;
+      }
+    };
+    const std::span<const Piece_corner> corners = operands_.corners(i);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Sign here = sides.of[k], next = sides.of[k + 1 == corners.size() ? 0 : k + 1];
+      if (here == CGAL::ZERO) add(operands_.vertex(predicates_, i, k));
+      else if (next == -here) add(predicates_.meet(support(i).id(), corners[k].edge.id(), plane.id()));
+    }
+    return stretch;
+  }
+
+  /// What of a stretch in the meet of two planes is on piece j, which lies in one of them.
+  void clip(Stretch& stretch, std::uint32_t p, std::uint32_t q, std::uint32_t j) {
+    for (const Piece_corner& corner : operands_.corners(j)) {
+      if (stretch.kind == Stretch::Kind::nothing) return;
+      const Prepared_plane bound = predicates_.prepare(corner.edge);
+      const Sign from = side(stretch.from, bound);
+      const Sign to = stretch.kind == Stretch::Kind::point ? from : side(stretch.to, bound);
+      if (from == CGAL::NEGATIVE && to == CGAL::NEGATIVE) stretch.kind = Stretch::Kind::nothing;
+      else if (from == CGAL::NEGATIVE && to == CGAL::ZERO) stretch = {Stretch::Kind::point, stretch.to, stretch.to};
+      else if (from == CGAL::ZERO && to == CGAL::NEGATIVE) stretch = {Stretch::Kind::point, stretch.from, stretch.from};
+      else if (from == CGAL::NEGATIVE) stretch.from = predicates_.meet(p, q, corner.edge.id());
+      else if (to == CGAL::NEGATIVE) stretch.to = predicates_.meet(p, q, corner.edge.id());
+    }
+  }
+
+  void touch(std::uint32_t i, const Stretch& stretch) {
+    found_.touched.push_back(i);
+    found_.touches.push_back({i, stretch.from});
+    if (stretch.kind == Stretch::Kind::segment) found_.touches.push_back({i, stretch.to});
+  }
+  void cut(std::uint32_t i, const Stretch& stretch, Plane plane) {
+    found_.touched.push_back(i);
+    found_.cuts.push_back({i, plane, stretch.from, stretch.to});
+  }
+
+  /// Pieces in different planes.
+  void look_at_crossing(std::uint32_t i, std::uint32_t j, std::optional<std::uint32_t> corner) {
+    find_sides(j, predicates_.prepare(support(i)), sides_j_);
+    if (is_apart(sides_j_)) return;
+    if (corner && is_touching_once(sides_j_)) return;  // in the common corner
+    find_sides(i, predicates_.prepare(support(j)), sides_i_);
+    if (is_apart(sides_i_)) return;
+    if (corner && is_touching_once(sides_i_)) return;
+    Stretch stretch = in_plane(i, sides_i_, support(j));
+    clip(stretch, support(i).id(), support(j).id(), j);
+    if (stretch.kind == Stretch::Kind::nothing) return;
+    if (stretch.kind == Stretch::Kind::point && corner && stretch.from.is_input() && stretch.from.point == *corner)
+      return;
+    const bool is_segment = stretch.kind == Stretch::Kind::segment;
+    if (is_segment && sides_i_.front && sides_i_.behind) cut(i, stretch, support(j));
+    else touch(i, stretch);
+    if (is_segment && sides_j_.front && sides_j_.behind) cut(j, stretch, support(i));
+    else touch(j, stretch);
+  }
+  static bool is_apart(const Sides& sides) { return !sides.on && !(sides.front && sides.behind); }
+  /// Pre: a corner is on the plane.
+  static bool is_touching_once(const Sides& sides) {
+    return !(sides.front && sides.behind) && std::count(sides.of.begin(), sides.of.end(), CGAL::ZERO) == 1;
+  }
+
+  /// Whether an edge of piece i has all of piece j on its outside: in front of it, no corner of j. `touching`: whether
+  /// j touches its line then; in more than one corner.
+  bool is_separated(std::uint32_t i, std::uint32_t j, bool& apart, bool& by_corner) {
+    for (const Piece_corner& corner : operands_.corners(i)) {
+      find_sides(j, predicates_.prepare(corner.edge), sides_j_);
+      if (sides_j_.front) continue;
+      const auto on = std::count(sides_j_.of.begin(), sides_j_.of.end(), CGAL::ZERO);
+      apart |= on == 0;
+      by_corner |= on == 1;
+      separated_ = true;
+    }
+    return separated_;
+  }
+
+  /// Pieces in one plane, of which either faces either way.
+  void look_at_coplanar(std::uint32_t i, std::uint32_t j, bool common) {
+    bool apart = false, by_corner = false;
+    separated_ = false;
+    is_separated(i, j, apart, by_corner);
+    if (!apart) is_separated(j, i, apart, by_corner);
+    if (apart) return;
+    const bool shares_area = !separated_;
+    if (!shares_area && by_corner && common) return;  // in a corner of both
+    if (!shares_area && !found_.edges.empty() && is_edge_of(i, j)) return;
+    if (shares_area) {
+      found_.upon.emplace_back(i, j);
+      found_.upon.emplace_back(j, i);
+    }
+    lay_upon(i, j, shares_area);
+    lay_upon(j, i, shares_area);
+  }
+  /// Whether the edge found last is one of both.
+  bool is_edge_of(std::uint32_t i, std::uint32_t j) const {
+    const auto [k, l] = found_.edges.back();
+    const Piece &a = operands_.pieces()[i], &b = operands_.pieces()[j];
+    return a.first <= k && k < a.first + a.size && b.first <= l && l < b.first + b.size;
+  }
+
+  /// The edges of piece j in piece i.
+  void lay_upon(std::uint32_t i, std::uint32_t j, bool shares_area) {
+    found_.touched.push_back(i);
+    const std::span<const Piece_corner> edges = operands_.corners(j);
+    for (std::size_t k = 0; k < edges.size(); ++k) {
+      Stretch stretch{Stretch::Kind::segment, operands_.vertex(predicates_, j, k),
+                      operands_.vertex(predicates_, j, k + 1 == edges.size() ? 0 : k + 1)};
+      clip(stretch, support(i).id(), edges[k].edge.id(), i);
+      if (stretch.kind == Stretch::Kind::nothing) continue;
+      if (stretch.kind == Stretch::Kind::segment && shares_area && !is_on_boundary(i, stretch))
+        cut(i, stretch, edges[k].edge);
+      else touch(i, stretch);
+    }
+  }
+  bool is_on_boundary(std::uint32_t i, const Stretch& stretch) {
+    for (const Piece_corner& corner : operands_.corners(i)) {
+      const Prepared_plane bound = predicates_.prepare(corner.edge);
+      if (side(stretch.from, bound) == CGAL::ZERO && side(stretch.to, bound) == CGAL::ZERO) return true;
+    }
+    return false;
+  }
+
+  const Operands& operands_;
+  const Predicates predicates_;
+  Leaf_contacts& found_;
+  Sides sides_i_, sides_j_;
+  bool separated_ = false;
+};
+
+/// Brings what all leaves found into one list, by piece.
+template <class Item, class Of>
+std::vector<std::size_t> gathered(const std::vector<Leaf_contacts>& leaves, std::vector<Item> Leaf_contacts::*list,
+                                  std::size_t pieces, std::vector<Item>& all, Of piece_of) {
+  std::vector<std::size_t> first(pieces + 1);
+  std::size_t count = 0;
+  for (const Leaf_contacts& leaf : leaves)
+    for (const Item& item : leaf.*list) {
+      ++first[piece_of(item)];
+      ++count;
+    }
+  std::size_t sum = 0;
+  for (std::size_t& f : first) sum += std::exchange(f, sum);
+  std::vector<std::size_t> next = first;
+  all.resize(count);
+  for (const Leaf_contacts& leaf : leaves)
+    for (const Item& item : leaf.*list) all[next[piece_of(item)]++] = item;
+  return first;
+}
+
+}  // namespace
+
+Contacts contacts(const Operands& operands, const Box_tree& tree) {
+  // 1. All pairs, by leaves of the tree.
+  constexpr std::size_t together = 64;
+  std::vector<Leaf_contacts> found((tree.leaf_count() + together - 1) / together);
+  parallel_for(found.size(), [&](std::size_t chunk) {
+    Pair_finder finder(operands, found[chunk]);
+    for (std::size_t leaf = together * chunk; leaf < std::min(together * (chunk + 1), tree.leaf_count()); ++leaf)
+      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { finder.look_at(i, j); });
+  });
+
+  // 2. By piece, in an order that is the leaves'.
+  Contacts all;
+  const std::size_t pieces = operands.pieces().size();
+  all.first_cut = gathered(found, &Leaf_contacts::cuts, pieces, all.cuts, [](const Cut& c) { return c.piece; });
+  all.first_touch =
+      gathered(found, &Leaf_contacts::touches, pieces, all.touches, [](const Touch& t) { return t.piece; });
+  all.first_upon = gathered(found, &Leaf_contacts::upon, pieces, all.upon, [](const auto& p) { return p.first; });
+  all.touched.resize(pieces);
+  std::vector<std::uint8_t> edges(pieces == 0 ? 0 : operands.pieces().back().first + operands.pieces().back().size);
+  std::vector<std::uint32_t> piece_of(edges.size());
+  for (std::uint32_t i = 0; i < pieces; ++i)
+    std::fill_n(piece_of.begin() + operands.pieces()[i].first, operands.pieces()[i].size, i);
+  for (const Leaf_contacts& leaf : found) {
+    for (const std::uint32_t i : leaf.touched) all.touched[i] = true;
+    for (const auto& [k, l] : leaf.edges) {
+      edges[k] = static_cast<std::uint8_t>(std::min(2, edges[k] + 1));
+      edges[l] = static_cast<std::uint8_t>(std::min(2, edges[l] + 1));
+    }
+    all.pairs += leaf.pairs;
+    all.predicates += leaf.predicates;
+  }
+  // 3. Edges of two pieces alone.
+  for (const Leaf_contacts& leaf : found)
+    for (std::size_t e = 0; e < leaf.edges.size(); ++e) {
+      const auto [k, l] = leaf.edges[e];
+      if (leaf.against[e] != 0 && edges[k] == 1 && edges[l] == 1 && !all.touched[piece_of[k]] &&
+          !all.touched[piece_of[l]])
+        all.joined.emplace_back(k, l);
+    }
+  return all;
+}
+
+}  // namespace sightline

@@ -1,0 +1,141 @@
+#include <sightline/algorithms/verify/solids.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <ostream>
+#include <stdexcept>
+
+namespace sightline {
+
+namespace {
+
+constexpr const char* solids_format = "sightline boolean 1";
+constexpr std::array<const char*, 3> fate_names{"dropped", "kept", "turned"};
+
+/// Whole numbers that fit.
+std::uint32_t whole_number_of(const nlohmann::json& value) {
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > 0xffffffffu)
+    throw std::invalid_argument("a number that should be a whole one below 2^32 is not");
+  return value.get<std::uint32_t>();
+}
+
+}  // namespace
+
+void write_solid_certificate(std::ostream& out, const Solid_certificate& certificate) {
+  std::map<Exact_point, std::size_t> numbers;
+  out << "{\"format\": \"" << solids_format << "\",\n\"operation\": \"" << certificate.operation << "\", \"inside\": \""
+      << certificate.inside << "\", \"operands\": " << certificate.operands << ",\n\"points\": [";
+  const auto number = [&](const Exact_point& p) {
+    const auto [at, fresh] = numbers.try_emplace(p, numbers.size());
+    if (fresh) out << (at->second == 0 ? "\n[\"" : ",\n[\"") << p[0] << "\",\"" << p[1] << "\",\"" << p[2] << "\"]";
+    return at->second;
+  };
+  for (const auto& fragment : certificate.fragments)
+    for (const Exact_point& p : fragment.vertices) number(p);
+  for (const auto& piece : certificate.pieces)
+    for (const Exact_point& p : piece.vertices) number(p);
+  const auto loop = [&](const std::vector<Exact_point>& vertices) {
+    out << "\"vertices\": [";
+    for (std::size_t k = 0; k < vertices.size(); ++k) out << (k == 0 ? "" : ",") << numbers.at(vertices[k]);
+    out << "]";
+  };
+  out << "],\n\"fragments\": [";
+  bool first = true;
+  for (const auto& fragment : certificate.fragments) {
+    out << (first ? "\n{\"parts\": [" : ",\n{\"parts\": [");
+    first = false;
+    for (std::size_t k = 0; k < fragment.parts.size(); ++k) {
+      const auto& part = fragment.parts[k];
+      out << (k == 0 ? "[" : ",[") << part.operand << ',' << part.face << ',' << part.piece << ','
+          << (part.turned ? 1 : 0) << ']';
+    }
+    out << "], ";
+    loop(fragment.vertices);
+    out << ", \"front\": [";
+    for (std::size_t k = 0; k < fragment.front.size(); ++k)
+      out << (k == 0 ? "[" : ",[") << fragment.front[k].first << ',' << fragment.front[k].second << ']';
+    out << "], \"fate\": \"" << fate_names[static_cast<std::size_t>(fragment.fate)] << "\"}";
+  }
+  out << "],\n\"pieces\": [";
+  first = true;
+  for (const auto& piece : certificate.pieces) {
+    out << (first ? "\n" : ",\n") << "{\"operand\": " << piece.operand << ", \"face\": " << piece.face
+        << ", \"piece\": " << piece.piece << ", ";
+    loop(piece.vertices);
+    out << '}';
+    first = false;
+  }
+  out << "],\n\"set_aside\": [";
+  first = true;
+  for (const auto& entry : certificate.set_aside) {
+    out << (first ? "\n" : ",\n") << "{\"operand\": " << entry.operand << ", \"face\": " << entry.face
+        << ", \"why\": \"" << entry.why << "\"}";
+    first = false;
+  }
+  out << "]}\n";
+}
+
+Solid_certificate read_solid_certificate(const std::string& text) {
+  using nlohmann::json;
+  Solid_certificate certificate;
+  try {
+    const json all = json::parse(text);
+    if (!all.is_object() || all.value("format", "") != solids_format)
+      throw std::invalid_argument(std::string("its \"format\" is not \"") + solids_format + "\"");
+    certificate.operation = all.at("operation").get<std::string>();
+    certificate.inside = all.at("inside").get<std::string>();
+    certificate.operands = whole_number_of(all.at("operands"));
+    std::vector<Exact_point> points;
+    for (const json& point : all.at("points")) {
+      if (!point.is_array() || point.size() != 3) throw std::invalid_argument("a point has not three coordinates");
+      Exact_point p;
+      for (std::size_t k = 0; k < 3; ++k) p[k] = rational_from_string(point[k].get_ref<const std::string&>());
+      points.push_back(std::move(p));
+    }
+    const auto loop = [&](const json& vertices) {
+      std::vector<Exact_point> polygon;
+      for (const json& number : vertices) {
+        const std::uint32_t at = whole_number_of(number);
+        if (at >= points.size()) throw std::invalid_argument("a vertex is none of the points");
+        polygon.push_back(points[at]);
+      }
+      if (polygon.size() < 3) throw std::invalid_argument("a polygon of fewer than three vertices");
+      return polygon;
+    };
+    for (const json& entry : all.at("fragments")) {
+      Solid_certificate::Fragment& fragment = certificate.fragments.emplace_back();
+      for (const json& part : entry.at("parts")) {
+        if (!part.is_array() || part.size() != 4) throw std::invalid_argument("a part is not of four numbers");
+        fragment.parts.push_back({whole_number_of(part[0]), whole_number_of(part[1]), whole_number_of(part[2]),
+                                  whole_number_of(part[3]) != 0});
+      }
+      fragment.vertices = loop(entry.at("vertices"));
+      for (const json& number : entry.at("front")) {
+        if (!number.is_array() || number.size() != 2 || !number[1].is_number_integer())
+          throw std::invalid_argument("a winding number is not a pair of whole numbers");
+        fragment.front.emplace_back(whole_number_of(number[0]), number[1].get<int>());
+      }
+      const std::string fate = entry.at("fate").get<std::string>();
+      const auto at = std::find(fate_names.begin(), fate_names.end(), fate);
+      if (at == fate_names.end()) throw std::invalid_argument("a fate is none of dropped, kept and turned");
+      fragment.fate = static_cast<Solid_certificate::Fate>(at - fate_names.begin());
+    }
+    for (const json& entry : all.at("pieces"))
+      certificate.pieces.push_back({whole_number_of(entry.at("operand")), whole_number_of(entry.at("face")),
+                                    whole_number_of(entry.at("piece")), loop(entry.at("vertices"))});
+    for (const json& entry : all.at("set_aside"))
+      certificate.set_aside.push_back({whole_number_of(entry.at("operand")), whole_number_of(entry.at("face")),
+                                       entry.at("why").get<std::string>()});
+  } catch (const json::exception& error) {
+    const std::string what = error.what();
+    throw std::invalid_argument("no certificate of a set operation: " + what.substr(what.find("] ") + 2));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("no certificate of a set operation: ") + error.what());
+  }
+  return certificate;
+}
+
+}  // namespace sightline

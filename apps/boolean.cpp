@@ -1,0 +1,215 @@
+// sightline boolean: set operations on solids, exactly.
+
+#include "support/common.h"
+
+#include <sightline/algorithms/solids/certificate.h>
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/io/format.h>
+#include <sightline/io/input.h>
+#include <sightline/io/read.h>
+#include <sightline/io/write.h>
+#include <sightline/kernel/threads.h>
+
+#include <iostream>
+
+namespace sightline::app {
+
+namespace {
+
+struct Boolean_arguments {
+  std::string operation, out, json, certificate, inside = "positive", coordinates = "exact";
+  std::vector<std::string> solids;
+  int threads = 0;
+};
+
+constexpr std::array<std::pair<const char*, Set_operation>, 4> operations{
+    {{"union", Set_operation::unite},
+     {"intersection", Set_operation::intersect},
+     {"difference", Set_operation::subtract},
+     {"symmetric-difference", Set_operation::differ}}};
+constexpr std::array<std::pair<const char*, Inside_rule>, 3> inside_rules{
+    {{"positive", Inside_rule::positive}, {"nonzero", Inside_rule::nonzero}, {"odd", Inside_rule::odd}}};
+
+template <class List>
+auto named(const List& list, const std::string& name) {
+  return std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; })->second;
+}
+template <class List>
+std::vector<std::string> names_of(const List& list) {
+  std::vector<std::string> names;
+  for (const auto& entry : list) names.emplace_back(entry.first);
+  return names;
+}
+
+std::string place_text(const Exact_point& p) {
+  return fmt::format("({}, {}, {})", to_string(p[0]), to_string(p[1]), to_string(p[2]));
+}
+
+/// What does not bound a solid is refused, with its edges.
+void refuse_flaws(const Operands& operands, const std::vector<std::string>& files) {
+  const std::vector<Operand_flaw> all = flaws(operands);
+  if (all.empty()) return;
+  const std::uint32_t operand = all[0].operand;
+  std::string faces, edges;
+  std::size_t open = 0, crossed = 0;
+  constexpr std::size_t shown = 6;
+  for (const Operand_flaw& flaw : all) {
+    if (flaw.operand != operand) continue;
+    if (!flaw.why.empty()) {
+      if (++crossed <= shown) faces += fmt::format("{}face {} is {}", crossed == 1 ? "" : ", ", flaw.face, flaw.why);
+    } else if (++open <= shown) {
+      edges += fmt::format("{} {}-{} of face {}", open == 1 ? "" : ",", place_text(flaw.from), place_text(flaw.to),
+                           flaw.face);
+    }
+  }
+  std::string what = "is not closed, so it bounds no solid: ";
+  if (crossed > 0) what += faces + (crossed > shown ? ", ..." : "") + (open > 0 ? "; " : "");
+  if (open > 0)
+    what += fmt::format("{} edge{} without an opposite:{}{}", open, open == 1 ? "" : "s", edges,
+                        open > shown ? ", ..." : "");
+  throw Input_error::of_file(files[operand], what + "; close the surface first");
+}
+
+Exit run(const Boolean_arguments& a, const Command& command) {
+  // 1. The solids.
+  Stopwatch watch;
+  Read_options reading;
+  reading.round_to_double = a.coordinates == "double";
+  std::vector<Polygon_soup> solids;
+  for (const std::string& file : a.solids) solids.push_back(read_scene(input_path(file), reading));
+  const double read_seconds = watch.seconds();
+  watch = {};
+  Set_options options;
+  options.operation = named(operations, a.operation);
+  options.inside = named(inside_rules, a.inside);
+  options.keep_fragments = !a.certificate.empty();
+  Set_result result;
+  double prepare_seconds = 0;
+  std::optional<Operands> operands;
+  run_with_threads(a.threads, [&] {
+    operands.emplace(solids);
+    refuse_flaws(*operands, a.solids);
+    prepare_seconds = watch.seconds();
+    watch = {};
+    // 2. The operation.
+    result = set_operation(*operands, options);
+  });
+  const double seconds = watch.seconds();
+
+  // 3. What is written.
+  const Hole_free flat = without_holes(result.soup);
+  if (!a.out.empty()) write_scene(flat.soup, a.out);
+  if (!a.certificate.empty())
+    write_file(a.certificate,
+               [&](std::ostream& out) { write_solid_certificate(out, solid_certificate(*operands, options, result)); });
+  Json not_manifold = Json::array();
+  for (const Crowded_edge& edge : result.crowded)
+    not_manifold.push_back({{"from", point_json(result.soup.point(edge.from))},
+                            {"to", point_json(result.soup.point(edge.to))},
+                            {"faces", edge.faces}});
+  if (!a.json.empty()) {
+    const std::array<double, 2> surface = area(result.soup);
+    Json provenance = Json::array(), turned = Json::array();
+    for (std::size_t f = 0; f < flat.face_of.size(); ++f) {
+      const Result_face& face = result.faces[flat.face_of[f]];
+      provenance.push_back({face.operand, face.face});
+      if (face.turned) turned.push_back(f);
+    }
+    Json document;
+    document["command"] = "boolean";
+    Json scenes = Json::array();
+    for (std::size_t k = 0; k < solids.size(); ++k)
+      scenes.push_back({{"file", solids[k].file}, {"faces_read", solids[k].face_count()}});
+    Json set_aside = Json::array();
+    for (const Set_aside& entry : operands->set_aside()) {
+      const auto [operand, face] = operands->source_of(entry.face);
+      set_aside.push_back({{"operand", operand}, {"face", face}, {"why", entry.why}});
+    }
+    document["scene"] = {{"operands", std::move(scenes)},
+                         {"set_aside", std::move(set_aside)},
+                         {"grid_bits", operands->points().bits()},
+                         {"arithmetic", std::string(name(operands->predicates().arithmetic()))}};
+    document["result"] = {{"operation", a.operation},
+                          {"inside", a.inside},
+                          {"faces", flat.soup.face_count()},
+                          {"maximal_faces", result.soup.face_count()},
+                          {"points", result.soup.point_count()},
+                          {"volume", to_string(volume(result.soup))},
+                          {"area", surface},
+                          {"not_manifold", not_manifold},
+                          {"provenance", std::move(provenance)},
+                          {"turned", std::move(turned)}};
+    document["counters"] = counters_json(result.counters);
+    document["seconds"] = {{"read", read_seconds}, {"prepare", prepare_seconds}, {"boolean", seconds}};
+    write_file(a.json, to_text(document, 1) + "\n");
+  }
+  if (command.writes_standard_output()) return Exit::done;
+
+  // 4. For people.
+  const Set_counters& c = result.counters;
+  row("solids", fmt::format("{}, of {} faces in {} convex pieces", solids.size(), c.faces, c.pieces));
+  row("result", fmt::format("{} faces, {} points; written as {} faces without holes", result.soup.face_count(),
+                            result.soup.point_count(), flat.soup.face_count()));
+  row("volume", fmt::format("{:.17g}", nearest_double(volume(result.soup))));
+  row("edges", result.crowded.empty()
+                   ? "each of two faces"
+                   : fmt::format("{} of more than two faces: --json lists them", result.crowded.size()));
+  row("met", fmt::format("{} pieces meet others and became {} fragments; {} rays", c.touched,
+                         c.fragments - (c.pieces - c.touched), c.rays));
+  row("seconds", fmt::format("{:.3f} to read, {:.3f} to prepare, {:.3f} for the operation", read_seconds,
+                             prepare_seconds, seconds));
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_boolean(Command program) {
+  const Command command =
+      program.add_command("boolean", "Union, intersection, difference, symmetric difference of solids, exactly");
+  auto a = std::make_shared<Boolean_arguments>();
+  command
+      .add_option("OPERATION", a->operation,
+                  "union, intersection, difference (the first less all others) or symmetric-difference (in an odd "
+                  "number of them)")
+      .required()
+      .check(one_of(names_of(operations)));
+  command
+      .add_option("SOLIDS", a->solids, "two closed surfaces or more: .obj .off .ply .stl .qoff; fronts look outwards")
+      .required()
+      .expected(2, 1 << 20)
+      .reads_file();
+  command
+      .add_option(
+          "--out", a->out,
+          "write the result's surface: .qoff holds it exactly; so do the others where all coordinates are finite "
+          "decimals")
+      .writes_file();
+  command
+      .add_option(
+          "--certificate", a->certificate,
+          "write what `sightline verify A CERTIFICATE --solid B ...` reads: all fragments, and why each is kept")
+      .writes_file();
+  command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
+  command
+      .add_option("--inside", a->inside,
+                  "where a surface winds round its inside: a positive, nonzero or odd number of "
+                  "times")
+      .check(one_of(names_of(inside_rules)))
+      .show_default();
+  command
+      .add_option("--coordinates", a->coordinates,
+                  "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
+      .check(one_of({"exact", "double"}))
+      .show_default();
+  command.add_option("--threads", a->threads, "threads; 0: one for each processor. The output does not depend on it")
+      .check(range(0, 1024))
+      .show_default();
+  command.footer(
+      "Example: sightline boolean difference block.off drill.off --out bored.qoff --json -\n"
+      "What has no volume is left out. A surface that is not closed is refused with its open edges, exit code 3.");
+  command.set_action([a, command] { return run(*a, command); });
+}
+
+}  // namespace sightline::app

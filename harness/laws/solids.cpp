@@ -1,0 +1,445 @@
+#include <sightline/harness/laws/solids.h>
+
+#include <sightline/algorithms/solids/certificate.h>
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/algorithms/verify/solids.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/harness/laws/flat_faces.h>
+#include <sightline/harness/laws/laws.h>
+#include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace sightline::harness {
+
+namespace solids_subject {
+
+constexpr std::array<Set_operation, 4> all_operations{Set_operation::unite, Set_operation::intersect,
+                                                      Set_operation::subtract, Set_operation::differ};
+constexpr std::array<const char*, 4> operation_names{"union", "intersection", "difference", "symmetric difference"};
+constexpr std::array<Inside_rule, 3> all_rules{Inside_rule::positive, Inside_rule::nonzero, Inside_rule::odd};
+
+Set_result result_of(const std::vector<Polygon_soup>& solids, Set_operation operation,
+                     Inside_rule rule = Inside_rule::positive, bool keep_fragments = false) {
+  Set_options options;
+  options.operation = operation;
+  options.inside = rule;
+  options.keep_fragments = keep_fragments;
+  return set_operation(Operands(solids), options);
+}
+
+// ---- Solids
+
+Polygon_soup face_alone(const Polygon_soup& soup, Face_id face) {
+  Polygon_soup alone;
+  for (std::size_t k = 0; k < soup.loop_count(face); ++k) {
+    std::vector<Point_id> ids;
+    for (const Point_id p : soup.loop(face, k)) {
+      const Exact_point at = soup.point(p);
+      ids.push_back(alone.add_point(at[0], at[1], at[2]));
+    }
+    if (k == 0) alone.add_face(ids);
+    else alone.add_hole(ids);
+  }
+  return alone;
+}
+
+/// Its corners, where it is one that solids can be made of.
+generate::Points base_of(const Polygon_soup& soup, Face_id face, bool planar) {
+  if (soup.loop_count(face) != 1) return {};
+  const Scene scene(face_alone(soup, face));
+  if (scene.pieces().empty() || (planar && !scene.non_planar().empty())) return {};
+  generate::Points corners;
+  for (const Point_id p : soup.loop(face))
+    if (const Exact_point at = soup.point(p); corners.empty() || corners.back() != at) corners.push_back(at);
+  while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
+  return corners;
+}
+
+void add_polygon(Polygon_soup& soup, const generate::Points& corners) {
+  std::vector<Point_id> ids;
+  for (const Exact_point& p : corners) ids.push_back(soup.add_point(p[0], p[1], p[2]));
+  soup.add_face(ids);
+}
+
+/// The base as it is; then what closes it, to the apex.
+void add_cone(Polygon_soup& soup, const generate::Points& base, const Exact_point& apex) {
+  add_polygon(soup, base);
+  for (std::size_t k = 0; k < base.size(); ++k) add_polygon(soup, {base[(k + 1) % base.size()], base[k], apex});
+}
+
+void add_prism(Polygon_soup& soup, const generate::Points& base, const Exact_point& along) {
+  const auto moved = [&](const Exact_point& p) {
+    return Exact_point{p[0] + along[0], p[1] + along[1], p[2] + along[2]};
+  };
+  add_polygon(soup, base);
+  generate::Points top;
+  for (const Exact_point& p : base) top.push_back(moved(p));
+  std::reverse(top.begin(), top.end());
+  add_polygon(soup, top);
+  for (std::size_t k = 0; k < base.size(); ++k) {
+    const Exact_point &p = base[k], &q = base[(k + 1) % base.size()];
+    add_polygon(soup, {q, p, moved(p), moved(q)});
+  }
+}
+
+/// How far a solid is moved: not, by a lattice step, or by a few ulps.
+Exact_point any_step(const Posed_scene& scene, Random& random) {
+  Exact_point step = generate::lattice(random, 2);
+  if (random.chance(1, 3)) return {0, 0, 0};
+  const Rational unit = random.chance(1, 3) ? generate::ulps_of_size(1, generate::size_bits(scene.soup)) : Rational(1);
+  for (Rational& x : step) x *= unit;
+  return step;
+}
+
+// ---- Cones from the eye, for labels
+
+struct Eye_cones {
+  std::array<Polygon_soup, 2> solids;
+  std::array<std::vector<std::optional<Face_id>>, 2> base_of;  // the scene's face that a solid's face is
+};
+
+Eye_cones cones_from_eye(const Posed_scene& scene, Answer& answer) {
+  Eye_cones cones;
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f) {
+    generate::Points base = base_of(scene.soup, f, true);
+    if (base.empty()) continue;
+    const Flat_face flat = flat_faces_of(Scene(face_alone(scene.soup, f)))[0];
+    const int side = sgn(flat.height(scene.eye));
+    if (side == 0) continue;
+    answer.labels[f] = 0;
+    if (side > 0) std::reverse(base.begin(), base.end());
+    const std::size_t which = side > 0;
+    add_cone(cones.solids[which], base, scene.eye);
+    cones.base_of[which].push_back(f);
+    cones.base_of[which].resize(cones.solids[which].face_count());
+  }
+  return cones;
+}
+
+Answer labels_of(const Posed_scene& scene) {
+  Answer answer;
+  answer.labels.assign(scene.soup.face_count(), Answer::none);
+  answer.planar = Scene(scene.soup).non_planar().empty();
+  const Eye_cones cones = cones_from_eye(scene, answer);
+  const auto add = [&](std::size_t first, Set_operation operation, std::uint32_t bit) {
+    const std::size_t faces = cones.solids[first].face_count();
+    for (const Result_fragment& fragment :
+         result_of({cones.solids[first], cones.solids[1 - first]}, operation, Inside_rule::positive, true).fragments) {
+      if (fragment.fate == Result_fragment::Fate::dropped) continue;
+      for (const Result_fragment::Part& part : fragment.parts) {
+        const bool of_first = part.face < faces;
+        const auto face = of_first ? cones.base_of[first][part.face] : cones.base_of[1 - first][part.face - faces];
+        if (face) answer.labels[*face] |= bit;
+      }
+    }
+  };
+  add(0, Set_operation::subtract, 1);
+  add(1, Set_operation::subtract, 2);
+  add(0, Set_operation::unite, 4);
+  add(0, Set_operation::intersect, 8);
+  return answer;
+}
+
+// ---- Points
+
+/// Anywhere that something may be wrong: on the way between two corners, a little beside it.
+Exact_point any_point_of(const std::vector<Exact_point>& corners, Random& random) {
+  const auto any = [&] { return corners[random.below(corners.size())]; };
+  const Exact_point p = any(), q = any(), r = any();
+  const Rational s(static_cast<long>(random.between(0, 8)), 8);
+  const Rational t(static_cast<long>(random.between(-1, 4)), random.chance(1, 2) ? 1024L : 6L);
+  Exact_point point;
+  for (std::size_t k = 0; k < 3; ++k) point[k] = p[k] + s * (q[k] - p[k]) + t * (r[k] - p[k]);
+  return point;
+}
+
+std::vector<Exact_point> corners_of(const Polygon_soup& soup) {
+  std::vector<Exact_point> corners;
+  for (Point_id p = 0; p < soup.point_count(); ++p) corners.push_back(soup.point(p));
+  return corners;
+}
+
+std::string text_of(const Exact_point& p) {
+  return "(" + to_string(p[0]) + ", " + to_string(p[1]) + ", " + to_string(p[2]) + ")";
+}
+
+bool is_inside_by(Inside_rule rule, int winding) {
+  if (rule == Inside_rule::positive) return winding > 0;
+  if (rule == Inside_rule::nonzero) return winding != 0;
+  return winding % 2 != 0;
+}
+
+bool is_in(Set_operation operation, const std::vector<bool>& inside) {
+  const auto count = std::count(inside.begin(), inside.end(), true);
+  switch (operation) {
+    case Set_operation::unite: return count > 0;
+    case Set_operation::intersect: return count == static_cast<std::ptrdiff_t>(inside.size());
+    case Set_operation::subtract: return inside[0] && count == 1;
+    case Set_operation::differ: break;
+  }
+  return count % 2 == 1;
+}
+
+// ---- Surfaces
+
+/// Brute force: all vertices against all edges.
+std::string flaw_of_surface(const Set_result& result) {
+  const Polygon_soup& soup = result.soup;
+  // 1. Edges, and how many faces they have.
+  std::map<std::pair<Point_id, Point_id>, std::uint32_t> uses;
+  std::set<Point_id> used;
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
+      const auto loop = soup.loop(f, k);
+      for (std::size_t i = 0; i < loop.size(); ++i) {
+        ++uses[std::minmax(loop[i], loop[(i + 1) % loop.size()])];
+        used.insert(loop[i]);
+      }
+    }
+  std::map<std::pair<Point_id, Point_id>, std::uint32_t> listed;
+  for (const Crowded_edge& edge : result.crowded) listed[{edge.from, edge.to}] = edge.faces;
+  std::set<Exact_point> places;
+  for (Point_id p = 0; p < soup.point_count(); ++p) {
+    if (!used.count(p)) return "point " + std::to_string(p) + " is in no face";
+    if (!places.insert(soup.point(p)).second) return "point " + std::to_string(p) + " is there twice";
+  }
+  for (const auto& [edge, count] : uses) {
+    const auto at = listed.find(edge);
+    if ((count == 2) != (at == listed.end()) || (count != 2 && at->second != count))
+      return "an edge of " + std::to_string(count) + " faces is listed wrongly";
+    const Exact_point p = soup.point(edge.first), q = soup.point(edge.second), along = minus(q, p);
+    for (const Exact_point& v : places) {
+      if (v == p || v == q || !is_zero(cross(along, minus(v, p)))) continue;
+      const Rational t = dot(along, minus(v, p));
+      if (t > 0 && t < dot(along, along)) return "vertex " + text_of(v) + " is inside an edge";
+    }
+  }
+  // 2. Closed, planar, nothing set aside but duplicates; without holes, too.
+  const Hole_free flat = without_holes(soup);
+  for (const Polygon_soup* one : {&soup, &flat.soup}) {
+    const Scene scene(*one);
+    if (!closure(scene).closed) return "it is not closed";
+    if (!scene.non_planar().empty()) return "face " + std::to_string(scene.non_planar()[0]) + " is not planar";
+    for (const Set_aside& aside : scene.set_aside())
+      return "face " + std::to_string(aside.face) + " is set aside: " + aside.why;
+  }
+  return {};
+}
+
+Check check_of_solids(const char* name, const char* what,
+                      std::string (*flaw)(const std::vector<Polygon_soup>&, Random&)) {
+  return {name, what, [flaw](const Posed_scene& scene, const Answer&, Random& random) {
+            const std::vector<Polygon_soup> solids = solids_of(scene, random);
+            if (solids.empty()) return Outcome::not_applicable();
+            std::string found = flaw(solids, random);
+            return found.empty() ? Outcome{} : Outcome::failed(std::move(found));
+          }};
+}
+
+}  // namespace solids_subject
+
+using namespace solids_subject;
+
+struct Solid_oracle::Faces {
+  Flat_face face;
+};
+
+Solid_oracle::Solid_oracle(const Polygon_soup& soup) {
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const Polygon_soup alone = face_alone(soup, f);
+    for (Flat_face& face : flat_faces_of(Scene(alone))) faces_.push_back({std::move(face)});
+  }
+}
+Solid_oracle::~Solid_oracle() = default;
+Solid_oracle::Solid_oracle(Solid_oracle&&) noexcept = default;
+
+bool Solid_oracle::is_on_a_face(const Exact_point& p) const {
+  return std::any_of(faces_.begin(), faces_.end(), [&](const Faces& entry) { return entry.face.holds(p); });
+}
+
+int Solid_oracle::winding(const Exact_point& p, Random& random) const {
+  for (;;) {
+    const Exact_point direction = generate::lattice(random, 1000);
+    if (is_zero(direction)) continue;
+    int winding = 0;
+    bool general = true;
+    for (const auto& [face] : faces_) {
+      const std::optional<Rational> t = met_at(face, p, direction);
+      if (!t) continue;
+      const Rational slope = dot(face.normal, direction);
+      general = slope != 0 && face.side_within(generate::along(p, *t, direction)) > 0;
+      if (!general) break;
+      winding += sgn(slope);
+    }
+    if (general) return winding;
+  }
+}
+
+std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random) {
+  std::vector<generate::Points> bases;
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f)
+    if (generate::Points base = base_of(scene.soup, f, false); !base.empty()) bases.push_back(std::move(base));
+  if (bases.empty()) return {};
+  std::vector<Polygon_soup> solids(static_cast<std::size_t>(random.between(2, 3)));
+  const Exact_point along = generate::lattice(random, 2), apex = random.chance(1, 2) ? scene.eye : bases[0][0];
+  for (Polygon_soup& solid : solids) {
+    const std::size_t place = static_cast<std::size_t>(&solid - solids.data());
+    if (place > 0 && random.chance(1, 4)) {  // a copy, beside the first or where it is, its faces in another order
+      solid = generate::translated(solids[0], any_step(scene, random));
+      if (random.chance(1, 2) && solid.face_count() > 0) solid = generate::faces_permuted(solid, random.below(1000));
+      continue;
+    }
+    for (auto count = random.between(place == 0 ? 1 : 0, 3); count > 0; --count) {
+      generate::Points base = bases[random.below(bases.size())];
+      if (random.chance(1, 3)) std::reverse(base.begin(), base.end());
+      if (random.chance(1, 2)) add_cone(solid, base, random.chance(2, 3) ? apex : generate::lattice(random, 8));
+      else add_prism(solid, base, random.chance(2, 3) ? along : generate::lattice(random, 3));
+    }
+  }
+  return solids;
+}
+
+std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t points, Random& random) {
+  const Inside_rule rule = all_rules[random.below(3)];
+  std::vector<Solid_oracle> operands;
+  std::vector<Exact_point> corners;
+  for (const Polygon_soup& solid : solids) {
+    operands.emplace_back(solid);
+    for (const Exact_point& p : corners_of(solid)) corners.push_back(p);
+  }
+  if (corners.empty()) return {};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Set_result result = result_of(solids, all_operations[k], rule);
+    const Solid_oracle oracle(result.soup);
+    std::vector<Exact_point> places = corners;
+    for (const Exact_point& p : corners_of(result.soup)) places.push_back(p);
+    for (std::size_t i = 0; i < points; ++i) {
+      const Exact_point p = any_point_of(places, random);
+      if (oracle.is_on_a_face(p)) continue;
+      if (std::any_of(operands.begin(), operands.end(), [&](const auto& one) { return one.is_on_a_face(p); })) continue;
+      std::vector<bool> inside;
+      for (const Solid_oracle& one : operands) inside.push_back(is_inside_by(rule, one.winding(p, random)));
+      const int expected = is_in(all_operations[k], inside) ? 1 : 0, found = oracle.winding(p, random);
+      if (found != expected)
+        return std::string(operation_names[k]) + ": " + text_of(p) + " is wound round " + std::to_string(found) +
+               " times, not " + std::to_string(expected);
+    }
+  }
+  return {};
+}
+
+std::string flaw_by_volumes(const std::vector<Polygon_soup>& solids) {
+  const Polygon_soup &a = solids[0], &b = solids[1];
+  const auto of = [](const std::vector<Polygon_soup>& some, Set_operation operation) {
+    return volume(result_of(some, operation).soup);
+  };
+  const Rational only_a = of({a}, Set_operation::unite), only_b = of({b}, Set_operation::unite);
+  const Rational both = of({a, b}, Set_operation::intersect), any = of({a, b}, Set_operation::unite);
+  if (any + both != only_a + only_b) return "union and intersection do not add up to the two";
+  if (of({a, b}, Set_operation::subtract) + both != only_a) return "difference and intersection are not the first";
+  if (of({a, b}, Set_operation::differ) + both != any) return "symmetric difference and intersection are not the union";
+  if (of({a, a}, Set_operation::unite) != only_a || of({a, a}, Set_operation::subtract) != 0)
+    return "a solid and itself are not itself";
+  if (solids.size() < 3) return {};
+  const Polygon_soup& c = solids[2];
+  const Rational all = of(solids, Set_operation::intersect);
+  if (of(solids, Set_operation::unite) != any + of({c}, Set_operation::unite) - of({a, c}, Set_operation::intersect) -
+                                              of({b, c}, Set_operation::intersect) + all)
+    return "the union of three is not what theirs in pairs say";
+  // One after the other is all at once, and the result's own surface is one to go on with.
+  const Polygon_soup first = result_of({a, b}, Set_operation::unite).soup;
+  if (of({first, c}, Set_operation::subtract) != of(solids, Set_operation::unite) - of({c}, Set_operation::unite))
+    return "the union of two, less the third, is not that of three less it";
+  return {};
+}
+
+std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::string flaw = flaw_of_surface(result_of(solids, all_operations[k]));
+    if (!flaw.empty()) return std::string(operation_names[k]) + ": " + flaw;
+  }
+  return {};
+}
+
+std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random& random) {
+  Set_options options;
+  options.operation = all_operations[random.below(4)];
+  options.inside = all_rules[random.below(3)];
+  options.keep_fragments = true;
+  const Operands operands(solids);
+  const Set_result result = set_operation(operands, options);
+  Solid_certificate claim = solid_certificate(operands, options, result);
+  Verify_options verifying;
+  verifying.threads = 1;
+  const Hole_free flat = without_holes(result.soup);
+  const Verdict verdict = verify_solids(solids, claim, &flat.soup, verifying);
+  if (!verdict.accepted) return "the certificate is rejected: " + verdict.why;
+  // Forged: another thing that would mean something else.
+  if (claim.fragments.empty()) return {};
+  const std::size_t i = random.below(claim.fragments.size());
+  Solid_certificate::Fragment& fragment = claim.fragments[i];
+  std::string how;
+  switch (random.below(7)) {
+    case 0:
+      how = "another fate";
+      fragment.fate = static_cast<Solid_certificate::Fate>((static_cast<std::size_t>(fragment.fate) + 1) % 3);
+      break;
+    case 1:
+      how = "another winding number";
+      if (fragment.front.empty()) fragment.front.emplace_back(0, 1);
+      else fragment.front.back().second += fragment.front.back().second == -1 ? 2 : 1;
+      break;
+    case 2:
+      how = "a fragment left out";
+      claim.fragments.erase(claim.fragments.begin() + static_cast<std::ptrdiff_t>(i));
+      break;
+    case 3:
+      how = "a fragment twice";
+      claim.fragments.push_back(claim.fragments[i]);
+      break;
+    case 4:
+      how = "a part left out";
+      fragment.parts.pop_back();
+      break;
+    case 5:
+      how = "a corner elsewhere";
+      fragment.vertices[random.below(fragment.vertices.size())][random.below(3)] += Rational(1, 1024);
+      break;
+    default: how = "turned round"; std::reverse(fragment.vertices.begin(), fragment.vertices.end());
+  }
+  if (verify_solids(solids, claim, nullptr, verifying).accepted) return "a forged certificate is accepted: " + how;
+  return {};
+}
+
+Subject boolean() {
+  Subject subject;
+  subject.name = "boolean";
+  subject.what = "set operations on cones, prisms and copies, by winding numbers of points, volumes and surfaces";
+  subject.answer = [](const Posed_scene& scene) { return labels_of(scene); };
+  subject.checks = {
+      check_of_solids(
+          "points", "points are in the result iff the solids' winding numbers say so",
+          [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_by_points(solids, 8, random); }),
+      check_of_solids("volumes", "volumes of results add up, as rationals",
+                      [](const std::vector<Polygon_soup>& solids, Random&) { return flaw_by_volumes(solids); }),
+      check_of_solids("surface", "results are closed, planar, without vertices inside edges",
+                      [](const std::vector<Polygon_soup>& solids, Random&) { return flaw_of_surfaces(solids); }),
+      check_of_solids(
+          "proof", "the certificate is accepted, and rejected when it is forged",
+          [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_certificate(solids, random); })};
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut"});
+  return subject;
+}
+
+}  // namespace sightline::harness

@@ -1,0 +1,49 @@
+#pragma once
+// The subject `boolean`: set operations on solids that are made of a scene's faces.
+
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/subject.h>
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <string>
+#include <vector>
+
+namespace sightline::harness {
+
+/// A closed surface by its convex parts alone, in rationals: winding numbers by brute force. Nothing of it is shared
+/// with set operations.
+class Solid_oracle {
+ public:
+  explicit Solid_oracle(const Polygon_soup& soup);
+  ~Solid_oracle();
+  Solid_oracle(Solid_oracle&&) noexcept;
+  /// Whether a face holds the point.
+  bool is_on_a_face(const Exact_point& p) const;
+  /// Pre: !is_on_a_face(p), and the soup is closed.
+  int winding(const Exact_point& p, Random& random) const;
+
+ private:
+  struct Faces;
+  std::vector<Faces> faces_;
+};
+
+/// Solids of faces of a scene: cones over them, prisms on them, or copies of one another; two or three. Faces that
+/// cross themselves or have holes are left out. May be empty, and wound round any number of times.
+std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random);
+
+/// What is wrong with the four set operations on some solids; empty: nothing. By points: in the result iff the
+/// operands' winding numbers say so. By volumes, as rationals: what is in the union and in the intersection adds up to
+/// the solids, and so on. By the surface: closed, no vertex inside an edge, edges of other than two faces listed.
+std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t points, Random& random);
+std::string flaw_by_volumes(const std::vector<Polygon_soup>& solids);
+std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids);
+
+/// That the checker accepts a certificate of one of them, and rejects it once something in it is changed.
+std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random& random);
+
+/// Labels say what is left of each face's cone from the eye: its base in A less B, in B less A, in the union, in the
+/// intersection; A the cones over faces that look away from the eye, B those over others.
+Subject boolean();
+
+}  // namespace sightline::harness

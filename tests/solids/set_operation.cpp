@@ -1,0 +1,280 @@
+// Set operations: families that are degenerate on purpose, with known volumes; random ones against winding numbers of
+// points, volumes and surfaces, which share no code with them; what is refused.
+
+#include "shapes.h"
+
+#include "../sample.h"
+
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/harness/laws/fuzz.h>
+#include <sightline/harness/laws/solids.h>
+#include <sightline/io/write.h>
+#include <sightline/kernel/threads.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+namespace {
+
+using namespace sightline;
+using namespace test_solids;
+
+Set_result of(Set_operation operation, const std::vector<Polygon_soup>& solids,
+              Inside_rule rule = Inside_rule::positive) {
+  Set_options options;
+  options.operation = operation;
+  options.inside = rule;
+  return set_operation(Operands(solids), options);
+}
+
+/// Volumes of union, intersection, difference and symmetric difference.
+std::array<Rational, 4> volumes_of(const std::vector<Polygon_soup>& solids, Inside_rule rule = Inside_rule::positive) {
+  return {volume(of(Set_operation::unite, solids, rule).soup), volume(of(Set_operation::intersect, solids, rule).soup),
+          volume(of(Set_operation::subtract, solids, rule).soup), volume(of(Set_operation::differ, solids, rule).soup)};
+}
+
+/// All that is known of any solids.
+void expect_right(const std::vector<Polygon_soup>& solids, const std::string& name) {
+  generate::Random random(7);
+  EXPECT_EQ(harness::flaw_by_points(solids, 10, random), "") << name;
+  EXPECT_EQ(harness::flaw_by_volumes(solids), "") << name;
+  EXPECT_EQ(harness::flaw_of_surfaces(solids), "") << name;
+}
+
+struct Known {
+  std::string name;
+  std::vector<Polygon_soup> solids;
+  std::array<Rational, 4> volumes;  // union, intersection, difference, symmetric difference
+};
+
+std::vector<Known> known() {
+  const Polygon_soup cube = box({0, 0, 0}, {2, 2, 2});
+  Polygon_soup nested = cube, twice = cube;
+  const Polygon_soup inner = generate::faces_reversed(
+      box({Rational(1, 2), Rational(1, 2), Rational(1, 2)}, {Rational(3, 2), Rational(3, 2), Rational(3, 2)}));
+  for (Point_id p = 0; p < 8; ++p) {
+    const Exact_point at = inner.point(p);
+    nested.add_point(at[0], at[1], at[2]);
+  }
+  for (Face_id f = 0; f < 6; ++f) {
+    std::vector<Point_id> loop;
+    for (const Point_id p : inner.loop(f)) loop.push_back(p + 8);
+    nested.add_face(loop);
+  }
+  add_box(twice, {1, 0, 0}, {3, 2, 2});  // wound round twice where both are
+  const Rational ulp(1, Integer("4503599627370496"));
+  return {
+      {"overlap", {cube, box({1, 1, 1}, {3, 3, 3})}, {15, 1, 7, 14}},
+      {"an operand twice", {cube, cube}, {8, 8, 0, 0}},
+      {"a whole face in common", {cube, box({2, 0, 0}, {4, 2, 2})}, {16, 0, 8, 16}},
+      {"part of a face in common", {cube, box({2, 1, 1}, {4, 3, 3})}, {16, 0, 8, 16}},
+      {"a face inside a face",
+       {cube, box({2, Rational(1, 2), Rational(1, 2)}, {3, 1, 1})},
+       {Rational(33, 4), 0, 8, Rational(33, 4)}},
+      {"an edge in common", {cube, box({2, 2, 0}, {4, 4, 2})}, {16, 0, 8, 16}},
+      {"part of an edge in common", {cube, box({2, 2, 1}, {4, 4, 5})}, {24, 0, 8, 24}},
+      {"a vertex in common", {cube, box({2, 2, 2}, {3, 3, 3})}, {9, 0, 8, 9}},
+      {"a vertex on an edge", {cube, box({2, 2, 1}, {3, 3, 2})}, {9, 0, 8, 9}},
+      {"equal faces, inside", {cube, box({0, 0, 0}, {1, 2, 2})}, {8, 4, 4, 4}},
+      {"a corner in common, inside", {cube, box({0, 0, 0}, {1, 1, 1})}, {8, 1, 7, 7}},
+      {"a tunnel",
+       {cube, box({Rational(1, 2), Rational(1, 2), -1}, {1, 1, 3})},
+       {Rational(17, 2), Rational(1, 2), Rational(15, 2), 8}},
+      {"inside, apart",
+       {cube, box({Rational(1, 2), Rational(1, 2), Rational(1, 2)}, {1, 1, 1})},
+       {8, Rational(1, 8), Rational(63, 8), Rational(63, 8)}},
+      {"apart", {cube, box({5, 0, 0}, {6, 1, 1})}, {9, 0, 8, 9}},
+      {"a shell with a hollow, filled",
+       {nested, box({0, 0, 0}, {1, 2, 2})},
+       {Rational(15, 2), Rational(7, 2), Rational(7, 2), 4}},
+      {"wound round twice", {twice, box({1, 0, 0}, {2, 2, 2})}, {12, 4, 8, 8}},
+      {"nothing", {cube, Polygon_soup()}, {8, 0, 8, 8}},
+      {"an ulp apart", {cube, box({2 + ulp, 0, 0}, {4, 2, 2})}, {16 - 4 * ulp, 0, 8, 16 - 4 * ulp}},
+      {"an ulp into each other", {cube, box({2 - ulp, 0, 0}, {4, 2, 2})}, {16, 4 * ulp, 8 - 4 * ulp, 16 - 4 * ulp}},
+      {"turned inside out", {cube, generate::faces_reversed(box({1, 1, 1}, {3, 3, 3}))}, {8, 0, 8, 8}},
+  };
+}
+
+TEST(Set_operations, of_touching_and_coincident_boxes_have_the_volumes_that_they_must) {
+  for (const Known& one : known()) {
+    EXPECT_EQ(volumes_of(one.solids), one.volumes) << one.name;
+    expect_right(one.solids, one.name);
+  }
+}
+
+TEST(Set_operations, do_not_mind_exponents_and_rotations) {
+  const generate::Rational_matrix matrix = generate::rotation(5, 1, -2, 3);
+  for (const Known& one : known()) {
+    std::vector<Polygon_soup> turned, tiny, uneven;
+    const Rational small = generate::power_of_two(-1000), large = generate::power_of_two(1000);
+    for (const Polygon_soup& solid : one.solids) {
+      turned.push_back(generate::rotated(solid, matrix));
+      tiny.push_back(generate::scaled(solid, small));
+      uneven.push_back(generate::mapped(solid, [&](Point_id, const Exact_point& p) {
+        return Exact_point{p[0] * large, p[1] * small, p[2]};
+      }));
+    }
+    EXPECT_EQ(volumes_of(turned), one.volumes) << one.name;
+    EXPECT_EQ(volumes_of(uneven), one.volumes) << one.name;
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_EQ(volumes_of(tiny)[k], one.volumes[k] * small * small * small) << one.name;
+  }
+}
+
+TEST(Set_operations, take_what_the_rule_calls_inside) {
+  Polygon_soup twice = box({0, 0, 0}, {2, 2, 2});
+  add_box(twice, {1, 0, 0}, {3, 2, 2});
+  const Polygon_soup back = generate::faces_reversed(box({0, 0, 0}, {1, 1, 1}));
+  EXPECT_EQ(volume(of(Set_operation::unite, {twice}).soup), 12);
+  EXPECT_EQ(volume(of(Set_operation::unite, {twice}, Inside_rule::nonzero).soup), 12);
+  EXPECT_EQ(volume(of(Set_operation::unite, {twice}, Inside_rule::odd).soup), 8);
+  EXPECT_EQ(volume(of(Set_operation::unite, {back}).soup), 0);
+  EXPECT_EQ(volume(of(Set_operation::unite, {back}, Inside_rule::nonzero).soup), 1);
+  EXPECT_EQ(volume(of(Set_operation::unite, {back}, Inside_rule::odd).soup), 1);
+}
+
+TEST(Set_operations, answer_by_winding_numbers) {
+  const std::vector<Winding> none, first{{0, 1}}, second{{1, 1}}, both{{0, 1}, {1, 2}}, behind{{0, -1}};
+  const auto in = [](Set_operation operation, const std::vector<Winding>& w) {
+    return is_in_result(operation, Inside_rule::positive, w, 2);
+  };
+  const std::array<Set_operation, 4> all{Set_operation::unite, Set_operation::intersect, Set_operation::subtract,
+                                         Set_operation::differ};
+  const std::vector<std::pair<std::vector<Winding>, std::array<bool, 4>>> table{{none, {false, false, false, false}},
+                                                                                {first, {true, false, true, true}},
+                                                                                {second, {true, false, false, true}},
+                                                                                {both, {true, true, false, false}},
+                                                                                {behind, {false, false, false, false}}};
+  for (const auto& [w, expected] : table)
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(in(all[k], w), expected[k]);
+  EXPECT_FALSE(is_in_result(Set_operation::intersect, Inside_rule::positive, none, 0));
+}
+
+TEST(Set_operations, of_random_cones_and_prisms_are_right) {
+  harness::Subject subject = harness::boolean();
+  std::erase_if(subject.checks, [](const harness::Check& check) {
+    return check.name != "points" && check.name != "volumes" && check.name != "surface" && check.name != "turn";
+  });
+  harness::Fuzz_options options;
+  options.scenes = test_scenes::sample(60);
+  options.seed = 11;
+  harness::Fuzz_summary summary;
+  const auto found = harness::fuzz(subject, options, summary);
+  EXPECT_FALSE(found) << to_string(found->which) << ": " << found->disagreement.check << ": "
+                      << found->disagreement.what;
+  EXPECT_GE(summary.by_check["points"].passed, test_scenes::least(50));
+}
+
+TEST(Set_operations, merge_the_pieces_of_a_face_and_say_whose_it_is) {
+  // A tunnel: two faces of the cube get a hole, and the tunnel's walls are turned.
+  const Set_result result = of(Set_operation::subtract, {box({0, 0, 0}, {3, 3, 3}), box({1, 1, -1}, {2, 2, 4})});
+  ASSERT_EQ(result.soup.face_count(), 10u);
+  std::size_t with_holes = 0;
+  for (Face_id f = 0; f < 10; ++f) with_holes += result.soup.loop_count(f) == 2;
+  EXPECT_EQ(with_holes, 2u);
+  std::map<std::pair<std::uint32_t, bool>, int> sources;
+  for (const Result_face& face : result.faces) ++sources[{face.operand, face.turned}];
+  EXPECT_EQ(sources, (std::map<std::pair<std::uint32_t, bool>, int>{{{0, false}, 6}, {{1, true}, 4}}));
+  EXPECT_TRUE(result.crowded.empty());
+  const Hole_free flat = without_holes(result.soup);
+  EXPECT_EQ(volume(flat.soup), 24);
+  EXPECT_EQ(flat.soup.face_count(), 24u);  // two rings of eight triangles
+  EXPECT_EQ(flat.face_of.size(), 24u);
+  const std::array<double, 2> surface = area(flat.soup);
+  EXPECT_LE(surface[0], 64);
+  EXPECT_GE(surface[1], 64);
+  EXPECT_LT(surface[1] - surface[0], 1e-9);
+}
+
+TEST(Set_operations, list_edges_of_four_faces) {
+  const Set_result result = of(Set_operation::unite, {box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0}, {2, 2, 1})});
+  ASSERT_EQ(result.crowded.size(), 1u);
+  EXPECT_EQ(result.crowded[0].faces, 4u);
+  const Exact_point p = result.soup.point(result.crowded[0].from), q = result.soup.point(result.crowded[0].to);
+  EXPECT_EQ(std::min(p, q), (Exact_point{1, 1, 0}));
+  EXPECT_EQ(std::max(p, q), (Exact_point{1, 1, 1}));
+}
+
+TEST(Set_operations, take_many_operands_at_once) {
+  std::vector<Polygon_soup> lattice;
+  for (int x = 0; x < 3; ++x)
+    for (int y = 0; y < 3; ++y)
+      for (int z = 0; z < 3; ++z) lattice.push_back(box({x, y, z}, {x + 1, y + 1, z + 1}));
+  const Set_result all = of(Set_operation::unite, lattice);
+  EXPECT_EQ(volume(all.soup), 27);
+  EXPECT_EQ(all.soup.face_count(), 54u);
+  EXPECT_TRUE(all.crowded.empty());
+  EXPECT_EQ(volume(of(Set_operation::subtract, lattice).soup), 1);
+  EXPECT_EQ(of(Set_operation::intersect, lattice).soup.face_count(), 0u);
+}
+
+TEST(Set_operations, are_the_same_for_any_number_of_threads) {
+  const std::vector<Polygon_soup> solids{
+      generate::convex_sphere(100), generate::translated(generate::convex_sphere(100), {Rational(1, 2), 0, 0}),
+      generate::rotated(generate::convex_sphere(80), generate::rotation(3, 1, 1, 0))};
+  std::vector<std::string> texts;
+  for (const int threads : {1, 4})
+    run_with_threads(threads, [&] {
+      std::ostringstream text;
+      write_scene(without_holes(of(Set_operation::unite, solids).soup).soup, text, Format::qoff);
+      texts.push_back(text.str());
+    });
+  EXPECT_EQ(texts[0], texts[1]);
+  generate::Random random(3);
+  EXPECT_EQ(harness::flaw_by_points(solids, 1, random), "");
+}
+
+TEST(Operands, that_are_open_are_refused_with_their_edges) {
+  Polygon_soup open;
+  const Polygon_soup whole = box({0, 0, 0}, {1, 1, 1});
+  open.coordinates = whole.coordinates;
+  for (Face_id f = 1; f < 6; ++f) open.add_face(whole.loop(f));
+  const std::vector<Polygon_soup> solids{whole, open};
+  const std::vector<Operand_flaw> found = flaws(Operands(solids));
+  ASSERT_EQ(found.size(), 4u);
+  for (const Operand_flaw& flaw : found) {
+    EXPECT_EQ(flaw.operand, 1u);
+    EXPECT_EQ(flaw.from[0], 0);
+    EXPECT_EQ(flaw.to[0], 0);
+    EXPECT_TRUE(flaw.why.empty());
+  }
+  Polygon_soup crossed = whole;  // a bow tie there and back: it bounds nothing, but has no surface
+  crossed.add_face({0, 3, 1, 2});
+  crossed.add_face({2, 1, 3, 0});
+  const std::vector<Polygon_soup> alone{crossed};
+  const std::vector<Operand_flaw> crossings = flaws(Operands(alone));
+  ASSERT_EQ(crossings.size(), 2u);
+  EXPECT_EQ(crossings[0].face, 6u);
+  EXPECT_EQ(crossings[0].why, "self-intersecting");
+  Polygon_soup doubled = whole;  // one face twice is open, all of them twice are not
+  doubled.add_face(whole.loop(2));
+  EXPECT_EQ(flaws(Operands(std::vector{doubled})).size(), 4u);
+  for (const Face_id f : {0u, 1u, 3u, 4u, 5u}) doubled.add_face(whole.loop(f));
+  EXPECT_TRUE(flaws(Operands(std::vector{doubled})).empty());
+  EXPECT_EQ(volume(of(Set_operation::unite, {doubled}).soup), 1);
+  EXPECT_EQ(volume(of(Set_operation::unite, {doubled}, Inside_rule::odd).soup), 0);
+}
+
+TEST(Operands, close_up_over_t_junctions) {
+  // A box whose top is two faces, its sides not knowing.
+  Polygon_soup split = box({0, 0, 0}, {2, 2, 2});
+  Polygon_soup with;
+  with.coordinates = split.coordinates;
+  for (Face_id f = 0; f < 5; ++f) with.add_face(split.loop(f));
+  const Point_id a = with.add_point(1.0, 0.0, 2.0), b = with.add_point(1.0, 2.0, 2.0);
+  with.add_face({1, a, b, 3});
+  with.add_face({a, 5, 7, b});
+  EXPECT_TRUE(flaws(Operands(std::vector{with})).empty());
+  const Set_result result = of(Set_operation::unite, {with});
+  EXPECT_EQ(volume(result.soup), 8);
+  EXPECT_EQ(result.soup.face_count(), 7u);
+  EXPECT_TRUE(result.crowded.empty());  // the sides got the new corners
+}
+
+}  // namespace
