@@ -89,7 +89,7 @@ void add_compare(Command program) {
   auto a = std::make_shared<Compare_arguments>();
   a->common.add_to(command);
   command.add_option("COMMAND", a->command, "the question")
-      .check(one_of({"order", "bsp", "see", "weak", "render", "trace"}))
+      .check(one_of({"order", "bsp", "see", "weak", "render", "trace", "pvs"}))
       .show_default();
   command.add_option("--eye", a->eye, "the eye X,Y,Z, for order, see and render; by default a place outside the scene")
       .check(not_empty());
@@ -123,7 +123,7 @@ void add_compare(Command program) {
       .check(finite_number())
       .check(positive());
   a->sources.add_to(command, "weak: ");
-  command.add_option("--rays", a->rays, "weak: numbers of random rays from each source, with commas")
+  command.add_option("--rays", a->rays, "weak, pvs: numbers of random rays from each source or cell, with commas")
       .delimiter(',')
       .check(whole_number())
       .show_default();
@@ -170,11 +170,15 @@ void add_compare(Command program) {
       "trace. Of a million rays: missed: no face is said to be met where one is; invented: one is where none is; wrong "
       "face: another than those that are met first. Embree has corners and rays in floats, and no faces edge-on.\n"
       "Example: sightline compare town.off trace --random 10000\n"
+      "pvs. Pairs of a cell and a face that a method hides wrongly, or has too many; the file's table: of a compiled "
+      "level, for the leaves that a cell lies in; each pair that it hides is shown by an exact sightline.\n"
+      "Example: sightline compare level.bsp pvs --rays 1000,10000\n"
       "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
       "not.");
   command.set_action([a, kernels] {
     a->kernels_given = kernels.given();
     if (a->command == "render") return compare_images(*a);
+    if (a->command == "pvs") return compare_cells(*a);
     if (a->command == "trace") return compare_rays(*a);
     return a->command == "weak" ? compare_weak(*a) : a->command == "see" ? compare_visible(*a) : compare_orders(*a);
   });

@@ -44,6 +44,7 @@ Exit compare_orders(const Compare_arguments& arguments);
 Exit compare_visible(const Compare_arguments& arguments);
 Exit compare_weak(const Compare_arguments& arguments);
 Exit compare_rays(const Compare_arguments& arguments);
+Exit compare_cells(const Compare_arguments& arguments);
 Exit compare_images(const Compare_arguments& arguments);
 
 }  // namespace sightline::app
