@@ -222,7 +222,8 @@ void print(const Json& rows) {
     std::cout << fmt::format(fmt::runtime(line), name, fmt::format("{:.4f}", r["seconds"].get<double>()),
                              fmt::format("{:.1f}", r["peak_bytes"].get<double>() / 1e6),
                              r["visible"].get<std::size_t>(), e["wrongly_visible"].get<std::size_t>(),
-                             e["wrongly_hidden"].get<std::size_t>(), e["worst_cell"].get<std::size_t>());
+                             e["wrongly_hidden"].get<std::size_t>(),
+                             e.contains("worst_cell") ? e["worst_cell"].dump() : "");
   }
 }
 

@@ -106,6 +106,19 @@ TEST_F(Levels, certificates_of_all_cells_are_accepted_and_agree_with_the_table) 
   EXPECT_EQ(run({"verify", rooms, rooms, "--sample", "2"}).code, usage);
 }
 
+TEST_F(Levels, methods_are_compared) {
+  const Outcome r = run({"compare", rooms, "pvs", "--rays", "10,1000", "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json rows = r.json()["result"]["rows"];
+  ASSERT_EQ(rows.size(), 4u);
+  const auto errors = [&](std::size_t i, const char* kind) { return rows[i]["errors"][kind].get<std::size_t>(); };
+  EXPECT_EQ(errors(0, "wrongly_hidden") + errors(0, "wrongly_visible"), 0u);
+  EXPECT_GT(errors(1, "wrongly_hidden"), errors(2, "wrongly_hidden"));  // more rays find more
+  EXPECT_EQ(errors(2, "wrongly_visible"), 0u);
+  EXPECT_EQ(errors(3, "wrongly_hidden"), 0u);
+  EXPECT_GT(errors(3, "wrongly_visible"), 0u);
+}
+
 TEST_F(Levels, shards_come_from_an_array_of_jobs) {
   EXPECT_EQ(run({"pvs", rooms, "--shard", "3/3"}).code, usage);
   EXPECT_EQ(run({"pvs", rooms, "--shard", "-1/3"}).code, usage);
