@@ -27,17 +27,6 @@ int common_side(const std::array<Joined_line, 4>& extreme, const Event_lines::Ev
   return positive == negative ? 0 : positive ? 1 : -1;
 }
 
-/// The side of a plane on which all points surely are; 0 where doubles do not tell, or they are on both.
-int common_side(const Near<4>& plane, std::span<const Filtered> points) {
-  int common = 0;
-  for (const Filtered& point : points) {
-    const int sure = certain_dot(plane, point.near);
-    if (sure == 0 || sure == -common) return 0;
-    common = sure;
-  }
-  return common;
-}
-
 }  // namespace
 
 Events_answer Event_search::run() {
@@ -45,7 +34,6 @@ Events_answer Event_search::run() {
   counters_->lines += scene_->lines().size();
   counters_->untouched += scene_->untouched();
   answer_.status = Weak_status::hidden;
-  for (std::uint32_t b = 0; b < scene_->blockers().size(); ++b) all_blockers_.push_back(b);
   if (in_one_shadow()) ++counters_->in_shadow;
   else if (!pencils()) reguli();
   return answer_;
@@ -65,103 +53,45 @@ bool Event_search::in_one_shadow() const {
 }
 
 bool Event_search::pencils() {
-  Flats flats;
-  Vertices vertices;
-  if (!find_vertices(flats, vertices)) return true;
-  for (const auto& [plane, flat] : flats)
-    if (search_flat(plane, flat, vertices)) return true;
-  return std::any_of(vertices.begin(), vertices.end(),
+  if (!planes_.find([&] { return out_of_time(); })) return true;
+  std::map<Homogeneous, Edge_planes::Planes, Less_entries> searched = planes_.vertices();
+  for (const auto& [plane, flat] : planes_.flats())
+    if (search_flat(plane, flat, searched)) return true;
+  return std::any_of(searched.begin(), searched.end(),
                      [&](const auto& vertex) { return search_vertex(vertex.first, vertex.second); });
 }
 
-bool Event_search::find_vertices(Flats& flats, Vertices& vertices) {
-  for (std::uint32_t i = 0; i < lines().size(); ++i) {
-    if (out_of_time()) return false;
-    for (std::uint32_t j = i + 1; j < lines().size(); ++j) {
-      const Event_line &a = lines()[i], &b = lines()[j];
-      if (!a.real || !b.real || (a.in_source && b.in_source) || certain_side(a.near, b.near) != 0 ||
-          sgn(side(a.pluecker, b.pluecker)) != 0)
-        continue;
-      const Homogeneous& off = (all_zero(join(b.hull[0].exact, a.pluecker)) ? b.hull[1] : b.hull[0]).exact;
-      Homogeneous plane = join(off, a.pluecker);
-      make_canonical(plane);
-      Flat& flat = flats[plane];
-      for (const std::uint32_t edge : {i, j})
-        if (std::find(flat.edges.begin(), flat.edges.end(), edge) == flat.edges.end()) flat.edges.push_back(edge);
-      if (a.in_source || b.in_source) continue;
-      Homogeneous at = meet(join(off_plane(plane), a.pluecker), b.pluecker);
-      if (!Event_lines::in_hull(a, at) || !Event_lines::in_hull(b, at)) continue;
-      make_canonical(at);
-      vertices[at].insert(plane);
-      flat.points.insert(std::move(at));
-    }
-  }
-  return true;
-}
-
-bool Event_search::search_flat(const Homogeneous& plane, const Flat& flat, Vertices& vertices) {
-  const Section section = section_of(plane);
+bool Event_search::search_flat(const Homogeneous& plane, const Edge_planes::Flat& flat,
+                               std::map<Homogeneous, Edge_planes::Planes, Less_entries>& searched) {
+  const Edge_planes::Section section = planes_.section_of(plane);
   if (!section.is_usable) {
     ++counters_->off_polygons;
     return out_of_time();
   }
-  // Points in which two of its edges meet, and those of other edges.
-  std::set<Homogeneous, Less_entries> points = flat.points;
-  for (const Event_line& line : lines()) {
-    if (!line.real || line.in_source || common_side(section.plane.near, line.hull) != 0) continue;
-    Homogeneous at = meet(plane, line.pluecker);
-    if (all_zero(at) || !Event_lines::in_hull(line, at)) continue;
-    make_canonical(at);
-    if (points.count(at) != 0) continue;
-    const Filtered point{at, near(occluders_->frame(), at)};
-    if (std::any_of(flat.edges.begin(), flat.edges.end(),
-                    [&](std::uint32_t edge) { return may_pass(point, lines()[edge]); }))
-      points.insert(std::move(at));
-    else ++counters_->off_polygons;
-  }
-  for (const Homogeneous& point : points) {
-    const auto vertex = vertices.find(point);
-    if (vertex != vertices.end()) vertex->second.insert(plane);
-    if (search_pencil(Event_kind::horizon, {point, near(occluders_->frame(), point)}, section)) return true;
+  for (const Homogeneous& point : planes_.points_in(plane, flat, counters_->off_polygons)) {
+    const auto vertex = searched.find(point);
+    if (vertex != searched.end()) vertex->second.insert(plane);
+    if (search_pencil(Event_kind::horizon, planes_.point(point), section)) return true;
   }
   return false;
 }
 
-bool Event_search::search_vertex(const Homogeneous& point, const Planes& flats) {
-  const Filtered vertex{point, near(occluders_->frame(), point)};
+bool Event_search::search_vertex(const Homogeneous& point, const Edge_planes::Planes& flats) {
+  const Filtered vertex = planes_.point(point);
   if (out_of_time()) return true;
-  if (leads_nowhere(vertex)) {
+  if (planes_.leads_nowhere(vertex)) {
     ++counters_->off_edges;
     return false;
   }
-  Planes planes;
-  for (const Event_line& line : lines()) {
-    if (!line.real) continue;
-    const Near<4> near_plane = join(vertex.near, line.near);
-    if (common_side(near_plane, scene_->target()) != 0 || common_side(near_plane, scene_->source()) != 0 ||
-        !may_pass(vertex, line)) {
-      ++counters_->off_polygons;
-      continue;
-    }
-    Homogeneous plane = join(point, line.pluecker);
-    if (all_zero(plane)) continue;
-    make_canonical(plane);
-    if (flats.count(plane) == 0) planes.insert(std::move(plane));
-  }
-  return std::any_of(planes.begin(), planes.end(), [&](const Homogeneous& plane) {
-    return search_pencil(Event_kind::edge_vertex, vertex, section_of(plane));
-  });
+  for (const Homogeneous& plane : planes_.planes_through(vertex, counters_->off_polygons))
+    if (flats.count(plane) == 0 && search_pencil(Event_kind::edge_vertex, vertex, planes_.section_of(plane)))
+      return true;
+  return false;
 }
 
-bool Event_search::leads_nowhere(const Filtered& vertex) const {
-  // In the plane of the source, or behind.
-  return sign_of_dot(scene_->source_plane(), vertex) <= 0 ||
-         sign_of_dot(scene_->target_plane(), vertex) * scene_->beside() < 0;
-}
-
-bool Event_search::search_pencil(Event_kind kind, const Filtered& vertex, const Section& section) {
+bool Event_search::search_pencil(Event_kind kind, const Filtered& vertex, const Edge_planes::Section& section) {
   ++(kind == Event_kind::horizon ? counters_->horizon : counters_->edge_vertex);
-  if (leads_nowhere(vertex)) {
+  if (planes_.leads_nowhere(vertex)) {
     ++counters_->off_edges;
   } else if (!section.is_usable) {
     ++counters_->off_polygons;
@@ -170,42 +100,6 @@ bool Event_search::search_pencil(Event_kind kind, const Filtered& vertex, const 
     if (!is_idle(curve) && search_curve(curve, {Quadratic_root(0), Quadratic_root(1)})) return true;
   }
   return out_of_budget();
-}
-
-bool Event_search::may_pass(const Filtered& vertex, const Event_line& line) const {
-  const std::array<Near<6>, 2> between{join(vertex.near, line.hull[0].near), join(vertex.near, line.hull[1].near)};
-  return scene_->may_pass(between, scene_->from()) && scene_->may_pass(between, scene_->to());
-}
-
-Event_search::Section Event_search::section_of(const Homogeneous& plane) const {
-  Section found{{plane, near(near_plane(occluders_->frame(), plane))}, false, {}};
-  // Where it only touches the target in a corner, that may be the point of a pencil.
-  bool in_front = false, behind = false, touches = false;
-  for (const Filtered& corner : scene_->target()) {
-    const int at = sign_of_dot(found.plane, corner);
-    (at > 0 ? in_front : at < 0 ? behind : touches) = true;
-  }
-  if ((!in_front || !behind) && !touches) return found;
-  // The segment in which it meets the source.
-  std::vector<Homogeneous> ends;
-  const std::span<const Filtered> source = scene_->source();
-  std::vector<int> sides;
-  for (const Filtered& corner : source) sides.push_back(sign_of_dot(found.plane, corner));
-  for (std::size_t i = 0; i < source.size(); ++i) {
-    const std::size_t next = (i + 1) % source.size();
-    const Homogeneous &a = source[i].exact, &b = source[next].exact;
-    if (sides[i] == 0) ends.push_back(a);
-    if (sides[i] * sides[next] >= 0) continue;
-    const Integer at = abs(dot(plane, a)), after = abs(dot(plane, b));
-    Homogeneous x;
-    for (std::size_t k = 0; k < 4; ++k) x[k] = after * a[k] + at * b[k];
-    make_canonical(x);
-    ends.push_back(x);
-  }
-  found.is_usable = ends.size() == 2;
-  if (found.is_usable)
-    for (std::size_t k = 0; k < 2; ++k) found.ends[k] = {ends[k], near(occluders_->frame(), ends[k])};
-  return found;
 }
 
 bool Event_search::reguli() {
@@ -260,74 +154,21 @@ bool Event_search::search_regulus(const std::array<std::uint32_t, 3>& edges) {
 
 // ---- Along an event
 
-int Event_search::course(const Near_part& part, std::uint32_t line, int depth) {
-  signed char& known = near_courses_[static_cast<std::size_t>(depth)][line];
-  if (known == unset) known = static_cast<signed char>(part.course(lines()[line].near).value_or(unknown));
-  return known;
-}
-
 bool Event_search::is_idle(const Event_curve& curve) {
-  std::fill(near_courses_[0].begin(), near_courses_[0].end(), unset);
-  switch (idle(curve, curve.near(), all_blockers_, 0)) {
-    case Idle::no: return false;
-    case Idle::off_edges: ++counters_->off_edges; return true;
-    case Idle::off_polygons: ++counters_->off_polygons; return true;
-    case Idle::covered: ++counters_->covered; return true;
+  const auto together = [&](std::span<const std::uint32_t> blockers, int turn, Curve_halves::Courses courses) {
+    return cover_.holds(blockers, [&](const Literal& literal) {
+      const int own = courses[literal.line];
+      return own == 1 || own == -1 ? own * literal.sense * turn : 0;
+    });
+  };
+  switch (halves_.search(
+      curve, [](const Near_part&) { return false; }, together)) {
+    case Curve_halves::Idle::no: return false;
+    case Curve_halves::Idle::off_edges: ++counters_->off_edges; return true;
+    case Curve_halves::Idle::off_polygons: ++counters_->off_polygons; return true;
+    case Curve_halves::Idle::covered: ++counters_->covered; return true;
   }
   return false;
-}
-
-Event_search::Idle Event_search::idle(const Event_curve& curve, const Near_part& part,
-                                      std::span<const std::uint32_t> blockers, int depth) {
-  if (curve.is_off(part)) return Idle::off_edges;
-  // The direction in which its lines go from the source to the target, if any do.
-  int turn = 0;
-  for (const std::vector<Literal>* literals : {&scene_->from(), &scene_->to()}) {
-    bool positive = false, negative = false;
-    for (const Literal& literal : *literals) {
-      const int own = course(part, literal.line, depth);
-      if (own == unknown) continue;
-      positive |= own * literal.sense > 0;
-      negative |= own * literal.sense < 0;
-    }
-    if (positive && negative) return Idle::off_polygons;
-    const int own = positive ? 1 : negative ? -1 : 0;
-    if (own * turn < 0) return Idle::off_polygons;
-    if (own != 0) turn = own;
-  }
-  // Pieces that block all of it, or some.
-  std::vector<std::uint32_t> some;
-  for (const std::uint32_t b : blockers) {
-    bool all = turn != 0, any = true;
-    for (const Literal& literal : scene_->blockers()[b].literals) {
-      const int own = course(part, literal.line, depth);
-      all &= own == literal.sense * turn;
-      any &= turn == 0 || own != -literal.sense * turn;
-      if (!any) break;
-    }
-    if (any && all) return Idle::covered;
-    if (any) some.push_back(b);
-  }
-  if (turn != 0 && are_covered_together(some, turn, depth)) return Idle::covered;
-  if (depth == deepest) return Idle::no;
-  Idle reason = Idle::no;
-  const std::vector<signed char>& known = near_courses_[static_cast<std::size_t>(depth)];
-  for (const Near_part& one : part.halves()) {
-    std::transform(known.begin(), known.end(), near_courses_[static_cast<std::size_t>(depth) + 1].begin(),
-                   [](signed char own) { return own == 1 || own == -1 ? own : unset; });
-    const Idle own = idle(curve, one, some, depth + 1);
-    if (own == Idle::no) return Idle::no;
-    reason = std::max(reason, own);
-  }
-  return reason;
-}
-
-bool Event_search::are_covered_together(std::span<const std::uint32_t> blockers, int turn, int depth) {
-  const std::vector<signed char>& known = near_courses_[static_cast<std::size_t>(depth)];
-  return cover_.holds(blockers, [&](const Literal& literal) {
-    const int own = known[literal.line];
-    return own == 1 || own == -1 ? own * literal.sense * turn : 0;
-  });
 }
 
 const Quadratic& Event_search::polynomial(const Event_curve& curve, std::uint32_t line) {

@@ -3,6 +3,8 @@
 // exactly what is free beside them.
 
 #include <sightline/algorithms/weak_visibility/events/active_subranges.h>
+#include <sightline/algorithms/weak_visibility/events/curve_halves.h>
+#include <sightline/algorithms/weak_visibility/events/edge_planes.h>
 #include <sightline/algorithms/weak_visibility/events/event_cells.h>
 #include <sightline/algorithms/weak_visibility/events/event_curve.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
@@ -104,7 +106,8 @@ class Event_search {
         polynomials_(scene.lines().size()),
         known_(scene.lines().size()),
         courses_(scene.lines().size()),
-        near_courses_(deepest + 1, std::vector<signed char>(scene.lines().size())),
+        planes_(occluders.frame(), scene, true),
+        halves_(scene, deepest),
         cover_(scene.lines().size(), scene.blockers()) {}
 
   Events_answer run();
@@ -136,36 +139,12 @@ class Event_search {
   /// All pencils of lines that touch three edges. Returns whether the search has ended.
   bool pencils();
 
-  using Planes = std::set<Homogeneous, Less_entries>;
-  /// Of a plane that holds two edges: these, and the points in which they meet.
-  struct Flat {
-    std::vector<std::uint32_t> edges;
-    std::set<Homogeneous, Less_entries> points;
-  };
-  using Flats = std::map<Homogeneous, Flat, Less_entries>;
-  /// Points in which two edges meet, with planes that are searched as flats.
-  using Vertices = std::map<Homogeneous, Planes, Less_entries>;
-  /// Returns false where there is no time.
-  bool find_vertices(Flats& flats, Vertices& vertices);
-
-  /// A plane and the segment in which it meets the source. It is not usable where there is none, or where it does not
-  /// meet the target.
-  struct Section {
-    Filtered plane;
-    bool is_usable;
-    std::array<Filtered, 2> ends;
-  };
-  Section section_of(const Homogeneous& plane) const;
-
   /// The lines of a plane through points of edges. Where these are vertices, they learn of it.
-  bool search_flat(const Homogeneous& plane, const Flat& flat, Vertices& vertices);
+  bool search_flat(const Homogeneous& plane, const Edge_planes::Flat& flat,
+                   std::map<Homogeneous, Edge_planes::Planes, Less_entries>& searched);
   /// The lines through a vertex in planes with an edge, but those of flats.
-  bool search_vertex(const Homogeneous& point, const Planes& flats);
-  bool search_pencil(Event_kind kind, const Filtered& vertex, const Section& section);
-  bool leads_nowhere(const Filtered& vertex) const;
-
-  /// Not where surely no line through a point and an edge goes from the source to the target.
-  bool may_pass(const Filtered& vertex, const Event_line& line) const;
+  bool search_vertex(const Homogeneous& point, const Edge_planes::Planes& flats);
+  bool search_pencil(Event_kind kind, const Filtered& vertex, const Edge_planes::Section& section);
 
   // ---- Events on ruled quadrics: three skew edges
 
@@ -194,14 +173,8 @@ class Event_search {
   std::vector<Active> parts_between(const Event_curve& curve, const Parameter_range& range);
 
   /// Whether surely no line of a curve is of use: by halves, each off its edges, or leading nowhere, or blocked by one
-  /// of the pieces. In doubles.
+  /// of the pieces or by some together. In doubles.
   bool is_idle(const Event_curve& curve);
-  enum class Idle : char { no, off_edges, off_polygons, covered };
-  Idle idle(const Event_curve& curve, const Near_part& part, std::span<const std::uint32_t> blockers, int depth);
-  /// Whether, whatever the signs are that a part is not sure of, one piece blocks lines near it.
-  bool are_covered_together(std::span<const std::uint32_t> blockers, int turn, int depth);
-  /// As above, or `unknown`. What a part is sure of, its halves are.
-  int course(const Near_part& part, std::uint32_t line, int depth);
 
   /// Looks at a potential event. Returns whether the search has ended.
   bool search_curve(const Event_curve& curve, const Parameter_range& range);
@@ -232,8 +205,8 @@ class Event_search {
   bool ends_if(bool out);
 
   static constexpr std::uint32_t none = 0xffffffff;
-  static constexpr signed char touched = 2, unknown = 3, unset = 4;  // courses
-  static constexpr int deepest = 7;                                  // halves of halves
+  static constexpr signed char touched = 2, unknown = 3;  // courses
+  static constexpr int deepest = 7;                       // halves of halves
   const Occluders* occluders_;
   const Event_lines* scene_;
   const Events_options* options_;
@@ -241,8 +214,8 @@ class Event_search {
   std::vector<Quadratic> polynomials_;  // of the curve at hand
   std::vector<char> known_;
   std::vector<signed char> courses_;
-  std::vector<std::vector<signed char>> near_courses_;  // of halves, by depth
-  std::vector<std::uint32_t> all_blockers_;
+  Edge_planes planes_;
+  Curve_halves halves_;
   Blocked_together cover_;
   Events_answer answer_;
   std::vector<Surface> surfaces_;

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 namespace sightline {
 
@@ -169,6 +170,27 @@ struct Filtered {
 inline int sign_of_dot(const Filtered& a, const Filtered& b) {
   const int sure = certain_dot(a.near, b.near);
   return sure != 0 ? sure : sgn(dot(a.exact, b.exact));
+}
+
+/// The side of a plane on which all points surely are; 0 where doubles do not tell, or they are on both. Exact: yes
+inline int certain_side(const Near<4>& plane, std::span<const Filtered> points) {
+  int common = 0;
+  for (const Filtered& point : points) {
+    const int sure = certain_dot(plane, point.near);
+    if (sure == 0 || sure == -common) return 0;
+    common = sure;
+  }
+  return common;
+}
+/// The same of lines and a line.
+inline int certain_side(std::span<const Near<6>> lines, const Near<6>& line) {
+  int common = 0;
+  for (const Near<6>& own : lines) {
+    const int sure = certain_side(own, line);
+    if (sure == 0 || sure == -common) return 0;
+    common = sure;
+  }
+  return common;
 }
 
 /// The line through two points: in doubles, and in integers once these are asked for. Refers to the points.

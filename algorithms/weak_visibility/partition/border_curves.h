@@ -1,6 +1,8 @@
 #pragma once
 // Where what a receiver sees of a source may change: lines and conics in the receiver's plane.
 
+#include <sightline/algorithms/weak_visibility/events/curve_halves.h>
+#include <sightline/algorithms/weak_visibility/events/edge_planes.h>
 #include <sightline/algorithms/weak_visibility/events/event_curve.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
@@ -48,20 +50,17 @@ struct Border_curve {
 /// Curves that hold, in those rectangles, all points of a receiver near which the edges that bound what it sees of a
 /// source change, but for finitely many points: where planes of a vertex and an edge, or of two edges, meet the
 /// receiver's plane, where lines that touch three skew edges do, and edges in it. What is surely blocked, in doubles,
-/// is left out. `lines`: from the receiver, as source, to the source, as target. Exact: no curve is missing. Ref:
-/// Plantinga. Proof: P-86
+/// is left out; curves are missing where time ran out, which stays so. `lines`: from the receiver, as source, to the
+/// source, as target. Exact: no curve is missing. Ref: Plantinga. Proof: P-86
 class Border_search {
  public:
   Border_search(const Occluders& occluders, const Event_lines& lines, const Plane_chart& chart,
                 const std::function<bool()>& out_of_time, Border_counters& counters);
   std::vector<Border_curve> run();
-  /// Whether time ran out, so that curves are missing.
-  bool ended() const { return ended_; }
 
  private:
   using Event_line = Event_lines::Event_line;
-  using Literal = Event_lines::Literal;
-  using Points = std::set<Homogeneous, Less_entries>;
+  using Points = Edge_planes::Points;
 
   const std::vector<Event_line>& lines() const { return lines_->lines(); }
   void add(const Plane_curve& curve, bool may_end_light, const std::vector<Plane_chart::Bounds>& where);
@@ -71,7 +70,7 @@ class Border_search {
   void lines_between_points_in_the_plane();
   /// Planes of two edges, with the points in which others meet them; and of a vertex and an edge, with the vertex.
   void planes();
-  void pencils(const Homogeneous& plane, const Points& vertices);
+  void pencils(const Edge_planes& planes, const Homogeneous& plane, const Points& vertices);
   void reguli();
 
   /// Whether lines among those given may go between the polygons.
@@ -80,21 +79,15 @@ class Border_search {
   }
   /// The parts of a curve of lines that may matter.
   std::vector<Plane_chart::Bounds> parts(const Event_curve& curve);
-  void collect(const Event_curve& curve, const Near_part& part, std::span<const std::uint32_t> blockers, int depth,
-               std::vector<Plane_chart::Bounds>& found);
-  /// The side on which a part passes a line; 0 where it may be either.
-  int course(const Near_part& part, std::uint32_t line, int depth);
-  bool out_of_time() { return ended_ = ended_ || (out_of_time_ && out_of_time_()); }
+  bool out_of_time() { return out_of_time_ && out_of_time_(); }
 
   static constexpr int deepest = 6;  // halves of halves
-  static constexpr signed char unset = 2;
   const Occluders* occluders_;
   const Event_lines* lines_;
   const Plane_chart* chart_;
   std::function<bool()> out_of_time_;
   Border_counters* counters_;
-  bool ended_ = false;
-  std::vector<std::vector<signed char>> courses_;  // by depth
+  Curve_halves halves_;
   std::map<std::array<Integer, 6>, Border_curve, Less_entries> found_;
 };
 

@@ -376,15 +376,7 @@ void Partition_builder::probe(const std::array<Filtered, 4>& corners, const Bloc
       for (const std::uint32_t b : blockers[s]) {
         bool past = false, hidden = true;
         for (const Event_lines::Literal& literal : lines.blockers()[b].literals) {
-          int common = 0;
-          for (std::size_t k = 0; k < 4; ++k) {
-            const int sure = literal.sense * certain_side(from[k], lines.lines()[literal.line].near);
-            if (sure == 0 || sure == -common) {
-              common = 0;
-              break;
-            }
-            common = sure;
-          }
+          const int common = literal.sense * certain_side(from, lines.lines()[literal.line].near);
           past |= common < 0;
           hidden &= common > 0;
           if (past) break;
