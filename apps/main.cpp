@@ -2,6 +2,7 @@
 
 #include "support/command.h"
 #include "support/files.h"
+#include "support/versions.h"
 
 #include <gmp.h>
 #include <unistd.h>
@@ -14,6 +15,7 @@
 #include <iostream>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 using namespace sightline::app;
@@ -50,14 +52,14 @@ static bool is_without_end(const std::exception& error) {
 /// Does what the command line asks for, and says what went wrong.
 static Exit run(int argc, char** argv) {
   Program program("sightline", "Exact 3D visibility: who can see what, with answers that can be checked.");
-  program.set_version(SIGHTLINE_VERSION);
+  program.set_version(std::string(SIGHTLINE_VERSION) + ' ' + library_versions());
   program.root().footer(
       "An OUTPUT is written whole or not at all, and is no FILE of the same command; - is standard output or input.\n"
       "Exit codes: 0 done; 1 a check failed, or methods disagree; 2 usage; 3 bad input, or an output that cannot be "
       "written; 4 undecided, or the budget or memory ran out.");
-  for (const auto add :
-       {add_info, add_bsp, add_order, add_graph, add_cutset, add_see, add_weak, add_trace, add_render, add_boolean,
-        add_cells, add_pvs, add_merge, add_verify, add_compare, add_generate, add_fuzz, add_reduce, add_judge})
+  for (const auto add : {add_info,    add_bsp,      add_order,   add_graph,  add_cutset, add_see,        add_weak,
+                         add_trace,   add_render,   add_boolean, add_cells,  add_pvs,    add_merge,      add_verify,
+                         add_compare, add_generate, add_fuzz,    add_reduce, add_judge,  add_completion, add_schema})
     add(program.root());
   try {
     return program.run(argc, argv).value_or(Exit::done);

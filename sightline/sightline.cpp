@@ -8,6 +8,9 @@
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
+#include <sightline/algorithms/rays/tracer.h>
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -20,6 +23,7 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -141,6 +145,9 @@ struct Model::Inside {
   const Occluders& occluders() const {
     return occluders_.get([&] { return Occluders(scene); });
   }
+  const Ray_tracer& tracer() const {
+    return tracer_.get([&] { return Ray_tracer(scene); });
+  }
   const Facts& facts() const {
     return facts_.get([&] {
       const Scene_counters& c = scene.counters();
@@ -166,6 +173,7 @@ struct Model::Inside {
   Once<Bsp_tree<Exact_traits>> tree_;
   Once<Piece_boxes> boxes_;
   Once<Occluders> occluders_;
+  Once<Ray_tracer> tracer_;
   Once<Facts> facts_;
 };
 
@@ -398,6 +406,91 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
   if (sources.empty())
     throw std::out_of_range("face " + std::to_string(source) + " is not there, or was left out: see left_out()");
   return weakly_visible(model, sources, asking);
+}
+
+// ---- Rays
+
+namespace {
+
+/// What `find(tracer, ray, counters)` says of each ray, in parallel blocks.
+template <class Found, class Ray, class Find>
+std::vector<Found> of_each_ray(const Model& model, std::span<const Ray> rays, const Asking& asking, Find find) {
+  constexpr std::size_t block = 256;
+  const auto progress = progress_within_budget(asking);
+  std::vector<Found> found(rays.size());
+  std::atomic<std::size_t> done{0};
+  run_with_threads(asking.threads, [&] {
+    const Ray_tracer& tracer = model.inside()->tracer();
+    parallel_for((rays.size() + block - 1) / block, [&](std::size_t b) {
+      Ray_counters counters;
+      const std::size_t end = std::min(rays.size(), (b + 1) * block);
+      for (std::size_t i = b * block; i < end; ++i) found[i] = find(tracer, rays[i], counters);
+      done += end - b * block;
+      if (progress) progress(done, rays.size());
+    });
+  });
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::vector<Face_hit>> trace(const Model& model, std::span<const Exact_ray> rays, Ray_start start,
+                                         const Asking& asking) {
+  return of_each_ray<std::vector<Face_hit>>(
+      model, rays, asking, [start](const Ray_tracer& tracer, const Exact_ray& ray, Ray_counters& counters) {
+        return tracer.first(ray, start, counters);
+      });
+}
+
+std::vector<std::vector<Face_hit>> trace_all(const Model& model, std::span<const Exact_ray> rays, Ray_start start,
+                                             const Asking& asking) {
+  return of_each_ray<std::vector<Face_hit>>(
+      model, rays, asking, [start](const Ray_tracer& tracer, const Exact_ray& ray, Ray_counters& counters) {
+        return tracer.all(ray, start, counters);
+      });
+}
+
+std::vector<Nearest_face> nearest(const Model& model, std::span<const Double_ray> rays, Ray_start start,
+                                  const Asking& asking) {
+  return of_each_ray<Nearest_face>(model, rays, asking,
+                                   [start](const Ray_tracer& tracer, const Double_ray& ray, Ray_counters& counters) {
+                                     const Ray_tracer::Nearest hit = tracer.nearest(ray, start, counters);
+                                     return Nearest_face{hit.face, hit.side, hit.tied, hit.low, hit.high};
+                                   });
+}
+
+// ---- Solids
+
+Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside) {
+  Set_options options;
+  const auto named = [](std::string_view word, auto& chosen, const auto& all) {
+    std::string names;
+    for (const auto one : all) {
+      if (word == name(one)) {
+        chosen = one;
+        return;
+      }
+      names += (names.empty() ? "" : ", ") + std::string(name(one));
+    }
+    throw std::invalid_argument('"' + std::string(word) + "\" is none of " + names);
+  };
+  using enum Set_operation;
+  using enum Inside_rule;
+  named(operation, options.operation, std::array{unite, intersect, subtract, differ});
+  named(inside, options.inside, std::array{positive, nonzero, odd});
+  std::vector<Polygon_soup> soups;
+  for (const Model& solid : solids) soups.push_back(solid.soup());
+  const Operands operands(soups);
+  if (const std::vector<Operand_flaw> wrong = flaws(operands); !wrong.empty())
+    throw std::invalid_argument(
+        "solid " + std::to_string(wrong[0].operand) + " bounds no solid: face " + std::to_string(wrong[0].face) +
+        (wrong[0].why.empty() ? " has an edge without an opposite; close its surface" : " is " + wrong[0].why));
+  Set_result result = set_operation(operands, options);
+  const Rational volume = sightline::volume(result.soup);
+  std::vector<std::pair<std::uint32_t, Face_id>> sources;
+  for (const Result_face& face : result.faces) sources.emplace_back(face.operand, face.face);
+  result.soup.file = std::string(operation);
+  return {Model(std::move(result.soup)), std::move(sources), volume};
 }
 
 // ---- Checking

@@ -2,6 +2,7 @@
 // The front door: a scene in, visibility out. Exact, with certificates, and without a template argument: ids of faces
 // and exact points in the file's coordinates. What stands behind it is in kernel/, algorithms/ and io/.
 
+#include <sightline/algorithms/rays/ray.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
@@ -15,6 +16,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace sightline {
@@ -162,6 +165,39 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
 /// which says what to do, for one that is not planar, not convex or has no area.
 Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                                const Asking& asking = {});
+
+/// What each ray meets first: the hits of the least t, by face, none where nothing is met. Faces are closed and met
+/// from both sides; a face that holds the origin is passed over, unless `start` is closed. Errors: std::domain_error
+/// for a direction that is zero.
+std::vector<std::vector<Face_hit>> trace(const Model& model, std::span<const Exact_ray> rays,
+                                         Ray_start start = Ray_start::open, const Asking& asking = {});
+/// All that each ray meets, by t, then by face.
+std::vector<std::vector<Face_hit>> trace_all(const Model& model, std::span<const Exact_ray> rays,
+                                             Ray_start start = Ray_start::open, const Asking& asking = {});
+
+/// The first face that a ray meets: the face and the side are exact, t is between the bounds.
+struct Nearest_face {
+  static constexpr Face_id nothing = ~Face_id{0};
+  Face_id face = nothing;
+  Met_side side = Met_side::front;
+  bool tied = false;  ///< others are met there too
+  double low = 0, high = 0;
+};
+/// The first of trace() for rays in doubles. Cost: about 1 us a ray.
+std::vector<Nearest_face> nearest(const Model& model, std::span<const Double_ray> rays,
+                                  Ray_start start = Ray_start::open, const Asking& asking = {});
+
+/// A solid made of others, and where its faces come from.
+struct Combined {
+  Model model;                                           ///< closed, fronts outwards; faces may have holes
+  std::vector<std::pair<std::uint32_t, Face_id>> faces;  ///< of each face: which solid it was of, and which face there
+  Rational volume;
+};
+/// Set operations on solids: "union", "intersection", "difference" (the first less all others) or
+/// "symmetric-difference" (in an odd number of them). A solid is where its faces wind round a point a "positive",
+/// "nonzero" or "odd" number of times. Errors: std::invalid_argument for other words, and for a model that bounds no
+/// solid. Exact: yes.
+Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside = "positive");
 
 /// What a checker says that shares no code with what made the certificate.
 struct Checked {

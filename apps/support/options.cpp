@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <sstream>
 #include <utility>
 
 namespace sightline::app {
@@ -127,6 +128,35 @@ Option Command::add_flag(std::string_view name, std::string& variable, std::stri
   return Option(*app_->add_flag(std::string(name), variable, std::string(description)));
 }
 void Command::footer(std::string_view text) const { app_->footer(std::string(text)); }
+
+/// The words between the braces of "TEXT:{exact,double}".
+static std::vector<std::string> choices_of(const std::string& type) {
+  std::vector<std::string> choices;
+  const std::size_t begin = type.find('{'), end = type.find('}');
+  if (begin == std::string::npos || end == std::string::npos) return choices;
+  std::istringstream words(type.substr(begin + 1, end - begin - 1));
+  for (std::string word; std::getline(words, word, ',');) choices.push_back(word);
+  return choices;
+}
+
+Command_words Command::words() const {
+  Command_words words{app_->get_name(), app_->get_description(), app_->get_footer(), {}};
+  for (const CLI::Option* option : app_->get_options()) {
+    const std::string type = option->get_items_expected_max() == 0 ? "" : option->get_type_name();
+    words.options.push_back({option->get_name(), type, choices_of(type), option->get_description(),
+                             type == input_file || type == output_file});
+  }
+  return words;
+}
+
+std::vector<Command_words> Command::commands() const {
+  std::vector<Command_words> all;
+  for (const CLI::App* app : app_->get_subcommands({})) {
+    CLI::App* const own = app_->get_subcommand(app->get_name());
+    all.push_back(Command(*own).words());
+  }
+  return all;
+}
 
 /// The files that a command line names by options of one kind.
 static std::vector<Named_file> files_of(const CLI::App& app, std::string_view kind) {

@@ -91,6 +91,21 @@ template <class T>
 concept Option_value = std::same_as<T, std::string> || std::same_as<T, int> || std::same_as<T, std::uint32_t> ||
     std::same_as<T, std::uint64_t> || std::same_as<T, double>;
 
+/// An option as its help has it.
+struct Option_words {
+  std::string name;                  ///< with dashes, or an argument's without
+  std::string value;                 ///< what help calls its value; empty: a flag
+  std::vector<std::string> choices;  ///< of the value, where they are few
+  std::string what;
+  bool is_file = false;  ///< the value is the name of a file
+};
+
+/// A command as its help has it.
+struct Command_words {
+  std::string name, what, footer;
+  std::vector<Option_words> options;  ///< in the order of help
+};
+
 /// A command, or the program whose commands are added, as a handle: copies are the same command.
 class Command {
  public:
@@ -106,7 +121,9 @@ class Command {
   /// A name --flag{value} sets the variable to the value.
   Option add_flag(std::string_view name, std::string& variable, std::string_view description) const;
   void footer(std::string_view text) const;  ///< of its help
-  bool writes_standard_output() const;       ///< once the command line is read: an output is "-"
+  Command_words words() const;
+  std::vector<Command_words> commands() const;  ///< of a program, in the order in which they were added
+  bool writes_standard_output() const;          ///< once the command line is read: an output is "-"
   /// Holds outputs that no option names to the files of the command line and to each other, as check_files does. Once
   /// the command line is read. Errors: Usage_error.
   void check_outputs(const std::vector<Named_file>& more) const;

@@ -9,6 +9,7 @@
 #include <sightline/harness/generate/rays.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/traits/exact_traits.h>
+#include <sightline/sightline.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -162,6 +163,19 @@ Check by_definition() {
       });
 }
 
+Check by_front_door() {
+  return same_hits("front_door", "the same hits from sightline/sightline.h", 1,
+                   [](const Posed_scene& posed, const Scene&) {
+                     return [model = Model(posed.soup)](const Exact_ray& ray, Ray_start start) {
+                       const Asking in_one_thread{1, {}};
+                       const std::vector<Face_hit> all = trace_all(model, {&ray, 1}, start, in_one_thread)[0];
+                       return sightline::trace(model, {&ray, 1}, start, in_one_thread)[0] == only_first(all)
+                                  ? all
+                                  : std::vector<Face_hit>();
+                     };
+                   });
+}
+
 /// Rays in doubles, whose first hit is found without exact numbers as a rule.
 Check in_doubles() {
   return {"doubles", "the same first face, and bounds that hold, for rays in doubles",
@@ -282,6 +296,7 @@ Subject trace() {
   subject.answer = labels;
   subject.checks = {by_definition(), by_tree(), in_doubles(), as_seen()};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
+  subject.checks.push_back(by_front_door());  // last: others keep their random choices
   return subject;
 }
 

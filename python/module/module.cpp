@@ -30,5 +30,6 @@ PYBIND11_MODULE(_sightline, module) {
   module.attr("version") = SIGHTLINE_VERSION;
   add_scene(module);
   add_answers(module);
+  add_solids_and_rays(module);
   add_harness(module);
 }

@@ -9,8 +9,10 @@ array([0])
 from ._answers import Answer, Certificate, Graph, Order, Part, Parts, Tracker, Verdict, View, WeakView
 from ._errors import InputError, OutOfBudget
 from ._judging import Failure, FuzzReport, Generated, Report, families, fuzz, generate, judge
+from ._rays import Hit, Rays
 from ._scene import Scene, read, verify
 from ._sightline import version as __version__
+from ._solids import Solid, boolean
 
 __all__ = [
     "Answer",
@@ -18,18 +20,22 @@ __all__ = [
     "Failure",
     "FuzzReport",
     "Generated",
+    "Hit",
     "Graph",
     "InputError",
     "Order",
     "OutOfBudget",
     "Part",
     "Parts",
+    "Rays",
     "Report",
     "Scene",
+    "Solid",
     "Tracker",
     "Verdict",
     "View",
     "WeakView",
+    "boolean",
     "families",
     "fuzz",
     "generate",

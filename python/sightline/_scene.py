@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _sightline
-from ._answers import Certificate, Graph, Ids, Order, Parts, Tracker, Verdict, View, WeakView
+from ._answers import Certificate, Graph, Order, Parts, Tracker, Verdict, View, WeakView
 from ._progress import Progress, followed
+from ._rays import Rays, as_doubles, pairs
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -185,6 +186,40 @@ class Scene:
             return WeakView(
                 self, *_sightline.weakly_visible(self._model, source, _question(threads, told, budget, two_sided))
             )
+
+    def trace(
+        self,
+        origins: Any,
+        directions: Any,
+        *,
+        all: bool = False,
+        closed: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> Rays:
+        """What rays meet first, or, if all, at all: the points origin + t direction, t >= 0.
+
+        origins, directions: (n, 3), or one point (3,) for all rays, of the numbers that Scene() takes. Faces are met
+        from both sides. closed: a face that holds the origin is met there; else it is passed over, as what leaves a surface
+        wants it.
+
+        >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> rays = lid.trace([(0.25, 0.25, 3), (1, 1, 3), (9, 9, 3)], (0, 0, -1))
+        >>> rays.faces, rays.t
+        (array([ 1,  0, -1]), array([ 2.,  3., nan]))
+        >>> rays[0][0].point
+        (Fraction(1, 4), Fraction(1, 4), Fraction(1, 1))
+        """
+        o, d = pairs(origins, directions)
+        with followed(progress, "trace") as told:
+            question = _question(threads, told, budget)
+            doubles = None if all else as_doubles(o, d)
+            if doubles is not None:
+                columns = _sightline.nearest(self._model, *doubles, closed, question)
+                return Rays(self, o, d, columns, None, closed)
+            hits = _sightline.traced(self._model, o, d, all, closed, question)
+            return Rays(self, o, d, hits.firsts(), hits, closed)
 
     def verify(
         self, certificate: Union[Certificate, str, "os.PathLike[str]"], *, progress: Progress = None, budget: float = 0

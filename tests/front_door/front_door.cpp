@@ -215,6 +215,55 @@ TEST(Weak, counts_backs_where_both_sides_count_and_is_proved) {
   EXPECT_TRUE(verify(model, seen.certificate()).accepted);
 }
 
+TEST(Trace, meets_the_lid_before_the_floor_and_passes_over_what_it_leaves) {
+  const Model model = lamp_and_lid();
+  const std::vector<Exact_ray> rays{{{0, 0, 2}, {0, 0, -1}},
+                                    {{0, 0, 3}, {0, 0, Rational(-1, 3)}},
+                                    {{3, 3, 3}, {0, 0, -2}},
+                                    {{9, 9, 3}, {0, 0, -1}},
+                                    {{0, 0, -1}, {0, 0, 1}}};
+  const auto first = trace(model, rays);
+  ASSERT_EQ(first.size(), 5u);
+  EXPECT_EQ(first[0], (std::vector<Face_hit>{{1, Met_side::front, 1, 1}}));
+  EXPECT_EQ(first[1], (std::vector<Face_hit>{{1, Met_side::front, 6, 6}}));  // it leaves the lamp
+  EXPECT_EQ(first[2], (std::vector<Face_hit>{{0, Met_side::front, Rational(3, 2), Rational(3, 2)}}));
+  EXPECT_TRUE(first[3].empty());
+  EXPECT_EQ(first[4], (std::vector<Face_hit>{{0, Met_side::back, 1, 1}}));
+  const auto all = trace_all(model, rays);
+  EXPECT_EQ(all[0], (std::vector<Face_hit>{{1, Met_side::front, 1, 1}, {0, Met_side::front, 2, 2}}));
+  EXPECT_EQ(trace(model, rays, Ray_start::closed)[1][0].face, 2u);
+
+  const std::vector<Double_ray> doubles{{{0, 0, 2}, {0, 0, -1}}, {{9, 9, 3}, {0, 0, -1}}};
+  const auto found = nearest(model, doubles);
+  EXPECT_EQ(found[0].face, 1u);
+  EXPECT_FALSE(found[0].tied);
+  EXPECT_LE(found[0].low, 1);
+  EXPECT_GE(found[0].high, 1);
+  EXPECT_NEAR(found[0].low, found[0].high, 1e-12);
+  EXPECT_EQ(found[1].face, Nearest_face::nothing);
+  EXPECT_THROW(trace(model, std::vector<Exact_ray>{{{0, 0, 0}, {0, 0, 0}}}), std::domain_error);
+}
+
+TEST(Combine, has_the_volumes_of_two_cubes_that_share_one) {
+  const Model one = cube();
+  Polygon_soup moved = one.soup();
+  moved.coordinates = {};
+  for (Point_id p = 0; p < one.soup().point_count(); ++p)
+    for (const Rational& x : one.soup().point(p)) moved.coordinates.push(x + 1);
+  const Model other(moved);
+  for (const auto& [operation, volume] :
+       {std::pair("union", 15), {"intersection", 1}, {"difference", 7}, {"symmetric-difference", 14}}) {
+    const Combined found = combine(operation, {one, other});
+    EXPECT_EQ(found.volume, volume) << operation;
+    EXPECT_TRUE(found.model.facts().closed) << operation;
+    ASSERT_EQ(found.faces.size(), found.model.face_count());
+    for (const auto& [solid, face] : found.faces) EXPECT_TRUE(solid < 2 && face < 6);
+  }
+  EXPECT_THROW(combine("minus", {one, other}), std::invalid_argument);
+  EXPECT_THROW(combine("union", {one, other}, "even"), std::invalid_argument);
+  EXPECT_THROW(combine("union", {one, lamp_and_lid()}), std::invalid_argument);
+}
+
 TEST(Answers, say_that_the_budget_ran_out) {
   const Model model = lamp_and_lid();
   Asking hasty;

@@ -78,6 +78,9 @@ TEST_F(Command_line, version_is_a_line) {
   const Outcome r = run({"--version"});
   EXPECT_EQ(r.code, done) << r;
   EXPECT_EQ(r.out.rfind("sightline ", 0), 0u) << r;
+  EXPECT_EQ(r.out.find('\n'), r.out.size() - 1) << r;
+  for (const char* library : {"CGAL 5.", "GMP 6.", "MPFR ", "oneTBB 20", "Boost 1."})
+    EXPECT_NE(r.out.find(library), std::string::npos) << library << r;
 }
 
 TEST_F(Command_line, no_command_or_an_unknown_one_is_a_usage_error) {

@@ -1,0 +1,171 @@
+// sightline schema: what --json writes, as JSON Schema.
+
+#include "support/common.h"
+
+#include <iostream>
+#include <map>
+
+namespace sightline::app {
+
+namespace schema {
+
+/// What is defined once, and named everywhere.
+Json named(const std::string& name) { return {{"$ref", "#/$defs/" + name}}; }
+Json type(const std::string& name) { return {{"type", name}}; }
+Json list_of(Json items) { return {{"type", "array"}, {"items", std::move(items)}}; }
+Json tuple_of(Json items, int size) {
+  return {{"type", "array"}, {"items", std::move(items)}, {"minItems", size}, {"maxItems", size}};
+}
+Json any_of(std::vector<Json> all) { return {{"anyOf", std::move(all)}}; }
+Json one_word_of(const std::vector<std::string>& words) { return {{"enum", words}}; }
+
+/// Keys with what each holds; one that ends with ? may be missing. Others may come to be there.
+Json object(const std::vector<std::pair<std::string, Json>>& members) {
+  Json properties = Json::object(), required = Json::array();
+  for (const auto& [key, what] : members) {
+    const bool optional = key.ends_with('?');
+    const std::string name = optional ? key.substr(0, key.size() - 1) : key;
+    properties[name] = what;
+    if (!optional) required.push_back(name);
+  }
+  return {{"type", "object"}, {"properties", std::move(properties)}, {"required", std::move(required)}};
+}
+
+Json a_count() { return {{"type", "integer"}, {"minimum", 0}}; }
+Json a_face() { return {{"type", "integer"}, {"minimum", 0}, {"description", "the place of a face, from 0"}}; }
+
+Json definitions() {
+  const Json count = a_count(), face = a_face();
+  return {{"exact", {{"type", "string"}, {"pattern", "^-?[0-9]+(/[0-9]+)?$"}, {"description", "p or p/q, reduced"}}},
+          {"point", tuple_of(named("exact"), 3)},
+          {"faces", list_of(face)},
+          {"piece",
+           {{"type", "array"},
+            {"items", count},
+            {"minItems", 2},
+            {"maxItems", 2},
+            {"description", "[face, which of its convex pieces]"}}},
+          {"scene", object({{"file", type("string")},
+                            {"faces_read", count},
+                            {"faces", count},
+                            {"set_aside", list_of(object({{"face", face}, {"why", type("string")}}))},
+                            {"bits", count},
+                            {"arithmetic", type("string")},
+                            {"grid_bits", count},
+                            {"pieces", count},
+                            {"flipped?", type("boolean")}})},
+          {"hit", object({{"face", face},
+                          {"side", one_word_of({"front", "back", "along"})},
+                          {"t", named("exact")},
+                          {"until?", named("exact")},
+                          {"point", named("point")},
+                          {"faces?", named("faces")}})}};
+}
+
+/// What `result` holds, by command.
+const std::map<std::string, Json>& results() {
+  static const Json count = a_count(), face = a_face();
+  static const Json points = list_of(named("point")), faces = named("faces"), piece = named("piece");
+  static const Json fragment = object({{"face", face}, {"piece", count}, {"vertices", points}});
+  static const std::map<std::string, Json> all{
+      {"info",
+       object({{"points_read", count},
+               {"points", count},
+               {"pieces", count},
+               {"supporting_planes", count},
+               {"planes", count},
+               {"lines", count},
+               {"closed", type("boolean")},
+               {"scale_bits", type("integer")},
+               {"non_planar", faces},
+               {"concave", faces},
+               {"fronts?", object({{"points", count}, {"outwards", type("number")}, {"inwards", type("number")}})},
+               {"box?", tuple_of(named("point"), 2)}})},
+      {"bsp", object({{"nodes", count}, {"depth", count}, {"splits", count}, {"fragments", count}})},
+      {"order",
+       object(
+           {{"eye", named("point")}, {"fragments", list_of(fragment)}, {"visible?", faces}, {"from_behind?", faces}})},
+      {"graph", object({{"scope", type("string")},
+                        {"arcs", any_of({count, type("null")})},
+                        {"components", list_of(list_of(piece))},
+                        {"arc_list?", list_of(tuple_of(piece, 2))},
+                        {"tree?", type("object")},
+                        {"codes?", type("array")},
+                        {"splits?", count},
+                        {"pieces?", count},
+                        {"images?", Json::object()}})},
+      {"cutset", object({{"frames", list_of(object({{"eye?", named("point")},
+                                                    {"direction?", named("point")},
+                                                    {"on_view", any_of({count, faces})},
+                                                    {"cut_edges", count},
+                                                    {"tests", count},
+                                                    {"tests_away", count},
+                                                    {"births", count},
+                                                    {"changed", count},
+                                                    {"wrong?", count}}))},
+                         {"wrong_frames?", count}})},
+      {"see",
+       object(
+           {{"eye", named("point")},
+            {"visible", faces},
+            {"from_behind", faces},
+            {"pieces",
+             list_of(object(
+                 {{"face", face}, {"piece", count}, {"side", one_word_of({"front", "back"})}, {"vertices", points}}))},
+            {"lines?", list_of(object({{"class", type("string")},
+                                       {"faces", faces},
+                                       {"vertices", tuple_of(named("point"), 2)},
+                                       {"parts", list_of(object({{"from", named("exact")},
+                                                                 {"to", named("exact")},
+                                                                 {"visible", type("boolean")},
+                                                                 {"hidden_by?", piece},
+                                                                 {"vertices", tuple_of(named("point"), 2)}}))}}))}})},
+      {"trace", object({{"method", type("string")},
+                        {"start", one_word_of({"open", "closed"})},
+                        {"rays", count},
+                        {"hit", count},
+                        {"hits", list_of(any_of({type("null"), named("hit"), list_of(named("hit"))}))}})},
+      {"weak", object({{"visible", faces},
+                       {"hidden", faces},
+                       {"undecided", faces},
+                       {"certificate", type("string")},
+                       {"unproved", faces},
+                       {"by_events", faces},
+                       {"within", faces},
+                       {"open", type("array")}})},
+      {"verify", object({{"accepted", type("boolean")},
+                         {"why", type("string")},
+                         {"fragments?", list_of(count)},
+                         {"rejected?", list_of(object({{"file", type("string")}, {"why", type("string")}}))}})}};
+  return all;
+}
+
+Exit run(const std::string& command) {
+  Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
+              {"title", "sightline " + command + " --json"},
+              {"$defs", definitions()}};
+  schema.update(object({{"command", {{"const", command}}},
+                        {"scene", named("scene")},
+                        {"result", results().at(command)},
+                        {"counters", type("object")},
+                        {"seconds", {{"type", "object"}, {"additionalProperties", type("number")}}}}));
+  std::cout << to_text(schema, 1) << '\n';
+  return Exit::done;
+}
+
+}  // namespace schema
+
+void add_schema(Command program) {
+  const Command command = program.add_command("schema", "What --json of a command writes, as JSON Schema");
+  auto name = std::make_shared<std::string>();
+  std::vector<std::string> names;
+  for (const auto& [of, result] : schema::results()) names.push_back(of);
+  command.add_option("COMMAND", *name, "the command").required().check(one_of(names));
+  command.footer(
+      "Keys may be added in later versions; these stay. Of weak it is what is written without --partition and "
+      "--along.\n"
+      "Example: sightline schema see > see.schema.json");
+  command.set_action([name] { return schema::run(*name); });
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,124 @@
+// JSON Schemas, held to what commands write: every document is valid, and no key of it goes without a word.
+
+#include "program.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <regex>
+
+namespace program {
+
+/// What is wrong with a value; empty: nothing. Knows the words that our schemas use, and asks more than they do: that
+/// objects with properties have no others.
+static std::string flaw(const Json& value, const Json& schema, const Json& root, const std::string& at) {
+  static const std::map<std::string, bool (*)(const Json&)> types{
+      {"object", [](const Json& v) { return v.is_object(); }},
+      {"array", [](const Json& v) { return v.is_array(); }},
+      {"string", [](const Json& v) { return v.is_string(); }},
+      {"integer", [](const Json& v) { return v.is_number_integer(); }},
+      {"number", [](const Json& v) { return v.is_number(); }},
+      {"boolean", [](const Json& v) { return v.is_boolean(); }},
+      {"null", [](const Json& v) { return v.is_null(); }}};
+  for (const auto& [word, what] : schema.items()) {
+    if (word == "$ref") {
+      const std::string name = what.get<std::string>().substr(std::string("#/$defs/").size());
+      if (const std::string wrong = flaw(value, root.at("$defs").at(name), root, at); !wrong.empty()) return wrong;
+    } else if (word == "type") {
+      if (!types.at(what)(value)) return at + " is no " + what.get<std::string>() + ": " + value.dump().substr(0, 80);
+    } else if (word == "const") {
+      if (value != what) return at + " is not " + what.dump();
+    } else if (word == "enum") {
+      if (std::find(what.begin(), what.end(), value) == what.end()) return at + " is none of " + what.dump();
+    } else if (word == "pattern") {
+      if (!std::regex_search(value.get<std::string>(), std::regex(what.get<std::string>())))
+        return at + " is not exact";
+    } else if (word == "minimum") {
+      if (value < what) return at + " is less than " + what.dump();
+    } else if (word == "minItems" || word == "maxItems") {
+      if (word == "minItems" ? value.size() < what : value.size() > what) return at + " has another length";
+    } else if (word == "items") {
+      for (std::size_t i = 0; i < value.size(); ++i)
+        if (const std::string wrong = flaw(value[i], what, root, at + '[' + std::to_string(i) + ']'); !wrong.empty())
+          return wrong;
+    } else if (word == "required") {
+      for (const std::string key : what)
+        if (!value.contains(key)) return at + " has no " + key;
+    } else if (word == "properties") {
+      for (const auto& [key, member] : value.items()) {
+        if (!what.contains(key)) return at + " has a key that the schema does not name: " + key;
+        if (const std::string wrong = flaw(member, what[key], root, at + '.' + key); !wrong.empty()) return wrong;
+      }
+    } else if (word == "additionalProperties") {
+      for (const auto& [key, member] : value.items())
+        if (const std::string wrong = flaw(member, what, root, at + '.' + key); !wrong.empty()) return wrong;
+    } else if (word == "anyOf") {
+      if (std::none_of(what.begin(), what.end(), [&](const Json& one) { return flaw(value, one, root, at).empty(); }))
+        return at + " is nothing of what it may be";
+    } else if (word != "description" && word != "$schema" && word != "$defs" && word != "title") {
+      return "the schema has the word " + word + ", which this test does not know";
+    }
+  }
+  return "";
+}
+
+class Schema : public Program {};
+
+TEST_F(Schema, of_each_command_is_what_it_writes) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string();
+  const std::string cube = (corpus / "general" / "cube.off").string();
+  const std::string flat = file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\nf 3 1 2\n");
+  const std::string none = file("none.off", "OFF\n0 0 0\n");
+  const std::string rays = file("rays.csv", "0,0,5,0,0,-1\n9,9,9,0,0,1\n-5,1,1,1,0,0\n");
+  const std::string certificate = path("order.json").string();
+  ASSERT_EQ(run({"order", cube, "--eye", "3,4,5", "--certificate", certificate}).code, done);
+  const std::vector<std::vector<std::string>> documents{
+      {"info", rooms},
+      {"info", flat, "--flip"},
+      {"info", none},
+      {"bsp", rooms},
+      {"order", rooms, "--eye", "1,1,2"},
+      {"order", cube, "--eye", "1/3,4,5", "--front-to-back", "--skip-hidden"},
+      {"graph", rooms},
+      {"graph", cube, "--arcs", "--split"},
+      {"cutset", cube, "--orbit", "4"},
+      {"cutset", cube, "--orbit", "4", "--faces", "--check"},
+      {"see", rooms, "--eye", "1,1,2", "--lines"},
+      {"see", cube, "--eye", "3,4,5", "--two-sided"},
+      {"see", none, "--eye", "3,4,5"},
+      {"trace", cube, "--rays", rays},
+      {"trace", cube, "--rays", rays, "--all", "--closed"},
+      {"weak", rooms, "--from-face", "0"},
+      {"verify", cube, certificate}};
+  for (std::vector<std::string> arguments : documents) {
+    const Outcome schema = run({"schema", arguments[0]});
+    ASSERT_EQ(schema.code, done) << schema;
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const Outcome written = run(arguments);
+    EXPECT_EQ(written.code, done) << written;
+    EXPECT_EQ(flaw(written.json(), schema.json(), schema.json(), arguments[0]), "") << written.command;
+  }
+}
+
+TEST_F(Schema, refuses_what_is_not_so) {
+  const Json schema = run({"schema", "see"}).json();
+  const Outcome written = run({"see", (corpus / "general" / "cube.off").string(), "--eye", "3,4,5", "--json", "-"});
+  const Json right = written.json();
+  ASSERT_EQ(flaw(right, schema, schema, "see"), "");
+  const auto wrong = [&](const std::function<void(Json&)>& change) {
+    Json document = right;
+    change(document);
+    return !flaw(document, schema, schema, "see").empty();
+  };
+  EXPECT_TRUE(wrong([](Json& d) { d["command"] = "order"; }));
+  EXPECT_TRUE(wrong([](Json& d) { d["result"]["eye"][0] = 3; }));
+  EXPECT_TRUE(wrong([](Json& d) { d["result"]["eye"][0] = "3.5"; }));
+  EXPECT_TRUE(wrong([](Json& d) { d["result"]["eye"].push_back("1"); }));
+  EXPECT_TRUE(wrong([](Json& d) { d["result"]["visible"][0] = -1; }));
+  EXPECT_TRUE(wrong([](Json& d) { d["result"]["pieces"][0]["side"] = "left"; }));
+  EXPECT_TRUE(wrong([](Json& d) { d["result"].erase("pieces"); }));
+  EXPECT_TRUE(wrong([](Json& d) { d["scene"]["faces"] = 1.5; }));
+  EXPECT_EQ(run({"schema", "render"}).code, usage);
+}
+
+}  // namespace program
