@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace sightline {
@@ -244,7 +246,7 @@ void Ray_tracer::Search::look() {
 
 inline Ray_tracer::Search::Verdict Ray_tracer::Search::verdict(const Flat& flat, double bound) const {
   const auto [x, y, z] = ray_.axis;
-  const Vector* corner = &tracer_.corners_[flat.first];
+  const Vector* corner = tracer_.corners(flat);
   const auto sheared = [&](const Vector& p) {
     const double along = p[z] - ray_.at.origin[z];
     return std::array<double, 2>{(p[x] - ray_.at.origin[x]) - ray_.shear[0] * along,
@@ -270,16 +272,16 @@ inline Ray_tracer::Search::Verdict Ray_tracer::Search::verdict(const Flat& flat)
 
 /// The same with a bound for the corners of the piece alone.
 [[gnu::noinline]] Ray_tracer::Search::Verdict Ray_tracer::Search::verdict_there(const Flat& flat) const {
+  const Vector* corner = tracer_.corners(flat);
   double size = 0;
   for (std::uint32_t k = 0; k < flat.size; ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      size = std::max(size, std::fabs(tracer_.corners_[flat.first + k][i] - ray_.at.origin[i]));
+    for (std::size_t i = 0; i < 3; ++i) size = std::max(size, std::fabs(corner[k][i] - ray_.at.origin[i]));
   return verdict(flat, cross_bound(size, ray_.error));
 }
 
 inline std::optional<Ray_tracer::Search::Depth> Ray_tracer::Search::depth(const Flat& flat) const {
   const Vector& n = flat.normal;
-  const Vector& p = tracer_.corners_[flat.first];
+  const Vector& p = *tracer_.corners(flat);
   const double size = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
   const double slope = dot_of(n, ray_.at.direction);
   const double rise = dot_of(n, {p[0] - ray_.at.origin[0], p[1] - ray_.at.origin[1], p[2] - ray_.at.origin[2]});
@@ -541,10 +543,14 @@ Ray_tracer::Ray_tracer(const Scene& scene) : scene_(&scene) {
   const Predicates exact = scene.predicates();
   for (const std::uint32_t i : boxes_.order()) {
     const Prepared_plane h = exact.prepare(pieces[i].support);
-    const auto first = static_cast<std::uint32_t>(corners_.size());
-    for (const Piece_corner& corner : scene.corners(pieces[i])) corners_.push_back(scaled(corner.point));
     const double size = h.norm > 0x1p-900 && h.norm < 0x1p900 ? h.norm : std::numeric_limits<double>::infinity();
-    flats_.push_back({i, first, pieces[i].size, {h.a / size, h.b / size, h.c / size}});
+    Flat& flat = flats_.emplace_back(Flat{i, pieces[i].size, {h.a / size, h.b / size, h.c / size}, {}});
+    const std::span<const Piece_corner> its = scene.corners(pieces[i]);
+    if (flat.size > Flat::most) flat.corners[0][0] = static_cast<double>(more_.size());
+    for (std::size_t k = 0; k < its.size(); ++k) {
+      if (flat.size > Flat::most) more_.push_back(scaled(its[k].point));
+      else flat.corners[k] = scaled(its[k].point);
+    }
   }
 }
 

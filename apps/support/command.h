@@ -21,5 +21,6 @@ void add_fuzz(Command program);
 void add_reduce(Command program);
 void add_judge(Command program);
 void add_trace(Command program);
+void add_shadow(Command program);
 
 }  // namespace sightline::app

@@ -6,6 +6,7 @@
 #include <sightline/harness/laws/order.h>
 #include <sightline/harness/laws/render.h>
 #include <sightline/harness/laws/see.h>
+#include <sightline/harness/laws/shadow.h>
 #include <sightline/harness/laws/subject.h>
 #include <sightline/harness/laws/trace.h>
 #include <sightline/harness/laws/weak.h>
@@ -14,6 +15,8 @@
 
 namespace sightline::harness {
 
-inline std::vector<Subject> subjects() { return {order(), graph(), cutset(), see(), weak(), render(), trace()}; }
+inline std::vector<Subject> subjects() {
+  return {order(), graph(), cutset(), see(), weak(), render(), trace(), shadow()};
+}
 
 }  // namespace sightline::harness
