@@ -188,6 +188,11 @@ class Ray_tracer::Search {
     Integer weight, denominator;
   };
 
+  /// Where the plane of a piece is met, for certain; nothing where doubles do not tell.
+  struct Depth {
+    double low, high;
+    Met_side side;
+  };
   void look();
   void look_at(std::uint32_t place);
   /// Whether the ray's line passes inside a piece, outside of it, or closer to its border than doubles tell.
@@ -195,18 +200,16 @@ class Ray_tracer::Search {
   Verdict verdict(const Flat& flat) const;
   Verdict verdict(const Flat& flat, double bound) const;
   Verdict verdict_there(const Flat& flat) const;
-  /// Where the plane of a piece is met, for certain; nothing where doubles do not tell.
-  struct Depth {
-    double low, high;
-    Met_side side;
-  };
   std::optional<Depth> depth(const Flat& flat) const;
 
   void offer(const Candidate& candidate);
   void offer(Face_hit hit, std::uint32_t piece);
-  void look_exactly(std::uint32_t piece);
+  /// Where doubles leave the border open, or, without a depth, the plane.
+  void look_exactly(std::uint32_t piece, const std::optional<Depth>& depth);
   /// All of a face of several pieces, as a ray that meets a border of one may meet others.
   void look_at_face(Face_id face);
+  /// Whether the ray's line passes all edges of a piece on one side, or touches them.
+  bool passes(std::uint32_t piece);
   /// The part of the ray, from t = 0 on, that a piece holds.
   std::optional<Face_hit> part(std::uint32_t piece);
   std::optional<Face_hit> part_along(std::uint32_t piece, const std::array<Integer, 4>& plane);
@@ -233,7 +236,7 @@ void Ray_tracer::Search::look() {
   ++counters_.rays;
   if (ray_.away) return;
   if (ray_.blind) {
-    for (const Flat& flat : tracer_.flats_) look_exactly(flat.piece);
+    for (const Flat& flat : tracer_.flats_) look_exactly(flat.piece, std::nullopt);
     return;
   }
   counters_.boxes += tracer_.boxes_.visit(
@@ -302,7 +305,8 @@ inline void Ray_tracer::Search::look_at(std::uint32_t place) {
   if (v == Verdict::outside) return;
   const std::optional<Depth> d = depth(flat);
   if (d && (d->high < 0 || d->low > limit_)) return;
-  if (v == Verdict::open || !d || !(d->low > 0)) return look_exactly(flat.piece);
+  if (!d || !(d->low > 0)) return look_exactly(flat.piece, std::nullopt);
+  if (v == Verdict::open) return look_exactly(flat.piece, d);
   offer(Candidate{d->low, d->high, scene_.pieces()[flat.piece].face, d->side, flat.piece, none});
 }
 
@@ -319,13 +323,18 @@ void Ray_tracer::Search::offer(Face_hit hit, std::uint32_t piece) {
   offer(candidate);
 }
 
-void Ray_tracer::Search::look_exactly(std::uint32_t piece) {
+void Ray_tracer::Search::look_exactly(std::uint32_t piece, const std::optional<Depth>& depth) {
   ++counters_.exact_pieces;
   const Face_id face = scene_.pieces()[piece].face;
   if (std::find(whole_faces_.begin(), whole_faces_.end(), face) != whole_faces_.end()) return;
+  const bool alone = tracer_.first_piece_[face + 1] - tracer_.first_piece_[face] == 1;
+  if (alone && depth) {  // t is exact where it is asked for
+    if (passes(piece)) offer(Candidate{depth->low, depth->high, face, depth->side, piece, none});
+    return;
+  }
   std::optional<Face_hit> found = part(piece);
   if (!found) return;
-  if (tracer_.first_piece_[face + 1] - tracer_.first_piece_[face] > 1) return look_at_face(face);
+  if (!alone) return look_at_face(face);
   if (start_ == Ray_start::closed || found->t > 0) offer(std::move(*found), piece);
 }
 
@@ -370,20 +379,15 @@ Rational Ray_tracer::Search::parameter(std::uint32_t piece) {
   return t;
 }
 
-std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {
+bool Ray_tracer::Search::passes(std::uint32_t piece) {
   const Whole& w = whole();
-  const Piece& its = scene_.pieces()[piece];
-  const std::array<Integer, 4> h = scene_.predicates().coefficients(its.support);
-  const Integer slope = h[0] * w.direction[0] + h[1] * w.direction[1] + h[2] * w.direction[2];
-  if (slope == 0) return part_along(piece, h);
-  // The ray's line passes all edges on one side, or touches them.
   const auto from_origin = [&](std::uint32_t point) {
     std::array<Integer, 3> p;
     for (std::size_t k = 0; k < 3; ++k)
       p[k] = w.weight * scene_.points().integer(point, static_cast<int>(k)) - w.origin[k];
     return p;
   };
-  const std::span<const Piece_corner> corners = scene_.corners(its);
+  const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[piece]);
   bool left = false, right = false;
   std::array<Integer, 3> a = from_origin(corners.back().point);
   for (const Piece_corner& corner : corners) {
@@ -393,9 +397,19 @@ std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {
       side += w.direction[k] * (a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
     left = left || side > 0;
     right = right || side < 0;
-    if (left && right) return std::nullopt;
+    if (left && right) return false;
     a = std::move(b);
   }
+  return true;
+}
+
+std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {
+  const Whole& w = whole();
+  const Piece& its = scene_.pieces()[piece];
+  const std::array<Integer, 4> h = scene_.predicates().coefficients(its.support);
+  const Integer slope = h[0] * w.direction[0] + h[1] * w.direction[1] + h[2] * w.direction[2];
+  if (slope == 0) return part_along(piece, h);
+  if (!passes(piece)) return std::nullopt;
   Rational t = parameter(piece);
   if (t < 0) return std::nullopt;
   return Face_hit{its.face, slope < 0 ? Met_side::front : Met_side::back, t, t};
