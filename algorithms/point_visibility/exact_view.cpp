@@ -9,6 +9,23 @@
 
 namespace sightline {
 
+Exact_view::Exact_view(const Scene& scene, const Sun& sun)
+    : scene_(&scene), eye_point_(sun.direction), forms_(scene.pieces().size()) {
+  Integer common = 1;
+  for (const Rational& x : sun.direction) common = lcm(common, x.get_den());
+  std::array<Integer, 3> e;
+  for (std::size_t k = 0; k < 3; ++k) {
+    e[k] = sun.direction[k].get_num() * (common / sun.direction[k].get_den());
+    if (sun_axis_ < 0 || abs(e[static_cast<std::size_t>(sun_axis_)]) < abs(e[k])) sun_axis_ = static_cast<int>(k);
+  }
+  if (e[static_cast<std::size_t>(sun_axis_)] == 0) throw std::invalid_argument("a sun needs a direction other than 0");
+  if (scene.pieces().size() >= (std::size_t{1} << 28)) throw std::length_error("scenes of up to 2^28 pieces only");
+  const Integer common_factor = gcd(gcd(e[0], e[1]), e[2]);
+  for (Integer& x : e) x /= common_factor;
+  eye_ = {e[0], e[1], e[2], 0, 0, 0, 0, std::numeric_limits<double>::infinity()};
+  measure();
+}
+
 Exact_view::Plane Exact_view::edge(std::uint32_t p, std::uint32_t q) const {
   const Eye_plane_name name = Eye_plane_name::edge(p, q);
   Plane w = narrow_ ? from(normal_of<__int128>(name.a, name.b)) : from(normal_of<Integer>(name.a, name.b));
@@ -65,6 +82,7 @@ Exact_view::Ray Exact_view::meet(const Plane& p, const Plane& q, Predicate_count
 }
 
 Sign Exact_view::beyond(std::uint32_t f, std::uint32_t point, Predicate_counts& counts) const {
+  if (sun_axis_ >= 0) return beyond_unfiltered(f, point, counts);
   const Form& m = form(f);
   const Approximate_vector d = approximate_direction(point);
   const double value = m.x * d.x + m.y * d.y + m.z * d.z - 1;
@@ -101,6 +119,19 @@ Exact_point Exact_view::position(std::uint32_t piece, const Ray& r) const {
   // The plane n x + d w = 0 at eye + t r: t = -(n eye + d w) / (w n r), in grid coordinates.
   const std::array<Integer, 4> h = predicates().coefficients(scene_->pieces()[piece].support);
   const std::array<Integer, 3> v = direction(r);
+  if (sun_axis_ >= 0) {
+    // The line from where v crosses the coordinate plane towards the sun. P-96
+    const auto m = static_cast<std::size_t>(sun_axis_);
+    const std::array<Integer, 3> e{eye_.x, eye_.y, eye_.z};
+    const Integer rise = dot(in_view(h), v), to_sun = value_at_eye(h);
+    std::array<Integer, 4> at;
+    at[(m + 1) % 3] = v[0] * to_sun;
+    at[(m + 2) % 3] = v[1] * to_sun;
+    at[m] = 0;
+    for (std::size_t k = 0; k < 3; ++k) at[k] -= rise * e[k];
+    at[3] = (e[m] < 0 ? v[2] : Integer(-v[2])) * to_sun;
+    return scene_->position(at);
+  }
   const Integer slope = h[0] * v[0] + h[1] * v[1] + h[2] * v[2], value = value_at_eye(h);
   std::array<Integer, 4> at{eye_.x * slope - value * v[0], eye_.y * slope - value * v[1], eye_.z * slope - value * v[2],
                             eye_.w * slope};
@@ -108,6 +139,7 @@ Exact_point Exact_view::position(std::uint32_t piece, const Ray& r) const {
 }
 
 double Exact_view::farthest(std::uint32_t piece, const Ray& r) const {
+  if (sun_axis_ >= 0) return std::numeric_limits<double>::infinity();
   const Form& m = form(piece);
   const double near = m.x * r.x + m.y * r.y + m.z * r.z - (m.size * (2 * r.error + 0x1p-48 * r.size) + 0x1p-700);
   const double length = std::sqrt(r.x * r.x + r.y * r.y + r.z * r.z) + 2 * r.error + 0x1p-530;  // squares underflow
@@ -123,11 +155,13 @@ int Exact_view::signum(const Fixed_integer<L>& n) {
 void Exact_view::measure() {
   const Grid_points& points = scene_->points();
   const auto bits_of = [](const Integer& n) { return static_cast<int>(bit_length(n)); };
-  bits_ = 1 + std::max(points.bits() + bits_of(eye_.w), std::max({bits_of(eye_.x), bits_of(eye_.y), bits_of(eye_.z)}));
+  const int of_eye = std::max({bits_of(eye_.x), bits_of(eye_.y), bits_of(eye_.z)});
+  bits_ = 1 + (sun_axis_ >= 0 ? points.bits() + of_eye : std::max(points.bits() + bits_of(eye_.w), of_eye));
   narrow_ = bits_ <= 62;
   width_ = bits_ <= 20 ? 2 : bits_ <= 41 ? 4 : bits_ <= 84 ? 8 : 0;
   if (narrow_) narrow_eye_ = {eye_.x.get_si(), eye_.y.get_si(), eye_.z.get_si(), eye_.w.get_si()};
   else wide_directions_ = Lazy_table<Wide_direction, 16>(points.size());
+  if (sun_axis_ >= 0) return;  // distances are of no use
   Rational units(1, eye_.w * points.divisor());
   mpq_div_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(points.shift()));
   if (!narrow_) mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(bits_));
@@ -138,8 +172,11 @@ const Exact_view::Wide_direction& Exact_view::wide_direction(std::uint32_t point
   return wide_directions_.at(point, [&](std::size_t i) {
     const Grid_points& points = scene_->points();
     const auto p = static_cast<std::uint32_t>(i);
-    const Vector<Integer> d{eye_.w * points.integer(p, 0) - eye_.x, eye_.w * points.integer(p, 1) - eye_.y,
-                            eye_.w * points.integer(p, 2) - eye_.z};
+    const Vector<Integer> d =
+        sun_axis_ >= 0
+            ? sun_direction<Integer>([&](int axis) { return points.integer(p, axis); }, {eye_.x, eye_.y, eye_.z})
+            : Vector<Integer>{eye_.w * points.integer(p, 0) - eye_.x, eye_.w * points.integer(p, 1) - eye_.y,
+                              eye_.w * points.integer(p, 2) - eye_.z};
     return Wide_direction{d, {scaled(d[0], bits_), scaled(d[1], bits_), scaled(d[2], bits_)}};
   });
 }
@@ -157,9 +194,10 @@ Exact_view::Form Exact_view::form_of(const Piece& piece) const {
     const double mantissa = mpz_get_d_2exp(&own, n.get_mpz_t());
     return std::ldexp(mantissa / divisor, static_cast<int>(std::clamp(own + scale, -5000L, 5000L)));
   };
-  form.x = quotient(h[0]);
-  form.y = quotient(h[1]);
-  form.z = quotient(h[2]);
+  const Vector<Integer> normal = in_view(h);
+  form.x = quotient(normal[0]);
+  form.y = quotient(normal[1]);
+  form.z = quotient(normal[2]);
   form.size = magnitude(form.x, form.y, form.z);
   if (!(form.size < 0x1p300)) {  // or products of three of its kind would be beyond doubles
     form.x = form.y = form.z = 0;
@@ -213,8 +251,9 @@ Exact_view::Vector<Integer> Exact_view::crossing_normal(std::uint32_t f, std::ui
                                n = exact.coefficients(scene_->pieces()[g].support);
   const Integer at_m = value_at_eye(m), at_n = value_at_eye(n);
   const int sign = sgn(at_m) * sgn(at_n);
+  const Vector<Integer> of_m = in_view(m), of_n = in_view(n);
   Vector<Integer> difference;
-  for (std::size_t k = 0; k < 3; ++k) difference[k] = sign * (at_m * n[k] - at_n * m[k]);
+  for (std::size_t k = 0; k < 3; ++k) difference[k] = sign * (at_m * of_n[k] - at_n * of_m[k]);
   return difference;
 }
 
@@ -223,8 +262,9 @@ Exact_view::Vector<Integer> Exact_view::cut_normal(std::uint32_t f, sightline::P
   const std::array<Integer, 4> m = exact.coefficients(scene_->pieces()[f].support), h = exact.coefficients(by);
   const Integer at_m = value_at_eye(m), at_h = value_at_eye(h);
   // At a point x of f's plane, seen along x - eye, this is |at_m| h(x), as m(x) = 0.
+  const Vector<Integer> of_m = in_view(m), of_h = in_view(h);
   Vector<Integer> normal;
-  for (std::size_t k = 0; k < 3; ++k) normal[k] = sgn(at_m) * (at_m * h[k] - at_h * m[k]);
+  for (std::size_t k = 0; k < 3; ++k) normal[k] = sgn(at_m) * (at_m * of_h[k] - at_h * of_m[k]);
   return normal;
 }
 

@@ -22,9 +22,18 @@
 
 namespace sightline {
 
+/// An eye at infinity, in this direction: all directions from it are the same, and it sees what light from there falls
+/// on. Pre: not 0.
+struct Sun {
+  explicit Sun(const Exact_point& to) : direction(to) {}
+  Exact_point direction;
+};
+
 /// Directions from the eye are integer vectors of b bits, so planes through it and an edge have normals of 2 b + 1
 /// bits, rays where two of them meet 4 b + 3, and the side of such a ray 6 b + 7: 128 bits do for b <= 20, 256 for 41,
-/// 512 for 84. Nothing is built on anything but input, so nothing grows. Exact: yes. Proof: P-60
+/// 512 for 84. Nothing is built on anything but input, so nothing grows. Of a sun they are where the lines to it cross
+/// the coordinate plane that they are steepest to, as vectors (x, y, 1) of that plane: one linear map of the scene's
+/// points, as p - eye is another one. Exact: yes. Proof: P-60, P-96
 class Exact_view {
  public:
   static constexpr bool is_exact = true;
@@ -56,9 +65,12 @@ class Exact_view {
     if (scene.pieces().size() >= (std::size_t{1} << 28)) throw std::length_error("scenes of up to 2^28 pieces only");
     measure();
   }
+  Exact_view(Scene&&, const Sun&) = delete;
+  Exact_view(const Scene& scene, const Sun& sun);
 
   const Scene& scene() const { return *scene_; }
-  const Exact_point& eye() const { return eye_point_; }
+  const Exact_point& eye() const { return eye_point_; }      ///< of a sun its direction
+  const Located_point& located_eye() const { return eye_; }  ///< of a sun with w = 0 and an infinite error
   int bits() const { return bits_; }
   Sign eye_side(std::uint32_t piece) const { return static_cast<Sign>(form(piece).eye_side); }
 
@@ -156,8 +168,31 @@ class Exact_view {
   /// w p - eye. Pre: narrow.
   Vector<std::int64_t> narrow_direction(std::uint32_t p) const {
     const Grid_points& points = scene_->points();
+    if (sun_axis_ >= 0) [[unlikely]] {
+      const auto coordinate = [&](int axis) { return points.small(p, axis); };
+      return sun_direction<std::int64_t>(coordinate, {narrow_eye_[0], narrow_eye_[1], narrow_eye_[2]});
+    }
     const auto& [x, y, z, w] = narrow_eye_;
     return {w * points.small(p, 0) - x, w * points.small(p, 1) - y, w * points.small(p, 2) - z};
+  }
+  /// The same of a sun. Pre: the sun's numbers are e. P-96
+  template <class Number, class Coordinate>
+  Vector<Number> sun_direction(Coordinate coordinate, const Vector<Number>& e) const {
+    const int m = sun_axis_, i = (m + 1) % 3, j = (m + 2) % 3;
+    const Number &along = e[static_cast<std::size_t>(m)], along_size = along < 0 ? Number(-along) : along;
+    const auto across = [&](int k) -> Number {
+      const Number& slope = e[static_cast<std::size_t>(k)];
+      const Number way = along < 0 ? Number(-slope) : slope;
+      return along_size * coordinate(k) - way * coordinate(m);
+    };
+    return {across(i), across(j), Number(-along)};
+  }
+  /// What a plane through the eye is as a normal of directions. P-96
+  Vector<Integer> in_view(const std::array<Integer, 4>& h) const {
+    if (sun_axis_ < 0) return {h[0], h[1], h[2]};
+    const auto m = static_cast<std::size_t>(sun_axis_);
+    const Integer& along = m == 0 ? eye_.x : m == 1 ? eye_.y : eye_.z;
+    return {h[(m + 1) % 3], h[(m + 2) % 3], along < 0 ? h[3] : Integer(-h[3])};
   }
   /// The same where it is not.
   const Wide_direction& wide_direction(std::uint32_t point) const;
@@ -225,6 +260,7 @@ class Exact_view {
   Located_point eye_;
   std::vector<Vector<Integer>> field_;
   int bits_ = 0, width_ = 0;  // of directions; in limbs, 0: GMP
+  int sun_axis_ = -1;         // of a sun, along which its direction is longest; the others follow it
   bool narrow_ = true;
   double box_units_ = 1;                            // the length of a direction's unit in approximate coordinates
   std::array<std::int64_t, 4> narrow_eye_{};        // where narrow

@@ -61,7 +61,7 @@ class Chunks {
   using Plane = typename V::Plane;
 
   Chunks(const V& view, const Piece_boxes& boxes)
-      : view_(view), boxes_(boxes), eye_(view.scene().locate(view.eye())), edges_(boxes.chunks().size()) {}
+      : view_(view), boxes_(boxes), eye_(located_eye(view)), edges_(boxes.chunks().size()) {}
 
   const V& view() const { return view_; }
   const Located_point& eye() const { return eye_; }
@@ -152,6 +152,10 @@ class Chunks {
   }
 
  private:
+  static Located_point located_eye(const V& view) {
+    if constexpr (requires { view.located_eye(); }) return view.located_eye();
+    else return view.scene().locate(view.eye());
+  }
   std::vector<Plane> make_edges(std::uint32_t chunk) const {
     const std::span<const std::uint32_t> points = points_of(chunk);
     // Counterclockwise as seen from the front is clockwise around the rays from an eye in front.

@@ -144,7 +144,7 @@ Ray_boxes::Ray_boxes(std::span<const Box> boxes) {
   builder.build(0, 0, count, 0);
 
   // 2. Four of them, in floats, wider by more than what rounding an origin and a side takes. P-95
-  constexpr float slack = 0x1p-18f;
+  const float slack = 0x1p-18f;
   constexpr float infinity = std::numeric_limits<float>::infinity();
   struct Waiting {
     std::uint32_t binary, parent, child;

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+#include <span>
 #include <utility>
 
 namespace sightline {
@@ -186,6 +188,11 @@ class Ray_tracer::Search {
     Integer weight, denominator;
   };
 
+  /// Where the plane of a piece is met, for certain; nothing where doubles do not tell.
+  struct Depth {
+    double low, high;
+    Met_side side;
+  };
   void look();
   void look_at(std::uint32_t place);
   /// Whether the ray's line passes inside a piece, outside of it, or closer to its border than doubles tell.
@@ -193,18 +200,16 @@ class Ray_tracer::Search {
   Verdict verdict(const Flat& flat) const;
   Verdict verdict(const Flat& flat, double bound) const;
   Verdict verdict_there(const Flat& flat) const;
-  /// Where the plane of a piece is met, for certain; nothing where doubles do not tell.
-  struct Depth {
-    double low, high;
-    Met_side side;
-  };
   std::optional<Depth> depth(const Flat& flat) const;
 
   void offer(const Candidate& candidate);
   void offer(Face_hit hit, std::uint32_t piece);
-  void look_exactly(std::uint32_t piece);
+  /// Where doubles leave the border open, or, without a depth, the plane.
+  void look_exactly(std::uint32_t piece, const std::optional<Depth>& depth);
   /// All of a face of several pieces, as a ray that meets a border of one may meet others.
   void look_at_face(Face_id face);
+  /// Whether the ray's line passes all edges of a piece on one side, or touches them.
+  bool passes(std::uint32_t piece);
   /// The part of the ray, from t = 0 on, that a piece holds.
   std::optional<Face_hit> part(std::uint32_t piece);
   std::optional<Face_hit> part_along(std::uint32_t piece, const std::array<Integer, 4>& plane);
@@ -231,7 +236,7 @@ void Ray_tracer::Search::look() {
   ++counters_.rays;
   if (ray_.away) return;
   if (ray_.blind) {
-    for (const Flat& flat : tracer_.flats_) look_exactly(flat.piece);
+    for (const Flat& flat : tracer_.flats_) look_exactly(flat.piece, std::nullopt);
     return;
   }
   counters_.boxes += tracer_.boxes_.visit(
@@ -244,7 +249,7 @@ void Ray_tracer::Search::look() {
 
 inline Ray_tracer::Search::Verdict Ray_tracer::Search::verdict(const Flat& flat, double bound) const {
   const auto [x, y, z] = ray_.axis;
-  const Vector* corner = &tracer_.corners_[flat.first];
+  const Vector* corner = tracer_.corners(flat);
   const auto sheared = [&](const Vector& p) {
     const double along = p[z] - ray_.at.origin[z];
     return std::array<double, 2>{(p[x] - ray_.at.origin[x]) - ray_.shear[0] * along,
@@ -270,16 +275,16 @@ inline Ray_tracer::Search::Verdict Ray_tracer::Search::verdict(const Flat& flat)
 
 /// The same with a bound for the corners of the piece alone.
 [[gnu::noinline]] Ray_tracer::Search::Verdict Ray_tracer::Search::verdict_there(const Flat& flat) const {
+  const Vector* corner = tracer_.corners(flat);
   double size = 0;
   for (std::uint32_t k = 0; k < flat.size; ++k)
-    for (std::size_t i = 0; i < 3; ++i)
-      size = std::max(size, std::fabs(tracer_.corners_[flat.first + k][i] - ray_.at.origin[i]));
+    for (std::size_t i = 0; i < 3; ++i) size = std::max(size, std::fabs(corner[k][i] - ray_.at.origin[i]));
   return verdict(flat, cross_bound(size, ray_.error));
 }
 
 inline std::optional<Ray_tracer::Search::Depth> Ray_tracer::Search::depth(const Flat& flat) const {
   const Vector& n = flat.normal;
-  const Vector& p = tracer_.corners_[flat.first];
+  const Vector& p = *tracer_.corners(flat);
   const double size = std::fabs(n[0]) + std::fabs(n[1]) + std::fabs(n[2]);
   const double slope = dot_of(n, ray_.at.direction);
   const double rise = dot_of(n, {p[0] - ray_.at.origin[0], p[1] - ray_.at.origin[1], p[2] - ray_.at.origin[2]});
@@ -300,7 +305,8 @@ inline void Ray_tracer::Search::look_at(std::uint32_t place) {
   if (v == Verdict::outside) return;
   const std::optional<Depth> d = depth(flat);
   if (d && (d->high < 0 || d->low > limit_)) return;
-  if (v == Verdict::open || !d || !(d->low > 0)) return look_exactly(flat.piece);
+  if (!d || !(d->low > 0)) return look_exactly(flat.piece, std::nullopt);
+  if (v == Verdict::open) return look_exactly(flat.piece, d);
   offer(Candidate{d->low, d->high, scene_.pieces()[flat.piece].face, d->side, flat.piece, none});
 }
 
@@ -317,13 +323,18 @@ void Ray_tracer::Search::offer(Face_hit hit, std::uint32_t piece) {
   offer(candidate);
 }
 
-void Ray_tracer::Search::look_exactly(std::uint32_t piece) {
+void Ray_tracer::Search::look_exactly(std::uint32_t piece, const std::optional<Depth>& depth) {
   ++counters_.exact_pieces;
   const Face_id face = scene_.pieces()[piece].face;
   if (std::find(whole_faces_.begin(), whole_faces_.end(), face) != whole_faces_.end()) return;
+  const bool alone = tracer_.first_piece_[face + 1] - tracer_.first_piece_[face] == 1;
+  if (alone && depth) {  // t is exact where it is asked for
+    if (passes(piece)) offer(Candidate{depth->low, depth->high, face, depth->side, piece, none});
+    return;
+  }
   std::optional<Face_hit> found = part(piece);
   if (!found) return;
-  if (tracer_.first_piece_[face + 1] - tracer_.first_piece_[face] > 1) return look_at_face(face);
+  if (!alone) return look_at_face(face);
   if (start_ == Ray_start::closed || found->t > 0) offer(std::move(*found), piece);
 }
 
@@ -368,20 +379,15 @@ Rational Ray_tracer::Search::parameter(std::uint32_t piece) {
   return t;
 }
 
-std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {
+bool Ray_tracer::Search::passes(std::uint32_t piece) {
   const Whole& w = whole();
-  const Piece& its = scene_.pieces()[piece];
-  const std::array<Integer, 4> h = scene_.predicates().coefficients(its.support);
-  const Integer slope = h[0] * w.direction[0] + h[1] * w.direction[1] + h[2] * w.direction[2];
-  if (slope == 0) return part_along(piece, h);
-  // The ray's line passes all edges on one side, or touches them.
   const auto from_origin = [&](std::uint32_t point) {
     std::array<Integer, 3> p;
     for (std::size_t k = 0; k < 3; ++k)
       p[k] = w.weight * scene_.points().integer(point, static_cast<int>(k)) - w.origin[k];
     return p;
   };
-  const std::span<const Piece_corner> corners = scene_.corners(its);
+  const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[piece]);
   bool left = false, right = false;
   std::array<Integer, 3> a = from_origin(corners.back().point);
   for (const Piece_corner& corner : corners) {
@@ -391,9 +397,19 @@ std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {
       side += w.direction[k] * (a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3]);
     left = left || side > 0;
     right = right || side < 0;
-    if (left && right) return std::nullopt;
+    if (left && right) return false;
     a = std::move(b);
   }
+  return true;
+}
+
+std::optional<Face_hit> Ray_tracer::Search::part(std::uint32_t piece) {
+  const Whole& w = whole();
+  const Piece& its = scene_.pieces()[piece];
+  const std::array<Integer, 4> h = scene_.predicates().coefficients(its.support);
+  const Integer slope = h[0] * w.direction[0] + h[1] * w.direction[1] + h[2] * w.direction[2];
+  if (slope == 0) return part_along(piece, h);
+  if (!passes(piece)) return std::nullopt;
   Rational t = parameter(piece);
   if (t < 0) return std::nullopt;
   return Face_hit{its.face, slope < 0 ? Met_side::front : Met_side::back, t, t};
@@ -541,10 +557,14 @@ Ray_tracer::Ray_tracer(const Scene& scene) : scene_(&scene) {
   const Predicates exact = scene.predicates();
   for (const std::uint32_t i : boxes_.order()) {
     const Prepared_plane h = exact.prepare(pieces[i].support);
-    const auto first = static_cast<std::uint32_t>(corners_.size());
-    for (const Piece_corner& corner : scene.corners(pieces[i])) corners_.push_back(scaled(corner.point));
     const double size = h.norm > 0x1p-900 && h.norm < 0x1p900 ? h.norm : std::numeric_limits<double>::infinity();
-    flats_.push_back({i, first, pieces[i].size, {h.a / size, h.b / size, h.c / size}});
+    Flat& flat = flats_.emplace_back(Flat{i, pieces[i].size, {h.a / size, h.b / size, h.c / size}, {}});
+    const std::span<const Piece_corner> its = scene.corners(pieces[i]);
+    if (flat.size > Flat::most) flat.corners[0][0] = static_cast<double>(more_.size());
+    for (std::size_t k = 0; k < its.size(); ++k) {
+      if (flat.size > Flat::most) more_.push_back(scaled(its[k].point));
+      else flat.corners[k] = scaled(its[k].point);
+    }
   }
 }
 

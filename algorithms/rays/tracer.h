@@ -8,8 +8,9 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -61,11 +62,16 @@ class Ray_tracer {
   struct Ray;
   class Search;
 
-  /// A piece for doubles: its corners and its normal, the coordinates of corners within corner_error_.
-  struct Flat {
-    std::uint32_t piece, first, size;  ///< corners_[first, first + size)
-    std::array<double, 3> normal;      ///< each entry within 2^-51 of its own value, all times one factor
+  /// A piece for doubles, in two cache lines as a rule: its normal, and its corners within corner_error_.
+  struct alignas(64) Flat {
+    static constexpr std::uint32_t most = 4;
+    std::uint32_t piece, size;
+    std::array<double, 3> normal;  ///< each entry within 2^-51 of its own value, all times one factor
+    std::array<std::array<double, 3>, most> corners;  ///< of more corners, [0][0] is the place of the first in more_
   };
+  const std::array<double, 3>* corners(const Flat& flat) const {
+    return flat.size <= Flat::most ? flat.corners.data() : &more_[static_cast<std::size_t>(flat.corners[0][0])];
+  }
 
   Ray prepared(const Exact_ray& ray) const;
   Ray prepared(const Double_ray& ray) const;
@@ -78,7 +84,7 @@ class Ray_tracer {
   std::array<std::array<double, 2>, 3> centre_{};  ///< of the grid, as a sum of two doubles
   double corner_error_ = 0;
   std::vector<Flat> flats_;  ///< in the order of the boxes
-  std::vector<std::array<double, 3>> corners_;
+  std::vector<std::array<double, 3>> more_;
   std::vector<std::uint32_t> first_piece_;  ///< of each face: pieces [first_piece_[f], first_piece_[f + 1])
   Ray_boxes boxes_;
 };

@@ -27,5 +27,6 @@ void add_completion(Command program);
 void add_schema(Command program);
 void add_trace(Command program);
 void add_boolean(Command program);
+void add_shadow(Command program);
 
 }  // namespace sightline::app

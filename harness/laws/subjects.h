@@ -7,6 +7,7 @@
 #include <sightline/harness/laws/order.h>
 #include <sightline/harness/laws/render.h>
 #include <sightline/harness/laws/see.h>
+#include <sightline/harness/laws/shadow.h>
 #include <sightline/harness/laws/solids.h>
 #include <sightline/harness/laws/subject.h>
 #include <sightline/harness/laws/trace.h>
@@ -17,7 +18,7 @@
 namespace sightline::harness {
 
 inline std::vector<Subject> subjects() {
-  return {order(), graph(), cutset(), see(), weak(), render(), trace(), boolean(), pvs()};
+  return {order(), graph(), cutset(), see(), weak(), render(), trace(), shadow(), boolean(), pvs()};
 }
 
 }  // namespace sightline::harness

@@ -34,6 +34,7 @@ static const std::map<std::string, std::vector<std::string>> commands{
      {"SCENE", "--eye", "--kernel", "--front-to-back", "--skip-hidden", "--certificate", "--svg", "--look", "--up",
       "--field"}},
     {"graph", {"SCENE", "--method", "--tree", "--codes", "--split", "--pixels"}},
+    {"shadow", {"SCENE", "--light", "--sun", "--two-sided", "--svg", "--obj"}},
     {"trace", {"SCENE", "--rays", "--all", "--closed", "--method"}},
     {"cutset", {"SCENE", "--path", "--orbit", "--motion", "--decision-tree", "--check", "--svg"}},
     {"verify", {"SCENE", "CERTIFICATE"}},

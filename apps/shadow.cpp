@@ -1,0 +1,324 @@
+// sightline shadow: which parts of faces lights reach, and what shadows the others; exactly.
+
+#include "support/picture.h"
+
+#include <sightline/algorithms/point_visibility/boxes.h>
+#include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/shadow/shadow.h>
+
+#include <iostream>
+#include <map>
+
+namespace sightline::app {
+
+namespace {
+
+struct Shadow_arguments {
+  Common common;
+  std::vector<std::string> lights, suns;
+  bool two_sided = false;
+  std::string eye, svg, obj;
+  View_arguments view;
+};
+
+struct Light {
+  Exact_point at;  ///< or the direction to it
+  bool is_sun;
+  Exact_view view(const Scene& scene) const { return is_sun ? Exact_view(scene, Sun{at}) : Exact_view(scene, at); }
+  std::string name() const {
+    return fmt::format("{} ({}, {}, {})", is_sun ? "sun" : "light", to_string(at[0]), to_string(at[1]),
+                       to_string(at[2]));
+  }
+};
+
+std::vector<Light> lights_of(const Shadow_arguments& arguments) {
+  std::vector<Light> lights;
+  for (const std::string& text : arguments.lights) lights.push_back({parse_point(text, "--light"), false});
+  for (const std::string& text : arguments.suns) {
+    lights.push_back({parse_point(text, "--sun"), true});
+    if (lights.back().at == Exact_point{0, 0, 0}) throw Usage_error("--sun: 0,0,0 is no direction");
+  }
+  if (lights.empty()) throw Usage_error("give a --light X,Y,Z or a --sun DX,DY,DZ, or several");
+  return lights;
+}
+
+// ---- The picture
+
+using Corners = std::vector<Direction3>;
+
+/// What is in both of two convex polygons of one plane, which is not parallel to the axis.
+Corners common_part(Corners polygon, const Corners& by, std::size_t axis) {
+  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+  double sense = 0;
+  for (std::size_t k = 0; k < by.size(); ++k) {
+    const Direction3 &a = by[k], &b = by[(k + 1) % by.size()];
+    sense += a[x] * b[y] - a[y] * b[x];
+  }
+  for (std::size_t k = 0; k < by.size() && !polygon.empty(); ++k) {
+    const Direction3 &a = by[k], &b = by[(k + 1) % by.size()];
+    const auto inside = [&](const Direction3& p) {
+      return ((b[x] - a[x]) * (p[y] - a[y]) - (b[y] - a[y]) * (p[x] - a[x])) * sense;
+    };
+    Corners left;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Direction3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+      const double at_p = inside(p), at_q = inside(q);
+      if (at_p >= 0) left.push_back(p);
+      if ((at_p < 0) == (at_q < 0)) continue;
+      const double share = at_p / (at_p - at_q);
+      left.push_back({p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), p[2] + share * (q[2] - p[2])});
+    }
+    polygon = std::move(left);
+  }
+  return polygon.size() < 3 ? Corners() : polygon;
+}
+
+Corners rounded_corners(const std::vector<Exact_point>& corners) {
+  Corners all;
+  for (const Exact_point& p : corners)
+    all.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+  return all;
+}
+
+/// The axis that a polygon is steepest to.
+std::size_t axis_of(const Corners& corners) {
+  Direction3 normal{};
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Direction3 n = cross(corners[k], corners[(k + 1) % corners.size()]);
+    for (std::size_t i = 0; i < 3; ++i) normal[i] += n[i];
+  }
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (std::fabs(normal[k]) > std::fabs(normal[axis])) axis = k;
+  return axis;
+}
+
+/// A part of what the eye sees, with how many lights reach it, and what shadows it from the last one that does not.
+struct Shown {
+  std::uint32_t piece;
+  Sign side;
+  Corners corners;
+  std::size_t lights = 0;
+  bool turned = false;  ///< to a light
+  std::uint32_t by = Shadow_part::nothing;
+};
+
+/// What an eye sees, each part cut by the shadows on it.
+void draw(const Shadow_arguments& arguments, const Scene& scene, const Piece_boxes& boxes,
+          const std::vector<Shadows>& all, const Exact_point& eye) {
+  const sightline::app::View view = arguments.view.view(eye, scene);
+  Svg svg = empty_picture(view);
+  if (scene.counters().faces > 0) {
+    const Exact_view seen_from(scene, eye, field_of(corner_rays(view)));
+    Visible_options options;
+    options.threads = arguments.common.threads;
+    const auto surface = visible_surface(seen_from, boxes, field_of_view(seen_from), options);
+    std::vector<Shown> shown;
+    for (const auto& part : surface.parts)
+      if (part.piece != surface.nothing)
+        shown.push_back(
+            {part.piece, seen_from.eye_side(part.piece), rounded_corners(vertices(seen_from, surface, part))});
+    for (const Shadows& of_light : all) {
+      std::multimap<std::uint32_t, const Shadow_part*> by_piece;
+      for (const Shadow_part& part : of_light.parts) by_piece.emplace(part.piece, &part);
+      std::vector<Shown> finer;
+      for (Shown& one : shown) {
+        const auto [begin, end] = by_piece.equal_range(one.piece);
+        const std::size_t axis = axis_of(one.corners);
+        bool any = false;
+        for (auto at = begin; at != end; ++at) {
+          const Shadow_part& part = *at->second;
+          if (part.side != one.side) continue;  // the light is on the other side
+          any = true;
+          Shown cut = one;
+          cut.corners = common_part(one.corners, rounded_corners(part.vertices), axis);
+          if (cut.corners.empty()) continue;
+          cut.turned = true;
+          cut.lights += part.is_lit();
+          if (!part.is_lit()) cut.by = part.by;
+          finer.push_back(std::move(cut));
+        }
+        if (!any) finer.push_back(std::move(one));
+      }
+      shown = std::move(finer);
+    }
+    std::vector<Drawn> drawn;
+    for (const Shown& one : shown) {
+      Drawn& item = drawn.emplace_back();
+      item.fragment = {scene.pieces()[one.piece].face, scene.pieces()[one.piece].number, {}};
+      for (const Direction3& p : one.corners) item.fragment.vertices.push_back({exact(p[0]), exact(p[1]), exact(p[2])});
+      item.side = one.side;
+    }
+    std::size_t next = 0;
+    paint(svg, view, drawn, false, [&](const Drawn& item, double shade) -> Look {
+      const Shown& one = shown[next++];
+      const std::string face = fmt::format("face {}", item.fragment.face);
+      const double light = static_cast<double>(one.lights) / static_cast<double>(all.size());
+      const auto mixed = [&](int dark, int bright, double by_shade) {
+        return static_cast<int>(std::clamp(dark + light * (bright - dark) + by_shade * shade, 0.0, 255.0));
+      };
+      const double less = one.turned ? 1 : 0.72;  // what is turned away is darkest
+      const std::string fill =
+          fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(less * mixed(98, 232, 26)),
+                      static_cast<int>(less * mixed(104, 206, 26)), static_cast<int>(less * mixed(128, 140, 22)));
+      if (!one.turned) return {fill, face + ", turned away"};
+      if (one.by == Shadow_part::nothing) return {fill, face + ", lit"};
+      return {fill, fmt::format("{}, {}in the shadow of face {}", face,
+                                one.lights > 0 ? fmt::format("lit by {} of {}, ", one.lights, all.size()) : "",
+                                scene.pieces()[one.by].face)};
+    });
+  }
+  write_file(arguments.svg, svg.text());
+}
+
+// ---- Other outputs
+
+/// Groups lit, shadowed and away; light-N-lit and so on where there are several. Coordinates are rounded.
+std::string obj_text(const Scene& scene, const std::vector<Shadows>& all) {
+  std::string text;
+  std::size_t points = 0;
+  const auto add = [&](const std::string& group, const std::vector<Exact_point>& corners) {
+    std::string face = "f";
+    for (const Exact_point& p : corners) {
+      text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
+      face += fmt::format(" {}", ++points);
+    }
+    text += fmt::format("g {}\nusemtl {}\n{}\n", group, group, face);
+  };
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const std::string prefix = all.size() > 1 ? fmt::format("light-{}-", k) : "";
+    std::vector<bool> turned(scene.pieces().size());
+    for (const Shadow_part& part : all[k].parts) {
+      turned[part.piece] = true;
+      add(prefix + (part.is_lit() ? "lit" : "shadowed"), part.vertices);
+    }
+    for (std::uint32_t i = 0; i < turned.size(); ++i) {
+      if (turned[i]) continue;
+      std::vector<Exact_point> corners;
+      for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
+        corners.push_back(scene.position(corner.point));
+      add(prefix + "away", corners);
+    }
+  }
+  return text;
+}
+
+Json part_json(const Scene& scene, const Shadow_part& part, std::size_t light) {
+  const Piece& piece = scene.pieces()[part.piece];
+  Json json{{"face", piece.face},
+            {"piece", piece.number},
+            {"light", light},
+            {"side", part.side == CGAL::POSITIVE ? "front" : "back"}};
+  if (!part.is_lit()) {
+    json["by"] = scene.pieces()[part.by].face;
+    json["by_piece"] = scene.pieces()[part.by].number;
+  }
+  Json& corners = json["vertices"] = Json::array();
+  for (const Exact_point& p : part.vertices) corners.push_back(point_json(p));
+  return json;
+}
+
+}  // namespace
+
+static Exit run(const Shadow_arguments& arguments) {
+  const Common& common = arguments.common;
+  const std::vector<Light> lights = lights_of(arguments);
+  if (arguments.svg.empty() && !arguments.eye.empty()) throw Usage_error("--eye is the eye of the picture: give --svg");
+  if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
+  arguments.view.check_usage();
+  const Scene scene(common.read());
+  const Stopwatch watch;
+  const Piece_boxes boxes(scene);
+  std::vector<Shadows> all;
+  for (const Light& light : lights) {
+    Progress progress("casting shadows");
+    Shadow_options options;
+    options.two_sided = arguments.two_sided;
+    options.threads = common.threads;
+    options.progress = common.within_budget([&](std::size_t done, std::size_t of) { progress(done, of); });
+    all.push_back(shadows(light.view(scene), boxes, options));
+  }
+  const double seconds = watch.seconds();
+  if (!arguments.svg.empty()) draw(arguments, scene, boxes, all, eye_of(arguments.eye, scene));
+  if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(scene, all));
+
+  // Faces that some light reaches, and the others.
+  std::vector<bool> is_lit(scene.counters().faces_read), kept(is_lit.size());
+  for (const Piece& piece : scene.pieces()) kept[piece.face] = true;
+  Shadow_counters counters;
+  for (const Shadows& of_light : all) {
+    for (const Face_id face : of_light.lit) is_lit[face] = true;
+    counters += of_light.counters;
+  }
+  std::vector<Face_id> lit_faces, dark_faces;
+  for (Face_id face = 0; face < kept.size(); ++face)
+    if (kept[face]) (is_lit[face] ? lit_faces : dark_faces).push_back(face);
+  Json lit = Json::array(), dark = Json::array(), of_lights = Json::array();
+  if (!common.json.empty())
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      of_lights.push_back({{lights[k].is_sun ? "sun" : "light", point_json(lights[k].at)},
+                           {"lit_faces", all[k].lit},
+                           {"away", all[k].away}});
+      for (const Shadow_part& part : all[k].parts) (part.is_lit() ? lit : dark).push_back(part_json(scene, part, k));
+    }
+  if (write_json(common, "shadow", scene,
+                 {{"lights", std::move(of_lights)},
+                  {"lit", std::move(lit)},
+                  {"dark", std::move(dark)},
+                  {"lit_faces", lit_faces},
+                  {"dark_faces", dark_faces}},
+                 counters_json(counters), {{"shadow", seconds}}))
+    return Exit::done;
+  scene_rows(scene);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Shadows& of_light = all[k];
+    const auto parts = static_cast<std::size_t>(std::count_if(of_light.parts.begin(), of_light.parts.end(),
+                                                              [](const Shadow_part& part) { return part.is_lit(); }));
+    row(lights[k].is_sun ? "sun" : "light",
+        fmt::format("{}: {} faces lit, {} turned away; {} lit parts, {} in shadow", lights[k].name(),
+                    of_light.lit.size(), of_light.away.size(), parts, of_light.parts.size() - parts));
+  }
+  std::string some;
+  for (std::size_t k = 0; k < std::min<std::size_t>(dark_faces.size(), 12); ++k)
+    some += fmt::format("{}{}", k == 0 ? ": " : ", ", dark_faces[k]);
+  if (dark_faces.size() > 12) some += ", ...";
+  row("lit", fmt::format("{} of {} faces, in part at least{}", lit_faces.size(), scene.counters().faces,
+                         arguments.two_sided ? "" : "; --two-sided counts back sides too"));
+  row("lit by none", fmt::format("{}{}", dark_faces.size(), some));
+  row("seconds", fmt::format("{:.4f}", seconds));
+  return Exit::done;
+}
+
+void add_shadow(Command program) {
+  const Command command = program.add_command(
+      "shadow", "The parts of faces that lights reach, and what shadows the others, as exact polygons");
+  auto a = std::make_shared<Shadow_arguments>();
+  a->common.add_to(command);
+  command.add_option("--light", a->lights, "a light X,Y,Z; any number of them").check(not_empty()).expected(1, 1000);
+  command.add_option("--sun", a->suns, "a light at infinity: the direction DX,DY,DZ to it, from anywhere in the scene")
+      .check(not_empty())
+      .expected(1, 1000);
+  command.add_flag("--two-sided", a->two_sided, "back sides are lit too, by lights behind them");
+  command
+      .add_option("--svg", a->svg,
+                  "draw the scene from an eye: lit parts bright, shadowed ones grey, what is turned away darkest")
+      .writes_file()
+      .check(ending(".svg"));
+  command.add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
+      .check(not_empty());
+  a->view.add_to(command);
+  command
+      .add_option("--obj", a->obj,
+                  "write the parts with groups lit, shadowed and away; light-0-lit and so on of several lights")
+      .writes_file()
+      .check(ending(".obj"));
+  command.footer(
+      "A face is lit where a light strictly in front of it sees it, as `sightline see --eye` does; of a shadow the "
+      "JSON "
+      "names the face that the light meets first.\n"
+      "Example: sightline shadow town.qoff --light 3,3,9 --sun=-1,-2,3 --svg town.svg --json -");
+  command.set_action([a] { return run(*a); });
+}
+
+}  // namespace sightline::app

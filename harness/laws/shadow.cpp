@@ -1,0 +1,195 @@
+#include <sightline/harness/laws/shadow.h>
+
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/rays/ray.h>
+#include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/trace.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+namespace sightline::harness {
+
+namespace shadow_subject {
+
+std::vector<Exact_point> corners_of(const Scene& scene, std::uint32_t piece) {
+  std::vector<Exact_point> corners;
+  for (const Piece_corner& corner : scene.corners(scene.pieces()[piece]))
+    corners.push_back(scene.position(corner.point));
+  return corners;
+}
+
+/// An axis along which a piece has area.
+std::size_t axis_of(const std::vector<Exact_point>& corners) {
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    if (area_of(corners, axis) != 0) return axis;
+  return 2;
+}
+
+bool is_convex(const std::vector<Exact_point>& corners, std::size_t axis, int sense) {
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const std::vector<Exact_point> turn{corners[k], corners[(k + 1) % corners.size()],
+                                        corners[(k + 2) % corners.size()]};
+    if (sgn(area_of(turn, axis)) * sense < 0) return false;
+  }
+  return true;
+}
+
+Exact_point middle_of(const std::vector<Exact_point>& corners) {
+  Exact_point sum{0, 0, 0};
+  for (const Exact_point& p : corners)
+    for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k];
+  for (Rational& x : sum) x /= static_cast<long>(corners.size());
+  return sum;
+}
+
+Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+/// The faces that keep the light from a point, and are nearest to it; those edge-on do not count.
+std::vector<Face_id> blockers(const Polygon_soup& soup, const Scene& scene, const Exact_point& p,
+                              const Exact_point& light, bool is_sun) {
+  // From the point to the light.
+  const Exact_ray ray{p, is_sun ? light : minus(light, p)};
+  std::vector<Face_hit> hits = hits_by_definition(soup, scene, ray, Ray_start::open);
+  std::erase_if(hits, [&](const Face_hit& hit) { return hit.side == Met_side::along || (!is_sun && hit.t >= 1); });
+  std::vector<Face_id> faces;
+  for (const Face_hit& hit : hits)
+    if (hit.t == hits.back().t) faces.push_back(hit.face);
+  return faces;
+}
+
+Answer labels(const Posed_scene& posed) {
+  const Scene scene(posed.soup);
+  Answer answer;
+  answer.labels.assign(posed.soup.face_count(), Answer::none);
+  answer.planar = scene.counters().non_planar + scene.counters().no_simple_projection == 0;
+  for (const Piece& piece : scene.pieces()) answer.labels[piece.face] = 0;
+  Shadow_options options;
+  options.threads = 1;
+  options.two_sided = true;
+  for (const Shadow_part& part : shadows(Exact_view(scene, posed.eye), Piece_boxes(scene), options).parts)
+    if (part.is_lit()) answer.labels[scene.pieces()[part.piece].face] |= part.side == CGAL::POSITIVE ? 1 : 2;
+  return answer;
+}
+
+/// A direction to a sun: of an edge or a face's diagonal, along an axis, or any.
+Exact_point draw_sun(const Polygon_soup& soup, Random& random) {
+  Exact_point d{0, 0, 0};
+  if (random.chance(1, 3) && soup.point_count() > 1)
+    d = minus(soup.point(static_cast<Point_id>(random.below(soup.point_count()))),
+              soup.point(static_cast<Point_id>(random.below(soup.point_count()))));
+  else
+    for (Rational& x : d) x = static_cast<long>(random.between(-4, 4));
+  if (d == Exact_point{0, 0, 0}) d[2] = 1;
+  return d;
+}
+
+Check by_definition() {
+  return {"definition", "parts tile their pieces, and rays to the light meet what shadows them, from points and suns",
+          [](const Posed_scene& posed, const Answer& answer, Random& random) {
+            if (!answer.planar) return Outcome::not_applicable();
+            const Scene scene(posed.soup);
+            const Piece_boxes boxes(scene);
+            Shadow_options options;
+            options.threads = 1;
+            options.two_sided = random.chance(1, 2);
+            std::string flaw =
+                flaw_of(shadows(Exact_view(scene, posed.eye), boxes, options), posed.soup, scene, posed.eye, false);
+            for (int k = 0; k < 2 && flaw.empty(); ++k) {
+              const Exact_point sun = draw_sun(posed.soup, random);
+              flaw = flaw_of(shadows(Exact_view(scene, Sun{sun}), boxes, options), posed.soup, scene, sun, true);
+              if (!flaw.empty())
+                flaw = "sun " + to_string(sun[0]) + "," + to_string(sun[1]) + "," + to_string(sun[2]) + ": " + flaw;
+            }
+            return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
+          }};
+}
+
+/// What `see` sees from the light is lit.
+Check as_seen() {
+  return {"see", "lit areas of pieces and lit faces are those that an eye at the light sees",
+          [](const Posed_scene& posed, const Answer&, Random&) {
+            const Scene scene(posed.soup);
+            const Piece_boxes boxes(scene);
+            const Exact_view view(scene, posed.eye);
+            Shadow_options options;
+            options.threads = 1;
+            Visible_options seeing;
+            seeing.threads = 1;
+            const auto surface = visible_surface(view, boxes, seeing);
+            const Shadows made = shadows(view, boxes, options);
+            if (made.lit != surface.visible) return Outcome::failed("other faces are lit than are seen");
+            std::map<std::uint32_t, Rational> seen, lit;
+            for (const auto& part : surface.parts)
+              if (part.piece != surface.nothing && view.eye_side(part.piece) == CGAL::POSITIVE)
+                seen[part.piece] += area_of(vertices(view, surface, part), axis_of(corners_of(scene, part.piece)));
+            for (const Shadow_part& part : made.parts)
+              if (part.is_lit()) lit[part.piece] += area_of(part.vertices, axis_of(corners_of(scene, part.piece)));
+            std::map<std::uint32_t, int> in_plane;
+            for (const Piece& piece : scene.pieces()) ++in_plane[piece.support.id()];
+            for (const auto& [piece, area] : seen) {
+              const bool alone = in_plane[scene.pieces()[piece].support.id()] == 1;
+              if (alone ? lit[piece] != area : abs(lit[piece]) < abs(area))
+                return Outcome::failed(face_name(scene.pieces()[piece].face) + ": lit " + to_string(lit[piece]) +
+                                       ", seen " + to_string(area) + ", of twice its area along an axis");
+            }
+            return Outcome{};
+          }};
+}
+
+}  // namespace shadow_subject
+
+Rational area_of(const std::vector<Exact_point>& polygon, std::size_t axis) {
+  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+  Rational twice = 0;
+  for (std::size_t k = 0; k < polygon.size(); ++k) {
+    const Exact_point &p = polygon[k], &q = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+    twice += p[x] * q[y] - p[y] * q[x];
+  }
+  return twice;
+}
+
+std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
+                    bool is_sun) {
+  using namespace shadow_subject;
+  std::map<std::uint32_t, Rational> area;
+  for (const Shadow_part& part : shadows.parts) {
+    const Piece& piece = scene.pieces()[part.piece];
+    const std::vector<Exact_point> whole = corners_of(scene, part.piece);
+    const std::size_t axis = axis_of(whole);
+    const Rational of_whole = area_of(whole, axis), of_part = area_of(part.vertices, axis);
+    const std::string name = "a part of face " + std::to_string(piece.face);
+    if (sgn(of_part) != sgn(of_whole) || !is_convex(part.vertices, axis, sgn(of_whole)))
+      return name + " is not convex, or turned round";
+    area[part.piece] += of_part;
+    const Exact_point middle = middle_of(part.vertices);
+    const std::vector<Face_id> by = blockers(soup, scene, middle, light, is_sun);
+    if (part.is_lit() ? !by.empty() : std::find(by.begin(), by.end(), scene.pieces()[part.by].face) == by.end())
+      return name + " about " + to_string(middle[0]) + "," + to_string(middle[1]) + "," + to_string(middle[2]) +
+             (part.is_lit()
+                  ? " is lit, but face " + std::to_string(by[0]) + " is on the way"
+                  : ": face " + std::to_string(scene.pieces()[part.by].face) + " is not the first on the way");
+  }
+  for (const auto& [piece, twice] : area) {
+    const std::vector<Exact_point> whole = corners_of(scene, piece);
+    if (twice != area_of(whole, axis_of(whole))) return "parts do not tile " + face_name(scene.pieces()[piece].face);
+  }
+  return {};
+}
+
+Subject shadow() {
+  using namespace shadow_subject;
+  Subject subject;
+  subject.name = "shadow";
+  subject.what = "lit and dark parts of faces by a point and by suns, by rays and by what an eye sees";
+  subject.answer = labels;
+  subject.checks = {by_definition(), as_seen()};
+  add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
+  return subject;
+}
+
+}  // namespace sightline::harness
