@@ -4,6 +4,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 namespace sightline {
@@ -31,7 +32,10 @@ struct Leaf_contacts {
 class Pair_finder {
  public:
   Pair_finder(const Operands& operands, Leaf_contacts& found)
-      : operands_(operands), predicates_(operands.predicates()), found_(found) {}
+      : operands_(operands),
+        predicates_(operands.predicates()),
+        input_error_(operands.points().bits() <= 53 ? 0 : 0x1p-53 * operands.points().range() + 0x1p-1000),
+        found_(found) {}
 
   void look_at(std::uint32_t i, std::uint32_t j) {
     ++found_.pairs;
@@ -56,11 +60,30 @@ class Pair_finder {
         if (!coplanar) return;
       }
     if (coplanar) look_at_coplanar(i, j, common > 0);
-    else look_at_crossing(i, j, common == 1 ? std::optional(shared) : std::nullopt);
+    else if (common > 1 || !(is_clearly_apart(i, j, shared, common) || is_clearly_apart(j, i, shared, common)))
+      look_at_crossing(i, j, common == 1 ? std::optional(shared) : std::nullopt);
   }
 
  private:
   Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
+
+  /// Whether doubles tell that all of piece j but a corner that it shares, if it shares one, is on one side of piece i.
+  bool is_clearly_apart(std::uint32_t i, std::uint32_t j, std::uint32_t shared, std::size_t common) {
+    const Prepared_plane h = predicates_.prepare(support(i));
+    const Grid_points& points = operands_.points();
+    bool front = false, behind = false;
+    for (const Piece_corner& corner : operands_.corners(j)) {
+      if (common != 0 && corner.point == shared) continue;
+      const double value = h.a * points.approximate(corner.point, 0) + h.b * points.approximate(corner.point, 1) +
+                           h.c * points.approximate(corner.point, 2) + h.d;
+      const double bound = h.bound + input_error_ * h.norm;
+      if (!(std::fabs(value) > bound)) return false;
+      front |= value > 0;
+      behind |= value < 0;
+    }
+    found_.predicates.filtered += operands_.corners(j).size() - common;
+    return front != behind;
+  }
 
   Sign side(const Vertex& v, const Prepared_plane& h) { return predicates_.side(v, h, found_.predicates); }
 
@@ -215,6 +238,7 @@ class Pair_finder {
 
   const Operands& operands_;
   const Predicates predicates_;
+  const double input_error_;  // of any input point's coordinates (Predicates::input_vertex)
   Leaf_contacts& found_;
   Sides sides_i_, sides_j_;
   bool separated_ = false;

@@ -5,6 +5,7 @@
 
 #include "../sample.h"
 
+#include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
@@ -159,7 +160,8 @@ TEST(Set_operations, answer_by_winding_numbers) {
 TEST(Set_operations, of_random_cones_and_prisms_are_right) {
   harness::Subject subject = harness::boolean();
   std::erase_if(subject.checks, [](const harness::Check& check) {
-    return check.name != "points" && check.name != "volumes" && check.name != "surface" && check.name != "turn";
+    return check.name != "points" && check.name != "volumes" && check.name != "surface" && check.name != "proof" &&
+           check.name != "turn";
   });
   harness::Fuzz_options options;
   options.scenes = test_scenes::sample(60);
@@ -228,6 +230,37 @@ TEST(Set_operations, are_the_same_for_any_number_of_threads) {
   EXPECT_EQ(texts[0], texts[1]);
   generate::Random random(3);
   EXPECT_EQ(harness::flaw_by_points(solids, 1, random), "");
+}
+
+TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
+  const std::vector<Polygon_soup> solids{box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 2})};
+  const Operands operands(solids);
+  Set_options options;
+  options.keep_fragments = true;
+  const Set_result result = set_operation(operands, options);
+  std::ostringstream text;
+  write_solid_certificate(text, solid_certificate(operands, options, result));
+  const Solid_certificate read = read_solid_certificate(text.str());
+  EXPECT_TRUE(verify_solids(solids, read, &result.soup).accepted) << verify_solids(solids, read, &result.soup).why;
+  std::ostringstream again;
+  write_solid_certificate(again, read);
+  EXPECT_EQ(again.str(), text.str());
+  // Of other solids, of another operation, with another result.
+  EXPECT_FALSE(verify_solids(std::vector{solids[1], solids[0]}, read).accepted);
+  EXPECT_FALSE(verify_solids(std::vector{solids[0]}, read).accepted);
+  EXPECT_FALSE(verify_solids(solids, read, &solids[0]).accepted);
+  Solid_certificate other = read;
+  other.operation = "intersection";
+  EXPECT_FALSE(verify_solids(solids, other).accepted);
+  other = read;
+  other.inside = "somewhere";
+  EXPECT_FALSE(verify_solids(solids, other).accepted);
+  for (const std::string bad :
+       {"", "[]", "{}", R"({"format": "sightline boolean 1"})", R"({"format": "sightline order 2"})"})
+    EXPECT_THROW(read_solid_certificate(bad), std::invalid_argument) << bad;
+  std::string broken = text.str();
+  broken.replace(broken.find("\"vertices\": [0"), 14, "\"vertices\": [9999");
+  EXPECT_THROW(read_solid_certificate(broken), std::invalid_argument);
 }
 
 TEST(Operands, that_are_open_are_refused_with_their_edges) {
