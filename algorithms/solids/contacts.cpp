@@ -4,7 +4,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <optional>
 
 namespace sightline {
@@ -29,13 +29,33 @@ struct Leaf_contacts {
   Predicate_counts predicates;
 };
 
+/// A piece's plane in doubles, and the bound below which they do not tell an input point's side (P-03).
+struct Near_plane {
+  double a, b, c, d, bound;
+};
+
+/// What most pairs are settled by.
+struct Near_pieces {
+  std::vector<Near_plane> planes;
+  std::vector<std::array<double, 3>> points;
+
+  explicit Near_pieces(const Operands& operands) : planes(operands.pieces().size()), points(operands.points().size()) {
+    const Predicates predicates = operands.predicates();
+    const Grid_points& grid = operands.points();
+    const double error = grid.bits() <= 53 ? 0 : 0x1p-53 * grid.range() + 0x1p-1000;  // as in input_vertex()
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const Prepared_plane h = predicates.prepare(operands.pieces()[i].support);
+      planes[i] = {h.a, h.b, h.c, h.d, (h.bound + error * h.norm) * (1 + 0x1p-50)};
+    }
+    for (std::uint32_t p = 0; p < points.size(); ++p)
+      points[p] = {grid.approximate(p, 0), grid.approximate(p, 1), grid.approximate(p, 2)};
+  }
+};
+
 class Pair_finder {
  public:
-  Pair_finder(const Operands& operands, Leaf_contacts& found)
-      : operands_(operands),
-        predicates_(operands.predicates()),
-        input_error_(operands.points().bits() <= 53 ? 0 : 0x1p-53 * operands.points().range() + 0x1p-1000),
-        found_(found) {}
+  Pair_finder(const Operands& operands, const Near_pieces& near, Leaf_contacts& found)
+      : operands_(operands), predicates_(operands.predicates()), near_(near), found_(found) {}
 
   void look_at(std::uint32_t i, std::uint32_t j) {
     ++found_.pairs;
@@ -60,7 +80,7 @@ class Pair_finder {
         if (!coplanar) return;
       }
     if (coplanar) look_at_coplanar(i, j, common > 0);
-    else if (common > 1 || !(is_clearly_apart(i, j, shared, common) || is_clearly_apart(j, i, shared, common)))
+    else if (common > 1 || !(is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common)))
       look_at_crossing(i, j, common == 1 ? std::optional(shared) : std::nullopt);
   }
 
@@ -68,21 +88,19 @@ class Pair_finder {
   Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
 
   /// Whether doubles tell that all of piece j but a corner that it shares, if it shares one, is on one side of piece i.
-  bool is_clearly_apart(std::uint32_t i, std::uint32_t j, std::uint32_t shared, std::size_t common) {
-    const Prepared_plane h = predicates_.prepare(support(i));
-    const Grid_points& points = operands_.points();
-    bool front = false, behind = false;
-    for (const Piece_corner& corner : operands_.corners(j)) {
-      if (common != 0 && corner.point == shared) continue;
-      const double value = h.a * points.approximate(corner.point, 0) + h.b * points.approximate(corner.point, 1) +
-                           h.c * points.approximate(corner.point, 2) + h.d;
-      const double bound = h.bound + input_error_ * h.norm;
-      if (!(std::fabs(value) > bound)) return false;
-      front |= value > 0;
-      behind |= value < 0;
+  bool is_clearly_apart(std::uint32_t i, std::span<const Piece_corner> of_j, std::size_t common) {
+    const Near_plane& h = near_.planes[i];
+    std::size_t front = 0, behind = 0;
+    for (const Piece_corner& corner : of_j) {
+      const std::array<double, 3>& p = near_.points[corner.point];
+      const double value = h.a * p[0] + h.b * p[1] + h.c * p[2] + h.d;
+      front += value > h.bound;
+      behind += value < -h.bound;
     }
-    found_.predicates.filtered += operands_.corners(j).size() - common;
-    return front != behind;
+    const std::size_t all = of_j.size() - common;  // a common corner is on the plane: neither
+    if (front != all && behind != all) return false;
+    found_.predicates.filtered += of_j.size();
+    return true;
   }
 
   Sign side(const Vertex& v, const Prepared_plane& h) { return predicates_.side(v, h, found_.predicates); }
@@ -238,7 +256,7 @@ class Pair_finder {
 
   const Operands& operands_;
   const Predicates predicates_;
-  const double input_error_;  // of any input point's coordinates (Predicates::input_vertex)
+  const Near_pieces& near_;
   Leaf_contacts& found_;
   Sides sides_i_, sides_j_;
   bool separated_ = false;
@@ -269,9 +287,10 @@ std::vector<std::size_t> gathered(const std::vector<Leaf_contacts>& leaves, std:
 Contacts contacts(const Operands& operands, const Box_tree& tree) {
   // 1. All pairs, by leaves of the tree.
   constexpr std::size_t together = 64;
+  const Near_pieces near(operands);
   std::vector<Leaf_contacts> found((tree.leaf_count() + together - 1) / together);
   parallel_for(found.size(), [&](std::size_t chunk) {
-    Pair_finder finder(operands, found[chunk]);
+    Pair_finder finder(operands, near, found[chunk]);
     for (std::size_t leaf = together * chunk; leaf < std::min(together * (chunk + 1), tree.leaf_count()); ++leaf)
       tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { finder.look_at(i, j); });
   });
