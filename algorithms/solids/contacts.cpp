@@ -164,9 +164,9 @@ class Pair_finder {
     found_.touches.push_back({i, stretch.from});
     if (stretch.kind == Stretch::Kind::segment) found_.touches.push_back({i, stretch.to});
   }
-  void cut(std::uint32_t i, const Stretch& stretch, Plane plane) {
+  void cut(std::uint32_t i, std::uint32_t j, const Stretch& stretch, Plane plane) {
     found_.touched.push_back(i);
-    found_.cuts.push_back({i, plane, stretch.from, stretch.to});
+    found_.cuts.push_back({i, j, plane, stretch.from, stretch.to});
   }
 
   /// Pieces in different planes.
@@ -183,9 +183,9 @@ class Pair_finder {
     if (stretch.kind == Stretch::Kind::point && corner && stretch.from.is_input() && stretch.from.point == *corner)
       return;
     const bool is_segment = stretch.kind == Stretch::Kind::segment;
-    if (is_segment && sides_i_.front && sides_i_.behind) cut(i, stretch, support(j));
+    if (is_segment && sides_i_.front && sides_i_.behind) cut(i, j, stretch, support(j));
     else touch(i, stretch);
-    if (is_segment && sides_j_.front && sides_j_.behind) cut(j, stretch, support(i));
+    if (is_segment && sides_j_.front && sides_j_.behind) cut(j, i, stretch, support(i));
     else touch(j, stretch);
   }
   static bool is_apart(const Sides& sides) { return !sides.on && !(sides.front && sides.behind); }
@@ -242,7 +242,7 @@ class Pair_finder {
       clip(stretch, support(i).id(), edges[k].edge.id(), i);
       if (stretch.kind == Stretch::Kind::nothing) continue;
       if (stretch.kind == Stretch::Kind::segment && shares_area && !is_on_boundary(i, stretch))
-        cut(i, stretch, edges[k].edge);
+        cut(i, j, stretch, edges[k].edge);
       else touch(i, stretch);
     }
   }

@@ -7,6 +7,7 @@
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/generate/shapes.h>
@@ -69,6 +70,9 @@ std::vector<Known> known() {
     nested.add_face(loop);
   }
   add_box(twice, {1, 0, 0}, {3, 2, 2});  // wound round twice where both are
+  Polygon_soup peak;
+  for (const Exact_point& p : {Exact_point{2, 2, 1}, {4, 3, 1}, {3, 4, 1}, {4, 4, 2}}) peak.add_point(p[0], p[1], p[2]);
+  for (const auto& face : {std::array<Point_id, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) peak.add_face(face);
   const Rational ulp(1, Integer("4503599627370496"));
   return {
       {"overlap", {cube, box({1, 1, 1}, {3, 3, 3})}, {15, 1, 7, 14}},
@@ -98,6 +102,7 @@ std::vector<Known> known() {
       {"nothing", {cube, Polygon_soup()}, {8, 0, 8, 8}},
       {"an ulp apart", {cube, box({2 + ulp, 0, 0}, {4, 2, 2})}, {16 - 4 * ulp, 0, 8, 16 - 4 * ulp}},
       {"an ulp into each other", {cube, box({2 - ulp, 0, 0}, {4, 2, 2})}, {16, 4 * ulp, 8 - 4 * ulp, 16 - 4 * ulp}},
+      {"a peak on an edge", {cube, peak}, {Rational(17, 2), 0, 8, Rational(17, 2)}},
       {"turned inside out", {cube, generate::faces_reversed(box({1, 1, 1}, {3, 3, 3}))}, {8, 0, 8, 8}},
   };
 }
@@ -230,6 +235,42 @@ TEST(Set_operations, are_the_same_for_any_number_of_threads) {
   EXPECT_EQ(texts[0], texts[1]);
   generate::Random random(3);
   EXPECT_EQ(harness::flaw_by_points(solids, 1, random), "");
+}
+
+TEST(Rounding, says_what_it_breaks) {
+  // A slab thinner than floats at its height, cut by a plane askew.
+  const Rational thin(1, 1 << 30);
+  const Polygon_soup slab = box({0, 0, 1}, {1, 1, 1 + thin});
+  const Rounded_surface floats = rounded(slab, Rounding::to_float), doubles = rounded(slab, Rounding::to_double);
+  EXPECT_EQ(doubles.moved, 0u);
+  EXPECT_EQ(doubles.soup.face_count(), 6u);
+  EXPECT_TRUE(doubles.not_planar.empty() && doubles.collapsed.empty() && doubles.crossing.empty());
+  EXPECT_EQ(floats.moved, 4u);
+  EXPECT_GE(floats.farthest, 0x1p-30);
+  EXPECT_EQ(floats.collapsed.size(), 8u);  // four walls, as triangles: they have no normal that says they are planar
+  EXPECT_EQ(rounded(slab, Rounding::to_double, true).soup.face_count(), 12u);
+  // Faces through thirds: a square whose corners are rounded is not planar.
+  const Polygon_soup turned = generate::rotated(box({0, 0, 0}, {1, 1, 1}), generate::rotation(3, 1, 1, 2));
+  const Rounded_surface near = rounded(turned, Rounding::to_double);
+  EXPECT_EQ(near.moved, 7u);  // all but the origin
+  EXPECT_FALSE(near.not_planar.empty());
+  EXPECT_EQ(near.soup.face_count(), 6 + near.not_planar.size());
+  EXPECT_LT(near.farthest, 0x1p-52);
+  EXPECT_TRUE(near.turned.empty() && near.collapsed.empty() && near.crossing.empty());
+  // A triangle, and one whose corner is right above it: the first is rounded up there, the corner down.
+  const Rational h(1, 1 << 26);  // an eighth of a float's step beyond 1
+  Polygon_soup sheets;
+  for (const Exact_point& p : {Exact_point{0, 0, 1 + 5 * h},
+                               {1, 0, 1 + 5 * h},
+                               {0, 1, 1 + 100 * h},
+                               {Rational(1, 4), Rational(1, 8), 1 + 17 * h},
+                               {Rational(1, 2), Rational(1, 8), 2},
+                               {Rational(1, 4), Rational(1, 4), 2}})
+    sheets.add_point(p[0], p[1], p[2]);
+  sheets.add_face({0, 1, 2});
+  sheets.add_face({3, 4, 5});
+  EXPECT_TRUE(rounded(sheets, Rounding::to_double).crossing.empty());
+  EXPECT_EQ(rounded(sheets, Rounding::to_float).crossing, (std::vector<std::pair<Face_id, Face_id>>{{0, 1}}));
 }
 
 TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
