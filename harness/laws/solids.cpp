@@ -421,6 +421,11 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random&
       how = "a corner elsewhere";
       fragment.vertices[random.below(fragment.vertices.size())][random.below(3)] += Rational(1, 1024);
       break;
+    case 6:
+      how = "all of them dropped";
+      if (result.soup.face_count() == 0) return {};
+      for (Solid_certificate::Fragment& one : claim.fragments) one.fate = Solid_certificate::Fate::dropped;
+      break;
     default: how = "turned round"; std::reverse(fragment.vertices.begin(), fragment.vertices.end());
   }
   if (verify_solids(solids, claim, nullptr, verifying).accepted) return "a forged certificate is accepted: " + how;
