@@ -4,8 +4,10 @@
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/io/exact_text.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
 #include <sightline/io/read.h>
@@ -19,7 +21,7 @@ namespace sightline::app {
 namespace {
 
 struct Boolean_arguments {
-  std::string operation, out, json, certificate, inside = "positive", coordinates = "exact";
+  std::string operation, out, json, certificate, inside = "positive", coordinates = "exact", round = "double";
   std::vector<std::string> solids;
   int threads = 0;
 };
@@ -45,6 +47,40 @@ std::vector<std::string> names_of(const List& list) {
 
 std::string place_text(const Exact_point& p) {
   return fmt::format("({}, {}, {})", to_string(p[0]), to_string(p[1]), to_string(p[2]));
+}
+
+/// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, which is reported.
+std::optional<Rounded_surface> written(const Polygon_soup& soup, const std::string& out, const std::string& round) {
+  const std::optional<Format> format = format_of_ending(out);
+  if (format == Format::qoff || !format) {
+    write_scene(soup, out);
+    return std::nullopt;
+  }
+  const bool triangles = format == Format::stl;
+  if (round == "double" && !triangles) try {
+      write_scene(soup, out);
+      return std::nullopt;
+    } catch (const Not_representable&) {
+    }
+  Rounded_surface near = rounded(soup, round == "float" ? Rounding::to_float : Rounding::to_double, triangles);
+  write_scene(near.soup, out);
+  return near;
+}
+
+Json rounding_json(const Rounded_surface& near) {
+  Json crossing = Json::array();
+  for (const auto& [one, other] : near.crossing) crossing.push_back({one, other});
+  return {{"moved", near.moved},         {"farthest", near.farthest}, {"not_planar", near.not_planar},
+          {"collapsed", near.collapsed}, {"turned", near.turned},     {"crossing", std::move(crossing)}};
+}
+
+std::string rounding_text(const Rounded_surface& near) {
+  std::string text = fmt::format("{} points, by {:.2g} at most; {} faces no longer planar, now triangles", near.moved,
+                                 near.farthest, near.not_planar.size());
+  if (near.collapsed.size() + near.turned.size() + near.crossing.size() > 0)
+    text += fmt::format("; {} without area, {} turned over, {} pairs cross that did not: write .qoff",
+                        near.collapsed.size(), near.turned.size(), near.crossing.size());
+  return text;
 }
 
 /// What does not bound a solid is refused, with its edges.
@@ -100,7 +136,11 @@ Exit run(const Boolean_arguments& a, const Command& command) {
 
   // 3. What is written.
   const Hole_free flat = without_holes(result.soup);
-  if (!a.out.empty()) write_scene(flat.soup, a.out);
+  const std::optional<Rounded_surface> rounding = a.out.empty() ? std::nullopt : written(flat.soup, a.out, a.round);
+  const auto before = [&](std::size_t written_face) {  // the face of flat.soup
+    return rounding ? rounding->face_of[written_face] : static_cast<Face_id>(written_face);
+  };
+  const std::size_t faces_written = rounding ? rounding->face_of.size() : flat.face_of.size();
   if (!a.certificate.empty())
     write_file(a.certificate,
                [&](std::ostream& out) { write_solid_certificate(out, solid_certificate(*operands, options, result)); });
@@ -112,8 +152,8 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   if (!a.json.empty()) {
     const std::array<double, 2> surface = area(result.soup);
     Json provenance = Json::array(), turned = Json::array();
-    for (std::size_t f = 0; f < flat.face_of.size(); ++f) {
-      const Result_face& face = result.faces[flat.face_of[f]];
+    for (std::size_t f = 0; f < faces_written; ++f) {
+      const Result_face& face = result.faces[flat.face_of[before(f)]];
       provenance.push_back({face.operand, face.face});
       if (face.turned) turned.push_back(f);
     }
@@ -133,7 +173,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
                          {"arithmetic", std::string(name(operands->predicates().arithmetic()))}};
     document["result"] = {{"operation", a.operation},
                           {"inside", a.inside},
-                          {"faces", flat.soup.face_count()},
+                          {"faces", faces_written},
                           {"maximal_faces", result.soup.face_count()},
                           {"points", result.soup.point_count()},
                           {"volume", to_string(volume(result.soup))},
@@ -141,6 +181,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
                           {"not_manifold", not_manifold},
                           {"provenance", std::move(provenance)},
                           {"turned", std::move(turned)}};
+    if (rounding) document["result"]["rounding"] = rounding_json(*rounding);
     document["counters"] = counters_json(result.counters);
     document["seconds"] = {{"read", read_seconds}, {"prepare", prepare_seconds}, {"boolean", seconds}};
     write_file(a.json, to_text(document, 1) + "\n");
@@ -151,7 +192,8 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   const Set_counters& c = result.counters;
   row("solids", fmt::format("{}, of {} faces in {} convex pieces", solids.size(), c.faces, c.pieces));
   row("result", fmt::format("{} faces, {} points; written as {} faces without holes", result.soup.face_count(),
-                            result.soup.point_count(), flat.soup.face_count()));
+                            result.soup.point_count(), faces_written));
+  if (rounding) row("rounded", rounding_text(*rounding));
   row("volume", fmt::format("{:.17g}", nearest_double(volume(result.soup))));
   row("edges", result.crowded.empty()
                    ? "each of two faces"
@@ -202,6 +244,9 @@ void add_boolean(Command program) {
       .add_option("--coordinates", a->coordinates,
                   "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
       .check(one_of({"exact", "double"}))
+      .show_default();
+  command.add_option("--round", a->round, "what coordinates of a format that cannot hold them are rounded to")
+      .check(one_of({"double", "float"}))
       .show_default();
   command.add_option("--threads", a->threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))

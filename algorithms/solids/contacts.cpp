@@ -4,6 +4,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 namespace sightline {
@@ -28,10 +29,33 @@ struct Leaf_contacts {
   Predicate_counts predicates;
 };
 
+/// A piece's plane in doubles, and the bound below which they do not tell an input point's side (P-03).
+struct Near_plane {
+  double a, b, c, d, bound;
+};
+
+/// What most pairs are settled by.
+struct Near_pieces {
+  std::vector<Near_plane> planes;
+  std::vector<std::array<double, 3>> points;
+
+  explicit Near_pieces(const Operands& operands) : planes(operands.pieces().size()), points(operands.points().size()) {
+    const Predicates predicates = operands.predicates();
+    const Grid_points& grid = operands.points();
+    const double error = grid.bits() <= 53 ? 0 : 0x1p-53 * grid.range() + 0x1p-1000;  // as in input_vertex()
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const Prepared_plane h = predicates.prepare(operands.pieces()[i].support);
+      planes[i] = {h.a, h.b, h.c, h.d, (h.bound + error * h.norm) * (1 + 0x1p-50)};
+    }
+    for (std::uint32_t p = 0; p < points.size(); ++p)
+      points[p] = {grid.approximate(p, 0), grid.approximate(p, 1), grid.approximate(p, 2)};
+  }
+};
+
 class Pair_finder {
  public:
-  Pair_finder(const Operands& operands, Leaf_contacts& found)
-      : operands_(operands), predicates_(operands.predicates()), found_(found) {}
+  Pair_finder(const Operands& operands, const Near_pieces& near, Leaf_contacts& found)
+      : operands_(operands), predicates_(operands.predicates()), near_(near), found_(found) {}
 
   void look_at(std::uint32_t i, std::uint32_t j) {
     ++found_.pairs;
@@ -56,11 +80,28 @@ class Pair_finder {
         if (!coplanar) return;
       }
     if (coplanar) look_at_coplanar(i, j, common > 0);
-    else look_at_crossing(i, j, common == 1 ? std::optional(shared) : std::nullopt);
+    else if (common > 1 || !(is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common)))
+      look_at_crossing(i, j, common == 1 ? std::optional(shared) : std::nullopt);
   }
 
  private:
   Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
+
+  /// Whether doubles tell that all of piece j but a corner that it shares, if it shares one, is on one side of piece i.
+  bool is_clearly_apart(std::uint32_t i, std::span<const Piece_corner> of_j, std::size_t common) {
+    const Near_plane& h = near_.planes[i];
+    std::size_t front = 0, behind = 0;
+    for (const Piece_corner& corner : of_j) {
+      const std::array<double, 3>& p = near_.points[corner.point];
+      const double value = h.a * p[0] + h.b * p[1] + h.c * p[2] + h.d;
+      front += value > h.bound;
+      behind += value < -h.bound;
+    }
+    const std::size_t all = of_j.size() - common;  // a common corner is on the plane: neither
+    if (front != all && behind != all) return false;
+    found_.predicates.filtered += of_j.size();
+    return true;
+  }
 
   Sign side(const Vertex& v, const Prepared_plane& h) { return predicates_.side(v, h, found_.predicates); }
 
@@ -123,9 +164,9 @@ class Pair_finder {
     found_.touches.push_back({i, stretch.from});
     if (stretch.kind == Stretch::Kind::segment) found_.touches.push_back({i, stretch.to});
   }
-  void cut(std::uint32_t i, const Stretch& stretch, Plane plane) {
+  void cut(std::uint32_t i, std::uint32_t j, const Stretch& stretch, Plane plane) {
     found_.touched.push_back(i);
-    found_.cuts.push_back({i, plane, stretch.from, stretch.to});
+    found_.cuts.push_back({i, j, plane, stretch.from, stretch.to});
   }
 
   /// Pieces in different planes.
@@ -142,9 +183,9 @@ class Pair_finder {
     if (stretch.kind == Stretch::Kind::point && corner && stretch.from.is_input() && stretch.from.point == *corner)
       return;
     const bool is_segment = stretch.kind == Stretch::Kind::segment;
-    if (is_segment && sides_i_.front && sides_i_.behind) cut(i, stretch, support(j));
+    if (is_segment && sides_i_.front && sides_i_.behind) cut(i, j, stretch, support(j));
     else touch(i, stretch);
-    if (is_segment && sides_j_.front && sides_j_.behind) cut(j, stretch, support(i));
+    if (is_segment && sides_j_.front && sides_j_.behind) cut(j, i, stretch, support(i));
     else touch(j, stretch);
   }
   static bool is_apart(const Sides& sides) { return !sides.on && !(sides.front && sides.behind); }
@@ -201,7 +242,7 @@ class Pair_finder {
       clip(stretch, support(i).id(), edges[k].edge.id(), i);
       if (stretch.kind == Stretch::Kind::nothing) continue;
       if (stretch.kind == Stretch::Kind::segment && shares_area && !is_on_boundary(i, stretch))
-        cut(i, stretch, edges[k].edge);
+        cut(i, j, stretch, edges[k].edge);
       else touch(i, stretch);
     }
   }
@@ -215,6 +256,7 @@ class Pair_finder {
 
   const Operands& operands_;
   const Predicates predicates_;
+  const Near_pieces& near_;
   Leaf_contacts& found_;
   Sides sides_i_, sides_j_;
   bool separated_ = false;
@@ -245,9 +287,10 @@ std::vector<std::size_t> gathered(const std::vector<Leaf_contacts>& leaves, std:
 Contacts contacts(const Operands& operands, const Box_tree& tree) {
   // 1. All pairs, by leaves of the tree.
   constexpr std::size_t together = 64;
+  const Near_pieces near(operands);
   std::vector<Leaf_contacts> found((tree.leaf_count() + together - 1) / together);
   parallel_for(found.size(), [&](std::size_t chunk) {
-    Pair_finder finder(operands, found[chunk]);
+    Pair_finder finder(operands, near, found[chunk]);
     for (std::size_t leaf = together * chunk; leaf < std::min(together * (chunk + 1), tree.leaf_count()); ++leaf)
       tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { finder.look_at(i, j); });
   });

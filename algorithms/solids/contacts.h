@@ -19,7 +19,7 @@ namespace sightline {
 /// A segment in a piece along which it is to be cut: it has points inside the piece, and lies in `plane`, which is not
 /// the piece's own. Its ends are on the piece.
 struct Cut {
-  std::uint32_t piece;
+  std::uint32_t piece, other;  ///< of which the other has the segment, too
   Plane plane;
   Vertex from, to;
 };

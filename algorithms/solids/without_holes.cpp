@@ -8,9 +8,6 @@
 
 namespace sightline {
 
-namespace {
-
-/// The triangles of a face with holes.
 std::vector<std::vector<Point_id>> triangles_of(const Polygon_soup& soup, Face_id f) {
   // 1. The axis to project along: one that the face's normal has a part of; from its front.
   Exact_point normal;
@@ -40,7 +37,7 @@ std::vector<std::vector<Point_id>> triangles_of(const Polygon_soup& soup, Face_i
     planar.push_back({at[x].get_num() * (common / at[x].get_den()), at[y].get_num() * (common / at[y].get_den())});
   }
   const Convex_parts parts = triangles(planar, loops);
-  if (parts.contour != Contour::simple) throw std::logic_error("a face with holes that is not simple");
+  if (parts.contour != Contour::simple) throw std::logic_error("a face that is not simple");
   std::vector<std::vector<Point_id>> result;
   for (const auto& piece : parts.pieces) {
     result.emplace_back();
@@ -48,8 +45,6 @@ std::vector<std::vector<Point_id>> triangles_of(const Polygon_soup& soup, Face_i
   }
   return result;
 }
-
-}  // namespace
 
 Hole_free without_holes(const Polygon_soup& soup) {
   Hole_free result;

@@ -19,4 +19,7 @@ struct Hole_free {
 /// but at points. Exact: yes. Cost: O(k log k) for a face of k points with holes.
 Hole_free without_holes(const Polygon_soup& soup);
 
+/// One face as triangles on its own points, all of them. Pre, Exact, Cost: as above.
+std::vector<std::vector<Point_id>> triangles_of(const Polygon_soup& soup, Face_id face);
+
 }  // namespace sightline

@@ -157,8 +157,8 @@ Answer labels_of(const Posed_scene& scene) {
 Exact_point any_point_of(const std::vector<Exact_point>& corners, Random& random) {
   const auto any = [&] { return corners[random.below(corners.size())]; };
   const Exact_point p = any(), q = any(), r = any();
-  const Rational s(static_cast<long>(random.between(0, 8)), 8);
-  const Rational t(static_cast<long>(random.between(-1, 4)), random.chance(1, 2) ? 1024L : 6L);
+  const Rational s = Rational(static_cast<long>(random.between(0, 8))) / 8;
+  const Rational t = Rational(static_cast<long>(random.between(-1, 4))) / (random.chance(1, 2) ? 1024 : 6);
   Exact_point point;
   for (std::size_t k = 0; k < 3; ++k) point[k] = p[k] + s * (q[k] - p[k]) + t * (r[k] - p[k]);
   return point;
@@ -292,7 +292,12 @@ std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random) {
     if (generate::Points base = base_of(scene.soup, f, false); !base.empty()) bases.push_back(std::move(base));
   if (bases.empty()) return {};
   std::vector<Polygon_soup> solids(static_cast<std::size_t>(random.between(2, 3)));
-  const Exact_point along = generate::lattice(random, 2), apex = random.chance(1, 2) ? scene.eye : bases[0][0];
+  const Exact_point along = generate::lattice(random, 2);
+  Exact_point apex = random.chance(1, 2) ? scene.eye : bases[0][0];
+  if (random.chance(1, 3)) {  // on an edge
+    const generate::Points& base = bases[random.below(bases.size())];
+    for (std::size_t k = 0; k < 3; ++k) apex[k] = (base[0][k] + base[1][k]) / 2;
+  }
   for (Polygon_soup& solid : solids) {
     const std::size_t place = static_cast<std::size_t>(&solid - solids.data());
     if (place > 0 && random.chance(1, 4)) {  // a copy, beside the first or where it is, its faces in another order
@@ -390,7 +395,7 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random&
   const std::size_t i = random.below(claim.fragments.size());
   Solid_certificate::Fragment& fragment = claim.fragments[i];
   std::string how;
-  switch (random.below(7)) {
+  switch (random.below(8)) {
     case 0:
       how = "another fate";
       fragment.fate = static_cast<Solid_certificate::Fate>((static_cast<std::size_t>(fragment.fate) + 1) % 3);
@@ -415,6 +420,11 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random&
     case 5:
       how = "a corner elsewhere";
       fragment.vertices[random.below(fragment.vertices.size())][random.below(3)] += Rational(1, 1024);
+      break;
+    case 6:
+      how = "all of them dropped";
+      if (result.soup.face_count() == 0) return {};
+      for (Solid_certificate::Fragment& one : claim.fragments) one.fate = Solid_certificate::Fate::dropped;
       break;
     default: how = "turned round"; std::reverse(fragment.vertices.begin(), fragment.vertices.end());
   }

@@ -5,7 +5,9 @@
 
 #include "../sample.h"
 
+#include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/generate/shapes.h>
@@ -68,6 +70,9 @@ std::vector<Known> known() {
     nested.add_face(loop);
   }
   add_box(twice, {1, 0, 0}, {3, 2, 2});  // wound round twice where both are
+  Polygon_soup peak;
+  for (const Exact_point& p : {Exact_point{2, 2, 1}, {4, 3, 1}, {3, 4, 1}, {4, 4, 2}}) peak.add_point(p[0], p[1], p[2]);
+  for (const auto& face : {std::array<Point_id, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}) peak.add_face(face);
   const Rational ulp(1, Integer("4503599627370496"));
   return {
       {"overlap", {cube, box({1, 1, 1}, {3, 3, 3})}, {15, 1, 7, 14}},
@@ -97,6 +102,7 @@ std::vector<Known> known() {
       {"nothing", {cube, Polygon_soup()}, {8, 0, 8, 8}},
       {"an ulp apart", {cube, box({2 + ulp, 0, 0}, {4, 2, 2})}, {16 - 4 * ulp, 0, 8, 16 - 4 * ulp}},
       {"an ulp into each other", {cube, box({2 - ulp, 0, 0}, {4, 2, 2})}, {16, 4 * ulp, 8 - 4 * ulp, 16 - 4 * ulp}},
+      {"a peak on an edge", {cube, peak}, {Rational(17, 2), 0, 8, Rational(17, 2)}},
       {"turned inside out", {cube, generate::faces_reversed(box({1, 1, 1}, {3, 3, 3}))}, {8, 0, 8, 8}},
   };
 }
@@ -159,7 +165,8 @@ TEST(Set_operations, answer_by_winding_numbers) {
 TEST(Set_operations, of_random_cones_and_prisms_are_right) {
   harness::Subject subject = harness::boolean();
   std::erase_if(subject.checks, [](const harness::Check& check) {
-    return check.name != "points" && check.name != "volumes" && check.name != "surface" && check.name != "turn";
+    return check.name != "points" && check.name != "volumes" && check.name != "surface" && check.name != "proof" &&
+           check.name != "turn";
   });
   harness::Fuzz_options options;
   options.scenes = test_scenes::sample(60);
@@ -228,6 +235,73 @@ TEST(Set_operations, are_the_same_for_any_number_of_threads) {
   EXPECT_EQ(texts[0], texts[1]);
   generate::Random random(3);
   EXPECT_EQ(harness::flaw_by_points(solids, 1, random), "");
+}
+
+TEST(Rounding, says_what_it_breaks) {
+  // A slab thinner than floats at its height, cut by a plane askew.
+  const Rational thin(1, 1 << 30);
+  const Polygon_soup slab = box({0, 0, 1}, {1, 1, 1 + thin});
+  const Rounded_surface floats = rounded(slab, Rounding::to_float), doubles = rounded(slab, Rounding::to_double);
+  EXPECT_EQ(doubles.moved, 0u);
+  EXPECT_EQ(doubles.soup.face_count(), 6u);
+  EXPECT_TRUE(doubles.not_planar.empty() && doubles.collapsed.empty() && doubles.crossing.empty());
+  EXPECT_EQ(floats.moved, 4u);
+  EXPECT_GE(floats.farthest, 0x1p-30);
+  EXPECT_EQ(floats.collapsed.size(), 8u);  // four walls, as triangles: they have no normal that says they are planar
+  EXPECT_EQ(rounded(slab, Rounding::to_double, true).soup.face_count(), 12u);
+  // Faces through thirds: a square whose corners are rounded is not planar.
+  const Polygon_soup turned = generate::rotated(box({0, 0, 0}, {1, 1, 1}), generate::rotation(3, 1, 1, 2));
+  const Rounded_surface near = rounded(turned, Rounding::to_double);
+  EXPECT_EQ(near.moved, 7u);  // all but the origin
+  EXPECT_FALSE(near.not_planar.empty());
+  EXPECT_EQ(near.soup.face_count(), 6 + near.not_planar.size());
+  EXPECT_LT(near.farthest, 0x1p-52);
+  EXPECT_TRUE(near.turned.empty() && near.collapsed.empty() && near.crossing.empty());
+  // A triangle, and one whose corner is right above it: the first is rounded up there, the corner down.
+  const Rational h(1, 1 << 26);  // an eighth of a float's step beyond 1
+  Polygon_soup sheets;
+  for (const Exact_point& p : {Exact_point{0, 0, 1 + 5 * h},
+                               {1, 0, 1 + 5 * h},
+                               {0, 1, 1 + 100 * h},
+                               {Rational(1, 4), Rational(1, 8), 1 + 17 * h},
+                               {Rational(1, 2), Rational(1, 8), 2},
+                               {Rational(1, 4), Rational(1, 4), 2}})
+    sheets.add_point(p[0], p[1], p[2]);
+  sheets.add_face({0, 1, 2});
+  sheets.add_face({3, 4, 5});
+  EXPECT_TRUE(rounded(sheets, Rounding::to_double).crossing.empty());
+  EXPECT_EQ(rounded(sheets, Rounding::to_float).crossing, (std::vector<std::pair<Face_id, Face_id>>{{0, 1}}));
+}
+
+TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
+  const std::vector<Polygon_soup> solids{box({0, 0, 0}, {2, 2, 2}), box({1, 1, 1}, {3, 3, 2})};
+  const Operands operands(solids);
+  Set_options options;
+  options.keep_fragments = true;
+  const Set_result result = set_operation(operands, options);
+  std::ostringstream text;
+  write_solid_certificate(text, solid_certificate(operands, options, result));
+  const Solid_certificate read = read_solid_certificate(text.str());
+  EXPECT_TRUE(verify_solids(solids, read, &result.soup).accepted) << verify_solids(solids, read, &result.soup).why;
+  std::ostringstream again;
+  write_solid_certificate(again, read);
+  EXPECT_EQ(again.str(), text.str());
+  // Of other solids, of another operation, with another result.
+  EXPECT_FALSE(verify_solids(std::vector{solids[1], solids[0]}, read).accepted);
+  EXPECT_FALSE(verify_solids(std::vector{solids[0]}, read).accepted);
+  EXPECT_FALSE(verify_solids(solids, read, &solids[0]).accepted);
+  Solid_certificate other = read;
+  other.operation = "intersection";
+  EXPECT_FALSE(verify_solids(solids, other).accepted);
+  other = read;
+  other.inside = "somewhere";
+  EXPECT_FALSE(verify_solids(solids, other).accepted);
+  for (const std::string bad :
+       {"", "[]", "{}", R"({"format": "sightline boolean 1"})", R"({"format": "sightline order 2"})"})
+    EXPECT_THROW(read_solid_certificate(bad), std::invalid_argument) << bad;
+  std::string broken = text.str();
+  broken.replace(broken.find("\"vertices\": [0"), 14, "\"vertices\": [9999");
+  EXPECT_THROW(read_solid_certificate(broken), std::invalid_argument);
 }
 
 TEST(Operands, that_are_open_are_refused_with_their_edges) {

@@ -1,0 +1,247 @@
+// Set operations on solids: two spheres against CGAL's corefinement in the same run, growth up to a million triangles
+// each, many operands. bench_solids [--max TRIANGLES] [--certificates]. Each row is a process of its own; seconds are
+// of one thread's processor time, reading apart; the best of up to five turns.
+
+#include "measure.h"
+
+#include <sightline/algorithms/solids/certificate.h>
+#include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/kernel/threads.h>
+
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/corefinement.h>
+#include <CGAL/Surface_mesh.h>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <ctime>
+
+using namespace sightline;
+
+namespace {
+
+double processor_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// 2 meridians (rings - 1) triangles near the unit sphere around (x, 0, 0), on a grid of 2^-20.
+Polygon_soup sphere(int meridians, int rings, double x) {
+  Polygon_soup soup;
+  const auto near = [](double value) { return std::round(value * 0x1p20) * 0x1p-20; };
+  const Point_id top = soup.add_point(near(x), 0.0, 1.0), bottom = soup.add_point(near(x), 0.0, -1.0);
+  std::vector<std::vector<Point_id>> ring;
+  for (int j = 1; j < rings; ++j) {
+    ring.emplace_back();
+    for (int i = 0; i < meridians; ++i) {
+      const double height = M_PI * j / rings, angle = 2 * M_PI * (i + 0.37 * j) / meridians;
+      ring.back().push_back(soup.add_point(near(x + std::sin(height) * std::cos(angle)),
+                                           near(std::sin(height) * std::sin(angle)), near(std::cos(height))));
+    }
+  }
+  for (int i = 0; i < meridians; ++i) {
+    const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>((i + 1) % meridians);
+    soup.add_face({top, ring.front()[a], ring.front()[b]});
+    soup.add_face({bottom, ring.back()[b], ring.back()[a]});
+    for (std::size_t j = 0; j + 1 < ring.size(); ++j) {
+      soup.add_face({ring[j][a], ring[j + 1][a], ring[j + 1][b]});
+      soup.add_face({ring[j][a], ring[j + 1][b], ring[j][b]});
+    }
+  }
+  return soup;
+}
+
+Polygon_soup box(const Exact_point& low, const Exact_point& high) {
+  Polygon_soup soup;
+  for (std::size_t k = 0; k < 8; ++k)
+    soup.add_point((k & 4) != 0 ? high[0] : low[0], (k & 2) != 0 ? high[1] : low[1], (k & 1) != 0 ? high[2] : low[2]);
+  soup.add_face({0, 1, 3, 2});
+  soup.add_face({4, 6, 7, 5});
+  soup.add_face({0, 4, 5, 1});
+  soup.add_face({2, 3, 7, 6});
+  soup.add_face({0, 2, 6, 4});
+  soup.add_face({1, 5, 7, 3});
+  return soup;
+}
+
+std::vector<Polygon_soup> rotated_cubes(int count) {
+  std::vector<Polygon_soup> cubes;
+  for (int k = 0; k < count; ++k)
+    cubes.push_back(generate::translated(
+        generate::rotated(box({-1, -1, -1}, {1, 1, 1}), generate::rotation(5, k % 7 - 3, k % 5 - 2, k % 11 - 5)),
+        {Rational(k % 10 * 3, 2), Rational(k / 10 % 10 * 3, 2), Rational(k / 100 * 3, 2)}));
+  for (Polygon_soup& cube : cubes) cube = generate::mapped(cube, [](Point_id, const Exact_point& p) { return p; });
+  return cubes;
+}
+
+std::vector<Polygon_soup> touching_cubes(int side) {
+  std::vector<Polygon_soup> cubes;
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y)
+      for (int z = 0; z < side; ++z) cubes.push_back(box({x, y, z}, {x + 1, y + 1, z + 1}));
+  return cubes;
+}
+
+/// A cube, and all square rods that make it a Menger sponge.
+std::vector<Polygon_soup> sponge(int level) {
+  int size = 1;
+  for (int k = 0; k < level; ++k) size *= 3;
+  std::vector<Polygon_soup> all{box({0, 0, 0}, {size, size, size})};
+  for (int hole = size / 3; hole > 0; hole /= 3)
+    for (int i = hole; i < size; i += 3 * hole)
+      for (int j = hole; j < size; j += 3 * hole) {
+        all.push_back(box({-1, i, j}, {size + 1, i + hole, j + hole}));
+        all.push_back(box({i, -1, j}, {i + hole, size + 1, j + hole}));
+        all.push_back(box({i, j, -1}, {i + hole, j + hole, size + 1}));
+      }
+  return all;
+}
+
+/// A disc and what cuts its teeth.
+std::vector<Polygon_soup> gear(int teeth) {
+  const auto prism = [](const std::vector<std::array<double, 2>>& base, double low, double high) {
+    Polygon_soup soup;
+    const auto n = static_cast<Point_id>(base.size());
+    for (const double z : {low, high})
+      for (const auto& [x, y] : base)
+        soup.add_point(std::round(x * 0x1p20) * 0x1p-20, std::round(y * 0x1p20) * 0x1p-20, z);
+    std::vector<Point_id> bottom, top;
+    for (Point_id i = 0; i < n; ++i) {
+      bottom.push_back(n - 1 - i);
+      top.push_back(n + i);
+      soup.add_face({i, (i + 1) % n, n + (i + 1) % n, n + i});
+    }
+    soup.add_face(bottom);
+    soup.add_face(top);
+    return soup;
+  };
+  const auto at = [](double radius, double angle) {
+    return std::array<double, 2>{radius * std::cos(angle), radius * std::sin(angle)};
+  };
+  std::vector<std::array<double, 2>> rim;
+  for (int k = 0; k < 4 * teeth; ++k) rim.push_back(at(10, M_PI * (k + 0.5) / (2 * teeth)));
+  std::vector<Polygon_soup> all{prism(rim, 0, 1)};
+  for (int k = 0; k < teeth; ++k) {
+    const double angle = 2 * M_PI * k / teeth, wide = M_PI / (2.2 * teeth);
+    all.push_back(
+        prism({at(9, angle - wide / 2), at(11, angle - wide), at(11, angle + wide), at(9, angle + wide / 2)}, -1, 2));
+  }
+  return all;
+}
+
+struct Row {
+  double prepare = 0, operation = 0, check = 0, peak = 0;
+  std::size_t faces_in = 0, faces_out = 0, fragments = 0;
+  bool closed = false, accepted = true;
+};
+
+Row measured(const std::vector<Polygon_soup>& solids, Set_operation operation, bool with_certificate) {
+  Row row;
+  const Peak_memory peak;
+  run_with_threads(1, [&] {
+    Set_options options;
+    options.operation = operation;
+    double since = processor_seconds();
+    for (int turn = 0; turn < 5 && (turn == 0 || processor_seconds() - since < 2); ++turn) {
+      double begin = processor_seconds();
+      const Operands operands(solids);
+      row.closed = flaws(operands).empty();
+      const double prepared = processor_seconds() - begin;
+      begin = processor_seconds();
+      const Set_result result = set_operation(operands, options);
+      const double done = processor_seconds() - begin;
+      if (turn == 0 || prepared + done < row.prepare + row.operation) {
+        row.prepare = prepared;
+        row.operation = done;
+      }
+      row.faces_in = result.counters.faces;
+      row.faces_out = result.soup.face_count();
+      row.fragments = result.counters.fragments;
+    }
+    row.peak = static_cast<double>(peak.bytes()) / 0x1p20;
+    if (!with_certificate || row.fragments > 50000) return;
+    options.keep_fragments = true;
+    const Operands operands(solids);
+    const Set_result result = set_operation(operands, options);
+    const Solid_certificate certificate = solid_certificate(operands, options, result);
+    Verify_options verifying;
+    verifying.threads = 1;
+    since = processor_seconds();
+    row.accepted = verify_solids(solids, certificate, &result.soup, verifying).accepted;
+    row.check = processor_seconds() - since;
+  });
+  return row;
+}
+
+void print_row(const std::string& name, const std::vector<Polygon_soup>& solids, Set_operation operation,
+               bool with_certificate) {
+  Row row;
+  const bool ran = bench::in_child<Row>(row, [&] { return measured(solids, operation, with_certificate); });
+  fmt::print("{:<26} {:>8} {:>9} {:>9.4f} {:>9.4f} {:>9} {:>9} {:>8.0f} {}{}\n", name, solids.size(), row.faces_in,
+             row.prepare, row.operation, row.fragments, row.faces_out, row.peak,
+             row.check > 0 ? fmt::format("{:.3f}", row.check) : "-",
+             ran && row.closed && row.accepted ? "" : " FAILED");
+  std::fflush(stdout);
+}
+
+/// Seconds of CGAL's corefinement with Epeck, meshes made before; the best of five.
+double corefinement(const std::vector<Polygon_soup>& solids) {
+  using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+  double best = 0;
+  for (int turn = 0; turn < 5; ++turn) {
+    std::array<Mesh, 2> meshes;
+    for (std::size_t k = 0; k < 2; ++k) {
+      std::vector<Mesh::Vertex_index> ids;
+      for (Point_id p = 0; p < solids[k].point_count(); ++p) {
+        const Exact_point at = solids[k].point(p);
+        ids.push_back(meshes[k].add_vertex({at[0].get_d(), at[1].get_d(), at[2].get_d()}));
+      }
+      for (Face_id f = 0; f < solids[k].face_count(); ++f) {
+        const auto loop = solids[k].loop(f);
+        meshes[k].add_face(ids[loop[0]], ids[loop[1]], ids[loop[2]]);
+      }
+    }
+    Mesh result;
+    const double begin = processor_seconds();
+    CGAL::Polygon_mesh_processing::corefine_and_compute_union(meshes[0], meshes[1], result);
+    const double seconds = processor_seconds() - begin;
+    if (turn == 0 || seconds < best) best = seconds;
+  }
+  return best;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Set operations on solids");
+  double most = 1e5;
+  bool certificates = false;
+  app.add_option("--max", most, "triangles of each sphere");
+  app.add_flag("--certificates", certificates, "checked too, of up to 50,000 fragments");
+  CLI11_PARSE(app, argc, argv);
+
+  fmt::print("{:<26} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {}\n", "solids", "operands", "faces", "prepare s",
+             "boolean s", "fragments", "result", "peak MB", "check s");
+  double spheres_corefined = 0;
+  for (const int side : {64, 200, 708}) {
+    const double triangles = 2.0 * side * side;
+    if (triangles > 1.01 * most) break;
+    const std::vector<Polygon_soup> solids{sphere(side, side + 1, 0), sphere(side, side + 1, 0.7)};
+    print_row(fmt::format("two spheres, {}", solids[0].face_count()), solids, Set_operation::unite,
+              certificates && side == 64);
+    if (side != 64) continue;
+    bench::in_child<double>(spheres_corefined, [&] { return corefinement(solids); });
+    fmt::print("{:<26} {:>28.4f}\n", "  CGAL corefinement, Epeck", spheres_corefined);
+  }
+  print_row("1,000 rotated cubes", rotated_cubes(1000), Set_operation::unite, certificates);
+  print_row("20^3 touching cubes", touching_cubes(20), Set_operation::unite, false);
+  for (const int level : {2, 3, 4})
+    print_row(fmt::format("Menger sponge, level {}", level), sponge(level), Set_operation::subtract,
+              certificates && level < 4);
+  print_row("gear of 1,000 cuts", gear(1000), Set_operation::subtract, certificates);
+}
