@@ -10,6 +10,7 @@
 #include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/fuzz.h>
