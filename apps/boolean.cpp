@@ -7,6 +7,7 @@
 #include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/io/exact_text.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>

@@ -3,7 +3,7 @@
 #include "support/common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
-#include <sightline/algorithms/verify/solids.h>
+#include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/io/file.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>

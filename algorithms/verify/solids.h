@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iosfwd>
 #include <span>
 #include <string>
 #include <utility>
@@ -64,10 +63,5 @@ struct Solid_certificate {
 /// quadratic at worst. Exact: yes, without filters. Proof: P-115
 Verdict verify_solids(std::span<const Polygon_soup> operands, const Solid_certificate& certificate,
                       const Polygon_soup* result = nullptr, const Verify_options& options = {});
-
-/// The certificate as JSON text, and back. Errors of reading: std::invalid_argument, one line that says what is no
-/// certificate of a set operation. Exact: yes
-void write_solid_certificate(std::ostream& out, const Solid_certificate& certificate);
-Solid_certificate read_solid_certificate(const std::string& text);
 
 }  // namespace sightline

@@ -1,4 +1,4 @@
-#include <sightline/algorithms/verify/solids.h>
+#include <sightline/algorithms/verify/solids_json.h>
 
 #include <nlohmann/json.hpp>
 

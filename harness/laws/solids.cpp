@@ -171,7 +171,7 @@ std::vector<Exact_point> corners_of(const Polygon_soup& soup) {
 }
 
 std::string text_of(const Exact_point& p) {
-  return "(" + to_string(p[0]) + ", " + to_string(p[1]) + ", " + to_string(p[2]) + ")";
+  return "(" + sightline::to_string(p[0]) + ", " + sightline::to_string(p[1]) + ", " + sightline::to_string(p[2]) + ")";
 }
 
 bool is_inside_by(Inside_rule rule, int winding) {

@@ -10,15 +10,18 @@
 #include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/harness/generate/shapes.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/fuzz.h>
 #include <sightline/harness/laws/solids.h>
+#include <sightline/io/read.h>
 #include <sightline/io/write.h>
 #include <sightline/kernel/threads.h>
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -302,6 +305,21 @@ TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
   std::string broken = text.str();
   broken.replace(broken.find("\"vertices\": [0"), 14, "\"vertices\": [9999");
   EXPECT_THROW(read_solid_certificate(broken), std::invalid_argument);
+}
+
+TEST(Set_operations, of_real_solids_and_copies_moved_along_a_face_add_up) {
+  const std::filesystem::path folder = std::string(SIGHTLINE_SCENES_DIR).empty() ? "" : SIGHTLINE_SCENES_DIR;
+  std::size_t found = 0;
+  for (const char* name : {"d_hard/cg_star.off", "c_convex/cg_P.off", "d_hard/cg_cross.off", "d_hard/cg_3torus.off"}) {
+    const std::filesystem::path file = folder / name;
+    if (folder.empty() || !std::filesystem::exists(file)) continue;
+    ++found;
+    const Polygon_soup solid = read_scene(file);
+    const Exact_point p = solid.point(solid.loop(0)[0]), q = solid.point(solid.loop(0)[1]);
+    const Polygon_soup moved = generate::translated(solid, {(q[0] - p[0]) / 2, (q[1] - p[1]) / 2, (q[2] - p[2]) / 2});
+    EXPECT_EQ(harness::flaw_by_volumes({solid, moved}), "") << name;
+  }
+  if (found == 0) GTEST_SKIP() << "the collection of scenes is not there";
 }
 
 TEST(Operands, that_are_open_are_refused_with_their_edges) {
