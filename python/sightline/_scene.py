@@ -207,8 +207,8 @@ class Scene:
         """What rays meet first, or, if all, at all: the points origin + t direction, t >= 0.
 
         origins, directions: (n, 3), or one point (3,) for all rays, of the numbers that Scene() takes. Faces are met
-        from both sides. closed: a face that holds the origin is met there; else it is passed over, as what leaves a surface
-        wants it.
+        from both sides. closed: a face that holds the origin is met there; else it is passed over, as what leaves a
+        surface wants it.
 
         >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
         >>> rays = lid.trace([(0.25, 0.25, 3), (1, 1, 3), (9, 9, 3)], (0, 0, -1))
