@@ -1,8 +1,8 @@
-"""What `pip install .` calls (PEP 517): CMake builds the module, and a wheel is a zip of it. It stands on Python alone, so
-that nothing is fetched.
+"""What `pip install .` calls (PEP 517): CMake builds the module, and a wheel is a zip of it. It stands on Python alone,
+so that nothing is fetched.
 
-Settings, by `-C NAME=VALUE`: build-dir, where CMake builds, by default build/python; prebuilt, a build folder that has the
-module already.
+Settings, by `--config-settings NAME=VALUE`: build-dir, where CMake builds, by default build/python; prebuilt, a build
+folder that has the module already.
 """
 
 import base64

@@ -2,7 +2,9 @@
 
 #include "bindings.h"
 
+#include <sightline/harness/generate/transform.h>
 #include <sightline/io/exact_text.h>
+#include <sightline/io/read.h>
 #include <sightline/io/write.h>
 
 #include <algorithm>
@@ -159,6 +161,16 @@ std::vector<std::pair<Face_id, std::string>> left_out_of(const Model& model) {
   return all;
 }
 
+/// A scene of a file: coordinates rounded to doubles first, if so wished, and all loops backwards.
+Model read(const std::string& file, bool round, bool flip, const Question& question) {
+  return answer_to(question, [&](const Asking&) {
+    Read_options options;
+    options.round_to_double = round;
+    Polygon_soup soup = read_scene(file, options);
+    return Model(flip ? generate::faces_reversed(soup) : std::move(soup));
+  });
+}
+
 void write(const Model& model, const std::string& file) {
   try {
     write_scene(model.soup(), file);
@@ -285,12 +297,7 @@ void add_scene(py::module_& module) {
   py::class_<Model>(module, "Model")
       .def_static("of_arrays", &model_of, py::arg("points"), py::arg("corners"), py::arg("loops"), py::arg("faces"),
                   py::arg("question"))
-      .def_static(
-          "read",
-          [](const std::string& file, const Question& question) {
-            return answer_to(question, [&](const Asking&) { return Model::read(file); });
-          },
-          py::arg("file"), py::arg("question"))
+      .def_static("read", &read, py::arg("file"), py::arg("round"), py::arg("flip"), py::arg("question"))
       .def("write", &write, py::arg("file"))
       .def_property_readonly("file", [](const Model& model) { return model.soup().file; })
       .def_property_readonly("face_count", &Model::face_count)

@@ -59,9 +59,15 @@ class Scene:
         return scene
 
     @staticmethod
-    def read(path: Path) -> "Scene":
-        """A scene of a file: OBJ, OFF, PLY, STL, or OFF with rational coordinates. Errors: InputError."""
-        return Scene._of(_sightline.Model.read(os.fspath(path), _question(0, None, 0)))
+    def read(path: Path, *, coordinates: str = "exact", flip: bool = False) -> "Scene":
+        """A scene of a file of any format that the program reads. Errors: InputError.
+
+        coordinates: what decimals mean, "exact" (0.1 is 1/10) or "double" (rounded first, as in other programs). flip:
+        turns the scene round, all corners backwards, so that backs become fronts.
+        """
+        if coordinates not in ("exact", "double"):
+            raise ValueError(f"coordinates is {coordinates!r}; give 'exact' or 'double'")
+        return Scene._of(_sightline.Model.read(os.fspath(path), coordinates == "double", flip, _question(0, None, 0)))
 
     @staticmethod
     def from_trimesh(mesh: Any) -> "Scene":
@@ -201,8 +207,8 @@ class Scene:
         """What rays meet first, or, if all, at all: the points origin + t direction, t >= 0.
 
         origins, directions: (n, 3), or one point (3,) for all rays, of the numbers that Scene() takes. Faces are met
-        from both sides. closed: a face that holds the origin is met there; else it is passed over, as what leaves a surface
-        wants it.
+        from both sides. closed: a face that holds the origin is met there; else it is passed over, as what leaves a
+        surface wants it.
 
         >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
         >>> rays = lid.trace([(0.25, 0.25, 3), (1, 1, 3), (9, 9, 3)], (0, 0, -1))
@@ -234,9 +240,9 @@ class Scene:
             return Verdict(*_sightline.verify(self._model, text, _question(0, told, budget)))
 
 
-def read(path: Path) -> Scene:
-    """A scene of a file: OBJ, OFF, PLY, STL, or OFF with rational coordinates. Errors: InputError."""
-    return Scene.read(path)
+def read(path: Path, *, coordinates: str = "exact", flip: bool = False) -> Scene:
+    """A scene of a file of any format that the program reads, as Scene.read(). Errors: InputError."""
+    return Scene.read(path, coordinates=coordinates, flip=flip)
 
 
 def verify(scene: Scene, certificate: Union[Certificate, str, "os.PathLike[str]"]) -> Verdict:

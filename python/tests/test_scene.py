@@ -193,6 +193,12 @@ def test_files(tmp_path):
         third.write(tmp_path / "third.off")
     with pytest.raises(OSError):
         third.write(tmp_path / "no such folder" / "third.qoff")
+    (tmp_path / "tenth.obj").write_text("v 0.1 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    assert sightline.read(tmp_path / "tenth.obj").points(exact=True)[0, 0] == Fraction(1, 10)
+    rounded = sightline.read(tmp_path / "tenth.obj", coordinates="double", flip=True)
+    assert rounded.points(exact=True)[0, 0] == Fraction(0.1) and rounded.see((0, 0, -1)).visible.tolist() == [0]
+    with pytest.raises(ValueError, match="coordinates"):
+        sightline.read(tmp_path / "tenth.obj", coordinates="float")
     (tmp_path / "bad.obj").write_text("v 0 0 0\nv 1 0 oh\nf 1 2 3\n")
     with pytest.raises(sightline.InputError, match="bad.obj:2:7: ") as caught:
         sightline.read(tmp_path / "bad.obj")
