@@ -48,6 +48,9 @@ static Certificate certificate_of(const std::string& file) {
 /// The certificates that the index of a folder names, in its order.
 static std::vector<std::string> certificates_in(const std::filesystem::path& folder) {
   const std::string index = (folder / "index.json").string();
+  if (!std::filesystem::exists(index))
+    throw Input_error::of_file(
+        folder.string(), "is a directory; name a file in it, or a folder that `sightline pvs --certificates` wrote");
   const nlohmann::json json = parse_json(read_bytes(index), index);
   std::vector<std::string> files;
   if (json.is_object() && json.contains("cells") && json["cells"].is_array())

@@ -89,6 +89,10 @@ TEST_F(Schema, of_each_command_is_what_it_writes) {
       {"trace", cube, "--rays", rays},
       {"trace", cube, "--rays", rays, "--all", "--closed"},
       {"weak", rooms, "--from-face", "0"},
+      {"cells", cube},
+      {"cells", rooms, "--seal", "1,1,1"},
+      {"pvs", rooms},
+      {"pvs", (corpus / "general" / "two_rooms.map").string(), "--show", "54"},
       {"verify", cube, certificate}};
   for (std::vector<std::string> arguments : documents) {
     const Outcome schema = run({"schema", arguments[0]});
