@@ -145,7 +145,8 @@ Subject weak() {
       {"shafts", "the same faces by events in parts of shafts",
        [](const Posed_scene& posed, const Answer& answer, Random&) { return by_events(posed, answer, 0); }});
   subject.checks.push_back(weak_budget_check());  // behind the others, which keep their random choices; so are these
-  for (Check check : {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(), outline_check()})
+  for (Check check :
+       {conservative_check(), settle_check(), along_check(), volume_check(), partition_check(), outline_check()})
     subject.checks.push_back(std::move(check));
   return subject;
 }
