@@ -48,7 +48,7 @@ Eye_line eye_line(const Moving_eye& eye, const Near_frame& frame, const Exact_pl
 Quadratic determinant(const Eye_line& i, const Eye_line& j, const Eye_line& k);
 
 /// Of a direction, for what doubles propose; itself where it is zero.
-inline Triple unit(const Triple& a) {
+inline Triple unit_direction(const Triple& a) {
   const double length = std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
   return length > 0 ? Triple{a[0] / length, a[1] / length, a[2] / length} : a;
 }

@@ -133,7 +133,7 @@ std::vector<Parameter_range> Piece_along::seen_from_within(const Eye_cone& part,
   Triple middle{};
   for (const Triple& ray : run_->rays(part))
     for (std::size_t k = 0; k < 3; ++k) middle[k] += ray[k];
-  middle = unit(middle);
+  middle = unit_direction(middle);
   if (!std::isfinite(middle[0] + middle[1] + middle[2])) return {};  // beyond doubles
   const Homogeneous eye = view_->eye().at(t);
   const std::array<Integer, 4>& h = view_->plane().exact;

@@ -62,7 +62,7 @@ const Piece_run::Seen_line& Piece_run::seen(std::uint32_t number) {
   const Near<6>& near = line(number).near;
   entry.low = normal_of(join(low_, near));
   entry.high = at_once_ ? entry.low : normal_of(join(high_, near));
-  entry.now = unit(normal_of(join(middle_, near)).at);
+  entry.now = unit_direction(normal_of(join(middle_, near)).at);
   return entry;
 }
 
@@ -215,7 +215,7 @@ std::vector<Triple> Piece_run::rays(const Cone& cone) {
   std::vector<Triple> rays;
   for (std::size_t i = 0; i < cone.size(); ++i) {
     const Line_side &a = cone[i], &b = cone[(i + 1) % cone.size()];
-    Triple ray = unit(cross(seen(a.line).now, seen(b.line).now));
+    Triple ray = unit_direction(cross(seen(a.line).now, seen(b.line).now));
     for (double& x : ray) x *= a.sign * b.sign;
     rays.push_back(ray);
   }
@@ -248,7 +248,7 @@ Piece_run::Guess Piece_run::guess(std::uint32_t blocker, const Cone& cone, const
     const auto is_inside = [&](const Near_point& corner) {
       Triple to;
       for (std::size_t x = 0; x < 3; ++x) to[x] = corner.near[x] - middle_.at[x];
-      return cone[k].sign * dot(normal, unit(to)) > proposed_zero;
+      return cone[k].sign * dot(normal, unit_direction(to)) > proposed_zero;
     };
     const auto& corners = view_->blocker(blocker).corners;
     if (std::none_of(corners.begin(), corners.end(), is_inside)) return {Guess::beside_side, k};
