@@ -22,7 +22,7 @@ struct Shadow_arguments {
   View_arguments view;
 };
 
-struct Light {
+struct Placed_light {
   Exact_point at;  ///< or the direction to it
   bool is_sun;
   Exact_view view(const Scene& scene) const { return is_sun ? Exact_view(scene, Sun{at}) : Exact_view(scene, at); }
@@ -32,8 +32,8 @@ struct Light {
   }
 };
 
-std::vector<Light> lights_of(const Shadow_arguments& arguments) {
-  std::vector<Light> lights;
+std::vector<Placed_light> lights_of(const Shadow_arguments& arguments) {
+  std::vector<Placed_light> lights;
   for (const std::string& text : arguments.lights) lights.push_back({parse_point(text, "--light"), false});
   for (const std::string& text : arguments.suns) {
     lights.push_back({parse_point(text, "--sun"), true});
@@ -223,7 +223,7 @@ Json part_json(const Scene& scene, const Shadow_part& part, std::size_t light) {
 
 static Exit run(const Shadow_arguments& arguments) {
   const Common& common = arguments.common;
-  const std::vector<Light> lights = lights_of(arguments);
+  const std::vector<Placed_light> lights = lights_of(arguments);
   if (arguments.svg.empty() && !arguments.eye.empty()) throw Usage_error("--eye is the eye of the picture: give --svg");
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
   arguments.view.check_usage();
@@ -231,7 +231,7 @@ static Exit run(const Shadow_arguments& arguments) {
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
   std::vector<Shadows> all;
-  for (const Light& light : lights) {
+  for (const Placed_light& light : lights) {
     Progress progress("casting shadows");
     Shadow_options options;
     options.two_sided = arguments.two_sided;

@@ -88,7 +88,7 @@ Traced by_embree(const Scene& scene, const std::vector<Exact_ray>& rays, const T
   const Traced_scene floats(scene, arguments.common.threads);
   traced.prepare_seconds = watch.seconds();
   trace_all(rays, arguments.common, traced, [&](const Exact_ray& ray) {
-    const Traced_hit hit = floats.first(rounded(ray));
+    const Traced_hit hit = floats.first(in_doubles(ray));
     std::vector<Face_hit> hits;
     if (hit.piece != Piece_image::nothing && std::isfinite(hit.t))
       hits.push_back(

@@ -24,6 +24,15 @@ Exact_view::Exact_view(const Scene& scene, const Sun& sun)
   for (Integer& x : e) x /= common_factor;
   eye_ = {e[0], e[1], e[2], 0, 0, 0, 0, std::numeric_limits<double>::infinity()};
   measure();
+  const Integer& along = e[static_cast<std::size_t>(sun_axis_)];
+  for (std::size_t k = 0; k < 3; ++k) {
+    sun_slope_[k] = nearest_double(Rational(Rational(e[k]) / along));
+    sun_[k] = along < 0 ? -sun_slope_[k] : sun_slope_[k];
+  }
+  Rational last(along < 0 ? 1 : -1);
+  last /= scene.points().divisor();
+  mpq_div_2exp(last.get_mpq_t(), last.get_mpq_t(), static_cast<mp_bitcnt_t>(scene.points().shift()));
+  sun_last_ = nearest_double(last);
 }
 
 Exact_view::Plane Exact_view::edge(std::uint32_t p, std::uint32_t q) const {

@@ -122,6 +122,22 @@ class Exact_view {
 
   // ---- Doubles for culling and for choices
 
+  bool is_sun() const { return sun_axis_ >= 0; }
+  /// Of a sun: a plane through it as a plane of the scene, a x + b y + c z + d > 0 in front, in approximate
+  /// coordinates. With these at most `reach` in size its values are within (error + 2^-49 size)(4 reach +
+  /// |sun_last()|), error and size of the eye plane. P-96
+  std::array<double, 4> sun_plane(const Approximate_eye_plane& w) const {
+    const auto m = static_cast<std::size_t>(sun_axis_);
+    std::array<double, 4> plane;
+    plane[(m + 1) % 3] = w.normal[0];
+    plane[(m + 2) % 3] = w.normal[1];
+    plane[m] = -(w.normal[0] * sun_slope_[(m + 1) % 3] + w.normal[1] * sun_slope_[(m + 2) % 3]);
+    plane[3] = w.normal[2] * sun_last_;
+    return plane;
+  }
+  double sun_last() const { return sun_last_; }
+  /// A sun's direction, about, its greatest coordinate 1 or -1.
+  const std::array<double, 3>& towards_sun() const { return sun_; }
   Approximate_eye_plane approximate(const Plane& w) const { return {{w.x, w.y, w.z}, w.size, w.error}; }
   double farthest(std::uint32_t piece, const Ray& r) const;
   Approximate_vector approximate(const Ray& r) const { return {r.x, r.y, r.z}; }
@@ -259,8 +275,10 @@ class Exact_view {
   Exact_point eye_point_;
   Located_point eye_;
   std::vector<Vector<Integer>> field_;
-  int bits_ = 0, width_ = 0;  // of directions; in limbs, 0: GMP
-  int sun_axis_ = -1;         // of a sun, along which its direction is longest; the others follow it
+  int bits_ = 0, width_ = 0;                   // of directions; in limbs, 0: GMP
+  int sun_axis_ = -1;                          // of a sun, along which its direction is longest; the others follow it
+  std::array<double, 3> sun_{}, sun_slope_{};  // its direction over its greatest coordinate's size, and over that
+  double sun_last_ = 0;  // the last coordinate of its directions, where the others are in approximate coordinates
   bool narrow_ = true;
   double box_units_ = 1;                            // the length of a direction's unit in approximate coordinates
   std::array<std::int64_t, 4> narrow_eye_{};        // where narrow

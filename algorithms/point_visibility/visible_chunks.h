@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -140,7 +141,21 @@ class Chunks {
   }
   bool is_behind(const Piece_boxes::Node& node, const Plane& w) const {
     const Approximate_eye_plane a = view_.approximate(w);
+    if constexpr (requires { view_.is_sun(); })
+      if (view_.is_sun()) return is_behind_for_sun(node.box, a);
     return Piece_boxes::is_behind(node.box, a.normal, a.size, a.error, eye_);
+  }
+  /// At most the distance of what is in a box, as `farthest` of the view measures it; of a sun, of which that says
+  /// nothing, by which boxes come one after the other.
+  double distance(const Piece_boxes::Box& box) const {
+    if constexpr (requires { view_.is_sun(); })
+      if (view_.is_sun()) {
+        const std::array<double, 3>& d = view_.towards_sun();
+        double nearest = 0;
+        for (std::size_t k = 0; k < 3; ++k) nearest += d[k] * (d[k] > 0 ? box.high[k] : box.low[k]);
+        return -nearest;
+      }
+    return Piece_boxes::distance(box, eye_);
   }
   /// Whether it is behind a side of the region, so none of it is in there.
   bool is_outside(std::uint32_t chunk, const Region<V>& region, Predicate_counts& counts) const {
@@ -152,6 +167,16 @@ class Chunks {
   }
 
  private:
+  /// Whether all of a box is strictly behind a plane through the sun, for certain. P-96
+  bool is_behind_for_sun(const Piece_boxes::Box& box, const Approximate_eye_plane& w) const {
+    const std::array<double, 4> plane = view_.sun_plane(w);
+    double value = plane[3], reach = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      value += plane[k] * (plane[k] > 0 ? box.high[k] : box.low[k]);
+      reach = std::max({reach, std::fabs(box.high[k]), std::fabs(box.low[k])});
+    }
+    return value < -((w.error + 0x1p-49 * w.size) * (4 * reach + std::fabs(view_.sun_last())) + 0x1p-1000);
+  }
   static Located_point located_eye(const V& view) {
     if constexpr (requires { view.located_eye(); }) return view.located_eye();
     else return view.scene().locate(view.eye());

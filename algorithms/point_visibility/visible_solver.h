@@ -133,7 +133,7 @@ class Solver {
                Visible_counters& counters) const {
     const Piece_boxes::Node& node = chunks_.boxes().nodes()[child];
     if (chunks_.is_outside(node, task.region)) return;
-    const double distance = Piece_boxes::distance(node.box, chunks_.eye());
+    const double distance = chunks_.distance(node.box);
     if (hiding && hiding->hides(node.box, distance)) {
       ++counters.hidden_boxes;
       return;

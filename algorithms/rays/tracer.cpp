@@ -248,7 +248,7 @@ void Ray_tracer::Search::look() {
 }
 
 inline Ray_tracer::Search::Verdict Ray_tracer::Search::verdict(const Flat& flat, double bound) const {
-  const auto [x, y, z] = ray_.axis;
+  const std::size_t x = ray_.axis[0], y = ray_.axis[1], z = ray_.axis[2];
   const Vector* corner = tracer_.corners(flat);
   const auto sheared = [&](const Vector& p) {
     const double along = p[z] - ray_.at.origin[z];

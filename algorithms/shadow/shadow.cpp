@@ -15,24 +15,24 @@ namespace sightline {
 
 namespace {
 
-using Surface = Visible_surface<Exact_view>;
-using Cone = Surface::Cone;
+using Seen_surface = Visible_surface<Exact_view>;
+using Light_cone = Seen_surface::Cone;
 
 /// One piece in the view of the light, down the trees of what is seen.
 class Parting {
  public:
-  Parting(const Exact_view& view, const Surface& surface, std::uint32_t piece, Shadow_counters& counters)
+  Parting(const Exact_view& view, const Seen_surface& surface, std::uint32_t piece, Shadow_counters& counters)
       : view_(view), surface_(surface), piece_(piece), counters_(counters) {}
 
   std::vector<Shadow_part> parts() {
     ++counters_.pieces;
-    const Cone whole = cone();
+    const Light_cone whole = cone();
     for (std::size_t k = 0; k < surface_.cones.size(); ++k) {
       // The part of the piece in a cone that the view began with.
-      Cone inside = whole;
+      Light_cone inside = whole;
       bool any = true;
       for (const Exact_view::Plane& side : surface_.cones[k].sides) {
-        std::array<Cone, 2> halves = cut(inside, side);
+        std::array<Light_cone, 2> halves = cut(inside, side);
         any = !halves[0].rays.empty();
         if (!any) break;
         inside = std::move(halves[0]);
@@ -51,17 +51,17 @@ class Parting {
 
  private:
   struct Made {
-    Cone cone;
+    Light_cone cone;
     std::uint32_t by;
   };
 
   /// The directions to the piece; its corners run clockwise around them where the light is in front.
-  Cone cone() const {
+  Light_cone cone() const {
     const std::span<const Piece_corner> corners = view_.scene().corners(view_.scene().pieces()[piece_]);
     std::vector<std::uint32_t> points;
     for (const Piece_corner& corner : corners) points.push_back(corner.point);
     if (view_.eye_side(piece_) == CGAL::POSITIVE) std::reverse(points.begin(), points.end());
-    Cone cone;
+    Light_cone cone;
     for (std::size_t k = 0; k < points.size(); ++k) {
       cone.rays.push_back(view_.ray(points[k]));
       cone.sides.push_back(view_.edge(points[k], points[k + 1 == points.size() ? 0 : k + 1]));
@@ -70,7 +70,7 @@ class Parting {
   }
 
   /// The parts in front of a plane and behind it; one without an inside is empty.
-  std::array<Cone, 2> cut(const Cone& cone, const Exact_view::Plane& w) {
+  std::array<Light_cone, 2> cut(const Light_cone& cone, const Exact_view::Plane& w) {
     bool front = false, behind = false;
     for (const Exact_view::Ray& r : cone.rays) {
       const Sign s = view_.side(w, r, counts_);
@@ -81,20 +81,20 @@ class Parting {
       ++counters_.cuts;
       return visible_detail::cut(view_, cone, w, counts_);
     }
-    return front ? std::array<Cone, 2>{cone, Cone{}} : std::array<Cone, 2>{Cone{}, cone};
+    return front ? std::array<Light_cone, 2>{cone, Light_cone{}} : std::array<Light_cone, 2>{Light_cone{}, cone};
   }
 
   /// Parts a cone below a child of the tree; two parts of it with one answer are one again.
-  void descend(std::int32_t child, Cone cone) {
+  void descend(std::int32_t child, Light_cone cone) {
     if (child < 0) {
       const std::uint32_t seen = surface_.parts[static_cast<std::size_t>(~child)].piece;
-      if (seen == Surface::nothing) throw std::logic_error("a piece in directions in which nothing is seen");
+      if (seen == Seen_surface::nothing) throw std::logic_error("a piece in directions in which nothing is seen");
       const bool lit = seen == piece_ || view_.same_plane(seen, piece_);
       made_.push_back({std::move(cone), lit ? Shadow_part::nothing : seen});
       return;
     }
-    const Surface::Node& node = surface_.nodes[static_cast<std::size_t>(child)];
-    std::array<Cone, 2> halves = cut(cone, node.plane);
+    const Seen_surface::Node& node = surface_.nodes[static_cast<std::size_t>(child)];
+    std::array<Light_cone, 2> halves = cut(cone, node.plane);
     const std::size_t before = made_.size();
     if (!halves[0].rays.empty()) descend(node.front, std::move(halves[0]));
     const std::size_t middle = made_.size();
@@ -107,7 +107,7 @@ class Parting {
   }
 
   const Exact_view& view_;
-  const Surface& surface_;
+  const Seen_surface& surface_;
   std::uint32_t piece_;
   Shadow_counters& counters_;
   Predicate_counts counts_;
@@ -122,7 +122,7 @@ Shadows shadows(const Exact_view& light, const Piece_boxes& boxes, const Shadow_
   Visible_options seeing;
   seeing.threads = options.threads;
   seeing.progress = options.progress;
-  const Surface surface = visible_surface(light, boxes, seeing);
+  const Seen_surface surface = visible_surface(light, boxes, seeing);
 
   // 2. Each piece by what is seen in its directions.
   std::vector<std::vector<Shadow_part>> of_piece(scene.pieces().size());

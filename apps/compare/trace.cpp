@@ -87,7 +87,7 @@ Contestant by_embree(const Scene& scene, const Asked_rays& asked, bool watertigh
   return {{{"kernel", "float"}, {"method", watertight ? "Embree, robust" : "Embree"}}, [&, watertight] {
             if (!has_rays()) return Json{{"status", "left out: this program was built without Embree"}};
             std::vector<Double_ray> rays;
-            for (const Exact_ray& ray : asked.rays) rays.push_back(rounded(ray));
+            for (const Exact_ray& ray : asked.rays) rays.push_back(in_doubles(ray));
             return judge_rays(asked, [&] {
               auto floats = std::make_shared<Traced_scene>(scene, 1, watertight);
               return [&, floats](std::size_t i) {

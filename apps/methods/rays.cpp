@@ -6,7 +6,7 @@
 
 namespace sightline::app {
 
-Double_ray rounded(const Exact_ray& ray) {
+Double_ray in_doubles(const Exact_ray& ray) {
   Double_ray doubles;
   for (std::size_t k = 0; k < 3; ++k) {
     doubles.origin[k] = nearest_double(ray.origin[k]);

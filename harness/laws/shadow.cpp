@@ -103,7 +103,8 @@ Check by_definition() {
               const Exact_point sun = draw_sun(posed.soup, random);
               flaw = flaw_of(shadows(Exact_view(scene, Sun{sun}), boxes, options), posed.soup, scene, sun, true);
               if (!flaw.empty())
-                flaw = "sun " + to_string(sun[0]) + "," + to_string(sun[1]) + "," + to_string(sun[2]) + ": " + flaw;
+                flaw = "sun " + sightline::to_string(sun[0]) + "," + sightline::to_string(sun[1]) + "," +
+                       sightline::to_string(sun[2]) + ": " + flaw;
             }
             return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
           }};
@@ -134,8 +135,9 @@ Check as_seen() {
             for (const auto& [piece, area] : seen) {
               const bool alone = in_plane[scene.pieces()[piece].support.id()] == 1;
               if (alone ? lit[piece] != area : abs(lit[piece]) < abs(area))
-                return Outcome::failed(face_name(scene.pieces()[piece].face) + ": lit " + to_string(lit[piece]) +
-                                       ", seen " + to_string(area) + ", of twice its area along an axis");
+                return Outcome::failed(face_name(scene.pieces()[piece].face) + ": lit " +
+                                       sightline::to_string(lit[piece]) + ", seen " + sightline::to_string(area) +
+                                       ", of twice its area along an axis");
             }
             return Outcome{};
           }};
@@ -169,7 +171,8 @@ std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scen
     const Exact_point middle = middle_of(part.vertices);
     const std::vector<Face_id> by = blockers(soup, scene, middle, light, is_sun);
     if (part.is_lit() ? !by.empty() : std::find(by.begin(), by.end(), scene.pieces()[part.by].face) == by.end())
-      return name + " about " + to_string(middle[0]) + "," + to_string(middle[1]) + "," + to_string(middle[2]) +
+      return name + " about " + sightline::to_string(middle[0]) + "," + sightline::to_string(middle[1]) + "," +
+             sightline::to_string(middle[2]) +
              (part.is_lit()
                   ? " is lit, but face " + std::to_string(by[0]) + " is on the way"
                   : ": face " + std::to_string(scene.pieces()[part.by].face) + " is not the first on the way");

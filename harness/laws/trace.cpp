@@ -100,13 +100,13 @@ std::string text_of(const std::vector<Face_hit>& hits) {
   std::string text;
   for (const Face_hit& hit : hits)
     text += (text.empty() ? "" : ", ") + std::to_string(hit.face) + "/" + std::to_string(static_cast<int>(hit.side)) +
-            " at " + to_string(hit.t) + (hit.until == hit.t ? "" : " to " + to_string(hit.until));
+            " at " + sightline::to_string(hit.t) + (hit.until == hit.t ? "" : " to " + sightline::to_string(hit.until));
   return text.empty() ? "nothing" : text;
 }
 std::string text_of(const Exact_ray& ray) {
   std::string text;
   for (const Exact_point* p : {&ray.origin, &ray.direction})
-    for (const Rational& x : *p) text += (text.empty() ? "" : ",") + to_string(x);
+    for (const Rational& x : *p) text += (text.empty() ? "" : ",") + sightline::to_string(x);
   return text;
 }
 
