@@ -1,36 +1,23 @@
 // Cells of levels: that they fill the world, where they are solid, and what their walls hold.
 
-#include "../sample.h"
+#include "support.h"
 
 #include <sightline/algorithms/levels/cells.h>
-#include <sightline/harness/laws/fuzz.h>
-#include <sightline/harness/laws/levels.h>
-#include <sightline/io/read.h>
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 
 namespace sightline {
 namespace {
 
-const std::string corpus = SIGHTLINE_SOURCE_DIR "/tests/corpus";
-
-/// What the law of this name says of a scene.
-void expect_passed(const std::string& check, const Polygon_soup& soup, std::uint64_t seed) {
-  harness::Posed_scene posed;
-  posed.soup = soup;
-  const harness::Subject subject = harness::pvs();
-  const auto found = harness::first_disagreement(subject, posed, seed, check);
-  EXPECT_FALSE(found) << found->check << ": " << found->what;
-}
+using levels_test::corpus_scene;
+using levels_test::expect_passed;
 
 TEST(Level_cells, of_scenes_fill_the_world) {
   for (const char* file : {"general/two_rooms.map", "general/two_rooms.off", "general/cube.off", "general/l_room.off",
                            "general/crossing_quads.obj", "general/cornell.obj", "robust/duplicates.off",
                            "robust/thirds.qoff", "robust/t_junctions.off", "robust/huge.off"}) {
     SCOPED_TRACE(file);
-    const Polygon_soup soup = read_scene(corpus + "/" + file);
+    const Polygon_soup soup = corpus_scene(file);
     for (std::uint64_t seed = 1; seed <= (test_scenes::is_sanitized() ? 2 : 12); ++seed)
       expect_passed("cells", soup, seed);
   }
@@ -45,7 +32,7 @@ TEST(Level_cells, of_no_face_are_one) {
 }
 
 TEST(Level_cells, of_a_level_are_rooms_and_a_hull) {
-  const Level_cells level(read_scene(corpus + "/general/two_rooms.map"));
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
   EXPECT_TRUE(level.is_closed());
   const Cell_id first = level.at({64, 64, 24}), second = level.at({230, 20, 50}), wall = level.at({128, 20, 50}),
                 beyond = level.at({-20, 0, 0});
@@ -60,7 +47,7 @@ TEST(Level_cells, of_a_level_are_rooms_and_a_hull) {
 
 TEST(Level_cells, of_a_level_with_a_hole_have_a_way_out) {
   // The two rooms without their ceiling: sides 6 to 11 of the file's brushes.
-  const Polygon_soup whole = read_scene(corpus + "/general/two_rooms.map");
+  const Polygon_soup whole = corpus_scene("general/two_rooms.map");
   Polygon_soup soup;
   for (Point_id p = 0; p < whole.point_count(); ++p) {
     const Exact_point at = whole.point(p);

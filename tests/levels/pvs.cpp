@@ -1,29 +1,16 @@
 // What cells see, against the same question to the cell as a solid that looks, and against random sightlines.
 
-#include "../sample.h"
+#include "support.h"
 
 #include <sightline/algorithms/levels/pvs.h>
-#include <sightline/harness/laws/fuzz.h>
-#include <sightline/harness/laws/levels.h>
-#include <sightline/io/read.h>
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 
 namespace sightline {
 namespace {
 
-const std::string corpus = SIGHTLINE_SOURCE_DIR "/tests/corpus";
-
-/// That the law of this name holds of a scene.
-void expect_passed(const char* check, const Polygon_soup& soup, std::uint64_t seed) {
-  harness::Posed_scene posed;
-  posed.soup = soup;
-  const harness::Subject subject = harness::pvs();
-  const auto found = harness::first_disagreement(subject, posed, seed, check);
-  EXPECT_FALSE(found) << found->check << ": " << found->what;
-}
+using levels_test::corpus_scene;
+using levels_test::expect_passed;
 
 TEST(Pvs, of_scenes_is_what_each_cell_sees_by_itself) {
   const std::size_t share = test_scenes::is_sanitized() ? 4 : 1;
@@ -31,14 +18,14 @@ TEST(Pvs, of_scenes_is_what_each_cell_sees_by_itself) {
                            "general/crossing_quads.obj", "general/cornell.obj", "robust/duplicates.off",
                            "robust/thirds.qoff", "robust/t_junctions.off"}) {
     SCOPED_TRACE(file);
-    const Polygon_soup soup = read_scene(corpus + "/" + file);
+    const Polygon_soup soup = corpus_scene(file);
     for (std::uint64_t seed = 1; seed <= 4 / share; ++seed)
       for (const char* check : {"sightlines", "alone"}) expect_passed(check, soup, seed);
   }
 }
 
 TEST(Pvs, is_the_same_on_any_number_of_threads_and_in_shards) {
-  const Level_cells level(read_scene(corpus + "/general/two_rooms.map"));
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
   Pvs_options options;
   options.threads = 1;
   const Pvs one = potentially_visible(level, options);
@@ -59,7 +46,7 @@ TEST(Pvs, is_the_same_on_any_number_of_threads_and_in_shards) {
 }
 
 TEST(Pvs, of_rooms_leaves_out_what_has_a_way_out) {
-  const Level_cells level(read_scene(corpus + "/general/two_rooms.map"));
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
   const Pvs rooms = potentially_visible(level);
   Pvs_options options;
   options.outside = true;
@@ -81,7 +68,7 @@ TEST(Pvs, of_rooms_leaves_out_what_has_a_way_out) {
 }
 
 TEST(Pvs, out_of_time_is_undecided) {
-  const Level_cells level(read_scene(corpus + "/general/two_rooms.map"));
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
   Pvs_options options;
   options.search.out_of_time = [] { return true; };
   const Pvs pvs = potentially_visible(level, options);
