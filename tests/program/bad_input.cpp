@@ -266,7 +266,8 @@ TEST_F(Bad_input, certificates_are_refused_with_the_place_and_what_to_do) {
     EXPECT_EQ(r.err, "sightline: " + certificate + says + "\n") << r;
   };
   const std::string again = "; write the file again, or fetch it again";
-  expect(path("").string(), ": is a directory; name a file in it");
+  expect(path("").string(),
+         ": is a directory; name a file in it, or a folder that `sightline pvs --certificates` wrote");
   expect(file("comma.json", "{\n \"format\": \"sightline order 1\",,\n}"), ":2:32: from here on it is no JSON" + again);
   expect(file("short.json", "{\n \"format\": [1, 2"), ":2:17: the JSON ends too early" + again);
   expect(file("huge.json", "{\"format\": 1e999}"), ":1:17: number overflow parsing '1e999'" + again);
