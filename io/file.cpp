@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -92,7 +93,9 @@ namespace {
 /// For the signal handler: a name that is never freed. Written before `begun` says that it is there.
 char unfinished[4096];
 std::atomic<bool> begun{false};
-std::atomic_flag taken;  // by one file at a time
+std::atomic_flag taken;               // by one file at a time
+std::atomic<bool> being_made{false};  // a file, of which `unfinished` is not the name yet
+std::atomic<int> waiting{0};          // a signal that came meanwhile
 
 /// What the last call of the system said.
 std::error_code last_error() { return {errno, std::generic_category()}; }
@@ -152,15 +155,15 @@ std::error_code fill_and_close(std::FILE* file, const Write& write, bool flush) 
 class Aside {
  public:
   explicit Aside(const fs::path& target) : target_(target), registered_(!taken.test_and_set()) {
-    for (int number = 0; file_ == nullptr && (number == 0 || errno == EEXIST); ++number) {
-      path_ = target;
-      path_ += ".partial" + (number == 0 ? "" : std::to_string(number));
-      file_ = std::fopen(path_.c_str(), "wbx");
+    if (registered_) being_made = true;
+    make();
+    if (!registered_) return;
+    if (file_ != nullptr && path_.string().size() < sizeof unfinished) {
+      std::strcpy(unfinished, path_.c_str());
+      begun = true;
     }
-    if (file_ == nullptr) error_ = last_error();
-    if (file_ == nullptr || !registered_ || path_.string().size() >= sizeof unfinished) return;
-    std::strcpy(unfinished, path_.c_str());
-    begun = true;
+    being_made = false;
+    if (const int signal = waiting.exchange(0); signal != 0) std::raise(signal);
   }
   Aside(const Aside&) = delete;
   ~Aside() {
@@ -181,6 +184,15 @@ class Aside {
   }
 
  private:
+  void make() {
+    for (int number = 0; file_ == nullptr && (number == 0 || errno == EEXIST); ++number) {
+      path_ = target_;
+      path_ += ".partial" + (number == 0 ? "" : std::to_string(number));
+      file_ = std::fopen(path_.c_str(), "wbx");
+    }
+    if (file_ == nullptr) error_ = last_error();
+  }
+
   fs::path target_, path_;
   bool registered_, became_ = false;
   std::FILE* file_ = nullptr;
@@ -217,5 +229,11 @@ void write_bytes(const fs::path& path, std::string_view bytes) {
 }
 
 const char* unfinished_file() noexcept { return begun ? unfinished : nullptr; }
+
+bool put_off(int signal) noexcept {
+  waiting = signal;
+  if (being_made) return true;
+  return waiting.exchange(0) == 0;  // the file was made in between, and whoever made it raises the signal
+}
 
 }  // namespace sightline

@@ -34,4 +34,8 @@ std::ifstream open_bytes(const std::filesystem::path& path);
 /// it ends the process. Of files that are written at the same time, one.
 const char* unfinished_file() noexcept;
 
+/// Whether a signal has to wait, as a file is being made that has no name yet: then it is raised again once it has.
+/// What a signal handler asks first, and returns where it has.
+bool put_off(int signal) noexcept;
+
 }  // namespace sightline

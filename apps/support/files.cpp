@@ -100,6 +100,7 @@ void remove_unfinished() noexcept {
 
 extern "C" {
 static void end_by_signal_without_remains(int number) {
+  if (put_off(number)) return;
   remove_unfinished();
   std::signal(number, SIG_DFL);
   std::raise(number);
