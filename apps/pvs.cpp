@@ -64,6 +64,7 @@ class Table_maker {
     if (error)
       throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another --out");
     std::vector<Visibility_table> parts;
+    std::vector<std::string> names;
     for (std::uint32_t b = 0; b < blocks; ++b) {
       const fs::path path = folder / fmt::format("{}-of-{}.pvs", shard + shards * b, shards * blocks);
       std::optional<Visibility_table> part = kept(path);
@@ -76,8 +77,9 @@ class Table_maker {
         ++blocks_kept_;
       }
       parts.push_back(std::move(*part));
+      names.push_back(path.string());
     }
-    Visibility_table table = together(parts);
+    Visibility_table table = joined(parts, names);
     fs::remove_all(folder, error);
     return table;
   }
@@ -108,23 +110,6 @@ class Table_maker {
     }
     return std::nullopt;
   }
-  /// Parts of one shard, which need not have all faces.
-  static Visibility_table together(const std::vector<Visibility_table>& parts) {
-    Visibility_table table = parts[0];
-    for (std::size_t i = 1; i < parts.size(); ++i) {
-      for (std::size_t f = 0; f < table.faces.size(); ++f)
-        if (parts[i].faces[f]) table.faces[f] = true;
-      for (std::size_t r = 0; r < table.rows.size(); ++r)
-        for (const auto faces : {&Visibility_table::Row::visible, &Visibility_table::Row::undecided}) {
-          std::vector<Face_id>& own = table.rows[r].*faces;
-          own.insert(own.end(), (parts[i].rows[r].*faces).begin(), (parts[i].rows[r].*faces).end());
-        }
-    }
-    for (Visibility_table::Row& row : table.rows)
-      for (std::vector<Face_id>* faces : {&row.visible, &row.undecided}) std::sort(faces->begin(), faces->end());
-    return table;
-  }
-
   const Pvs_arguments& arguments_;
   const Level_cells& level_;
   Stopwatch watch_;

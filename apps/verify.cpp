@@ -108,11 +108,11 @@ struct Solid_files {
   std::string result;
 };
 
-static Verdict verdict_on_solids(const Common& common, const std::string& file, const Solid_files& files,
-                                 const Verify_options& options) {
+static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common, const std::string& file,
+                                 const Solid_files& files, const Verify_options& options) {
   Read_options reading;
   reading.round_to_double = common.coordinates == "double";
-  std::vector<Polygon_soup> solids{common.read()};
+  std::vector<Polygon_soup> solids{soup};
   for (const std::string& other : files.others) solids.push_back(read_scene(input_path(other), reading));
   std::optional<Polygon_soup> result;
   if (!files.result.empty()) result = read_scene(input_path(files.result), reading);
@@ -137,7 +137,7 @@ static Exit run(const Common& common, const std::string& file, const Solid_files
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Verdict verdict =
-      of_solids ? verdict_on_solids(common, file, files, options)
+      of_solids ? verdict_on_solids(soup, common, file, files, options)
                 : std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
   const double seconds = watch.seconds();
   progress.clear();

@@ -103,7 +103,7 @@ std::string table_bytes(const Visibility_table& table) {
 
 Visibility_table read_table(const Input& input) { return Table_reader(input).read(); }
 
-Visibility_table merged(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names) {
+Visibility_table joined(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names) {
   if (parts.empty()) throw Merge_error("no part to merge; name the files that `sightline pvs --shard` wrote");
   Visibility_table whole = parts[0];
   std::vector<std::size_t> part_of(whole.faces.size(), 0);
@@ -128,6 +128,12 @@ Visibility_table merged(const std::vector<Visibility_table>& parts, const std::v
         whole.rows[r].*faces = std::move(both);
       }
   }
+
+  return whole;
+}
+
+Visibility_table merged(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names) {
+  Visibility_table whole = joined(parts, names);
 
   // Which shards are missing: faces go round among them.
   std::vector<std::size_t> missing;

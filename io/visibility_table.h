@@ -38,9 +38,12 @@ struct Merge_error : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// One table of parts with different faces. Errors: Merge_error where two are answers to different questions, or have a
-/// face in common, or a face is in none: then it says which of how many shards to run again. `names`: of the parts, for
-/// messages.
+/// One table of parts with different faces, which need not have all. Errors: Merge_error where two are answers to
+/// different questions, or have a face in common. `names`: of the parts, for messages.
+Visibility_table joined(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names);
+
+/// The same of parts that together have all faces. Errors: Merge_error too where a face is in none: then it says which
+/// of how many shards to run again.
 Visibility_table merged(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names);
 
 /// A number for what a scene is: of its points and faces, whatever its file. FNV-1a of 64 bits.

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/volume.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/laws/flat_faces.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
@@ -28,62 +29,27 @@ Rational six_cones(const Points& polygon) {
   for (std::size_t i = 1; i + 1 < polygon.size(); ++i) sum += dot(polygon[0], cross(polygon[i], polygon[i + 1]));
   return sum;
 }
-Exact_point normal_of(const Points& polygon) {
-  Exact_point sum{};
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
-  }
-  return sum;
-}
-/// Side of a point in the plane of a convex polygon: 1 inside, 0 on its boundary, -1 outside.
-int side_within(const Points& polygon, const Exact_point& normal, const Exact_point& p) {
-  int side = 1;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Exact_point& a = polygon[i];
-    side = std::min(side, sgn(dot(cross(minus(polygon[(i + 1) % polygon.size()], a), minus(p, a)), normal)));
-  }
-  return side;
-}
-
-struct Flat {
-  Face_id face;
-  Points polygon;
-  Exact_point normal;
-};
-std::vector<Flat> flats_of(const Scene& scene) {
-  std::vector<Flat> flats;
-  for (const Piece& piece : scene.pieces()) {
-    Flat flat{piece.face, {}, {}};
-    for (const Piece_corner& corner : scene.corners(piece)) flat.polygon.push_back(scene.position(corner.point));
-    flat.normal = normal_of(flat.polygon);
-    flats.push_back(std::move(flat));
-  }
-  return flats;
-}
-
 /// Where a ray meets a piece, t > 0; nothing beside it and where the ray runs along it.
 struct Meeting {
   Rational t;
   int side;     // within the piece: 1 inside, 0 on an edge
   bool leaves;  // through its front, from behind
 };
-std::optional<Meeting> meeting(const Flat& flat, const Exact_point& p, const Exact_point& direction) {
+std::optional<Meeting> meeting(const Flat_face& flat, const Exact_point& p, const Exact_point& direction) {
   const Rational slope = dot(flat.normal, direction);
   if (slope == 0) return std::nullopt;
-  const Rational t = dot(flat.normal, minus(flat.polygon[0], p)) / slope;
+  const Rational t = -flat.height(p) / slope;
   if (t <= 0) return std::nullopt;
-  Exact_point hit;
-  for (std::size_t k = 0; k < 3; ++k) hit[k] = p[k] + t * direction[k];
-  const int side = side_within(flat.polygon, flat.normal, hit);
+  const int side = flat.side_within(generate::along(p, t, direction));
   if (side < 0) return std::nullopt;
   return Meeting{t, side, slope > 0};
 }
 
 /// The winding number about a point along a ray; nothing where the ray meets an edge.
-std::optional<int> winding_along(const std::vector<Flat>& flats, const Exact_point& p, const Exact_point& direction) {
+std::optional<int> winding_along(const std::vector<Flat_face>& flats, const Exact_point& p,
+                                 const Exact_point& direction) {
   int sum = 0;
-  for (const Flat& flat : flats)
+  for (const Flat_face& flat : flats)
     if (const std::optional<Meeting> at = meeting(flat, p, direction)) {
       if (at->side == 0) return std::nullopt;
       sum += at->leaves ? 1 : -1;
@@ -92,15 +58,16 @@ std::optional<int> winding_along(const std::vector<Flat>& flats, const Exact_poi
 }
 
 /// The face whose front a ray meets first, in its inside and no other there; else nothing.
-std::optional<Face_id> first_front(const std::vector<Flat>& flats, const Exact_point& p, const Exact_point& direction) {
+std::optional<Face_id> first_front(const Scene& scene, const std::vector<Flat_face>& flats, const Exact_point& p,
+                                   const Exact_point& direction) {
   std::optional<Rational> nearest;
   std::optional<Face_id> face;
-  for (const Flat& flat : flats) {
-    const std::optional<Meeting> at = meeting(flat, p, direction);
+  for (std::size_t i = 0; i < flats.size(); ++i) {
+    const std::optional<Meeting> at = meeting(flats[i], p, direction);
     if (!at || (nearest && at->t > *nearest)) continue;
     const bool again = nearest && at->t == *nearest;
     nearest = at->t;
-    face = at->side > 0 && !at->leaves && !again ? std::optional<Face_id>(flat.face) : std::nullopt;
+    face = at->side > 0 && !at->leaves && !again ? std::optional<Face_id>(scene.pieces()[i].face) : std::nullopt;
   }
   return face;
 }
@@ -132,7 +99,7 @@ Outcome fill(const Level_cells& level) {
     for (const std::uint32_t w : level.cells()[c].walls) {
       const Cell_wall& wall = level.walls()[w];
       const Points polygon = level.polygon(wall.corners);
-      const int side = sgn(dot(normal_of(polygon), minus(inside, polygon[0])));
+      const int side = sgn(Flat_face(polygon).height(inside));
       if (side != (wall.front == c ? 1 : -1))
         return Outcome::failed(cell + " is on the other side of wall " + std::to_string(w));
       volume += wall.front == c ? -six_cones(polygon) : six_cones(polygon);
@@ -146,30 +113,31 @@ Outcome fill(const Level_cells& level) {
 }
 
 /// A random point of a wall is on a face that the wall names, or in an open part of it.
-Outcome point_of_wall(const Level_cells& level, const std::vector<Flat>& flats, Random& random) {
+Outcome point_of_wall(const Level_cells& level, const std::vector<Flat_face>& flats, Random& random) {
   const std::size_t w = random.below(level.walls().size());
   const Cell_wall& wall = level.walls()[w];
-  const Points polygon = level.polygon(wall.corners);
-  const Exact_point normal = normal_of(polygon);
+  const Flat_face polygon(level.polygon(wall.corners));
   Exact_point p{};
   long sum = 0;
-  for (const Exact_point& corner : polygon) {
+  for (const Exact_point& corner : polygon.corners) {
     const long weight = static_cast<long>(random.between(1, 1000));
     sum += weight;
     for (std::size_t k = 0; k < 3; ++k) p[k] += weight * corner[k];
   }
   for (Rational& x : p) x /= sum;
   int covered = -1, open = -1;  // 1: inside; 0: on the boundary
-  for (const Flat& flat : flats) {
-    if (dot(flat.normal, minus(p, flat.polygon[0])) != 0 || !is_zero(cross(flat.normal, normal))) continue;
-    const int side = side_within(flat.polygon, flat.normal, p);
+  for (std::size_t i = 0; i < flats.size(); ++i) {
+    const Flat_face& flat = flats[i];
+    if (flat.height(p) != 0 || !is_zero(cross(flat.normal, polygon.normal))) continue;
+    const int side = flat.side_within(p);
+    const Face_id face = level.scene().pieces()[i].face;
     covered = std::max(covered, side);
-    const std::vector<Face_id>& faces = dot(flat.normal, normal) > 0 ? wall.faces_front : wall.faces_behind;
-    if (side > 0 && !std::binary_search(faces.begin(), faces.end(), flat.face))
-      return Outcome::failed("wall " + std::to_string(w) + " does not name " + face_name(flat.face));
+    const std::vector<Face_id>& faces = dot(flat.normal, polygon.normal) > 0 ? wall.faces_front : wall.faces_behind;
+    if (side > 0 && !std::binary_search(faces.begin(), faces.end(), face))
+      return Outcome::failed("wall " + std::to_string(w) + " does not name " + face_name(face));
   }
   for (const std::vector<std::uint32_t>& part : wall.open)
-    open = std::max(open, side_within(level.polygon(part), normal, p));
+    open = std::max(open, Flat_face(level.polygon(part)).side_within(p));
   if (wall.behind == no_cell) return {};
   if (std::max(covered, open) < 0)
     return Outcome::failed("a point of wall " + std::to_string(w) + " is on no face and in no open part");
@@ -178,7 +146,7 @@ Outcome point_of_wall(const Level_cells& level, const std::vector<Flat>& flats, 
   return {};
 }
 
-Outcome windings(const Level_cells& level, const std::vector<Flat>& flats, Random& random) {
+Outcome windings(const Level_cells& level, const std::vector<Flat_face>& flats, Random& random) {
   int least = 0;
   for (const Level_cell& cell : level.cells()) least = std::min(least, cell.winding);
   for (std::size_t k = 0; k < 8; ++k) {
@@ -195,7 +163,7 @@ Outcome windings(const Level_cells& level, const std::vector<Flat>& flats, Rando
 
 Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
   const Level_cells level(posed.soup);
-  const std::vector<Flat> flats = flats_of(level.scene());
+  const std::vector<Flat_face> flats = flat_faces_of(level.scene());
   if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
   for (std::size_t k = 0; k < 20; ++k)
     if (const Outcome outcome = point_of_wall(level, flats, random); outcome.state != Outcome::State::passed)
@@ -227,8 +195,8 @@ Outcome of_boxes(const Posed_scene&, const Answer&, Random& random) {
   generate::shuffle(faces, random);
   const Level_cells level(generate::soup_of(faces));
   if (!level.is_closed()) return Outcome::failed("boxes do not close up");
-  std::vector<Flat> flats;  // of the boxes themselves: a scene sets duplicates aside
-  for (const Points& face : faces) flats.push_back({static_cast<Face_id>(flats.size()), face, normal_of(face)});
+  std::vector<Flat_face> flats;  // of the boxes themselves: a scene sets duplicates aside
+  for (const Points& face : faces) flats.emplace_back(face);
   if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
   return windings(level, flats, random);
 }
@@ -275,11 +243,11 @@ Pvs_options options_of(Random& random) {
 Outcome sightlines(const Posed_scene& posed, const Answer&, Random& random) {
   const Level_cells level(posed.soup);
   const Pvs pvs = potentially_visible(level, options_of(random));
-  const std::vector<Flat> flats = flats_of(level.scene());
+  const std::vector<Flat_face> flats = flat_faces_of(level.scene());
   for (std::size_t k = 0; k < 60; ++k) {
     const Cell_id c = static_cast<Cell_id>(random.below(level.cells().size()));
     if (pvs.is_asked[c] == 0) continue;
-    const std::optional<Face_id> face = first_front(flats, level.inside(c), any_direction(random));
+    const std::optional<Face_id> face = first_front(level.scene(), flats, level.inside(c), any_direction(random));
     if (face && !std::binary_search(pvs.visible[c].begin(), pvs.visible[c].end(), *face) &&
         !std::binary_search(pvs.undecided[c].begin(), pvs.undecided[c].end(), *face))
       return Outcome::failed("cell " + std::to_string(c) + " sees " + face_name(*face) +

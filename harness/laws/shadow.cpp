@@ -4,6 +4,7 @@
 #include <sightline/algorithms/rays/ray.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/trace.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <array>
@@ -46,8 +47,6 @@ Exact_point middle_of(const std::vector<Exact_point>& corners) {
   for (Rational& x : sum) x /= static_cast<long>(corners.size());
   return sum;
 }
-
-Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
 
 /// The faces that keep the light from a point, and are nearest to it; those edge-on do not count.
 std::vector<Face_id> blockers(const Polygon_soup& soup, const Scene& scene, const Exact_point& p,
