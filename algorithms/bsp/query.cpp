@@ -146,6 +146,49 @@ Point_location locate_point(const Exact_traits& traits, const Exact_tree& tree, 
   return found;
 }
 
+void bsp_detail::walk_along(
+    const Exact_tree& tree, const Grid_ray& grid, const std::function<bool(const Rational&)>& is_beyond,
+    const std::function<void(const Fragment<Exact_traits>&, const std::array<Rational, 2>&)>& along,
+    const std::function<void(const Fragment<Exact_traits>&, const Rational&, bool)>& at) {
+  struct Step {
+    std::int32_t node;
+    Rational from;               // the ray's part in the node's closed cell
+    std::optional<Rational> to;  // none: to infinity
+  };
+  std::vector<Step> stack;
+  const auto push = [&](std::int32_t node, const Rational& from, const std::optional<Rational>& to) {
+    if (node != Exact_tree::leaf) stack.push_back({node, from, to});
+  };
+  if (!tree.nodes.empty()) push(0, 0, std::nullopt);
+  while (!stack.empty()) {
+    const Step step = std::move(stack.back());
+    stack.pop_back();
+    if (is_beyond(step.from)) continue;
+    const Exact_tree::Node& node = tree.nodes[static_cast<std::size_t>(step.node)];
+    const Grid_ray::Line_value v = grid.value(node.plane);
+    if (v.slope == 0) {
+      if (v.at >= 0) push(node.front, step.from, step.to);
+      if (v.at <= 0) push(node.behind, step.from, step.to);
+      if (v.at != 0) continue;
+      for (const Fragment<Exact_traits>& fragment : tree.on(node))
+        if (const auto range = grid.range_within(fragment.polygon, 0, std::nullopt)) along(fragment, *range);
+      continue;
+    }
+    const Rational t = -v.at / v.slope;
+    const std::int32_t before = v.slope > 0 ? node.behind : node.front, after = v.slope > 0 ? node.front : node.behind;
+    if (t < step.from) {
+      push(after, step.from, step.to);
+    } else if (step.to && *step.to < t) {
+      push(before, step.from, step.to);
+    } else {
+      push(after, t, step.to);
+      push(before, step.from, t);
+      for (const Fragment<Exact_traits>& fragment : tree.on(node))
+        if (grid.side_within(fragment.polygon, t) != CGAL::NEGATIVE) at(fragment, t, v.slope > 0);
+    }
+  }
+}
+
 std::optional<Ray_hit> first_hit(const Exact_traits& traits, const Exact_tree& tree, const Exact_ray& ray) {
   if (ray.direction[0] == 0 && ray.direction[1] == 0 && ray.direction[2] == 0)
     throw std::domain_error("a ray needs a direction");

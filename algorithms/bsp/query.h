@@ -12,8 +12,8 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace sightline {
@@ -72,46 +72,10 @@ class Grid_ray {
 /// Calls along(fragment, range) for each fragment whose plane holds the ray and that it meets, and
 /// at(fragment, t, rises) for each other one that it meets, at t: whether the ray goes to the front of the node's
 /// plane.
-template <class Is_beyond, class Along, class At>
-void walk_along(const Exact_tree& tree, const Grid_ray& grid, Is_beyond is_beyond, Along along, At at) {
-  struct Step {
-    std::int32_t node;
-    Rational from;               // the ray's part in the node's closed cell
-    std::optional<Rational> to;  // none: to infinity
-  };
-  std::vector<Step> stack;
-  const auto push = [&](std::int32_t node, const Rational& from, const std::optional<Rational>& to) {
-    if (node != Exact_tree::leaf) stack.push_back({node, from, to});
-  };
-  if (!tree.nodes.empty()) push(0, 0, std::nullopt);
-  while (!stack.empty()) {
-    const Step step = std::move(stack.back());
-    stack.pop_back();
-    if (is_beyond(step.from)) continue;
-    const Exact_tree::Node& node = tree.nodes[static_cast<std::size_t>(step.node)];
-    const Grid_ray::Line_value v = grid.value(node.plane);
-    if (v.slope == 0) {
-      if (v.at >= 0) push(node.front, step.from, step.to);
-      if (v.at <= 0) push(node.behind, step.from, step.to);
-      if (v.at != 0) continue;
-      for (const Fragment<Exact_traits>& fragment : tree.on(node))
-        if (const auto range = grid.range_within(fragment.polygon, 0, std::nullopt)) along(fragment, *range);
-      continue;
-    }
-    const Rational t = -v.at / v.slope;
-    const std::int32_t before = v.slope > 0 ? node.behind : node.front, after = v.slope > 0 ? node.front : node.behind;
-    if (t < step.from) {
-      push(after, step.from, step.to);
-    } else if (step.to && *step.to < t) {
-      push(before, step.from, step.to);
-    } else {
-      push(after, t, step.to);
-      push(before, step.from, t);
-      for (const Fragment<Exact_traits>& fragment : tree.on(node))
-        if (grid.side_within(fragment.polygon, t) != CGAL::NEGATIVE) at(fragment, t, v.slope > 0);
-    }
-  }
-}
+void walk_along(const Exact_tree& tree, const Grid_ray& grid,
+                const std::function<bool(const Rational& from)>& is_beyond,
+                const std::function<void(const Fragment<Exact_traits>&, const std::array<Rational, 2>& range)>& along,
+                const std::function<void(const Fragment<Exact_traits>&, const Rational& t, bool rises)>& at);
 
 /// The winding number of the faces about a point off all of them; nothing where the ray meets an edge. `times`: how
 /// often each piece counts.
