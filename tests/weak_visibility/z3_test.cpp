@@ -88,7 +88,7 @@ TEST(Engine_and_z3, say_the_same_of_scenes_that_a_face_of_their_own_looks_at) {
   for (std::size_t k = 0; k < generate::families().size(); ++k)
     for (std::uint64_t seed = 0; seed < weak_scenes::seeds(1); ++seed) {
       // A quarter of the families for each seed: all of them take a minute. Sanitizers do not see into z3.
-      if ((k + seed) % (test_scenes::is_sanitized() ? 12 : 4) != 2) continue;
+      if ((k + seed) % (test_scenes::is_sanitized() ? 8 : 4) != 2) continue;
       const generate::Family& family = generate::families()[k];
       generate::Family_parameters parameters;
       parameters.seed = seed, parameters.size = family.small_size,
