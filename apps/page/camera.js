@@ -4,12 +4,12 @@ const usualAway = unit([-0.6, -1.1, 0.7]);  // as the program's own pictures
 /// From the eye one turns the look; else one goes round a point.
 const camera = {atEye: false, target: [0, 0, 0], distance: 1, yaw: 0, pitch: 0, field: 45};
 
-/// The command's eye; far away it is as good at a thousand times the scene's size.
-const eyePlace = (function () {
-  if (!data.eye || !data.eye.place) return null;
-  const away = minus(data.eye.place, bounds.middle), far = 1000 * bounds.radius;
-  return lengthOf(away) > far ? add(bounds.middle, times(far, unit(away))) : data.eye.place;
-}());
+/// Far away a place is as good at a thousand times the scene's size.
+function eyeFor(place) {
+  const away = minus(place, bounds.middle), far = 1000 * bounds.radius;
+  return lengthOf(away) > far ? add(bounds.middle, times(far, unit(away))) : place;
+}
+let eyePlace = data.eye && data.eye.place ? eyeFor(data.eye.place) : null;
 
 /// The direction from the target, or from the eye: yaw about z, pitch upwards.
 function direction() {
@@ -27,6 +27,27 @@ function goRound() {
   camera.field = 40;
   camera.distance = 1.05 * bounds.radius / Math.sin(camera.field * Math.PI / 360);
   setDirection(usualAway);
+  for (let round = 0; round < 4; ++round) {  // until all corners fill the canvas
+    const d = direction(), seen = extent(add(camera.target, times(camera.distance, d)), times(-1, d));
+    if (!seen) return;
+    camera.target = add(camera.target, add(times(seen.x * camera.distance, seen.right), times(seen.y * camera.distance, seen.up)));
+    camera.distance *= Math.max(0.3, 1.12 * seen.half / Math.tan(camera.field * Math.PI / 360));
+  }
+}
+/// The tangents that hold all corners as seen from a place: their middle, and half of what they span, in heights of the canvas.
+function extent(place, ahead) {
+  const [right, up] = across(ahead), least = [Infinity, Infinity], most = [-Infinity, -Infinity], from = polygons.corners;
+  for (let i = 0; i < from.length; i += 3) {
+    const v = minus([from[i], from[i + 1], from[i + 2]], place), depth = dot(v, ahead);
+    if (depth <= 0) return null;
+    const x = dot(v, right) / depth, y = dot(v, up) / depth;
+    if (x < least[0]) least[0] = x;
+    if (x > most[0]) most[0] = x;
+    if (y < least[1]) least[1] = y;
+    if (y > most[1]) most[1] = y;
+  }
+  if (least[0] > most[0]) return null;
+  return {right, up, x: (least[0] + most[0]) / 2, y: (least[1] + most[1]) / 2, half: Math.max((most[1] - least[1]) / 2, (most[0] - least[0]) / 2 / aspect(), 1e-4)};
 }
 /// To the command's eye, with all of the scene in view where that is within 100 degrees.
 function goToEye() {
@@ -34,23 +55,17 @@ function goToEye() {
   camera.atEye = true;
   const ahead = minus(bounds.middle, eyePlace), distance = lengthOf(ahead);
   if (distance > 0) setDirection(ahead);
+  camera.yaw += 0.011, camera.pitch += 0.007;  // along no axis
   camera.field = 85;
   if (distance > 1.3 * bounds.radius) tighten();
 }
 /// Turns to the middle of what is seen, and takes the least field that holds all corners.
 function tighten() {
   for (let round = 0; round < 3; ++round) {
-    const ahead = direction(), [right, up] = across(ahead), least = [Infinity, Infinity], most = [-Infinity, -Infinity];
-    for (let i = 0; i < polygons.corners.length; i += 3) {
-      const v = minus([polygons.corners[i], polygons.corners[i + 1], polygons.corners[i + 2]], eyePlace), depth = dot(v, ahead);
-      if (depth <= 0) return;
-      [dot(v, right) / depth, dot(v, up) / depth].forEach((t, k) => { least[k] = Math.min(least[k], t), most[k] = Math.max(most[k], t); });
-    }
-    if (least[0] > most[0]) return;
-    const [x, y] = [0, 1].map(k => (least[k] + most[k]) / 2);
-    setDirection(add(ahead, add(times(x, right), times(y, up))));
-    const half = Math.max((most[1] - least[1]) / 2, (most[0] - least[0]) / 2 / aspect(), 1e-4);
-    camera.field = Math.min(110, 2 * Math.atan(1.08 * half) * 180 / Math.PI);
+    const ahead = direction(), seen = extent(eyePlace, ahead);
+    if (!seen) return;
+    setDirection(add(ahead, add(times(seen.x, seen.right), times(seen.y, seen.up))));
+    camera.field = Math.min(110, 2 * Math.atan(1.08 * seen.half) * 180 / Math.PI);
   }
 }
 function aspect() { return Math.max(0.2, canvas.clientWidth / Math.max(1, canvas.clientHeight)); }

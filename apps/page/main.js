@@ -10,10 +10,15 @@ const command = (commands[data.command] || (() => ({})))();
 const hiddenGroups = new Set();
 let selected = -1;
 
+/// Nothing where each face has a colour of its own.
+function colourOfGroup(i) {
+  const role = data.groups[i] ? data.groups[i].role : 'one a face';
+  if (role === 'one a solid') return cycleColours[(i >> 1) % 6].map(c => c + (245 - c) * (i & 1 ? 0.55 : 0.2));
+  return role === 'one a face' ? null : palette[role] || palette.face;
+}
 function colourOf(k) {
   if (command.colourOf) return command.colourOf(k);
-  const group = data.groups[polygons.groups[k]], role = group ? group.role : 'one a face';
-  return role === 'one a face' ? colourOfFace(polygons.faces[k]) : palette[role] || palette.face;
+  return colourOfGroup(polygons.groups[k]) || colourOfFace(polygons.faces[k]);
 }
 /// All polygons in their colours, lighter towards the light; `isShown` may leave some out.
 function paint() {
@@ -24,6 +29,7 @@ function paint() {
   }
   looksChanged = true;
   redraw();
+  if (command.sphereChanged) command.sphereChanged();
 }
 
 function faceName(k) {
@@ -120,8 +126,10 @@ function legend() {
   return element('div', {className: 'legend'}, ...data.groups.map((group, i) => {
     const box = element('input', {type: 'checkbox', checked: true, onchange: () => { box.checked ? hiddenGroups.delete(i) : hiddenGroups.add(i); paint(); }});
     const swatch = element('span', {className: 'swatch'});
-    swatch.style.background = group.role === 'one a face' ? 'conic-gradient(#e69f00,#56b4e9,#009e73,#cc79a7,#e69f00)' : css(palette[group.role] || palette.face);
-    return element('label', {}, box, swatch, group.name, element('span', {className: 'count'}, `${counts[i]}`));
+    const colour = colourOfGroup(i);
+    swatch.style.background = colour ? css(colour) : 'conic-gradient(#e69f00,#56b4e9,#009e73,#cc79a7,#e69f00)';
+    return command.groupsChange ? element('label', {}, swatch, group.name)
+      : element('label', {}, box, swatch, group.name, element('span', {className: 'count'}, `${counts[i]}`));
   }));
 }
 function help() {
@@ -133,8 +141,9 @@ function help() {
 }
 
 function begin() {
-  document.title = `${data.command}: ${data.scene}`;
-  panel.append(element('h1', {}, `${data.command}: ${data.scene.split('/').pop()}`), table(data.facts));
+  const title = data.command + (data.scene ? `: ${data.scene.split('/').pop()}` : '');
+  document.title = title;
+  panel.append(element('h1', {}, title), table(data.facts));
   for (const note of data.notes) panel.append(element('p', {className: 'note'}, note));
   if (data.groups.length > 1) section('What is what', legend());
   if (command.begin) command.begin();
@@ -177,6 +186,8 @@ window.sightline = {
   },
   /// Where the middle of a polygon is on the canvas.
   middleOf(k) { const list = cornersOf(k); return onCanvas(times(1 / list.length, list.reduce(add)), cameraFrame()); },
+  onCanvas: place => onCanvas(place, cameraFrame()),
+  lines: name => lineLayers.has(name) ? lineLayers.get(name).list.length : 0,
   pickAt(x, y) { const hit = pick(rayAt(x, y)); return hit ? hit.polygon : -1; },
 };
 document.documentElement.dataset.ready = 'yes';

@@ -67,11 +67,11 @@ void main() {
 const sphereFragment = `#version 300 es
 precision highp float;
 in vec2 at;
-uniform samplerCube around; uniform float yaw;
+uniform samplerCube around; uniform float yaw; uniform mat3 frame;
 out vec4 pixel;
 void main() {
   float a = yaw - 3.14159265 * at.x, b = 1.57079633 * at.y;
-  pixel = texture(around, vec3(cos(b) * cos(a), cos(b) * sin(a), sin(b)));
+  pixel = texture(around, vec3(cos(b) * cos(a), cos(b) * sin(a), sin(b)) * frame);
 }`;
 
 function programOf(vertex, fragment) {
@@ -211,6 +211,12 @@ function draw() {
   ++frames;
 }
 
+// The axes of a cube about the eye, of no scene's: one software renderer drops triangles with a corner just beside the eye's own plane.
+const aslant = (function () {
+  const x = unit([1, 0.37, 0.21]), y = unit(cross([-0.13, 0.29, 1], x));
+  return [x, y, cross(x, y)];
+}());
+
 /// All directions from a place, unrolled: to the right as one turns to the right, the middle at `yaw`. As rows of RGBA, the top first.
 function unrolled(place, yaw, width, height) {
   const size = 512, cube = gl.createTexture(), depth = gl.createRenderbuffer(), buffer = gl.createFramebuffer();
@@ -230,6 +236,7 @@ function unrolled(place, yaw, width, height) {
   const view = perspective(Math.PI / 2, 1, Math.max(1e-4 * bounds.radius, far - 4.4 * bounds.radius), far), whole = [drawing.from, drawing.backs];
   drawing.from = drawing.base, drawing.backs = true;  // what is seen, nothing beneath
   [[[1, 0, 0], [0, -1, 0]], [[-1, 0, 0], [0, -1, 0]], [[0, 1, 0], [0, 0, 1]], [[0, -1, 0], [0, 0, -1]], [[0, 0, 1], [0, -1, 0]], [[0, 0, -1], [0, -1, 0]]]
+    .map(two => two.map(d => add(times(d[0], aslant[0]), add(times(d[1], aslant[1]), times(d[2], aslant[2])))))
     .forEach(([ahead, up], side) => {
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + side, cube, 0);
       gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -247,6 +254,7 @@ function unrolled(place, yaw, width, height) {
   gl.disable(gl.DEPTH_TEST), gl.disable(gl.CULL_FACE);
   gl.useProgram(program.program);
   gl.uniform1f(program.yaw, yaw);
+  gl.uniformMatrix3fv(program.frame, false, aslant.flat());
   gl.bindVertexArray(null);
   gl.drawArrays(gl.TRIANGLES, 0, 3);
   const below = new Uint8Array(4 * width * height), rows = new Uint8ClampedArray(below.length);
