@@ -25,7 +25,10 @@ z3|z3|a second opinion on weak visibility; tests skip what needs it where it is 
 python3-dev|python3-config|the Python module; its tests are skipped where this or what follows is missing
 pybind11-dev|pybind11-config|the Python module
 python3-numpy|f2py3|the Python module
-python3-pytest|pytest-3|tests of the Python module
+python3-pytest|pytest-3|tests of the Python module and of pages
+chromium|chromium|tests of pages; they are skipped where this or what follows is missing
+chromium-driver|chromedriver|tests of pages
+python3-selenium|chromedriver|tests of pages
 '
 
 is_debian_12() { (. /etc/os-release 2>/dev/null && [ "$ID" = debian ] && [ "$VERSION_ID" = 12 ]); }

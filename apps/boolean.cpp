@@ -1,6 +1,6 @@
 // sightline boolean: set operations on solids, exactly.
 
-#include "support/common.h"
+#include "support/page.h"
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
@@ -22,7 +22,7 @@ namespace sightline::app {
 namespace {
 
 struct Boolean_arguments {
-  std::string operation, out, json, certificate, inside = "positive", coordinates = "exact", round = "double";
+  std::string operation, out, json, certificate, html, inside = "positive", coordinates = "exact", round = "double";
   std::vector<std::string> solids;
   int threads = 0;
 };
@@ -109,6 +109,31 @@ void refuse_flaws(const Operands& operands, const std::vector<std::string>& file
   throw Input_error::of_file(files[operand], what + "; close the surface first");
 }
 
+/// The result, each face in the colour of the solid that it is of.
+void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_result& result) {
+  const Scene scene(flat.soup);
+  Page page("boolean", scene);
+  page.add_fact("operation", a.operation);
+  page.add_fact("result", fmt::format("{} faces, {} points", result.soup.face_count(), result.soup.point_count()));
+  page.add_fact("volume", to_string(volume(result.soup)));
+  const auto of = [&](std::uint32_t piece) -> const Result_face& {
+    return result.faces[flat.face_of[scene.pieces()[piece].face]];
+  };
+  constexpr std::size_t most_colours = 30;  // of solids
+  const bool by_solid = a.solids.size() <= most_colours;
+  for (const std::string& solid : a.solids)
+    for (const char* turned : {"", ", turned round"})
+      if (by_solid) page.add_group(std::filesystem::path(solid).filename().string() + turned, "one a solid");
+  if (!by_solid) page.add_group("of so many solids", "one a face");
+  page.add_pieces(
+      scene, [&](std::uint32_t piece) { return by_solid ? 2 * of(piece).operand + (of(piece).turned ? 1u : 0u) : 0u; });
+  std::vector<std::uint32_t> faces;
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) faces.push_back(of(i).face);
+  page.more()["operand_faces"] = packed(faces);
+  if (!result.crowded.empty()) page.add_note(fmt::format("{} edges of more than two faces", result.crowded.size()));
+  page.write(a.html);
+}
+
 Exit run(const Boolean_arguments& a, const Command& command) {
   // 1. The solids.
   Stopwatch watch;
@@ -145,6 +170,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   if (!a.certificate.empty())
     write_file(a.certificate,
                [&](std::ostream& out) { write_solid_certificate(out, solid_certificate(*operands, options, result)); });
+  if (!a.html.empty()) write_page(a, flat, result);
   Json not_manifold = Json::array();
   for (const Crowded_edge& edge : result.crowded)
     not_manifold.push_back({{"from", point_json(result.soup.point(edge.from))},
@@ -235,6 +261,9 @@ void add_boolean(Command program) {
           "write what `sightline verify A CERTIFICATE --solid B ...` reads: all fragments, and why each is kept")
       .writes_file();
   command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
+  command.add_option("--html", a->html, "write a page to look at: the result, each face in its solid's colour")
+      .writes_file()
+      .check(ending(".html"));
   command
       .add_option("--inside", a->inside,
                   "where a surface winds round its inside: a positive, nonzero or odd number of "

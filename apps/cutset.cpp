@@ -1,6 +1,7 @@
 // sightline cutset: the on-view faces of a scene along a path of viewpoints, by Tanimoto's cut-set.
 
 #include "support/decisions.h"
+#include "support/page.h"
 #include "support/paths.h"
 
 #include <sightline/algorithms/cutset/tracker.h>
@@ -8,6 +9,8 @@
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
+#include <map>
+#include <utility>
 
 namespace sightline::app {
 
@@ -18,7 +21,7 @@ struct Cutset_arguments {
   Path_arguments path;
   Decision_arguments decisions;
   Canvas_arguments canvas;
-  std::string method = "tracker", svg;
+  std::string method = "tracker", svg, html;
   bool faces = false, check = false;
 };
 
@@ -69,9 +72,18 @@ std::size_t disagreements(const Exact_traits& traits, const Face_graph& graph, c
   return wrong;
 }
 
+/// A frame of the page: which pieces are on-view.
+struct Page_frame {
+  std::size_t number;
+  Viewpoint view;
+  std::vector<bool> pieces;
+  std::size_t cut_edges, tests;
+};
+
 /// What a path gave: all frames for JSON, otherwise the first ones and those of a picture.
 struct Followed {
   std::vector<Frame> frames;
+  std::vector<Page_frame> page;
   Cut_set_counters total;
   std::size_t count = 0, wrong = 0, cut_edges = 0;  // frames, those that brute force contradicts, edges in all of them
   double seconds = 0;
@@ -79,13 +91,21 @@ struct Followed {
 
 constexpr std::size_t frames_shown = 20;
 
+/// As many frames as a page of so many pieces has: a bit for each of both.
+std::size_t frames_of_page(std::size_t pieces) {
+  constexpr std::size_t most_bits = 1800000, most = 360, least = 12;
+  return std::clamp(most_bits / std::max<std::size_t>(pieces, 1), least, most);
+}
+
 /// A path, by whatever tracker: move(view) says what it took.
 template <class Tracker, class Move>
 Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, const Face_graph& graph,
                 const Path& path, const Tracker& tracker, Move move) {
   Progress progress("moving");
   const auto report = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  const std::size_t every = (path.size + pictures_in_a_strip - 1) / pictures_in_a_strip;
+  const std::size_t every = (path.size + pictures_in_a_strip - 1) / pictures_in_a_strip,
+                    in_page = frames_of_page(graph.scene().pieces().size()),
+                    every_in_page = (path.size + in_page - 1) / in_page;
   Followed followed;
   for (std::size_t k = 0; k < path.size; ++k) {
     report(k, path.size);
@@ -99,6 +119,11 @@ Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, c
     ++followed.count;
     followed.wrong += wrong > 0;
     followed.cut_edges += cut_edges;
+    if (!arguments.html.empty() && k % every_in_page == 0) {
+      Page_frame& frame = followed.page.emplace_back(Page_frame{k + 1, view, {}, cut_edges, counters.tests});
+      for (std::uint32_t i = 0; i < graph.scene().pieces().size(); ++i)
+        frame.pieces.push_back(tracker.on_view(graph.node(i)));
+    }
     const bool pictured = !arguments.svg.empty() && k % every == 0;
     if (k >= frames_shown && !pictured && arguments.common.json.empty()) continue;
     std::vector<Face_id> faces = faces_on_view(graph, tracker);
@@ -108,6 +133,61 @@ Followed follow(const Cutset_arguments& arguments, const Exact_traits& traits, c
       for (std::uint32_t node = 0; node < graph.size(); ++node) frame.nodes.push_back(tracker.on_view(node));
   }
   return followed;
+}
+
+/// The edges of a face graph by a piece and its corner where they begin, and a piece on the other side.
+Json edges_json(const Face_graph& graph) {
+  const Scene& scene = graph.scene();
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::uint32_t, std::uint32_t>> places;
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+    const auto corners = scene.corners(scene.pieces()[i]);
+    for (std::uint32_t c = 0; c < corners.size(); ++c)
+      places.try_emplace({corners[c].point, corners[(c + 1) % corners.size()].point}, i, c);
+  }
+  std::vector<std::uint32_t> pieces, corners, others;
+  for (const Face_graph::Edge& edge : graph.edges()) {
+    const auto at = places.find({edge.from, edge.to});
+    if (at == places.end()) continue;
+    pieces.push_back(at->second.first);
+    corners.push_back(at->second.second);
+    others.push_back(graph.piece(edge.second));
+  }
+  return {{"pieces", packed(pieces)}, {"corners", packed(corners)}, {"others", packed(others)}};
+}
+
+/// The path, and at each of its places what is on-view.
+void write_page(const Cutset_arguments& arguments, const Face_graph& graph, const Followed& followed) {
+  Page page("cutset", graph.scene());
+  page.add_fact("faces", fmt::format("{}", graph.scene().counters().faces));
+  page.add_fact("face graph", fmt::format("{} nodes, {} edges", graph.size(), graph.edges().size()));
+  page.add_fact("path", fmt::format("{} viewpoints", followed.count));
+  page.add_fact("method", arguments.method);
+  if (followed.page.size() < followed.count)
+    page.add_note(fmt::format("{} of {} viewpoints are shown, evenly", followed.page.size(), followed.count));
+  for (const auto& [name, role] :
+       {std::pair("on-view", "seen"), {"on-view since the step before", "new"}, {"off-view", "hidden"}})
+    page.add_group(name, role);
+  page.add_pieces(graph.scene());
+  std::vector<std::uint32_t> numbers, cuts, tests;
+  std::vector<bool> on, at_infinity;
+  Json places = Json::array(), texts = Json::array();
+  for (const Page_frame& frame : followed.page) {
+    numbers.push_back(static_cast<std::uint32_t>(frame.number));
+    cuts.push_back(static_cast<std::uint32_t>(frame.cut_edges));
+    tests.push_back(static_cast<std::uint32_t>(frame.tests));
+    at_infinity.push_back(frame.view.at_infinity);
+    on.insert(on.end(), frame.pieces.begin(), frame.pieces.end());
+    places.push_back(frame.view.at_infinity ? Json() : page.place(frame.view.at));
+    texts.push_back(Page::text(frame.view.at));
+  }
+  page.more()["frames"] = {{"numbers", packed(numbers)},  {"cut_edges", packed(cuts)},
+                           {"tests", packed(tests)},      {"at_infinity", packed(at_infinity)},
+                           {"places", std::move(places)}, {"texts", std::move(texts)},
+                           {"on_view", packed(on)}};
+  constexpr std::size_t most_edges = 40000;
+  if (graph.edges().size() <= most_edges) page.more()["edges"] = edges_json(graph);
+  else page.add_note("so many edges are too many for a page: the cut is left out");
+  page.write(arguments.html);
 }
 
 Json frames_json(const std::vector<Frame>& frames, const Cutset_arguments& arguments) {
@@ -163,6 +243,8 @@ static Exit run(const Cutset_arguments& arguments) {
     throw Usage_error("cutset wants a path (--path FILE, --orbit FRAMES or --motion FILE) or --decision-tree");
   if (!arguments.decisions.wanted && (arguments.decisions.inside || !arguments.decisions.likelihood.empty()))
     throw Usage_error("--inside and --likelihood go with --decision-tree");
+  if (arguments.decisions.wanted && !arguments.html.empty())
+    throw Usage_error("--html shows a path: leave it out with --decision-tree");
   if (arguments.decisions.wanted) return run_decisions(arguments);
   const Scene scene(common.read());
   const Path path = path_of(arguments.path, scene);
@@ -189,7 +271,7 @@ static Exit run(const Cutset_arguments& arguments) {
     followed = follow(arguments, traits, graph, path, update, move);
   }
 
-  const auto& [frames, total, count, wrong, cut_edges, seconds] = followed;
+  const auto& [frames, page, total, count, wrong, cut_edges, seconds] = followed;
   std::size_t convex = 0;
   for (const Face_graph::Component& component : graph.components()) convex += component.inside.has_value();
   if (!arguments.svg.empty()) {
@@ -201,6 +283,8 @@ static Exit run(const Cutset_arguments& arguments) {
              fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
     write_file(arguments.svg, painted(graph, outlines, arguments.canvas));
   }
+
+  if (!arguments.html.empty()) write_page(arguments, graph, followed);
 
   const std::size_t later = count - 1;
   const std::uint64_t later_tests = total.tests - frames.front().counters.tests;
@@ -271,6 +355,9 @@ void add_cutset(Command program) {
                   "drawn before, and the cut-set as an outline")
       .writes_file()
       .check(ending(".svg"));
+  command.add_option("--html", a->html, "write a page to look at, which plays the path: on-view faces and the cut-set")
+      .writes_file()
+      .check(ending(".html"));
   a->canvas.add_to(command, "by default each frame is 300 wide");
   command.footer(
       "Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"

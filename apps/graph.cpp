@@ -1,5 +1,6 @@
 // sightline graph: the priority graph of a scene, its strongly connected components, and their order.
 
+#include "support/page.h"
 #include "support/pixels.h"
 
 #include <sightline/algorithms/bsp/build.h>
@@ -21,7 +22,7 @@ namespace {
 
 struct Graph_arguments {
   Common common;
-  std::string method = "implicit", eye, direction, dot, certificate;
+  std::string method = "implicit", eye, direction, dot, html, certificate;
   std::vector<std::string> box, region;
   bool arcs = false, tree = false, split = false, codes = false, two_sided = false;
   Pixel_arguments pixels;
@@ -171,6 +172,40 @@ Clusters clusters_of(const Scene& scene, const Exact_traits& traits, const Graph
     }
   }
   return found;
+}
+
+/// The pieces with their components, and the arcs where they are known and not too many.
+void write_page(const Scene& scene, const Found& found, const std::string& scope, const std::string& file) {
+  const Priority_components& all = found.components;
+  Page page("graph", scene);
+  page.add_fact("faces", fmt::format("{}", scene.counters().faces));
+  page.add_fact("scope", scope);
+  page.add_fact("arcs", found.arcs ? fmt::format("{}", found.arcs->arc_count()) : "not written out: --arcs does");
+  page.add_fact("components",
+                fmt::format("{}, {} of them cyclic, the largest of {} faces", all.size(), all.cyclic(), all.largest()));
+  page.add_group("faces", "face");
+  page.add_pieces(scene);
+  std::vector<std::uint32_t> h;
+  for (std::uint32_t i = 0; i < all.faces(); ++i) h.push_back(all.h(i));
+  page.more()["components"] = packed(h);
+  if (found.arcs) {
+    constexpr std::size_t most_arcs = 60000, most_faces = 1700;
+    const std::size_t n = found.arcs->size();
+    const Arc_graph& graph = found.arcs->boost_graph();
+    std::vector<std::uint32_t> list;
+    std::vector<bool> matrix(found.arcs->arc_count() > most_arcs && n <= most_faces ? n * n : 0);
+    if (found.arcs->arc_count() > most_arcs && n > most_faces)
+      page.add_note("so many arcs are too many for a page: --arcs --json lists them");
+    else
+      for (const auto& arc : boost::make_iterator_range(boost::edges(graph))) {
+        const std::size_t from = boost::source(arc, graph), to = boost::target(arc, graph);
+        if (!matrix.empty()) matrix[from * n + to] = true;
+        else list.insert(list.end(), {static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to)});
+      }
+    if (!matrix.empty()) page.more()["arc_matrix"] = packed(matrix);
+    else if (found.arcs->arc_count() <= most_arcs) page.more()["arcs"] = packed(list);
+  }
+  page.write(file);
 }
 
 std::vector<Pixel_image> images_of(const Scene& scene, const Exact_traits& traits, const Faces& faces,
@@ -325,6 +360,7 @@ static Exit run(const Graph_arguments& arguments) {
     });
   }
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
+  if (!arguments.html.empty()) write_page(scene, found, scope, arguments.html);
   std::optional<Clusters> clusters;
   if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments, in_time);
   std::vector<Pixel_image> images;
@@ -412,6 +448,11 @@ void add_graph(Command program) {
   eyes.needs(pixels);
   pictures.needs(pixels);
   command.add_option("--dot", a->dot, "write the graph for Graphviz, cyclic components in boxes").writes_file();
+  command
+      .add_option("--html", a->html,
+                  "write a page to look at: components, cycles, and what is in front of and behind a face")
+      .writes_file()
+      .check(ending(".html"));
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
   command.footer(
       "Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed "

@@ -2,6 +2,7 @@
 // certificate.
 
 #include "methods/methods.h"
+#include "support/page.h"
 
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/image/bsp2d.h>
@@ -17,7 +18,7 @@ namespace sightline::app {
 struct Order_arguments {
   Common common;
   View_arguments view;
-  std::string eye, kernel = "exact", method = "bsp", certificate, svg;
+  std::string eye, kernel = "exact", method = "bsp", certificate, svg, html;
   bool two_sided = false, front_to_back = false, skip_hidden = false;
   bool by_graph() const { return method == "graph"; }
 };
@@ -124,6 +125,21 @@ static Outcome run_skipping(const Scene& scene, const Task& task, Skipped_order&
   return outcome;
 }
 
+/// The fragments in their order, back to front.
+static void write_page(const Order_arguments& arguments, const Scene& scene, const Exact_point& eye,
+                       const Outcome& outcome) {
+  Page page("order", scene);
+  page.set_eye(eye);
+  page.add_fact("faces", fmt::format("{}", scene.counters().faces));
+  page.add_fact("polygons", fmt::format("{}, back to front", outcome.drawn.size()));
+  page.add_fact("cuts", fmt::format("{}", outcome.tree.splits));
+  page.add_fact("method", arguments.by_graph() ? "graph" : "bsp, " + arguments.kernel);
+  page.add_fact("eye", Page::text(eye));
+  page.add_group("painted", "one a face");
+  for (const Drawn& item : outcome.drawn) page.add_polygon(item.fragment.face, item.fragment.vertices);
+  page.write(arguments.html);
+}
+
 /// Of what does not go together.
 static void check_usage(const Order_arguments& arguments) {
   if (arguments.by_graph() && arguments.kernel != "exact")
@@ -134,7 +150,7 @@ static void check_usage(const Order_arguments& arguments) {
   if (!arguments.front_to_back) throw Usage_error("--skip-hidden needs --front-to-back: what hides comes first");
   if (arguments.by_graph() || arguments.kernel != "exact")
     throw Usage_error("--skip-hidden is for a tree, and exact: leave out --method and --kernel");
-  if (!arguments.certificate.empty() || !arguments.svg.empty())
+  if (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty())
     throw Usage_error("--skip-hidden leaves out fragments: no --certificate, and for a picture `sightline see`");
 }
 
@@ -177,6 +193,8 @@ static Exit run(const Order_arguments& arguments) {
     paint(svg, view, near ? graph.in_view : outcome.drawn, true);
     write_file(arguments.svg, svg.text());
   }
+
+  if (!arguments.html.empty()) write_page(arguments, scene, eye, outcome);
 
   // The other way round is an order, too.
   if (arguments.front_to_back && !arguments.skip_hidden) std::reverse(outcome.drawn.begin(), outcome.drawn.end());
@@ -239,7 +257,7 @@ static Exit run(const Order_arguments& arguments) {
     row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
   row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds,
                              arguments.kernel));
-  if (arguments.certificate.empty() && arguments.svg.empty()) {
+  if (arguments.certificate.empty() && arguments.svg.empty() && arguments.html.empty()) {
     constexpr std::size_t shown = 20;
     for (std::size_t i = 0; i < std::min(shown, outcome.drawn.size()); ++i)
       std::cout << fmt::format("{:>6}. face {}, piece {}{}\n", i + 1, outcome.drawn[i].fragment.face,
@@ -274,6 +292,9 @@ void add_order(Command program) {
                    "with --front-to-back: only what is seen; what is behind that is not visited");
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
   command.add_option("--svg", a->svg, "draw the order as a painter would").writes_file().check(ending(".svg"));
+  command.add_option("--html", a->html, "write a page to look at, in which a slider paints back to front")
+      .writes_file()
+      .check(ending(".html"));
   a->view.add_to(command);
   command.footer(
       "Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

@@ -3,6 +3,7 @@
 
 #include "methods/methods.h"
 #include "methods/weak.h"
+#include "support/page.h"
 #include "support/picture.h"
 
 #include <sightline/algorithms/levels/pvs.h>
@@ -15,6 +16,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <set>
 
 namespace sightline::app {
 
@@ -29,7 +31,7 @@ struct Pvs_arguments {
   View_arguments view;
   unsigned candidates = 5;
   bool outside = false, resume = false;
-  std::string out, shard, svg, eye, obj, certificates;
+  std::string out, shard, svg, html, eye, obj, certificates;
   std::vector<std::uint32_t> show;
 };
 
@@ -264,6 +266,49 @@ void draw(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_
   write_file(arguments.svg, svg.text());
 }
 
+/// The cells that are asked about, those of --show first, and what each sees.
+void write_page(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
+  Page page("pvs", level.scene());
+  page.add_fact("faces", fmt::format("{}", level.scene().counters().faces));
+  page.add_fact("cells", fmt::format("{} of {} are asked about", table.rows.size(), table.cells.size()));
+  for (const auto& [name, role] : {std::pair("visible", "seen"), {"hidden", "hidden"}, {"undecided", "open"}})
+    page.add_group(name, role);
+  page.add_pieces(level.scene());
+  std::vector<Cell_id> cells = arguments.show;
+  for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
+    if (table.cells[cell] && std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+  constexpr std::size_t most_bytes = 500000;
+  std::size_t bytes = 0;
+  Json list = Json::array();
+  for (const Cell_id cell : cells) {
+    const Visibility_table::Row& row = *table.row_of(cell);
+    std::vector<float> ends;  // of the sides of its walls
+    for (const std::uint32_t w : level.cells()[cell].walls) {
+      const std::vector<Exact_point> polygon = level.polygon(level.walls()[w].corners);
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        page.append_place(ends, polygon[i]);
+        page.append_place(ends, polygon[(i + 1) % polygon.size()]);
+      }
+    }
+    bytes += 160 + 6 * ends.size() + 4 * (row.visible.size() + row.undecided.size());
+    if (bytes > most_bytes) {
+      page.add_note(fmt::format("{} of {} cells are shown: --show CELL, which may be repeated, chooses", list.size(),
+                                cells.size()));
+      break;
+    }
+    list.push_back({{"cell", cell},
+                    {"inside", Page::text(level.inside(cell))},
+                    {"visible", packed(row.visible)},
+                    {"undecided", packed(row.undecided)},
+                    {"walls", packed(ends)}});
+  }
+  page.more()["cells"] = std::move(list);
+  std::set<std::uint32_t> rooms;  // the faces that look into one of them
+  for (const Cell_id cell : cells) rooms.insert(level.cells()[cell].faces.begin(), level.cells()[cell].faces.end());
+  page.more()["rooms"] = packed(std::vector<std::uint32_t>(rooms.begin(), rooms.end()));
+  page.write(arguments.html);
+}
+
 /// A certificate for each cell that is asked about, of what its portals see outwards; and an index of them.
 void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
   const fs::path folder = arguments.certificates;
@@ -339,6 +384,7 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   if (!arguments.out.empty()) write_table(arguments.out, table);
   if (!arguments.svg.empty()) draw(arguments, soup, level, table);
   if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(level, table, arguments.show));
+  if (!arguments.html.empty()) write_page(arguments, level, table);
   if (!arguments.certificates.empty()) write_certificates(arguments, level, table);
 
   const std::size_t visible = count_of(table, &Visibility_table::Row::visible),
@@ -425,6 +471,9 @@ void add_pvs(Command program) {
       .add_option("--svg", a->svg, "draw the rooms and what --show sees of them, without what has its back to the eye")
       .writes_file()
       .check(ending(".svg"));
+  command.add_option("--html", a->html, "write a page to look at: click a cell, and what it sees")
+      .writes_file()
+      .check(ending(".html"));
   command.add_option("--eye", a->eye, "with --svg: X,Y,Z; by default a place outside the scene").check(not_empty());
   a->view.add_to(command);
   command

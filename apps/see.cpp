@@ -1,5 +1,6 @@
 // sightline see: the exact visible parts of a scene from an eye, their picture and their certificate.
 
+#include "support/page.h"
 #include "support/picture.h"
 
 #include <sightline/algorithms/point_visibility/certificate.h>
@@ -23,7 +24,7 @@ namespace {
 struct See_arguments {
   Common common;
   View_arguments view;
-  std::string eye, kernel = "exact", certificate, svg;
+  std::string eye, kernel = "exact", certificate, svg, html;
   bool two_sided = false, frustum = false, lines = false;
 };
 
@@ -163,6 +164,51 @@ void draw(Svg& svg, const View& view, const Seen& seen) {
     }
 }
 
+/// The visible parts over the scene's pieces, and its lines.
+void write_page(const See_arguments& arguments, const Scene& scene, const Exact_point& eye, const Seen& seen) {
+  Page page("see", scene);
+  page.set_eye(eye);
+  page.add_fact("faces", fmt::format("{}", scene.counters().faces));
+  page.add_fact("visible", fmt::format("{} faces", seen.visible.size()));
+  page.add_fact("from behind", fmt::format("{} faces", seen.from_behind.size()));
+  page.add_fact("eye", Page::text(eye));
+  page.add_group("visible", "one a face");
+  page.add_group("visible from behind", "one a face");
+  page.add_group("the scene, beneath", "hidden");
+  page.add_pieces(scene, [](std::uint32_t) { return 2; });
+  page.more()["base"] = page.polygons();
+  for (const Drawn& part : seen.parts)
+    page.add_polygon(part.fragment.face, part.fragment.vertices, part.side == CGAL::POSITIVE ? 0 : 1);
+  if (!arguments.lines) page.add_note("--lines adds the scene's edges, hidden ones dashed, and what hides them");
+  constexpr std::size_t most_parts = 12000, most_texts = 1000;
+  std::size_t parts = 0;
+  for (const Drawn_line& line : seen.lines) parts += line.parts.size();
+  if (parts > most_parts) page.add_note(fmt::format("{} parts of lines are too many for a page: left out", parts));
+  if (parts > 0 && parts <= most_parts) {
+    std::vector<float> ends;
+    std::vector<std::uint32_t> edges, hidden_by, kinds;
+    std::vector<std::string> names, texts;
+    for (std::uint32_t i = 0; i < seen.lines.size(); ++i) {
+      const Drawn_line& line = seen.lines[i];
+      const std::size_t kind =
+          static_cast<std::size_t>(std::find(names.begin(), names.end(), line.kind) - names.begin());
+      if (kind == names.size()) names.emplace_back(line.kind);
+      for (const Line_part& part : line.parts) {
+        const Exact_point from = point_on(line, part.from), to = point_on(line, part.to);
+        page.append_place(ends, from);
+        page.append_place(ends, to);
+        edges.push_back(i);
+        kinds.push_back(static_cast<std::uint32_t>(kind));
+        hidden_by.push_back(part.hidden_by == Line_part::nothing ? 0 : part.hidden_by + 1);
+        if (parts <= most_texts) texts.push_back(Page::text(from) + " to " + Page::text(to));
+      }
+    }
+    page.more()["lines"] = {{"ends", packed(ends)},           {"edges", packed(edges)}, {"kinds", packed(kinds)},
+                            {"hidden_by", packed(hidden_by)}, {"names", names},         {"texts", texts}};
+  }
+  page.write(arguments.html);
+}
+
 /// Faces that show their front.
 std::size_t fronts_of(const Seen& seen) {
   std::size_t behind = 0;  // `visible` may count these too
@@ -217,9 +263,9 @@ static Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
   arguments.view.check_usage();
-  if (arguments.kernel != "exact" &&
-      (!arguments.certificate.empty() || !arguments.svg.empty() || arguments.frustum || arguments.lines))
-    throw Usage_error("--certificate, --svg, --lines and --frustum are exact: leave out --kernel");
+  if (arguments.kernel != "exact" && (!arguments.certificate.empty() || !arguments.svg.empty() ||
+                                      !arguments.html.empty() || arguments.frustum || arguments.lines))
+    throw Usage_error("--certificate, --svg, --html, --lines and --frustum are exact: leave out --kernel");
   const Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const bool has_view = !arguments.svg.empty() || arguments.frustum;
@@ -230,8 +276,10 @@ static Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  const Seen seen = see(scene, eye, arguments.kernel, field,
-                        {arguments.two_sided, !common.json.empty(), arguments.certificate, arguments.lines}, options);
+  const Seen seen = see(
+      scene, eye, arguments.kernel, field,
+      {arguments.two_sided, !common.json.empty() || !arguments.html.empty(), arguments.certificate, arguments.lines},
+      options);
 
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
@@ -242,6 +290,8 @@ static Exit run(const See_arguments& arguments) {
     }
     write_file(arguments.svg, svg.text());
   }
+
+  if (!arguments.html.empty()) write_page(arguments, scene, eye, seen);
 
   progress.clear();
   const auto counted = [&](const Drawn& drawn) { return arguments.two_sided || drawn.side == CGAL::POSITIVE; };
@@ -334,6 +384,12 @@ void add_see(Command program) {
   command.add_option("--svg", a->svg, "draw the visible parts; the n-th polygon of face 7 has the id face-7-n")
       .writes_file()
       .check(ending(".svg"));
+  command
+      .add_option("--html", a->html,
+                  "write a page to look at: the visible parts in the scene, and unrolled as the eye sees them; with "
+                  "--lines what hides an edge")
+      .writes_file()
+      .check(ending(".html"));
   a->view.add_to(command);
   command.footer(
       "Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

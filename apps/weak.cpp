@@ -3,6 +3,7 @@
 #include "methods/along.h"
 #include "methods/methods.h"
 #include "methods/weak.h"
+#include "support/page.h"
 #include "weak_partition.h"
 
 #include <sightline/algorithms/verify/certificate_writer.h>
@@ -17,7 +18,7 @@ struct Weak_arguments {
   Common common;
   View_arguments view;
   Source_arguments sources;
-  std::string method = "lines", certificate, svg, obj, eye, surfaces, along;
+  std::string method = "lines", certificate, svg, html, obj, eye, surfaces, along;
   Weak_task task;
   Partition_arguments partition;
 };
@@ -340,6 +341,86 @@ Json open_json(const Occluders& occluders, const Sources& sources, const Weakly_
   return all;
 }
 
+// ---- The page
+
+/// Sightlines of visible faces: the pair's piece and source, the ends, and these exactly where they are few.
+Json sightlines_json(Page& page, const Scene& scene, const Weakly_visible& found) {
+  constexpr std::size_t most = 8000, most_texts = 600;
+  std::vector<std::uint32_t> pieces, sources;
+  std::vector<float> ends;
+  std::vector<std::string> texts;
+  for (const Weakly_visible::Pair& pair : found.pairs) {
+    if (pair.answer.status != Weak_status::visible) continue;
+    if (pieces.size() == most) {
+      page.add_note(fmt::format("the sightlines of {} faces are shown, the others left out", most));
+      break;
+    }
+    pieces.push_back(pair.piece);
+    sources.push_back(pair.source);
+    for (const Near_point& end : pair.answer.sightline) {
+      const Exact_point at = scene.position(end.exact);
+      page.append_place(ends, at);
+      if (found.visible.size() <= most_texts) texts.push_back(Page::text(at));
+    }
+  }
+  return {{"pieces", packed(pieces)}, {"sources", packed(sources)}, {"ends", packed(ends)}, {"texts", texts}};
+}
+
+/// Proofs as walks that take a node before its two parts: `kinds` as in Weak_step::Kind, of each the piece that blocks
+/// or has the edge, and that edge's first corner; the steps of the n-th pair are begin[n] up to begin[n + 1].
+Json proofs_json(Page& page, const Weakly_visible& found) {
+  constexpr std::size_t most_steps = 60000;
+  std::vector<std::uint32_t> pieces, sources, begin{0}, kinds, of, corners;
+  std::size_t left_out = 0;
+  for (const std::vector<Weakly_visible::Pair>* list : {&found.pairs, &found.open})
+    for (const Weakly_visible::Pair& pair : *list) {
+      const Weak_answer& answer = pair.answer;
+      if (answer.status == Weak_status::visible) continue;
+      if (kinds.size() + answer.proof.size() > most_steps) {
+        ++left_out;
+        continue;
+      }
+      pieces.push_back(pair.piece);
+      sources.push_back(pair.source);
+      for (const Weak_step& step : answer.proof) {
+        const bool is_line = step.kind == Weak_step::Kind::line;
+        kinds.push_back(static_cast<std::uint32_t>(step.kind));
+        of.push_back(is_line ? answer.lines[step.index].piece : step.index);
+        corners.push_back(is_line ? answer.lines[step.index].corner : 0);
+      }
+      begin.push_back(static_cast<std::uint32_t>(kinds.size()));
+    }
+  if (left_out > 0)
+    page.add_note(fmt::format("the proofs of {} pairs are too long for a page: --certificate writes them", left_out));
+  return {{"pieces", packed(pieces)}, {"sources", packed(sources)}, {"begin", packed(begin)},
+          {"kinds", packed(kinds)},   {"of", packed(of)},           {"corners", packed(corners)}};
+}
+
+/// Faces by what is known of them, sources, sightlines and proofs.
+void write_page(const Weak_arguments& arguments, const Scene& scene, const Sources& sources,
+                const Weakly_visible& found, const std::vector<std::string>& names) {
+  static const std::vector<std::string> groups{"visible", "hidden", "undecided", "source"};
+  Page page("weak", scene);
+  page.add_fact("faces", fmt::format("{}", scene.counters().faces));
+  page.add_fact("sources", fmt::format("{} convex polygons", sources.points.size()));
+  page.add_fact("visible", fmt::format("{}", found.visible.size()));
+  page.add_fact("hidden", fmt::format("{}", found.hidden.size()));
+  page.add_fact("undecided", fmt::format("{}", found.undecided.size()));
+  page.add_fact("method", arguments.method);
+  for (const auto& [name, role] :
+       {std::pair("visible", "seen"), {"hidden", "hidden"}, {"undecided", "open"}, {"source", "source"}})
+    page.add_group(name, role);
+  page.add_pieces(scene, [&](std::uint32_t piece) {
+    const std::string& name = names[scene.pieces()[piece].face];
+    return static_cast<std::uint32_t>(std::find(groups.begin(), groups.end(), name) - groups.begin());
+  });
+  page.more()["base"] = page.polygons();
+  for (const std::vector<Exact_point>& source : sources.points) page.add_polygon(Page::no_face, source, 3);
+  page.more()["sightlines"] = sightlines_json(page, scene, found);
+  page.more()["proofs"] = proofs_json(page, found);
+  page.write(arguments.html);
+}
+
 // ---- The command
 
 Exit run_weak(const Weak_arguments& arguments) {
@@ -351,6 +432,7 @@ Exit run_weak(const Weak_arguments& arguments) {
     for (const auto& [other, value] : {std::pair("--certificate", arguments.certificate),
                                        {"--obj", arguments.obj},
                                        {"--eye", arguments.eye},
+                                       {"--html", arguments.html},
                                        {"--surfaces", arguments.surfaces}})
       if (!value.empty())
         throw Usage_error(std::string(other) + " is for faces that are visible or hidden: leave it out with " + name);
@@ -401,6 +483,7 @@ Exit run_weak(const Weak_arguments& arguments) {
   const std::vector<std::string> names = names_of(scene, found, sources.points.size());
   if (!arguments.svg.empty()) draw(arguments, soup, occluders, sources, names);
   if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(scene, names));
+  if (!arguments.html.empty()) write_page(arguments, scene, sources, found, names);
 
   const Exit exit = found.undecided.empty() ? Exit::done : Exit::undecided;
   const Weak_counters& c = found.counters;
@@ -530,6 +613,12 @@ void add_weak(Command program) {
           "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out")
       .writes_file()
       .check(ending(".svg"));
+  command
+      .add_option("--html", a->html,
+                  "write a page to look at: what is visible, hidden, undecided; of a face its sightline, or its proof "
+                  "as a tree to walk")
+      .writes_file()
+      .check(ending(".html"));
   command.add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided")
       .writes_file()
       .check(ending(".obj"));

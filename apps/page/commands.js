@@ -1,0 +1,388 @@
+// ---- What each command adds to its page
+
+const commands = {};
+
+/// Painted back to front.
+commands.order = () => ({
+  beginsAtEye: true,
+  nameOf: k => `polygon ${polygons.number(k) + 1} of ${polygons.of} from the back`,
+  begin() {
+    drawing.painter = true;
+    const last = element('p', {id: 'painted'});
+    const show = n => {
+      drawing.to = n;
+      last.textContent = n > 0 ? `painted last: face ${polygons.faces[n - 1]}` : 'nothing is painted yet';
+      setLines('last', n > 0 && n < polygons.count ? outlinesOf([n - 1], inkColour(), 1.5) : [], true);
+      redraw();
+    };
+    section('Back to front', player('how many polygons are painted', 0, polygons.count, polygons.count, show), last,
+      element('p', {className: 'faint'}, 'From the eye each polygon is painted over those before it, without a depth buffer. From elsewhere the order is another one, and a depth buffer decides.'));
+  },
+});
+
+/// Components, cycles, arcs of a face.
+commands.graph = () => {
+  const component = unpacked(data.components), sizes = new Map();
+  for (const c of component) sizes.set(c, (sizes.get(c) || 0) + 1);
+  const cycles = [...sizes].filter(([, size]) => size > 1).map(([c]) => c).sort((a, b) => a - b);
+  const cycleNumber = new Map(cycles.map((c, i) => [c, i]));
+  const count = Math.max(1, ...sizes.keys()), list = data.arcs ? unpacked(data.arcs) : null, matrix = data.arc_matrix ? unpacked(data.arc_matrix) : null;
+  let inFront = new Set(), behind = new Set(), mode = cycles.length > 0 ? 'cycles' : 'priority', chosen = -1;
+  const findArcs = k => {
+    inFront = new Set(), behind = new Set();
+    const n = polygons.number(k);
+    if (list) for (let i = 0; i < list.length; i += 2) {
+      if (list[i + 1] === n) inFront.add(polygons.place(list[i]));
+      if (list[i] === n) behind.add(polygons.place(list[i + 1]));
+    }
+    if (matrix) for (let i = 0; i < component.length; ++i) {
+      if (bit(matrix, i * component.length + n)) inFront.add(polygons.place(i));
+      if (bit(matrix, n * component.length + i)) behind.add(polygons.place(i));
+    }
+  };
+  return {
+    repaints: true,
+    colourOf(k) {
+      const c = component[polygons.number(k)];
+      if (selected >= 0 && (list || matrix)) {
+        if (k === selected) return [250, 250, 245];
+        if (inFront.has(k) && behind.has(k)) return palette.open;
+        return inFront.has(k) ? palette.front : behind.has(k) ? palette.source : palette.face;
+      }
+      if (mode === 'priority') return scaleColour(c / count);
+      if (!cycleNumber.has(c)) return palette.face;
+      return chosen >= 0 && c !== chosen ? palette.face : cycleColours[cycleNumber.get(c) % cycleColours.length];
+    },
+    nameOf: k => {
+      const c = component[polygons.number(k)];
+      return `component ${c + 1}` + (sizes.get(c) > 1 ? `, a cycle of ${sizes.get(c)}` : '');
+    },
+    begin() {
+      const by = (text, value) => button(text, () => { mode = value, chosen = -1; refresh(); select(-1); });
+      const modes = [['Cycles', 'cycles'], ['Priority', 'priority']].map(([text, value]) => [by(text, value), value]);
+      const refresh = () => modes.forEach(([made, value]) => made.setAttribute('aria-pressed', mode === value));
+      refresh();
+      section('Colours', element('div', {className: 'row'}, ...modes.map(([made]) => made)),
+        element('p', {className: 'faint'}, 'Priority: dark is first, what no other obscures; yellow last.'));
+      section(`Cycles: ${cycles.length}`, cycles.length === 0 ? element('p', {className: 'faint'}, 'Each component is one face: one order serves all viewpoints.')
+        : listOf(cycles, c => `component ${c + 1}: ${sizes.get(c)} faces`, c => {
+          mode = 'cycles', chosen = chosen === c ? -1 : c;
+          refresh();
+          select(-1);
+          const members = [];
+          component.forEach((d, n) => { if (d === chosen && polygons.place(n) !== undefined) members.push(polygons.place(n)); });
+          setLines('cycle', outlinesOf(members, inkColour(), 1.5), true);
+        }));
+    },
+    select(k) {
+      setLines('cycle', []);
+      if (k < 0) return null;
+      if (!list && !matrix) return element('p', {className: 'faint'}, 'Arcs are not known: --arcs writes them out.');
+      findArcs(k);
+      const names = set => [...set].filter(i => i !== undefined);
+      const part = (title, set, colour) => {
+        const swatch = element('span', {className: 'swatch'});
+        swatch.style.background = css(colour);
+        return [element('p', {className: 'row'}, swatch, `${title}: ${set.size}`), listOf(names(set), faceName, i => select(i), 100)];
+      };
+      return element('div', {id: 'arcs'}, ...part('may be in front of it', inFront, palette.front), ...part('may be behind it', behind, palette.source));
+    },
+  };
+};
+
+/// Visible parts, lines, the sphere of directions.
+commands.see = () => {
+  let base = 0;
+  while (base < polygons.count && polygons.number(base) < data.base) ++base;
+  drawing.base = base;
+  const from = data.lines, lines = [], width = 1024, height = 512;
+  let showHidden = true, sphere = null, plain = null, middle = 0;
+  if (from) {
+    const ends = unpacked(from.ends), edges = unpacked(from.edges), kinds = unpacked(from.kinds), hidden = unpacked(from.hidden_by);
+    for (let i = 0; i < edges.length; ++i) {
+      const kind = from.names[kinds[i]], strong = kind === 'boundary' || kind === 'silhouette';
+      lines.push({
+        from: [...ends.subarray(6 * i, 6 * i + 3)], to: [...ends.subarray(6 * i + 3, 6 * i + 6)], edge: edges[i], kind, hiddenBy: hidden[i], text: from.texts[i],
+        width: hidden[i] ? 1.2 : kind === 'intersection' ? 2 : strong ? 2.2 : 1.4, dash: hidden[i] ? 7 : 0,
+        colour: hidden[i] ? [...inkColour(), 100] : kind === 'intersection' ? [...palette.front, 255] : [...inkColour(), 255],
+      });
+    }
+  }
+  const shownLines = () => lines.filter(line => line.kind !== 'smooth' && (showHidden || !line.hiddenBy));
+  const drawLines = () => {
+    setLines('hidden', shownLines().filter(line => line.hiddenBy), true);
+    setLines('visible', shownLines().filter(line => !line.hiddenBy));
+  };
+  const hiderOf = line => line.hiddenBy ? polygons.place(line.hiddenBy - 1) : undefined;
+  const selectLine = i => {
+    const one = shownLines()[i], parts = lines.filter(line => line.edge === one.edge), hiders = new Set(parts.map(hiderOf).filter(k => k !== undefined));
+    select(-1);
+    setLines('selection', [...outlinesOf([...hiders], palette.front, 3), ...parts.map(line => ({...line, colour: [...palette.source, 255], width: 4}))], true);
+    selection.replaceChildren(element('h2', {}, 'Selected'), element('p', {id: 'selected-name'}, one.kind === 'intersection' ? 'a line where faces cross' : `an edge: ${one.kind}`),
+      element('ul', {className: 'exact', id: 'edge-parts'}, ...parts.map(line => {
+        const k = hiderOf(line);
+        return element('li', {}, line.hiddenBy ? `hidden by ${k === undefined ? 'a face that is not drawn' : faceName(k)}` : 'visible', element('br'), line.text || `${rounded(line.from)} to ${rounded(line.to)}, rounded`);
+      })));
+  };
+  const rayOf = (x, y) => {
+    const a = middle - Math.PI * (2 * x - 1), b = Math.PI / 2 * (1 - 2 * y);
+    return {from: eyePlace, along: [Math.cos(b) * Math.cos(a), Math.cos(b) * Math.sin(a), Math.sin(b)]};
+  };
+  const outlineOnSphere = () => {
+    const pen = sphere.getContext('2d');
+    pen.putImageData(plain, 0, 0);
+    pen.fillStyle = isDark() ? '#ffffff28' : '#00000020';
+    for (let i = 1; i < 12; ++i) pen.fillRect(i * width / 12, 0, 1, height);
+    for (let i = 1; i < 6; ++i) pen.fillRect(0, i * height / 6, width, i === 3 ? 2 : 1);
+    if (selected < 0) return;
+    pen.strokeStyle = css(inkColour()), pen.lineWidth = 3;
+    const corners = cornersOf(selected);
+    corners.forEach((p, i) => {
+      const q = corners[(i + 1) % corners.length];
+      let last = null;
+      pen.beginPath();
+      for (let s = 0; s <= 48; ++s) {
+        const d = unit(minus(add(times(1 - s / 48, p), times(s / 48, q)), eyePlace));
+        let turned = (middle - Math.atan2(d[1], d[0])) / (2 * Math.PI);
+        turned -= Math.round(turned);
+        const x = (turned + 0.5) * width, y = (0.5 - Math.asin(d[2]) / Math.PI) * height;
+        last === null || Math.abs(x - last) > width / 2 ? pen.moveTo(x, y) : pen.lineTo(x, y);
+        last = x;
+      }
+      pen.stroke();
+    });
+  };
+  return {
+    beginsAtEye: true,
+    begin() {
+      drawing.outlines = lines.length === 0 && drawing.outlines;
+      if (lines.length > 0) {
+        const box = element('input', {type: 'checkbox', checked: true, onchange: () => { showHidden = box.checked; drawLines(); }});
+        section('Lines', element('label', {className: 'row'}, box, 'hidden parts, dashed'),
+          element('p', {className: 'faint'}, 'Click an edge: what hides it lights up.'));
+        drawLines();
+      }
+      if (!gl || !eyePlace || polygons.count === 0) return;
+      sphere = element('canvas', {id: 'sphere', width, height, ariaLabel: 'All directions from the eye, unrolled'});
+      sphere.addEventListener('pointermove', e => {
+        const hit = pick(rayOf(e.offsetX / sphere.clientWidth, e.offsetY / sphere.clientHeight));
+        hover.textContent = hit ? fullName(hit.polygon) : '';
+      });
+      sphere.addEventListener('pointerleave', () => { hover.textContent = ''; });
+      sphere.addEventListener('click', e => {
+        const hit = pick(rayOf(e.offsetX / sphere.clientWidth, e.offsetY / sphere.clientHeight));
+        select(hit ? hit.polygon : -1, hit ? hit.place : null);
+      });
+      section('All directions, unrolled', sphere, element('p', {className: 'faint'}, 'The middle is the direction to the middle of the scene; up is up. To the right as one turns to the right.'));
+    },
+    /// Drawn again where colours change.
+    sphereChanged() {
+      if (!sphere || !faces) return;
+      const ahead = minus(bounds.middle, eyePlace);
+      middle = Math.atan2(ahead[1], ahead[0]);
+      plain = new ImageData(unrolled(eyePlace, middle, width, height), width, height);
+      outlineOnSphere();
+    },
+    clickAt(x, y) {
+      if (lines.length === 0) return false;
+      const found = pickLine(shownLines(), x, y, 5);
+      if (found >= 0) selectLine(found);
+      return found >= 0;
+    },
+    select() { if (plain) outlineOnSphere(); return null; },
+  };
+};
+
+/// Visible, hidden, undecided; sightlines and proofs.
+commands.weak = () => {
+  let base = 0;
+  while (base < polygons.count && polygons.number(base) < data.base) ++base;
+  drawing.base = base, drawing.backs = false;
+  const kindNames = ['line', 'cut of the source', 'cut of the face', 'blocked', 'empty', 'away', 'open'];
+  const sight = {pieces: unpacked(data.sightlines.pieces), sources: unpacked(data.sightlines.sources), ends: unpacked(data.sightlines.ends), texts: data.sightlines.texts};
+  const proofs = Object.fromEntries(Object.entries(data.proofs).map(([key, value]) => [key, unpacked(value)]));
+  const sightOfFace = new Map(), proofsOfFace = new Map();
+  const faceOf = piece => { const k = polygons.place(piece); return k === undefined ? undefined : polygons.faces[k]; };
+  sight.pieces.forEach((piece, i) => sightOfFace.set(faceOf(piece), i));
+  proofs.pieces.forEach((piece, i) => {
+    const face = faceOf(piece);
+    if (!proofsOfFace.has(face)) proofsOfFace.set(face, []);
+    proofsOfFace.get(face).push(i);
+  });
+  const ends = i => [[...sight.ends.subarray(6 * i, 6 * i + 3)], [...sight.ends.subarray(6 * i + 3, 6 * i + 6)]];
+  const mark = (p, colour) => [0, 1, 2].map(k => {
+    const d = [0, 0, 0];
+    d[k] = 0.012 * bounds.radius;
+    return {from: minus(p, d), to: add(p, d), colour: [...colour, 255], width: 3};
+  });
+  const sightline = i => { const [p, q] = ends(i); return [{from: p, to: q, colour: [...palette.front, 255], width: 3}, ...mark(p, palette.front), ...mark(q, palette.front)]; };
+  let blockers = new Set(), showAll = false;
+  /// Where the part of a walk that begins at a step ends.
+  const endOf = step => {
+    let open = 1;
+    for (; open > 0; ++step) open += proofs.kinds[step] < 3 ? 1 : -1;
+    return step;
+  };
+  const showStep = step => {
+    const k = polygons.place(proofs.of[step]);
+    let lines = [];
+    if (k !== undefined && proofs.kinds[step] === 3) lines = outlinesOf([k], palette.front, 4);
+    if (k !== undefined && proofs.kinds[step] === 0) {
+      const corners = cornersOf(k), c = proofs.corners[step];
+      lines = [...outlinesOf([k], palette.other, 1.5), {from: corners[c], to: corners[(c + 1) % corners.length], colour: [...palette.front, 255], width: 5}];
+    }
+    setLines('step', lines, true);
+  };
+  const nodeOf = (step, way, depth) => {
+    const kind = proofs.kinds[step], k = polygons.place(proofs.of[step]), name = k === undefined ? 'a face that is not drawn' : faceName(k);
+    const what = kind === 0 ? `past an edge of ${name}` : kind === 3 ? `blocked by ${name}` : kind === 4 ? 'no line there' : kind === 5 ? 'they face away' : kind === 6 ? 'open' : `a ${kindNames[kind]}`;
+    const parts = element('ul', {className: 'tree'});
+    let grown = false;
+    const grow = () => {
+      if (kind > 2) return;
+      grown = !grown;
+      const first = step + 1, ways = kind === 0 ? ['left of it: ', 'right of it: '] : ['in front: ', 'behind: '];
+      parts.replaceChildren(...(grown ? [nodeOf(first, ways[0], depth + 1), nodeOf(endOf(first), ways[1], depth + 1)] : []));
+    };
+    const item = element('li', {}, button(way + what + (kind < 3 ? ' …' : ''), () => { showStep(step); grow(); }), parts);
+    if (depth < 2) grow();
+    return item;
+  };
+  const proofOf = i => {
+    const begin = proofs.begin[i], end = proofs.begin[i + 1], leaves = [];
+    for (let s = begin; s < end; ++s) if (proofs.kinds[s] > 2) leaves.push(s);
+    const by = new Set(leaves.filter(s => proofs.kinds[s] === 3).map(s => polygons.place(proofs.of[s])).filter(k => k !== undefined));
+    by.forEach(k => blockers.add(k));
+    const open = leaves.filter(s => proofs.kinds[s] === 6).length;
+    return [element('p', {}, `source ${proofs.sources[i] + 1}: ${leaves.length} ${leaves.length === 1 ? 'leaf' : 'leaves'}` + (by.size > 0 ? `, blocked by ${[...by].slice(0, 12).map(faceName).join(', ')}${by.size > 12 ? ' …' : ''}` : '') + (open > 0 ? `; ${open} open` : '')),
+      element('ul', {className: 'tree'}, nodeOf(begin, '', 0))];
+  };
+  const drawAll = () => {
+    const list = [];
+    if (showAll) for (let i = 0; i < Math.min(2000, sight.pieces.length); ++i) { const [p, q] = ends(i); list.push({from: p, to: q, colour: [...palette.front, 150], width: 1}); }
+    setLines('all', list);
+  };
+  return {
+    repaints: true,
+    colourOf(k) {
+      const role = data.groups[polygons.groups[k]].role;
+      return blockers.has(k) && selected >= 0 ? palette.other : palette[role];
+    },
+    begin() {
+      setLines('sources', outlinesOf([...Array(polygons.count - base).keys()].map(k => base + k), palette.source, 2), true);
+      if (sight.pieces.length === 0) return;
+      const box = element('input', {type: 'checkbox', onchange: () => { showAll = box.checked; drawAll(); }});
+      section('Sightlines', element('label', {className: 'row'}, box, `all of them${sight.pieces.length > 2000 ? ', the first 2000' : ''}`),
+        element('p', {className: 'faint'}, 'Click a face: its sightline, or what hides it.'));
+    },
+    select(k) {
+      setLines('step', []), setLines('sightline', []);
+      blockers = new Set();
+      if (k < 0) return null;
+      const face = polygons.faces[k], line = sightOfFace.get(face), pairs = proofsOfFace.get(face) || [];
+      if (line !== undefined) {
+        setLines('sightline', sightline(line), true);
+        const [p, q] = ends(line).map(rounded);
+        return element('div', {id: 'sightline'}, element('p', {className: 'faint'}, `Seen from source ${sight.sources[line] + 1} along the line`),
+          element('ul', {className: 'exact'}, element('li', {}, 'from ' + (sight.texts[2 * line] || `${p}, rounded`)), element('li', {}, 'to ' + (sight.texts[2 * line + 1] || `${q}, rounded`))));
+      }
+      if (pairs.length === 0) return face === noFace ? null : element('p', {className: 'faint'}, 'There is no proof of it on this page.');
+      return element('div', {id: 'proof'}, element('p', {className: 'faint'}, 'All lines from the source to it are in a leaf of a tree. Click a node: its edge, or what blocks it.'), ...pairs.slice(0, 50).flatMap(proofOf));
+    },
+  };
+};
+
+/// The path, played.
+commands.cutset = () => {
+  const from = data.frames, numbers = unpacked(from.numbers), cuts = unpacked(from.cut_edges), tests = unpacked(from.tests), far = unpacked(from.at_infinity), on = unpacked(from.on_view);
+  const count = numbers.length, edges = data.edges ? Object.fromEntries(Object.entries(data.edges).map(([key, value]) => [key, unpacked(value)])) : null;
+  const isOn = (frame, k) => bit(on, frame * polygons.of + polygons.number(k)) === 1;
+  let frame = 0, follows = false;
+  const eyeLines = () => {
+    const p = from.places[frame], r = 0.03 * bounds.radius;
+    if (!p || follows) return [];
+    return [0, 1, 2].map(k => { const d = [0, 0, 0]; d[k] = r; return {from: minus(p, d), to: add(p, d), colour: [...palette.front, 255], width: 3}; })
+      .concat([{from: p, to: bounds.middle, colour: [...palette.front, 120], width: 1, dash: 8}]);
+  };
+  const cutLines = () => {
+    const list = [];
+    if (edges) edges.pieces.forEach((piece, i) => {
+      const k = polygons.place(piece), other = polygons.place(edges.others[i]);
+      if (k === undefined || other === undefined || isOn(frame, k) === isOn(frame, other)) return;
+      const a = polygons.first[k] + edges.corners[i], b = edges.corners[i] + 1 < polygons.first[k + 1] - polygons.first[k] ? a + 1 : polygons.first[k];
+      list.push({from: cornerOf(a), to: cornerOf(b), colour: [...inkColour(), 255], width: 3});
+    });
+    return list;
+  };
+  return {
+    groupsChange: true,
+    colourOf: k => !isOn(frame, k) ? palette.hidden : frame > 0 && !isOn(frame - 1, k) ? palette.new : palette.seen,
+    nameOf: k => isOn(frame, k) ? 'on-view' : 'off-view',
+    begin() {
+      const where = element('p', {id: 'viewpoint'}), what = element('p', {className: 'faint', id: 'frame'});
+      const show = n => {
+        frame = n - 1;
+        let faces = 0;
+        for (let k = 0; k < polygons.count; ++k) faces += isOn(frame, k);
+        where.textContent = `${far[frame >> 3] >> (frame & 7) & 1 ? 'direction' : 'viewpoint'} ${numbers[frame]}: ${from.texts[frame]}`;
+        what.textContent = `${faces} polygons on-view, ${cuts[frame]} edges in the cut-set, ${tests[frame]} tests`;
+        setLines('cut', cutLines());
+        follow();
+        paint();
+      };
+      const follow = () => {
+        eyePlace = follows && from.places[frame] ? eyeFor(from.places[frame]) : null;
+        if (eyePlace) goToEye();
+        else if (camera.atEye) goRound();
+        setLines('eye', eyeLines());
+      };
+      const box = element('input', {type: 'checkbox', id: 'follow', onchange: () => { follows = box.checked; follow(); redraw(); }});
+      const path = [];
+      for (let i = 0; i + 1 < count; ++i) if (from.places[i] && from.places[i + 1]) path.push({from: from.places[i], to: from.places[i + 1], colour: [...palette.front, 110], width: 1.2});
+      setLines('path', path);
+      // The slider shows the first of them at once.
+      section('Along the path', player('viewpoint', 1, Math.max(1, count), 1, show), where, what,
+        element('label', {className: 'row'}, box, 'look from there'));
+    },
+  };
+};
+
+/// What a cell sees.
+commands.pvs = () => {
+  const cells = data.cells.map(cell => ({...cell, visible: new Set(unpacked(cell.visible)), undecided: new Set(unpacked(cell.undecided)), walls: unpacked(cell.walls)}));
+  const rooms = new Set(unpacked(data.rooms));
+  let chosen = cells.length > 0 ? cells[0] : null, showAll = false;
+  drawing.backs = false;
+  const stateOf = k => chosen && chosen.visible.has(polygons.faces[k]) ? 0 : chosen && chosen.undecided.has(polygons.faces[k]) ? 2 : 1;
+  const choose = cell => {
+    chosen = cell;
+    const list = [];
+    for (let i = 0; i < cell.walls.length; i += 6) list.push({from: [...cell.walls.subarray(i, i + 3)], to: [...cell.walls.subarray(i + 3, i + 6)], colour: [...palette.source, 255], width: 2.5});
+    setLines('cell', list, true);
+    document.getElementById('cell').textContent = `cell ${cell.cell} about ${cell.inside}: sees ${cell.visible.size} faces` + (cell.undecided.size > 0 ? `, ${cell.undecided.size} undecided` : '');
+    paint();
+  };
+  return {
+    groupsChange: true,
+    colourOf: k => palette[data.groups[stateOf(k)].role],
+    isShown: k => showAll || rooms.has(polygons.faces[k]),
+    nameOf: k => data.groups[stateOf(k)].name,
+    begin() {
+      const box = element('input', {type: 'checkbox', onchange: () => { showAll = box.checked; paint(); }});
+      section('Shown', element('label', {className: 'row'}, box, 'faces too that look into no cell that is asked about'));
+      section('Cells', element('p', {id: 'cell'}), listOf(cells, cell => `cell ${cell.cell}: ${cell.visible.size} faces`, choose, 1000));
+      if (chosen) choose(chosen);
+    },
+    select(k) {
+      if (k < 0) return null;
+      const by = cells.filter(cell => cell.visible.has(polygons.faces[k]));
+      return element('div', {id: 'seen-from'}, element('p', {className: 'faint'}, `Seen from ${by.length} of ${cells.length} cells:`), listOf(by, cell => `cell ${cell.cell}`, choose, 200));
+    },
+  };
+};
+
+/// Faces in the colours of their solids.
+commands.boolean = () => {
+  const faces = unpacked(data.operand_faces);
+  return {nameOf: k => `face ${faces[polygons.number(k)]} of its solid`};
+};

@@ -1,0 +1,266 @@
+// ---- Drawing, by WebGL 2
+
+const canvas = document.getElementById('view');
+let gl = canvas.getContext('webgl2', {antialias: true, alpha: false});
+
+const faceVertex = `#version 300 es
+precision highp float;
+precision highp sampler2D;
+in vec3 place; in vec4 sides; in uint polygon;
+uniform mat4 matrix; uniform sampler2D looks;
+flat out vec3 colour; out vec3 side;
+void main() {
+  vec4 look = texelFetch(looks, ivec2(int(polygon & 2047u), int(polygon >> 11u)), 0);
+  colour = look.rgb;
+  side = sides.xyz;
+  gl_Position = look.a < 0.5 ? vec4(2.0, 2.0, 2.0, 1.0) : matrix * vec4(place, 1.0);
+}`;
+const faceFragment = `#version 300 es
+precision highp float;
+flat in vec3 colour; in vec3 side;
+uniform float outline; uniform vec3 ink;
+out vec4 pixel;
+void main() {
+  vec3 c = gl_FrontFacing ? colour : mix(colour, vec3(dot(colour, vec3(0.33))), 0.55) * 0.8;
+  if (outline > 0.0) {
+    vec3 width = max(fwidth(side), vec3(1e-6));
+    vec3 line = (1.0 - smoothstep(0.4, 1.4, side / width)) * clamp(1.5 - 2.5 * width, 0.0, 1.0);
+    c = mix(c, ink, outline * max(line.x, max(line.y, line.z)));
+  }
+  pixel = vec4(c, 1.0);
+}`;
+const lineVertex = `#version 300 es
+precision highp float;
+in vec3 from; in vec3 to; in vec4 paint; in vec2 kind;
+uniform mat4 matrix; uniform vec2 size; uniform float bias; uniform float near;
+flat out vec4 colour; flat out float dash; out vec2 along;
+void main() {
+  vec4 p = matrix * vec4(from, 1.0), q = matrix * vec4(to, 1.0);
+  if (p.w < near) p = mix(p, q, clamp((near - p.w) / max(q.w - p.w, 1e-12), 0.0, 1.0));
+  if (q.w < near) q = mix(q, p, clamp((near - q.w) / max(p.w - q.w, 1e-12), 0.0, 1.0));
+  vec2 a = p.xy / p.w * size, b = q.xy / q.w * size, d = b - a;
+  float l = length(d);
+  vec2 normal = l > 1e-6 ? vec2(-d.y, d.x) / l : vec2(0.0, 1.0);
+  bool last = gl_VertexID > 1;
+  vec4 c = last ? q : p;
+  c.xy += (gl_VertexID % 2 == 0 ? -1.0 : 1.0) * 0.5 * kind.x * normal / size * c.w;
+  c.z -= bias * c.w;
+  along = vec2(last ? l * c.w : 0.0, c.w);
+  colour = paint;
+  dash = kind.y;
+  gl_Position = max(p.w, q.w) < near ? vec4(2.0, 2.0, 2.0, 1.0) : c;
+}`;
+const lineFragment = `#version 300 es
+precision highp float;
+flat in vec4 colour; flat in float dash; in vec2 along;
+out vec4 pixel;
+void main() {
+  if (dash > 0.0 && mod(along.x / along.y, dash) > 0.55 * dash) discard;
+  pixel = vec4(colour.rgb * colour.a, colour.a);
+}`;
+const sphereVertex = `#version 300 es
+out vec2 at;
+void main() {
+  at = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);
+  gl_Position = vec4(at, 0.0, 1.0);
+}`;
+const sphereFragment = `#version 300 es
+precision highp float;
+in vec2 at;
+uniform samplerCube around; uniform float yaw; uniform mat3 frame;
+out vec4 pixel;
+void main() {
+  float a = yaw - 3.14159265 * at.x, b = 1.57079633 * at.y;
+  pixel = texture(around, vec3(cos(b) * cos(a), cos(b) * sin(a), sin(b)) * frame);
+}`;
+
+function programOf(vertex, fragment) {
+  const program = gl.createProgram();
+  for (const [type, text] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, text);
+    gl.compileShader(shader);
+    if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS)) throw new Error(gl.getShaderInfoLog(shader));
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) throw new Error(gl.getProgramInfoLog(program));
+  const at = {program};
+  for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); ++i) {
+    const name = gl.getActiveUniform(program, i).name;
+    at[name] = gl.getUniformLocation(program, name);
+  }
+  return at;
+}
+function attribute(program, name, array, size, options = {}) {
+  const at = gl.getAttribLocation(program.program, name);
+  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  gl.bufferData(gl.ARRAY_BUFFER, array, gl.STATIC_DRAW);
+  gl.enableVertexAttribArray(at);
+  if (array instanceof Uint32Array) gl.vertexAttribIPointer(at, size, gl.UNSIGNED_INT, 0, 0);
+  else gl.vertexAttribPointer(at, size, array instanceof Float32Array ? gl.FLOAT : gl.UNSIGNED_BYTE, !(array instanceof Float32Array), 0, 0);
+  if (options.perInstance) gl.vertexAttribDivisor(at, 1);
+}
+
+// ---- What there is to draw
+
+const looksWidth = 2048, looksHeight = Math.max(1, Math.ceil(polygons.count / looksWidth));
+const looks = new Uint8Array(4 * looksWidth * looksHeight);  // colour, and whether it is shown, of each polygon
+const drawing = {
+  from: 0, to: polygons.count,  // polygons
+  base: 0,                      // so many of the first lie beneath those that follow
+  outlines: triangles.count <= 150000, backs: true,
+  painter: false,               // in their order, without a depth buffer
+};
+let faces = null, lineLayers = new Map(), frames = 0, wanted = false, looksChanged = true;
+
+function prepare() {
+  faces = {program: programOf(faceVertex, faceFragment), vertices: gl.createVertexArray(), looks: gl.createTexture()};
+  gl.bindVertexArray(faces.vertices);
+  attribute(faces.program, 'place', triangles.places, 3);
+  attribute(faces.program, 'sides', triangles.sides, 4);
+  attribute(faces.program, 'polygon', triangles.polygon, 1);
+  gl.bindTexture(gl.TEXTURE_2D, faces.looks);
+  for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+  faces.lines = programOf(lineVertex, lineFragment);
+  for (const layer of lineLayers.values()) layer.vertices = null;
+  looksChanged = true;
+  gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
+}
+
+/// Lines by a name, in place of those it had: {from, to, colour: [r, g, b, a] of 255, width, dash}. `through`: in front of all.
+function setLines(name, list, through = false) {
+  if (list.length === 0) lineLayers.delete(name);
+  else lineLayers.set(name, {list, through, vertices: null});
+  redraw();
+}
+function prepareLines(layer) {
+  const n = layer.list.length, from = new Float32Array(3 * n), to = new Float32Array(3 * n), paint = new Uint8Array(4 * n), kind = new Float32Array(2 * n);
+  layer.list.forEach((line, i) => {
+    from.set(line.from, 3 * i), to.set(line.to, 3 * i), paint.set(line.colour, 4 * i), kind.set([line.width * devicePixelRatio, (line.dash || 0) * devicePixelRatio], 2 * i);
+  });
+  layer.vertices = gl.createVertexArray();
+  gl.bindVertexArray(layer.vertices);
+  for (const [key, array, size] of [['from', from, 3], ['to', to, 3], ['paint', paint, 4], ['kind', kind, 2]])
+    attribute(faces.lines, key, array, size, {perInstance: true});
+}
+
+// ---- A frame
+
+function redraw() {
+  if (wanted) return;
+  wanted = true;
+  requestAnimationFrame(() => { wanted = false; draw(); });
+}
+function isDark() { return matchMedia('(prefers-color-scheme: dark)').matches; }
+function paperColour() { return isDark() ? [23, 24, 27] : [246, 245, 241]; }
+
+function drawFaces(matrix, outline, painter) {
+  gl.useProgram(faces.program.program);
+  gl.bindVertexArray(faces.vertices);
+  gl.activeTexture(gl.TEXTURE0);
+  gl.bindTexture(gl.TEXTURE_2D, faces.looks);
+  if (looksChanged) gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, looksWidth, looksHeight, 0, gl.RGBA, gl.UNSIGNED_BYTE, looks);
+  looksChanged = false;
+  gl.uniformMatrix4fv(faces.program.matrix, false, Float32Array.from(matrix));
+  gl.uniform1f(faces.program.outline, outline);
+  gl.uniform3fv(faces.program.ink, [0.08, 0.08, 0.1]);
+  painter ? gl.disable(gl.DEPTH_TEST) : gl.enable(gl.DEPTH_TEST);
+  gl.depthFunc(gl.LEQUAL);
+  drawing.backs ? gl.disable(gl.CULL_FACE) : gl.enable(gl.CULL_FACE);
+  const range = (a, b) => {
+    const first = triangles.first[Math.min(a, polygons.count)], end = triangles.first[Math.min(b, polygons.count)];
+    if (end > first) gl.drawArrays(gl.TRIANGLES, 3 * first, 3 * (end - first));
+  };
+  if (drawing.base > drawing.from) {
+    gl.enable(gl.POLYGON_OFFSET_FILL);
+    gl.polygonOffset(2, 4);
+    range(drawing.from, Math.min(drawing.base, drawing.to));
+    gl.disable(gl.POLYGON_OFFSET_FILL);
+  }
+  range(Math.max(drawing.base, drawing.from), drawing.to);
+}
+
+function draw() {
+  if (!gl || gl.isContextLost()) return;
+  const width = Math.round(canvas.clientWidth * devicePixelRatio), height = Math.round(canvas.clientHeight * devicePixelRatio);
+  if (canvas.width !== width || canvas.height !== height) canvas.width = width, canvas.height = height;
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  gl.viewport(0, 0, width, height);
+  gl.clearColor(...paperColour().map(c => c / 255), 1);
+  gl.depthMask(true);
+  gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  const frame = cameraFrame();
+  drawFaces(frame.matrix, drawing.outlines ? 0.6 : 0, drawing.painter && camera.atEye);
+  gl.disable(gl.CULL_FACE);
+  gl.enable(gl.BLEND);
+  gl.useProgram(faces.lines.program);
+  gl.uniformMatrix4fv(faces.lines.matrix, false, Float32Array.from(frame.matrix));
+  gl.uniform2f(faces.lines.size, width / 2, height / 2);
+  gl.uniform1f(faces.lines.near, frame.near);
+  for (const through of [false, true])
+    for (const layer of lineLayers.values()) {
+      if (layer.through !== through) continue;
+      if (!layer.vertices) prepareLines(layer);
+      through ? gl.disable(gl.DEPTH_TEST) : gl.enable(gl.DEPTH_TEST);
+      gl.uniform1f(faces.lines.bias, through ? 0 : 4e-4);
+      gl.bindVertexArray(layer.vertices);
+      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, layer.list.length);
+    }
+  gl.disable(gl.BLEND);
+  ++frames;
+}
+
+// The axes of a cube about the eye, of no scene's: one software renderer drops triangles with a corner just beside the eye's own plane.
+const aslant = (function () {
+  const x = unit([1, 0.37, 0.21]), y = unit(cross([-0.13, 0.29, 1], x));
+  return [x, y, cross(x, y)];
+}());
+
+/// All directions from a place, unrolled: to the right as one turns to the right, the middle at `yaw`. As rows of RGBA, the top first.
+function unrolled(place, yaw, width, height) {
+  const size = 512, cube = gl.createTexture(), depth = gl.createRenderbuffer(), buffer = gl.createFramebuffer();
+  gl.activeTexture(gl.TEXTURE0);
+  gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube);
+  for (let side = 0; side < 6; ++side)
+    gl.texImage2D(gl.TEXTURE_CUBE_MAP_POSITIVE_X + side, 0, gl.RGBA8, size, size, 0, gl.RGBA, gl.UNSIGNED_BYTE, null);
+  gl.texParameteri(gl.TEXTURE_CUBE_MAP, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
+  gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
+  gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, size, size);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
+  gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
+  gl.viewport(0, 0, size, size);
+  gl.clearColor(...paperColour().map(c => c / 255), 1);
+  gl.depthMask(true);
+  const far = lengthOf(minus(bounds.middle, place)) + 2.2 * bounds.radius;
+  const view = perspective(Math.PI / 2, 1, Math.max(1e-4 * bounds.radius, far - 4.4 * bounds.radius), far), whole = [drawing.from, drawing.backs];
+  drawing.from = drawing.base, drawing.backs = true;  // what is seen, nothing beneath
+  [[[1, 0, 0], [0, -1, 0]], [[-1, 0, 0], [0, -1, 0]], [[0, 1, 0], [0, 0, 1]], [[0, -1, 0], [0, 0, -1]], [[0, 0, 1], [0, -1, 0]], [[0, 0, -1], [0, -1, 0]]]
+    .map(two => two.map(d => add(times(d[0], aslant[0]), add(times(d[1], aslant[1]), times(d[2], aslant[2])))))
+    .forEach(([ahead, up], side) => {
+      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + side, cube, 0);
+      gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+      drawFaces(product(view, lookMatrix(place, cross(ahead, up), up, ahead)), 0, false);
+    });
+  [drawing.from, drawing.backs] = whole;
+  // The sphere.
+  const flat = gl.createTexture(), program = programOf(sphereVertex, sphereFragment);
+  gl.bindTexture(gl.TEXTURE_2D, flat);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, width, height, 0, gl.RGBA, gl.UNSIGNED_BYTE, null);
+  gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, null);
+  gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, flat, 0);
+  gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube);
+  gl.viewport(0, 0, width, height);
+  gl.disable(gl.DEPTH_TEST), gl.disable(gl.CULL_FACE);
+  gl.useProgram(program.program);
+  gl.uniform1f(program.yaw, yaw);
+  gl.uniformMatrix3fv(program.frame, false, aslant.flat());
+  gl.bindVertexArray(null);
+  gl.drawArrays(gl.TRIANGLES, 0, 3);
+  const below = new Uint8Array(4 * width * height), rows = new Uint8ClampedArray(below.length);
+  gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, below);
+  for (let y = 0; y < height; ++y) rows.set(below.subarray(4 * width * (height - 1 - y), 4 * width * (height - y)), 4 * width * y);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  gl.deleteTexture(cube), gl.deleteTexture(flat), gl.deleteRenderbuffer(depth), gl.deleteFramebuffer(buffer), gl.deleteProgram(program.program);
+  return rows;
+}

@@ -1,0 +1,251 @@
+#include "page.h"
+
+#include "page_sources.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace sightline::app {
+
+// ---- Numbers in few bytes
+
+namespace {
+
+constexpr char base64_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+
+std::string base64(const std::string& bytes) {
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : base64_digits[three >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+
+/// Each number in so many bytes, the lowest first.
+std::string little_endian(const std::vector<std::uint32_t>& numbers, std::size_t bytes) {
+  std::string text;
+  text.reserve(bytes * numbers.size());
+  for (const std::uint32_t n : numbers)
+    for (std::size_t k = 0; k < bytes; ++k) text += static_cast<char>(n >> (8 * k) & 255);
+  return text;
+}
+
+Json packed_as(const char* type, const std::string& bytes) { return {{"type", type}, {"base64", base64(bytes)}}; }
+
+}  // namespace
+
+Json packed(const std::vector<std::uint32_t>& numbers) {
+  const std::uint32_t most = numbers.empty() ? 0 : *std::max_element(numbers.begin(), numbers.end());
+  if (most < 1u << 8) return packed_as("u8", little_endian(numbers, 1));
+  if (most < 1u << 16) return packed_as("u16", little_endian(numbers, 2));
+  return packed_as("u32", little_endian(numbers, 4));
+}
+
+Json packed(const std::vector<float>& numbers) {
+  std::vector<std::uint32_t> bits;
+  bits.reserve(numbers.size());
+  for (const float x : numbers) bits.push_back(std::bit_cast<std::uint32_t>(x));
+  return packed_as("f32", little_endian(bits, 4));
+}
+
+Json packed(const std::vector<bool>& bits) {
+  std::string bytes((bits.size() + 7) / 8, '\0');
+  for (std::size_t i = 0; i < bits.size(); ++i)
+    if (bits[i]) bytes[i / 8] = static_cast<char>(static_cast<unsigned char>(bytes[i / 8]) | 1u << i % 8);
+  return packed_as("u8", bytes);
+}
+
+// ---- What is put together
+
+Page::Page(const std::string& command, const Scene& scene) : command_(command), scene_(scene.file()) {
+  if (scene.points().size() == 0) return;
+  const auto box = scene.box();
+  Rational side = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    middle_[k] = (box[0][k] + box[1][k]) / 2;
+    side = std::max(side, Rational(box[1][k] - box[0][k]));
+  }
+  if (side == 0) return;
+  // A power of two, at least the longest side and less than four times it.
+  const std::size_t above = bit_length(side.get_num()), below = bit_length(side.get_den());
+  Integer power = 1;
+  if (above + 1 > below) power <<= above + 1 - below;
+  else power <<= below - above - 1;
+  size_ = above + 1 > below ? Rational(power) : Rational(1, power);
+}
+
+void Page::append_place(std::vector<float>& to, const Exact_point& p) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    to.push_back(static_cast<float>(nearest_double(Rational((p[k] - middle_[k]) / size_))));
+}
+
+Json Page::place(const Exact_point& p) const {
+  Json at = Json::array();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = nearest_double(Rational((p[k] - middle_[k]) / size_));
+    if (!(std::fabs(x) < 1e30)) return nullptr;
+    at.push_back(x);
+  }
+  return at;
+}
+
+std::string Page::text(const Exact_point& p) {
+  return to_string(p[0]) + ", " + to_string(p[1]) + ", " + to_string(p[2]);
+}
+
+void Page::set_eye(const Exact_point& eye) { more_["eye"] = {{"place", place(eye)}, {"exact", text(eye)}}; }
+
+void Page::add_polygon(std::uint32_t face, const std::vector<Exact_point>& corners, std::uint32_t group) {
+  const std::uint32_t number = static_cast<std::uint32_t>(added_++);
+  if (corners.size() < 3) return;
+  // 1. Its corners.
+  const std::size_t first = places_.size() / 3;
+  kept_.push_back(
+      {number, face, group, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(corners.size()), 0});
+  for (const Exact_point& p : corners) {
+    append_place(places_, p);
+    if (!keeps_texts_) continue;
+    const auto [at, is_new] = texts_.try_emplace(text(p), static_cast<std::uint32_t>(texts_.size()));
+    exact_.push_back(at->second);
+    text_bytes_ += 3 + (is_new ? at->first.size() + 3 : 0);
+  }
+  constexpr std::size_t most_text_bytes = 300000;
+  if (text_bytes_ > most_text_bytes) {
+    keeps_texts_ = false;
+    texts_.clear();
+    exact_.clear();
+  }
+  // 2. Its area, by which it may have to go.
+  const auto at = [&](std::size_t i, std::size_t k) { return static_cast<double>(places_[3 * (first + i) + k]); };
+  std::array<double, 3> normal{};
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      normal[k] +=
+          (at(i, l) - at(0, l)) * (at(i + 1, m) - at(0, m)) - (at(i, m) - at(0, m)) * (at(i + 1, l) - at(0, l));
+    }
+  kept_.back().area = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
+  triangles_ += corners.size() - 2;
+  if (triangles_ > 2 * most_triangles) keep_the_largest(most_triangles);
+}
+
+void Page::add_pieces(const Scene& scene, const std::function<std::uint32_t(std::uint32_t)>& group_of) {
+  std::vector<Exact_point> corners;
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+    const Piece& piece = scene.pieces()[i];
+    corners.clear();
+    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    add_polygon(piece.face, corners, group_of ? group_of(i) : 0);
+  }
+}
+
+/// The polygons of largest area that have no more triangles than that, in their order.
+void Page::keep_the_largest(std::size_t triangles) {
+  std::stable_sort(kept_.begin(), kept_.end(), [](const Polygon& a, const Polygon& b) { return a.area > b.area; });
+  triangles_ = 0;
+  std::size_t count = 0;
+  while (count < kept_.size() && triangles_ + kept_[count].size - 2 <= triangles) triangles_ += kept_[count++].size - 2;
+  kept_.resize(count);
+  std::sort(kept_.begin(), kept_.end(), [](const Polygon& a, const Polygon& b) { return a.number < b.number; });
+  std::vector<float> places;
+  for (Polygon& polygon : kept_) {
+    const auto begin = places_.begin() + 3 * static_cast<std::ptrdiff_t>(polygon.first);
+    polygon.first = static_cast<std::uint32_t>(places.size() / 3);
+    places.insert(places.end(), begin, begin + 3 * static_cast<std::ptrdiff_t>(polygon.size));
+  }
+  places_ = std::move(places);
+}
+
+// ---- What is written
+
+Json Page::polygons_json() const {
+  std::vector<std::uint32_t> sizes, faces, groups, numbers;
+  for (const Polygon& polygon : kept_) {
+    sizes.push_back(polygon.size);
+    faces.push_back(polygon.face);
+    groups.push_back(polygon.group);
+    numbers.push_back(polygon.number);
+  }
+  Json json{{"count", kept_.size()}, {"of", added_}, {"sizes", packed(sizes)}, {"faces", packed(faces)}};
+  if (groups_.size() > 1) json["groups"] = packed(groups);
+  if (kept_.size() < added_) json["numbers"] = packed(numbers);
+  // Floats take 16 bytes a corner as text, which is too much where triangles are many and share none.
+  if (16 * (places_.size() / 3) <= 30 * triangles_ + 400000) {
+    json["corners"] = packed(places_);
+    return json;
+  }
+  Json from = Json::array(), step = Json::array();
+  std::vector<std::uint32_t> steps(places_.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    double least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = k; i < places_.size(); i += 3) {
+      least = std::min<double>(least, places_[i]);
+      most = std::max<double>(most, places_[i]);
+    }
+    const double width = most > least ? (most - least) / 65535 : 1;
+    for (std::size_t i = k; i < places_.size(); i += 3)
+      steps[i] = static_cast<std::uint32_t>(std::lround((places_[i] - least) / width));
+    from.push_back(least);
+    step.push_back(width);
+  }
+  json["corners"] = packed_as("u16", little_endian(steps, 2));
+  json["from"] = std::move(from);
+  json["step"] = std::move(step);
+  return json;
+}
+
+void Page::write(const std::string& file) {
+  if (triangles_ > most_triangles) keep_the_largest(most_triangles);
+  const bool is_thinned = kept_.size() < added_;
+  if (is_thinned) add_note(fmt::format("thinned: of {} polygons the {} largest are drawn", added_, kept_.size()));
+  if (!keeps_texts_) add_note("coordinates are rounded: the exact ones of so many corners are in --json");
+
+  Json data{{"format", "sightline page 1"},
+            {"command", command_},
+            {"scene", scene_},
+            {"facts", facts_},
+            {"notes", notes_},
+            {"frame",
+             {{"middle", {nearest_double(middle_[0]), nearest_double(middle_[1]), nearest_double(middle_[2])}},
+              {"size", nearest_double(size_)}}},
+            {"groups", Json::array()},
+            {"polygons", polygons_json()}};
+  for (const auto& [name, role] : groups_) data["groups"].push_back({{"name", name}, {"role", role}});
+  if (keeps_texts_) {
+    std::vector<std::string> texts(texts_.size());
+    for (const auto& [text, place] : texts_) texts[place] = text;
+    data["polygons"]["exact"] = {{"texts", texts}, {"corners", packed(exact_)}};
+  }
+  for (auto& [key, value] : more_.items()) data[key] = std::move(value);
+
+  // Text of JSON within a page: no tag begins or ends in it.
+  std::string block = data.dump(-1, ' ', false, Json::error_handler_t::replace), text;
+  text.reserve(page_text.size() + page_style.size() + page_script.size() + block.size() + 1000);
+  for (std::size_t i = 0; i < page_text.size();) {
+    const auto put = [&](std::string_view mark, std::string_view what) {
+      if (!page_text.substr(i).starts_with(mark)) return false;
+      text += what;
+      i += mark.size();
+      return true;
+    };
+    if (page_text[i] == '<' && (put("<!--style-->", page_style) || put("<!--script-->", page_script))) continue;
+    if (page_text[i] == '<' && page_text.substr(i).starts_with("<!--data-->")) {
+      for (const char c : block)
+        if (c == '<') text += "\\u003c";
+        else text += c;
+      i += std::string_view("<!--data-->").size();
+      continue;
+    }
+    text += page_text[i++];
+  }
+  write_file(file, text);
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,89 @@
+#pragma once
+// Pages to look at: a scene and what a command found in it, as one file that a browser opens from disk, without a
+// network. What stands in the page's block of data: apps/page/README.md.
+
+#include "common.h"
+
+#include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sightline::app {
+
+/// Numbers as a page holds them, in few bytes: {"type": "u8" | "u16" | "u32" | "f32", "base64": ...}, little-endian;
+/// whole ones in the smallest type that holds them all.
+Json packed(const std::vector<std::uint32_t>& numbers);
+Json packed(const std::vector<float>& numbers);
+/// Bits, the first the lowest of its byte: {"type": "u8", ...}.
+Json packed(const std::vector<bool>& bits);
+
+/// A page as it is put together. Its places are (x - middle) / size for the middle of the scene's box and a power of
+/// two, so that scenes far away, and of any size, keep what a float can hold.
+/// Post: a file of at most 1 MB and 40 bytes a triangle, and what the command adds. Of more than most_triangles it
+/// shows the largest polygons, and says so. Exact: in its texts; what is drawn is rounded, to 2^-24 of the scene's
+/// size or, where that would take too many bytes, to 2^-16, and where exact coordinates would, they are left out.
+class Page {
+ public:
+  static constexpr std::size_t most_triangles = 400000;
+  static constexpr std::uint32_t no_face = ~std::uint32_t{0};
+
+  Page(const std::string& command, const Scene& scene);
+
+  /// A line of the page's table.
+  void add_fact(const std::string& name, const std::string& value) { facts_.push_back({name, value}); }
+  /// What is left out, rounded or thinned, in a sentence.
+  void add_note(const std::string& note) { notes_.push_back(note); }
+  /// What polygons may be, in the order of their numbers; `role` names the colour: seen, hidden, open, source, new,
+  /// other, or one a face.
+  void add_group(const std::string& name, const std::string& role) { groups_.push_back({name, role}); }
+  /// The next polygon: convex, counterclockwise as seen from its front. `face` may be no_face.
+  void add_polygon(std::uint32_t face, const std::vector<Exact_point>& corners, std::uint32_t group = 0);
+  /// All pieces of a scene; the n-th polygon is its n-th piece.
+  void add_pieces(const Scene& scene, const std::function<std::uint32_t(std::uint32_t piece)>& group_of = {});
+  std::size_t polygons() const { return added_; }
+
+  /// A point as three numbers of the page; null where they are too large.
+  Json place(const Exact_point& p) const;
+  /// The same beside others, as floats.
+  void append_place(std::vector<float>& to, const Exact_point& p) const;
+  /// "1/2, 3, 4".
+  static std::string text(const Exact_point& p);
+  /// Where one looks from: the page begins there.
+  void set_eye(const Exact_point& eye);
+  /// What the command has to say, by its own keys.
+  Json& more() { return more_; }
+
+  /// Writes it, whole or not at all. Errors: as write_file.
+  void write(const std::string& file);
+
+ private:
+  struct Polygon {
+    std::uint32_t number, face, group, first, size;  // number: among all that were added; first: in places_, exact_
+    double area;
+  };
+  void keep_the_largest(std::size_t triangles);
+  Json polygons_json() const;
+
+  std::string command_, scene_;
+  Exact_point middle_;
+  Rational size_ = 1;
+  std::vector<std::array<std::string, 2>> facts_, groups_;
+  std::vector<std::string> notes_;
+  std::vector<Polygon> kept_;
+  std::vector<float> places_;
+  std::vector<std::uint32_t> exact_;  // the place of a corner's text, while texts are kept
+  std::map<std::string, std::uint32_t> texts_;
+  bool keeps_texts_ = true;
+  std::size_t text_bytes_ = 0, triangles_ = 0, added_ = 0;
+  Json more_ = Json::object();
+};
+
+}  // namespace sightline::app

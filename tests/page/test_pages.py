@@ -1,0 +1,198 @@
+"""Pages in a browser: what they show, and what becomes of clicks, keys and sliders."""
+
+import json
+from fractions import Fraction
+
+from conftest import block_of, corpus, run
+
+eye = "--eye=-3.5,-5,5"
+
+
+def test_an_order_is_painted_by_a_slider(open_page, town):
+    page = open_page("order", town, eye)
+    count = page.data["polygons"]["count"]
+    assert page.is_drawn()
+    whole = page.picture()[0]
+    page.slide(3)
+    assert page.text("#slider-value") == f"3 of {count}"
+    assert page.js("return sightline.drawing.to") == 3
+    assert 0 < page.picture()[0] < whole
+    page.press("]")
+    assert page.text("#slider-value") == f"4 of {count}"
+    page.slide(0)
+    assert page.picture()[1] < 8, "nothing is painted"
+
+
+def test_a_click_says_which_face_and_where_exactly(open_page, town):
+    page = open_page("order", town, eye)
+    last = page.data["polygons"]["count"] - 1  # nothing is painted over it
+    page.click_on(last)
+    assert page.js("return sightline.selected") == last
+    fragments = json.loads(run("order", town, eye, "--json", "-"))["result"]["fragments"]
+    assert page.text("#selected-name").startswith(f"face {fragments[last]['face']}, ")
+    corners = [item.text for item in page.all("#selection .exact li")]
+    assert corners == [", ".join(vertex) for vertex in fragments[last]["vertices"]]
+
+
+def test_keys_and_buttons_move_the_one_who_looks(open_page, town):
+    page = open_page("order", town, eye)
+    before = page.js("return [sightline.camera.yaw, sightline.camera.field]")
+    page.press("ArrowLeft"), page.press("+")
+    assert page.js("return [sightline.camera.yaw, sightline.camera.field]") != before
+    page.press("Home")
+    assert page.js("return [sightline.camera.yaw, sightline.camera.field]") == before
+    page.press("e")
+    assert page.js("return sightline.camera.atEye") is False
+    assert page.is_drawn()
+
+
+def group_of(page, k):
+    groups = page.js("const p = JSON.parse(document.getElementById('data').textContent).polygons.groups; return p ? atob(p.base64).charCodeAt(arguments[0]) : 0", k)
+    return page.data["groups"][groups]["name"]
+
+
+def first_seen(page, wanted):
+    """A polygon that the program says is so, and that a click in its middle meets."""
+    return page.js(
+        """
+        const from = JSON.parse(document.getElementById('data').textContent), groups = from.polygons.groups ? atob(from.polygons.groups.base64) : null;
+        for (let k = 0; k < from.polygons.count; ++k) {
+          if (groups && arguments[0] !== null && from.groups[groups.charCodeAt(k)].name !== arguments[0]) continue;
+          const at = sightline.middleOf(k);
+          if (at && sightline.pickAt(...at) === k) return k;
+        }
+        return -1;
+        """, wanted)
+
+
+def test_a_graph_shows_cycles_and_the_arcs_of_a_face(open_page):
+    scene = corpus / "general" / "three_bars.off"
+    page = open_page("graph", scene)
+    assert page.is_drawn()
+    assert [item.text for item in page.all("section ul.list button")] == ["component 1: 3 faces"]
+    k = first_seen(page, None)
+    page.click_on(k)
+    assert page.js("return sightline.selected") == k
+    arcs = json.loads(run("graph", scene, "--arcs", "--json", "-"))["result"]["arc_list"]
+    in_front = sorted(f"face {a[0][0]}" for a in arcs if a[1] == [k, 0])
+    behind = sorted(f"face {a[1][0]}" for a in arcs if a[0] == [k, 0])
+    lists = page.all("#arcs ul.list")
+    assert [sorted(item.text for item in one.find_elements("css selector", "button")) for one in lists] == [in_front, behind]
+
+
+def test_arcs_are_the_same_as_a_list_and_as_a_matrix(open_page, tmp_path):
+    scene = tmp_path / "soup.off"
+    run("generate", "soup", "--size", 500, "--out", scene)
+    page = open_page("graph", scene)
+    assert "arc_matrix" in page.data
+    page.js("sightline.select(7)")
+    arcs = json.loads(run("graph", scene, "--arcs", "--json", "-"))["result"]["arc_list"]
+    counts = [sum(a[1] == [7, 0] for a in arcs), sum(a[0] == [7, 0] for a in arcs)]
+    assert [int(p.text.split(": ")[1]) for p in page.all("#arcs p")] == counts
+
+
+def test_what_is_seen_has_lines_and_what_hides_them(open_page, town):
+    page = open_page("see", town, eye, "--lines")
+    assert page.is_drawn()
+    result = json.loads(run("see", town, eye, "--lines", "--json", "-"))["result"]
+    assert page.data["polygons"]["count"] == page.data["base"] + len(result["pieces"])
+    # Edges of which a part is hidden: clicked in the middle of a part that is seen, if that is 40 pixels long.
+    frame = page.data["frame"]
+    clicked = 0
+    for line in result["lines"]:
+        if line["class"] == "smooth" or len(line["parts"]) < 2:
+            continue
+        for part in (part for part in line["parts"] if part["visible"]):
+            p, q = ([(float(Fraction(x)) - m) / frame["size"] for x, m in zip(vertex, frame["middle"])] for vertex in part["vertices"])
+            a, b = page.js("return arguments[0].map(sightline.onCanvas)", [p, q])
+            if abs(a[0] - b[0]) + abs(a[1] - b[1]) < 40 or clicked == 8:
+                continue
+            clicked += 1
+            page.click_at((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+            said = [item.text.split("\n")[0] for item in page.all("#edge-parts li")]
+            assert said == ["visible" if one["visible"] else f"hidden by face {one['hidden_by'][0]}" for one in line["parts"]]
+    assert clicked == 8
+    sphere = page.js("const c = document.getElementById('sphere'), all = new Uint32Array(c.getContext('2d').getImageData(0, 0, c.width, c.height).data.buffer);"
+                     "return new Set(all).size")
+    assert sphere > 8, "the sphere of directions is empty"
+    k = first_seen(page, "visible")
+    page.click_on(k)
+    assert "visible" in page.text("#selected-name") or page.all("#edge-parts")
+
+
+def test_all_directions_are_filled_in_a_closed_room(open_page):
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
+    paper = page.js("""
+        const c = document.getElementById('sphere'), all = c.getContext('2d').getImageData(0, 0, c.width, c.height).data;
+        const p = getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number);
+        let count = 0;
+        for (let i = 0; i < all.length; i += 4) count += all[i] === p[0] && all[i + 1] === p[1] && all[i + 2] === p[2];
+        return count / (all.length / 4);
+    """)
+    assert paper < 1e-3, "the eye sees faces wherever it looks"
+
+
+def test_weak_visibility_shows_a_sightline_or_a_proof(open_page):
+    scene = corpus / "general" / "two_rooms.off"
+    page = open_page("weak", scene, "--from-face", 0)
+    assert page.is_drawn()
+    result = json.loads(run("weak", scene, "--from-face", 0, "--json", "-"))["result"]
+    facts = dict(page.data["facts"])
+    assert [facts["visible"], facts["hidden"]] == [str(len(result["visible"])), str(len(result["hidden"]))]
+    k = first_seen(page, "visible")
+    page.click_on(k)
+    face = int(page.text("#selected-name").split()[1].rstrip(":,"))
+    assert face in result["visible"]
+    ends = [item.text for item in page.all("#sightline li")]
+    assert len(ends) == 2 and ends[0].startswith("from ") and ends[1].startswith("to ") and "rounded" not in ends[0]
+    # A hidden face: its proof ends in leaves, each of which says why.
+    hidden = next(k for k in range(page.data["polygons"]["count"]) if group_of(page, k) == "hidden" and page.js(
+        "sightline.select(arguments[0]); return document.querySelectorAll('#proof ul.tree button').length", k) > 2)
+    assert page.text("#selected-name").endswith(": hidden")
+    for _ in range(200):  # all nodes that have parts are opened
+        closed = [b for b in page.all("#proof ul.tree button") if b.text.endswith("…") and not b.find_elements("xpath", "../ul/li")]
+        if not closed:
+            break
+        page.js("arguments[0].click()", closed[0])
+    texts = [b.text for b in page.all("#proof ul.tree button")]
+    inner = [t for t in texts if t.endswith("…")]
+    assert len(texts) == 2 * len(inner) + 1, "a tree of two parts each"
+    assert any("blocked by face" in t for t in texts), hidden
+
+
+def test_a_path_is_played(open_page, town):
+    page = open_page("cutset", town, "--orbit", 30)
+    assert page.is_drawn()
+    frames = json.loads(run("cutset", town, "--orbit", 30, "--faces", "--json", "-"))["result"]["frames"]
+    for n in (1, 11, 30):
+        page.slide(n)
+        assert page.text("#frame").startswith(f"{len(frames[n - 1]['on_view'])} polygons on-view, {frames[n - 1]['cut_edges']} edges")
+        assert page.text("#viewpoint") == f"viewpoint {n}: " + ", ".join(frames[n - 1]["eye"])
+        assert page.js("return sightline.lines('cut')") == frames[n - 1]["cut_edges"], "the cut is drawn"
+    page.slide(1)
+    page.one("#play").click()
+    page.js("return new Promise(done => setTimeout(done, 700))")
+    assert int(page.text("#slider-value").split()[0]) > 1
+    page.click_on(first_seen(page, None))
+    assert page.js("return sightline.selected") >= 0
+
+
+def test_cells_say_what_they_see(open_page):
+    scene = corpus / "general" / "two_rooms.map"
+    page = open_page("pvs", scene)
+    assert page.is_drawn()
+    buttons = page.all("section ul.list button")
+    assert len(buttons) == len(page.data["cells"])
+    shown = json.loads(run("pvs", scene, "--show", page.data["cells"][3]["cell"], "--json", "-"))["result"]["shown"][0]
+    buttons[3].click()
+    assert page.text("#cell").startswith(f"cell {shown['cell']} about {', '.join(shown['point'])}: sees {len(shown['visible'])} faces")
+
+
+def test_a_result_is_in_its_solids_colours(open_page, tmp_path):
+    small = tmp_path / "small.off"
+    run("generate", "convex_sphere", "--size", 40, "--out", small)
+    page = open_page("boolean", "union", corpus / "general" / "cube.off", small)
+    assert page.is_drawn()
+    k = first_seen(page, "cube.off")
+    page.click_on(k)
+    assert page.text("#selected-name").startswith("face ") and "cube.off" in page.text("#selected-name")
