@@ -1,11 +1,12 @@
-// sightline pvs: for each cell of a level the faces that are visible from it, as a table, with certificates, in parts;
-// sightline merge: parts together.
+// sightline pvs: for each cell of a level the faces, and the cells, that are visible from it, as a table, with
+// certificates, in parts; sightline merge: parts together.
 
 #include "methods/methods.h"
 #include "methods/weak.h"
 #include "support/page.h"
 #include "support/picture.h"
 
+#include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -26,11 +27,13 @@ namespace fs = std::filesystem;
 
 constexpr std::uint32_t blocks = 64;  // parts that --resume saves what is done in
 
+using Row = Visibility_table::Row;
+
 struct Pvs_arguments {
   Common common;
   View_arguments view;
   unsigned candidates = 5;
-  bool outside = false, resume = false;
+  bool outside = false, resume = false, cells_too = false;
   std::string out, shard, svg, html, eye, obj, certificates;
   std::vector<std::uint32_t> show;
 };
@@ -40,11 +43,13 @@ class Table_maker {
  public:
   Table_maker(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_cells& level)
       : arguments_(arguments), level_(level), faces_(soup.face_count()), search_(level, options()) {
-    question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}", fingerprint(soup), arguments.candidates,
-                            arguments.common.seed, arguments.outside ? ", outside" : "");
+    question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}", fingerprint(soup), arguments.candidates,
+                            arguments.common.seed, arguments.outside ? ", outside" : "",
+                            arguments.cells_too ? ", cells too" : "");
+    if (arguments.cells_too) cell_search_.emplace(level, options());
   }
 
-  /// Of all faces whose id is shard modulo shards.
+  /// Of all faces, and lower cells of pairs, whose id is shard modulo shards.
   Visibility_table make(std::uint32_t shard, std::uint32_t shards) {
     const Pvs pvs = search_.ask(shard, shards);
     counters_ += pvs.counters;
@@ -55,6 +60,7 @@ class Table_maker {
         table.cells[c] = true;
         table.rows.push_back({pvs.visible[c], pvs.undecided[c]});
       }
+    if (cell_search_) add_cells(table, shard, shards);
     return table;
   }
 
@@ -72,8 +78,9 @@ class Table_maker {
       std::optional<Visibility_table> part = kept(path);
       if (!part) {
         part = make(shard + shards * b, shards * blocks);
-        const bool whole = std::all_of(part->rows.begin(), part->rows.end(),
-                                       [](const Visibility_table::Row& row) { return row.undecided.empty(); });
+        const bool whole = std::all_of(part->rows.begin(), part->rows.end(), [](const Row& row) {
+          return row.undecided.empty() && row.cells_undecided.empty();
+        });
         if (whole) write_bytes(path, table_bytes(*part));  // what time left open is asked again
       } else {
         ++blocks_kept_;
@@ -87,6 +94,8 @@ class Table_maker {
   }
   void clear() { progress_.clear(); }
   const Pvs_counters& counters() const { return counters_; }
+  const Cell_pvs_counters& cell_counters() const { return cell_counters_; }
+  double cell_seconds() const { return cell_seconds_; }
   std::uint32_t blocks_kept() const { return blocks_kept_; }
 
  private:
@@ -99,6 +108,22 @@ class Table_maker {
     if (const double budget = arguments_.common.budget; budget > 0)
       options.search.out_of_time = [this, budget] { return watch_.seconds() > budget; };
     return options;
+  }
+
+  /// Of pairs of cells whose lower one is shard modulo shards.
+  void add_cells(Visibility_table& table, std::uint32_t shard, std::uint32_t shards) {
+    const Stopwatch watch;
+    const Cell_pvs pvs = cell_search_->ask(shard, shards);
+    cell_counters_ += pvs.counters;
+    table.lower_cells.resize(table.cells.size());
+    for (std::size_t c = shard; c < table.cells.size(); c += shards) table.lower_cells[c] = true;
+    std::size_t r = 0;
+    for (Cell_id c = 0; c < table.cells.size(); ++c) {
+      if (!table.cells[c]) continue;
+      table.rows[r].cells = pvs.visible[c];
+      table.rows[r++].cells_undecided = pvs.undecided[c];
+    }
+    cell_seconds_ += watch.seconds();
   }
 
   /// A part that was made before; nothing where there is none, or it is of another question.
@@ -118,8 +143,11 @@ class Table_maker {
   Progress progress_{"looking"};
   std::size_t faces_;
   Pvs_search search_;
+  std::optional<Cell_pvs_search> cell_search_;
   std::string question_;
   Pvs_counters counters_;
+  Cell_pvs_counters cell_counters_;
+  double cell_seconds_ = 0;
   std::uint32_t blocks_kept_ = 0;
 };
 
@@ -154,22 +182,30 @@ std::array<std::uint32_t, 2> shard_of(const std::string& text) {
 Json table_json(const Visibility_table& table) {
   Json cells = Json::array();
   std::size_t r = 0;
-  for (std::size_t c = 0; c < table.cells.size(); ++c)
-    if (table.cells[c]) {
-      cells.push_back({{"cell", c}, {"visible", table.rows[r].visible}, {"undecided", table.rows[r].undecided}});
-      ++r;
-    }
-  return {{"format", "sightline pvs 1"}, {"question", table.question}, {"cells", std::move(cells)}};
+  for (std::size_t c = 0; c < table.cells.size(); ++c) {
+    if (!table.cells[c]) continue;
+    const Row& row = table.rows[r++];
+    cells.push_back({{"cell", c}, {"visible", row.visible}, {"undecided", row.undecided}});
+    if (table.has_cells()) cells.back().update({{"cells", row.cells}, {"cells_undecided", row.cells_undecided}});
+  }
+  return {{"format", table.has_cells() ? "sightline pvs 2" : "sightline pvs 1"},
+          {"question", table.question},
+          {"cells", std::move(cells)}};
 }
 
 std::string table_csv(const Visibility_table& table) {
-  std::string text = "cell,face,state\n";
+  std::string text = table.has_cells() ? "cell,kind,number,state\n" : "cell,face,state\n";
   std::size_t r = 0;
   for (std::size_t c = 0; c < table.cells.size(); ++c) {
     if (!table.cells[c]) continue;
-    for (const Face_id face : table.rows[r].visible) text += fmt::format("{},{},visible\n", c, face);
-    for (const Face_id face : table.rows[r].undecided) text += fmt::format("{},{},undecided\n", c, face);
-    ++r;
+    const Row& row = table.rows[r++];
+    const auto add = [&](const char* kind, const std::vector<std::uint32_t>& numbers, const char* state) {
+      for (const std::uint32_t number : numbers) text += fmt::format("{},{}{},{}\n", c, kind, number, state);
+    };
+    add(table.has_cells() ? "face," : "", row.visible, "visible");
+    add(table.has_cells() ? "face," : "", row.undecided, "undecided");
+    add("cell,", row.cells, "visible");
+    add("cell,", row.cells_undecided, "undecided");
   }
   return text;
 }
@@ -348,10 +384,14 @@ void write_certificates(const Pvs_arguments& arguments, const Level_cells& level
       to_text({{"format", "sightline pvs certificates 1"}, {"question", table.question}, {"cells", index}}) + "\n");
 }
 
-std::size_t count_of(const Visibility_table& table, std::vector<Face_id> Visibility_table::Row::*faces) {
+std::size_t count_of(const Visibility_table& table, std::vector<std::uint32_t> Row::*numbers) {
   std::size_t sum = 0;
-  for (const Visibility_table::Row& row : table.rows) sum += (row.*faces).size();
+  for (const Row& row : table.rows) sum += (row.*numbers).size();
   return sum;
+}
+/// How much of a whole.
+double percent(std::size_t part, std::size_t whole) {
+  return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole));
 }
 
 Exit run_pvs(const Pvs_arguments& arguments) {
@@ -387,40 +427,57 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   if (!arguments.html.empty()) write_page(arguments, level, table);
   if (!arguments.certificates.empty()) write_certificates(arguments, level, table);
 
-  const std::size_t visible = count_of(table, &Visibility_table::Row::visible),
-                    undecided = count_of(table, &Visibility_table::Row::undecided);
-  const Exit exit = undecided > 0 ? Exit::undecided : Exit::done;
+  const std::size_t visible = count_of(table, &Row::visible), undecided = count_of(table, &Row::undecided),
+                    cells_visible = count_of(table, &Row::cells) / 2,
+                    cells_undecided = count_of(table, &Row::cells_undecided) / 2;
+  const Exit exit = undecided + cells_undecided > 0 ? Exit::undecided : Exit::done;
   const Pvs_counters& c = maker.counters();
+  const Cell_pvs_counters& of_cells = maker.cell_counters();
   Json result{{"cells", table.rows.size()},
               {"faces", std::count(table.faces.begin(), table.faces.end(), true)},
               {"visible", visible},
               {"undecided", undecided},
               {"blocks_kept", maker.blocks_kept()}};
+  if (arguments.cells_too) result["pairs_of_cells"] = {{"visible", cells_visible}, {"undecided", cells_undecided}};
   Json shown = Json::array();
-  for (const Cell_id cell : arguments.show)
+  for (const Cell_id cell : arguments.show) {
+    const Row& seen = *table.row_of(cell);
     shown.push_back({{"cell", cell},
                      {"point", point_json(level.inside(cell))},
-                     {"visible", table.row_of(cell)->visible},
-                     {"undecided", table.row_of(cell)->undecided}});
+                     {"visible", seen.visible},
+                     {"undecided", seen.undecided}});
+    if (arguments.cells_too) shown.back().update({{"cells", seen.cells}, {"cells_undecided", seen.cells_undecided}});
+  }
   if (!shown.empty()) result["shown"] = shown;
   Json counters = counters_json(c);
   counters["cells"] = counters_json(level.counters());
+  if (arguments.cells_too) counters["pairs_of_cells"] = counters_json(of_cells);
   if (write_json(common, "pvs", level.scene(), std::move(result), std::move(counters),
-                 {{"cells", cells_seconds}, {"pvs", seconds}}))
+                 {{"cells", cells_seconds}, {"pvs", seconds}, {"pairs_of_cells", maker.cell_seconds()}}))
     return exit;
   scene_rows(level.scene());
   row("cells", fmt::format("{} of {} are asked about", table.rows.size(), level.counters().cells));
-  row("pairs",
-      fmt::format("{} of a cell and a face: {} visible ({:.3g}%), {} undecided", c.pairs, visible,
-                  100.0 * static_cast<double>(visible) / static_cast<double>(std::max<std::size_t>(1, c.pairs)),
-                  undecided));
+  row("pairs", fmt::format("{} of a cell and a face: {} visible ({:.3g}%), {} undecided", c.pairs, visible,
+                           percent(visible, c.pairs), undecided));
   row("seen", fmt::format("{} within their cell, {} by a neighbour's sightline; {} searches, {} of which found hidden, "
                           "{} left to events; {} pairs were not reached",
                           c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
+  if (arguments.cells_too) {
+    row("", fmt::format("{} of two cells: {} see each other ({:.3g}%), {} undecided", of_cells.pairs, cells_visible,
+                        percent(cells_visible, of_cells.pairs), cells_undecided));
+    row("", fmt::format("{} neighbours, {} along random lines, {} along a sightline made longer; {} searches, {} of "
+                        "which found hidden; {} pairs were not reached",
+                        of_cells.adjacent, of_cells.by_lines, of_cells.extended, of_cells.searched, of_cells.hidden,
+                        of_cells.unreached));
+  }
   if (arguments.resume) row("resumed", fmt::format("{} of {} blocks were there", maker.blocks_kept(), blocks));
-  for (const Cell_id cell : arguments.show)
+  for (const Cell_id cell : arguments.show) {
     row(fmt::format("cell {}", cell), fmt::format("sees {}", fmt::join(table.row_of(cell)->visible, " ")));
-  row("seconds", fmt::format("{:.3f} for cells, {:.3f} for what they see", cells_seconds, seconds));
+    if (arguments.cells_too) row("", fmt::format("and cells {}", fmt::join(table.row_of(cell)->cells, " ")));
+  }
+  row("seconds",
+      fmt::format("{:.3f} for cells, {:.3f} for what they see{}", cells_seconds, seconds,
+                  arguments.cells_too ? fmt::format(", {:.3f} of it for pairs of cells", maker.cell_seconds()) : ""));
   return exit;
 }
 
@@ -441,9 +498,9 @@ Exit run_merge(const Merge_arguments& arguments) {
     const Visibility_table table = merged(parts, arguments.parts);
     write_table(arguments.out, table);
     if (arguments.out != "-")
-      row("merged", fmt::format("{} parts: {} cells, {} faces, {} pairs visible, {} undecided", parts.size(),
-                                table.rows.size(), table.faces.size(), count_of(table, &Visibility_table::Row::visible),
-                                count_of(table, &Visibility_table::Row::undecided)));
+      row("merged",
+          fmt::format("{} parts: {} cells, {} faces, {} pairs visible, {} undecided", parts.size(), table.rows.size(),
+                      table.faces.size(), count_of(table, &Row::visible), count_of(table, &Row::undecided)));
   } catch (const Merge_error& error) {
     throw std::runtime_error(std::string("merge: ") + error.what());
   }
@@ -462,6 +519,8 @@ void add_pvs(Command program) {
       .check(range(1, 1000))
       .show_default();
   command.add_flag("--outside", a->outside, "ask about cells too from which there is a way out of the level");
+  command.add_flag("--cells-too", a->cells_too,
+                   "find the pairs of cells of which some point of the one sees some point of the other, too");
   command.add_option("--show", a->show, "print what this cell sees; may be repeated");
   command
       .add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided from --show, and the cells")
@@ -479,8 +538,10 @@ void add_pvs(Command program) {
   command
       .add_option("--certificates", a->certificates, "write a certificate for each cell, and an index, to this folder")
       .check(not_empty());
-  command.add_option("--shard", a->shard,
-                     "I/N: the faces whose id is I modulo N; by default what SLURM_ARRAY_TASK_ID and _COUNT say");
+  command.add_option(
+      "--shard", a->shard,
+      "I/N: the faces, and pairs whose lower cell, are I modulo N; by default what SLURM_ARRAY_TASK_ID and "
+      "_COUNT say");
   command.add_flag("--resume", a->resume, "keep blocks of faces beside --out, and do not ask again what they hold");
   command.footer(
       "Example: sightline pvs level.map --out level.pvs\n"

@@ -12,11 +12,14 @@
 namespace sightline {
 namespace {
 
-constexpr std::string_view first_line = "sightline pvs 1\n";
+constexpr std::string_view first_line = "sightline pvs 1\n", first_line_with_cells = "sightline pvs 2\n";
+static_assert(first_line.size() == first_line_with_cells.size());
 
-std::vector<bool> bits_of(const std::vector<Face_id>& faces, std::size_t size) {
+/// The bits of numbers; of those above `above`.
+std::vector<bool> bits_of(const std::vector<std::uint32_t>& numbers, std::size_t size, std::int64_t above = -1) {
   std::vector<bool> row(size);
-  for (const Face_id face : faces) row[face] = true;
+  for (const std::uint32_t number : numbers)
+    if (number > above) row[number] = true;
   return row;
 }
 
@@ -25,9 +28,11 @@ class Table_reader {
   explicit Table_reader(const Input& input) : input_(input), bytes_(input.bytes) {}
 
   Visibility_table read() {
-    if (!bytes_.starts_with(first_line))
+    const bool has_cells = bytes_.starts_with(first_line_with_cells);
+    if (!has_cells && !bytes_.starts_with(first_line))
       input_.fail_at_byte(0,
-                          "no table: it does not begin with the line `sightline pvs 1`; make one by `sightline pvs`");
+                          "no table: it does not begin with the line `sightline pvs 1` or `sightline pvs 2`; make one "
+                          "by `sightline pvs`");
     at_ = first_line.size();
     Visibility_table table;
     const std::size_t length = number("the question's length");
@@ -39,12 +44,27 @@ class Table_reader {
     if (cells / 1024 > bytes_.size() || faces / 1024 > bytes_.size()) fail("as many cells and faces as are announced");
     table.cells = row(cells, "which cells were asked about");
     table.faces = row(faces, "which faces were asked about");
+    if (has_cells) table.lower_cells = row(cells, "which lower cells were asked about");
+    std::vector<std::uint32_t> asked;
     for (std::size_t c = 0; c < cells; ++c)
-      if (table.cells[c]) {
-        Visibility_table::Row& own = table.rows.emplace_back();
-        own.visible = faces_of(row(faces, "a row of visible faces"), table.faces);
-        own.undecided = faces_of(row(faces, "a row of undecided faces"), table.faces);
-      }
+      if (table.cells[c]) asked.push_back(static_cast<std::uint32_t>(c));
+    if (faces > 0 && asked.size() > (bytes_.size() - at_) / 2) fail("a row for each cell that was asked about");
+    table.rows.resize(asked.size());
+    for (std::size_t r = 0; r < asked.size(); ++r) {
+      Visibility_table::Row& own = table.rows[r];
+      own.visible = numbers_of(row(faces, "a row of visible faces"), table.faces);
+      own.undecided = numbers_of(row(faces, "a row of undecided faces"), table.faces);
+      if (!has_cells || !table.lower_cells[asked[r]]) continue;
+      for (const auto list : {&Visibility_table::Row::cells, &Visibility_table::Row::cells_undecided})
+        for (const std::uint32_t other : numbers_of(row(cells, "a row of cells"), table.cells)) {
+          if (other <= asked[r]) fail("a row of cells above the own one");
+          const auto place = std::lower_bound(asked.begin(), asked.end(), other) - asked.begin();
+          (own.*list).push_back(other);
+          (table.rows[static_cast<std::size_t>(place)].*list).push_back(asked[r]);
+        }
+    }
+    for (Visibility_table::Row& own : table.rows)  // of lower cells and of higher ones, each ascending
+      for (std::vector<std::uint32_t>* list : {&own.cells, &own.cells_undecided}) std::sort(list->begin(), list->end());
     if (at_ != bytes_.size()) input_.fail_at_byte(at_, "the file goes on behind its last row; make the table again");
     return table;
   }
@@ -65,14 +85,14 @@ class Table_reader {
     at_ = found->end;
     return std::move(found->row);
   }
-  std::vector<Face_id> faces_of(const std::vector<bool>& row, const std::vector<bool>& asked) const {
-    std::vector<Face_id> faces;
-    for (std::size_t f = 0; f < row.size(); ++f) {
-      if (!row[f]) continue;
-      if (!asked[f]) fail("a row of faces that were asked about");
-      faces.push_back(static_cast<Face_id>(f));
+  std::vector<std::uint32_t> numbers_of(const std::vector<bool>& row, const std::vector<bool>& asked) const {
+    std::vector<std::uint32_t> numbers;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      if (!row[k]) continue;
+      if (!asked[k]) fail("a row of what was asked about");
+      numbers.push_back(static_cast<std::uint32_t>(k));
     }
-    return faces;
+    return numbers;
   }
 
   const Input& input_;
@@ -89,15 +109,21 @@ const Visibility_table::Row* Visibility_table::row_of(std::size_t cell) const {
 }
 
 std::string table_bytes(const Visibility_table& table) {
-  std::string bytes(first_line);
+  std::string bytes(table.has_cells() ? first_line_with_cells : first_line);
   store(bytes, static_cast<std::uint32_t>(table.question.size()));
   bytes += table.question;
   store(bytes, static_cast<std::uint32_t>(table.cells.size()));
   store(bytes, static_cast<std::uint32_t>(table.faces.size()));
-  bytes += packed_row(table.cells) + packed_row(table.faces);
-  for (const Visibility_table::Row& row : table.rows)
-    bytes +=
-        packed_row(bits_of(row.visible, table.faces.size())) + packed_row(bits_of(row.undecided, table.faces.size()));
+  bytes += packed_row(table.cells) + packed_row(table.faces) + packed_row(table.lower_cells);
+  std::size_t r = 0;
+  for (std::size_t c = 0; c < table.cells.size(); ++c) {
+    if (!table.cells[c]) continue;
+    const Visibility_table::Row& row = table.rows[r++];
+    for (const auto* faces : {&row.visible, &row.undecided}) bytes += packed_row(bits_of(*faces, table.faces.size()));
+    if (!table.has_cells() || !table.lower_cells[c]) continue;
+    for (const auto* cells : {&row.cells, &row.cells_undecided})
+      bytes += packed_row(bits_of(*cells, table.cells.size(), static_cast<std::int64_t>(c)));
+  }
   return bytes;
 }
 
@@ -106,57 +132,66 @@ Visibility_table read_table(const Input& input) { return Table_reader(input).rea
 Visibility_table joined(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names) {
   if (parts.empty()) throw Merge_error("no part to merge; name the files that `sightline pvs --shard` wrote");
   Visibility_table whole = parts[0];
-  std::vector<std::size_t> part_of(whole.faces.size(), 0);
+  std::vector<std::size_t> face_from(whole.faces.size(), 0), cell_from(whole.lower_cells.size(), 0);
   for (std::size_t i = 1; i < parts.size(); ++i) {
     const Visibility_table& part = parts[i];
-    if (part.question != whole.question || part.cells != whole.cells || part.faces.size() != whole.faces.size())
+    if (part.question != whole.question || part.cells != whole.cells || part.faces.size() != whole.faces.size() ||
+        part.lower_cells.size() != whole.lower_cells.size())
       throw Merge_error(names[i] + " answers another question than " + names[0] + ": \"" + part.question +
                         "\", not \"" + whole.question + "\"; merge parts of one scene, with the same options");
-    for (std::size_t f = 0; f < part.faces.size(); ++f) {
-      if (!part.faces[f]) continue;
-      if (whole.faces[f])
-        throw Merge_error(names[i] + " and " + names[part_of[f]] + " both have face " + std::to_string(f) +
-                          "; leave one of them out");
-      whole.faces[f] = true;
-      part_of[f] = i;
-    }
+    const auto add = [&](const char* what, std::vector<bool>& own, const std::vector<bool>& more,
+                         std::vector<std::size_t>& from) {
+      for (std::size_t k = 0; k < more.size(); ++k) {
+        if (!more[k]) continue;
+        if (own[k])
+          throw Merge_error(names[i] + " and " + names[from[k]] + " both have " + what + " " + std::to_string(k) +
+                            "; leave one of them out");
+        own[k] = true;
+        from[k] = i;
+      }
+    };
+    add("face", whole.faces, part.faces, face_from);
+    add("cell", whole.lower_cells, part.lower_cells, cell_from);
     for (std::size_t r = 0; r < whole.rows.size(); ++r)
-      for (const auto faces : {&Visibility_table::Row::visible, &Visibility_table::Row::undecided}) {
-        const std::vector<Face_id>&own = whole.rows[r].*faces, &more = part.rows[r].*faces;
-        std::vector<Face_id> both;
+      for (const auto list : {&Visibility_table::Row::visible, &Visibility_table::Row::undecided,
+                              &Visibility_table::Row::cells, &Visibility_table::Row::cells_undecided}) {
+        const std::vector<std::uint32_t>&own = whole.rows[r].*list, &more = part.rows[r].*list;
+        std::vector<std::uint32_t> both;
         std::merge(own.begin(), own.end(), more.begin(), more.end(), std::back_inserter(both));
-        whole.rows[r].*faces = std::move(both);
+        whole.rows[r].*list = std::move(both);
       }
   }
-
   return whole;
 }
 
 Visibility_table merged(const std::vector<Visibility_table>& parts, const std::vector<std::string>& names) {
   Visibility_table whole = joined(parts, names);
 
-  // Which shards are missing: faces go round among them.
-  std::vector<std::size_t> missing;
-  for (std::size_t f = 0; f < whole.faces.size(); ++f)
-    if (!whole.faces[f]) missing.push_back(f);
-  if (missing.empty()) return whole;
-  const std::size_t present =
-      static_cast<std::size_t>(std::find(whole.faces.begin(), whole.faces.end(), true) - whole.faces.begin());
-  std::size_t shards = 0;  // the step between the faces of the first part that has any
-  for (const Visibility_table& part : parts) {
-    std::vector<std::size_t> own;
-    for (std::size_t f = 0; f < part.faces.size() && own.size() < 2; ++f)
-      if (part.faces[f]) own.push_back(f);
-    if (own.size() == 2) shards = own[1] - own[0];
-    if (shards > 0) break;
-  }
-  std::string again;
-  for (std::size_t s = 0; s < shards && s < whole.faces.size(); ++s)
-    if (!whole.faces[s]) again += (again.empty() ? "" : ", ") + std::to_string(s) + "/" + std::to_string(shards);
-  throw Merge_error("face " + std::to_string(missing[0]) + " and " + std::to_string(missing.size() - 1) +
-                    " more are in no part" +
-                    (present == whole.faces.size() || again.empty() ? "; run the shards that are missing"
-                                                                    : "; run again --shard " + again));
+  // Which shards are missing: faces and cells go round among them.
+  const auto check = [&](const char* what, std::vector<bool> Visibility_table::*bits) {
+    const std::vector<bool>& all = whole.*bits;
+    std::vector<std::size_t> missing;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (!all[k]) missing.push_back(k);
+    if (missing.empty()) return;
+    std::size_t shards = 0;  // the step between the numbers of the first part that has any
+    for (const Visibility_table& part : parts) {
+      std::vector<std::size_t> own;
+      for (std::size_t k = 0; k < all.size() && own.size() < 2; ++k)
+        if ((part.*bits)[k]) own.push_back(k);
+      if (own.size() == 2) shards = own[1] - own[0];
+      if (shards > 0) break;
+    }
+    std::string again;
+    for (std::size_t s = 0; s < shards && s < all.size(); ++s)
+      if (!all[s]) again += (again.empty() ? "" : ", ") + std::to_string(s) + "/" + std::to_string(shards);
+    throw Merge_error(std::string(what) + " " + std::to_string(missing[0]) + " and " +
+                      std::to_string(missing.size() - 1) + " more are in no part" +
+                      (again.empty() ? "; run the shards that are missing" : "; run again --shard " + again));
+  };
+  check("face", &Visibility_table::faces);
+  check("cell", &Visibility_table::lower_cells);
+  return whole;
 }
 
 std::uint64_t fingerprint(const Polygon_soup& soup) {

@@ -1,5 +1,6 @@
 #include <sightline/algorithms/levels/pvs.h>
 
+#include <sightline/algorithms/levels/ways.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
@@ -15,39 +16,19 @@
 namespace sightline {
 namespace levels_detail {
 
-/// A way from one cell to the next: an open part of a wall, as a source that looks into that.
-struct Way {
-  Cell_id from, to;
-  Weak_source source;
-  std::vector<Pluecker> edges;
-  std::vector<Ends> ends;
-};
-
-/// The way `from` takes through a part of a wall: counterclockwise as seen from where it leads.
-std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall& wall,
-                                      const std::vector<std::uint32_t>& part, Cell_id from) {
-  std::vector<Exact_point> polygon = level.polygon(part);
-  if (wall.front == from) std::reverse(polygon.begin(), polygon.end());
-  return polygon;
-}
-
 class Pvs_maker {
  public:
   Pvs_maker(const Level_cells& level, Pvs_options options)
-      : level_(level), options_(std::move(options)), occluders_(level.scene()) {
-    choose_cells();
-    for (const Cell_wall& wall : level.walls()) {
-      if (wall.behind == no_cell || !is_asked_[wall.front] || !is_asked_[wall.behind]) continue;
-      for (const std::vector<std::uint32_t>& part : wall.open)
-        for (const Cell_id from : {wall.front, wall.behind})
-          add_way(from, from == wall.front ? wall.behind : wall.front, looking_from(level, wall, part, from));
-    }
+      : level_(level),
+        options_(std::move(options)),
+        occluders_(level.scene()),
+        ways_(level, occluders_, options_.outside) {
     find_starts();
   }
 
   Pvs make(std::uint32_t shard, std::uint32_t shards) const {
     Pvs pvs;
-    pvs.is_asked = is_asked_;
+    pvs.is_asked = ways_.is_asked();
     const auto is_mine = [&](Face_id face) { return face % shards == shard; };
     struct Column {
       std::vector<Cell_id> visible, undecided;
@@ -64,7 +45,7 @@ class Pvs_maker {
     pvs.visible.resize(level_.cells().size());
     pvs.undecided.resize(level_.cells().size());
     Pvs_counters& c = pvs.counters;
-    c.cells = cells_asked_;
+    c.cells = ways_.cells_asked();
     for (std::size_t f = 0; f < faces_.size(); ++f) {
       for (const Cell_id cell : columns[f].visible) pvs.visible[cell].push_back(faces_[f].face);
       for (const Cell_id cell : columns[f].undecided) pvs.undecided[cell].push_back(faces_[f].face);
@@ -92,41 +73,16 @@ class Pvs_maker {
   };
   /// A line along which the face is seen: from a point of a way, and on its way back to there from inside a cell.
   struct Sightline {
-    std::array<Triple, 2> points;
+    Way_line line;
     Cell_id cell;
   };
-
-  void choose_cells() {
-    const std::vector<Level_cell>& cells = level_.cells();
-    std::vector<char> has_way_out(level_.counters().regions, 0);
-    for (const Level_cell& cell : cells)
-      if (cell.is_outside) has_way_out[cell.region] = 1;
-    const auto is_inside = [&](const Level_cell& cell) { return !cell.is_solid && has_way_out[cell.region] == 0; };
-    const bool all = options_.outside || std::none_of(cells.begin(), cells.end(), is_inside);
-    for (const Level_cell& cell : cells) {
-      is_asked_.push_back(all ? !cell.is_solid : is_inside(cell));
-      cells_asked_ += is_asked_.back() != 0;
-    }
-    into_.resize(cells.size());
-  }
-
-  void add_way(Cell_id from, Cell_id to, const std::vector<Exact_point>& polygon) {
-    into_[to].push_back(ways_.size());
-    Way& way = ways_.emplace_back(Way{from, to, weak_source(occluders_, polygon), {}, {}});
-    const Near_polygon& corners = way.source.polygon;
-    for (std::size_t i = 0; i < corners.size(); ++i) {
-      const Triple &a = corners[i].near, &b = corners[(i + 1) % corners.size()].near;
-      way.edges.push_back(pluecker_of_edge(a, b));
-      way.ends.push_back(ends(size(a), size(b)));
-    }
-  }
 
   /// The faces that look into cells that are asked about.
   void find_starts() {
     const std::vector<Piece>& pieces = level_.scene().pieces();
     std::vector<std::vector<Cell_id>> starts(level_.scene().counters().faces_read);
     for (Cell_id c = 0; c < level_.cells().size(); ++c)
-      if (is_asked_[c] != 0)
+      if (ways_.is_asked()[c] != 0)
         for (const Face_id face : level_.cells()[c].faces) starts[face].push_back(c);
     for (std::uint32_t i = 0; i < pieces.size(); ++i) {
       const Face_id face = pieces[i].face;
@@ -146,7 +102,7 @@ class Pvs_maker {
     for (const Cell_id cell : waiting) known[cell] = Known::is_visible;
     counters.within = waiting.size();
     for (std::size_t next = 0; next < waiting.size(); ++next) {
-      for (const std::size_t w : into_[waiting[next]]) {
+      for (const std::size_t w : ways_.into(waiting[next])) {
         const Way& way = ways_[w];
         Known& of_cell = known[way.from];
         if (of_cell == Known::is_visible) continue;
@@ -162,7 +118,7 @@ class Pvs_maker {
     for (Cell_id c = 0; c < known.size(); ++c) {
       if (known[c] == Known::is_visible) visible.push_back(c);
       if (known[c] == Known::is_undecided) undecided.push_back(c);
-      counters.unreached += known[c] == Known::nothing && is_asked_[c] != 0;
+      counters.unreached += known[c] == Known::nothing && ways_.is_asked()[c] != 0;
     }
     return counters;
   }
@@ -171,7 +127,7 @@ class Pvs_maker {
                            Pvs_counters& counters) const {
     // 1. What is seen through the next way is seen from this one, if the sightline made longer comes through it.
     for (Sightline& sightline : sightlines)
-      if (sightline.cell == way.to && comes_through(way, sightline)) {
+      if (sightline.cell == way.to && comes_through(way, sightline.line)) {
         sightline.cell = way.from;
         ++counters.extended;
         return Weak_status::visible;
@@ -200,21 +156,6 @@ class Pvs_maker {
     return status;
   }
 
-  /// Whether the line comes through the inside of a way for certain, which then leads to where it is seen along: cells
-  /// are convex and empty. In doubles, with bounds.
-  static bool comes_through(const Way& way, const Sightline& sightline) {
-    const auto& [p, q] = sightline.points;
-    const Pluecker pair = pluecker_of_pair(p, q);
-    const Ends of_pair = ends(size(p), size(q));
-    bool all_positive = true, all_negative = true;
-    for (std::size_t i = 0; i < way.edges.size(); ++i) {
-      const double side = dot(pair, way.edges[i]), error = side_error(of_pair, way.ends[i]);
-      all_positive = all_positive && side > error;
-      all_negative = all_negative && side < -error;
-    }
-    return all_positive || all_negative;
-  }
-
   Weak_status by_events(const Way& way, const Target& target) const {
     Weak_options options;
     options.search = options_.search;
@@ -237,11 +178,8 @@ class Pvs_maker {
   const Level_cells& level_;
   Pvs_options options_;
   Occluders occluders_;
-  std::vector<Way> ways_;
-  std::vector<std::vector<std::size_t>> into_;  // ways that lead into a cell
+  Ways ways_;
   std::vector<Target> faces_;
-  std::vector<char> is_asked_;
-  std::size_t cells_asked_ = 0;
 };
 
 }  // namespace levels_detail

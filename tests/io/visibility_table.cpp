@@ -59,6 +59,82 @@ TEST(Visibility_table, comes_back) {
   EXPECT_THROW(read_table({"t", bytes + "x"}), Input_error);
 }
 
+Visibility_table some_table_with_cells() {
+  return {"scene 1, cells too",
+          {true, false, true, true},
+          {true, true},
+          {{{0}, {}, {2}, {3}}, {{}, {1}, {0, 3}, {}}, {{}, {}, {2}, {0}}},
+          {true, true, true, true}};
+}
+
+TEST(Visibility_table, with_cells_comes_back_symmetric) {
+  const Visibility_table table = some_table_with_cells();
+  const std::string bytes = table_bytes(table);
+  EXPECT_TRUE(bytes.starts_with("sightline pvs 2\n"));
+  const Visibility_table again = read_table({"t", bytes});
+  EXPECT_EQ(again.lower_cells, table.lower_cells);
+  ASSERT_EQ(again.rows.size(), table.rows.size());
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    EXPECT_EQ(again.rows[r].visible, table.rows[r].visible);
+    EXPECT_EQ(again.rows[r].undecided, table.rows[r].undecided);
+    EXPECT_EQ(again.rows[r].cells, table.rows[r].cells);
+    EXPECT_EQ(again.rows[r].cells_undecided, table.rows[r].cells_undecided);
+  }
+  EXPECT_EQ(table_bytes(again), bytes);
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THROW(read_table({"t", std::string_view(bytes).substr(0, size)}), Input_error) << size;
+  std::string below = bytes;
+  below.back() = below[below.size() - 2] = '\x01';  // of the last cell: that it sees cell 0, which is below it
+  EXPECT_THROW(read_table({"t", below}), Input_error);
+}
+
+/// The part of a table with the faces and lower cells of a shard.
+Visibility_table part_with_cells(Visibility_table table, std::size_t shard, std::size_t shards) {
+  std::vector<std::uint32_t> cells;
+  for (std::uint32_t c = 0; c < table.cells.size(); ++c)
+    if (table.cells[c]) cells.push_back(c);
+  for (std::size_t f = 0; f < table.faces.size(); ++f) table.faces[f] = f % shards == shard;
+  for (std::size_t c = 0; c < table.cells.size(); ++c) table.lower_cells[c] = c % shards == shard;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    Visibility_table::Row& row = table.rows[r];
+    for (auto* faces : {&row.visible, &row.undecided})
+      std::erase_if(*faces, [&](Face_id face) { return face % shards != shard; });
+    for (auto* others : {&row.cells, &row.cells_undecided})
+      std::erase_if(*others, [&](std::uint32_t other) { return std::min(other, cells[r]) % shards != shard; });
+  }
+  return table;
+}
+
+TEST(Visibility_table, with_cells_is_one_again_of_its_parts) {
+  const Visibility_table table = some_table_with_cells();
+  std::vector<Visibility_table> parts;
+  std::vector<std::string> names;
+  for (const std::size_t shard : {2u, 0u, 1u}) {
+    const std::string bytes = table_bytes(part_with_cells(table, shard, 3));
+    parts.push_back(read_table({"t", bytes}));
+    names.push_back("part" + std::to_string(shard));
+  }
+  EXPECT_EQ(table_bytes(merged(parts, names)), table_bytes(table));
+  const auto error = [&](const std::vector<Visibility_table>& some) -> std::string {
+    try {
+      merged(some, {"a", "b", "c"});
+    } catch (const Merge_error& found) {
+      return found.what();
+    }
+    return "none";
+  };
+  Visibility_table without = parts[0];
+  without.lower_cells.clear();
+  EXPECT_NE(error({without, parts[1], parts[2]}).find("another question"), std::string::npos);
+  without = parts[1];
+  without.faces = {false, false};
+  EXPECT_NE(error({parts[1], without, parts[2]}).find("both have cell 0"), std::string::npos);
+  Visibility_table faces = parts[0];
+  faces.lower_cells.assign(4, false);  // all faces are there, and cell 2 is not
+  const std::string gap = error({faces, parts[1], parts[2]});
+  EXPECT_NE(gap.find("cell 2 and 0 more are in no part; run again --shard 2/3"), std::string::npos) << gap;
+}
+
 TEST(Visibility_table, that_announces_more_than_it_holds_is_refused) {
   std::string bytes = table_bytes({"", {}, {}, {}});
   for (std::size_t k = 0; k < 4; ++k) bytes[bytes.size() - 8 + k] = '\xFF';  // four thousand million cells

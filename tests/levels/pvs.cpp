@@ -2,6 +2,7 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/pvs.h>
 
 #include <algorithm>
@@ -20,7 +21,7 @@ TEST(Pvs, of_scenes_is_what_each_cell_sees_by_itself) {
     SCOPED_TRACE(file);
     const Polygon_soup soup = corpus_scene(file);
     for (std::uint64_t seed = 1; seed <= 4 / share; ++seed)
-      for (const char* check : {"sightlines", "alone"}) expect_passed(check, soup, seed);
+      for (const char* check : {"sightlines", "alone", "segments", "pairs"}) expect_passed(check, soup, seed);
   }
 }
 
@@ -43,6 +44,45 @@ TEST(Pvs, is_the_same_on_any_number_of_threads_and_in_shards) {
   for (std::vector<Face_id>& faces : merged) std::sort(faces.begin(), faces.end());
   EXPECT_EQ(merged, one.visible);
   EXPECT_EQ(pairs, one.counters.pairs);
+}
+
+TEST(Cell_pvs, is_the_same_on_any_number_of_threads_and_in_shards) {
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
+  Pvs_options options;
+  options.threads = 1;
+  const Cell_pvs one = mutually_visible_cells(level, options);
+  EXPECT_EQ(one.counters.pairs, one.counters.cells * (one.counters.cells - 1) / 2);
+  EXPECT_EQ(one.counters.undecided, 0u);
+  EXPECT_GT(one.counters.visible, one.counters.adjacent);
+  EXPECT_LT(one.counters.visible, one.counters.pairs);
+  options.threads = 3;
+  EXPECT_EQ(mutually_visible_cells(level, options).visible, one.visible);
+  Cell_pvs_search together(level, options);
+  for (const bool alone : {false, true}) {  // parts that tell each other what they found, and parts that do not
+    std::vector<std::vector<Cell_id>> merged(level.cells().size());
+    std::size_t pairs = 0;
+    for (std::uint32_t shard = 4; shard-- > 0;) {
+      const Cell_pvs part = alone ? Cell_pvs_search(level, options).ask(shard, 4) : together.ask(shard, 4);
+      pairs += part.counters.pairs;
+      for (Cell_id c = 0; c < merged.size(); ++c)
+        merged[c].insert(merged[c].end(), part.visible[c].begin(), part.visible[c].end());
+    }
+    for (std::vector<Cell_id>& cells : merged) std::sort(cells.begin(), cells.end());
+    EXPECT_EQ(merged, one.visible);
+    EXPECT_EQ(pairs, one.counters.pairs);
+  }
+}
+
+TEST(Cell_pvs, out_of_time_is_undecided) {
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
+  Pvs_options options;
+  options.search.out_of_time = [] { return true; };
+  const Cell_pvs pvs = mutually_visible_cells(level, options), whole = mutually_visible_cells(level);
+  EXPECT_GT(pvs.counters.undecided, 0u);
+  for (Cell_id c = 0; c < level.cells().size(); ++c)
+    for (const Cell_id other : whole.visible[c])
+      EXPECT_TRUE(std::binary_search(pvs.visible[c].begin(), pvs.visible[c].end(), other) ||
+                  std::binary_search(pvs.undecided[c].begin(), pvs.undecided[c].end(), other));
 }
 
 TEST(Pvs, of_rooms_leaves_out_what_has_a_way_out) {

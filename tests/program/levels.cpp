@@ -3,6 +3,8 @@
 #include "program.h"
 
 #include <fstream>
+#include <map>
+#include <set>
 
 namespace program {
 
@@ -58,6 +60,50 @@ TEST_F(Levels, a_table_is_the_same_however_it_was_divided) {
   EXPECT_NE(gap.err.find("run again --shard 1/3"), std::string::npos) << gap;
   EXPECT_FALSE(std::filesystem::exists(path("gap.pvs")));
   EXPECT_EQ(run({"merge", rooms, "--out", out("gap.pvs")}).code, bad_input);
+}
+
+TEST_F(Levels, a_table_with_cells_is_symmetric_and_the_same_however_it_was_divided) {
+  const std::vector<std::string> pvs{"pvs", rooms, "--cells-too", "--out"};
+  const auto made = [&](const std::string& file, std::vector<std::string> more) {
+    std::vector<std::string> arguments = pvs;
+    arguments.push_back(out(file));
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    EXPECT_EQ(run(arguments).code, done);
+    return bytes_of(file);
+  };
+  const std::string whole = made("whole.pvs", {"--threads", "1"});
+  EXPECT_EQ(made("threads.pvs", {"--threads", "3"}), whole);
+  EXPECT_EQ(made("resumed.pvs", {"--resume"}), whole);
+  for (const char* shard : {"0", "1", "2"}) made(std::string("part") + shard, {"--shard", std::string(shard) + "/3"});
+  ASSERT_EQ(run({"merge", out("part2"), out("part0"), out("part1"), "--out", out("merged.pvs")}).code, done);
+  EXPECT_EQ(bytes_of("merged.pvs"), whole);
+  ASSERT_EQ(run({"pvs", rooms, "--shard", "1/3", "--out", out("faces")}).code, done);
+  const Outcome other = run({"merge", out("part2"), out("part0"), out("faces"), "--out", out("other.pvs")});
+  EXPECT_EQ(other.code, bad_input) << other;
+  EXPECT_NE(other.err.find("another question"), std::string::npos) << other;
+
+  made("t.json", {});
+  const Json table = Json::parse(bytes_of("t.json"));
+  std::map<int, std::set<int>> seen;
+  std::string csv = "cell,kind,number,state\n";
+  for (const Json& cell : table["cells"]) {
+    seen[cell["cell"]] = cell["cells"].get<std::set<int>>();
+    for (const Json& face : cell["visible"]) csv += cell["cell"].dump() + ",face," + face.dump() + ",visible\n";
+    for (const Json& cell_seen : cell["cells"]) csv += cell["cell"].dump() + ",cell," + cell_seen.dump() + ",visible\n";
+  }
+  std::size_t sum = 0;
+  for (const auto& [cell, others] : seen)
+    for (const int other_cell : others) {
+      ++sum;
+      EXPECT_NE(other_cell, cell);
+      EXPECT_TRUE(seen[other_cell].contains(cell));
+    }
+  EXPECT_EQ(made("t.csv", {}), csv);
+  const std::string cell = table["cells"][0]["cell"].dump();
+  const Outcome shown = run({"pvs", rooms, "--cells-too", "--show", cell, "--json", "-"});
+  ASSERT_EQ(shown.code, done) << shown;
+  EXPECT_EQ(shown.json()["result"]["shown"][0]["cells"], table["cells"][0]["cells"]);
+  EXPECT_EQ(shown.json()["result"]["pairs_of_cells"]["visible"], sum / 2);
 }
 
 TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {

@@ -31,11 +31,17 @@ bool is_worth_it(int narrowed) {
 
 Line_search::Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane,
                          Near_polygon target, std::uint32_t target_piece, const Weak_search_options& options)
+    : Line_search(occluders, std::move(source), source_plane, std::move(target), occluders.plane(target_piece), options,
+                  target_piece) {}
+
+Line_search::Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane,
+                         Near_polygon target, const Near_plane& target_plane, const Weak_search_options& options,
+                         std::uint64_t salt)
     : occluders_(&occluders),
       source_plane_(&source_plane),
-      target_plane_(&occluders.plane(target_piece)),
+      target_plane_(&target_plane),
       options_(&options),
-      dice_(options.seed * 0x9e3779b97f4a7c15u + target_piece),
+      dice_(options.seed * 0x9e3779b97f4a7c15u + salt),
       lines_(occluders),
       proofs_(occluders, lines_, source_plane, *target_plane_, options.out_of_time) {
   domains_.push_back(std::make_unique<Line_domain>(std::make_shared<const Near_polygon>(std::move(source)),

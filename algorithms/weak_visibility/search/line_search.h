@@ -36,6 +36,10 @@ class Line_search {
  public:
   Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane, Near_polygon target,
               std::uint32_t target_piece, const Weak_search_options& options);
+  /// The target is a convex polygon of no face, in a plane whose front is to be looked at; pieces in that plane hide
+  /// nothing. `salt`: beside the seed, for lines that are tried. Proof: P-90
+  Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane, Near_polygon target,
+              const Near_plane& target_plane, const Weak_search_options& options, std::uint64_t salt = 0);
   Line_search(const Line_search&) = delete;
 
   Weak_answer run(Weak_counters& counters);

@@ -1,0 +1,256 @@
+#include <sightline/algorithms/levels/cell_pvs.h>
+
+#include <sightline/algorithms/levels/ways.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/search/line_search.h>
+#include <sightline/kernel/threads.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <random>
+#include <utility>
+
+namespace sightline {
+
+using levels_detail::comes_through;
+using levels_detail::Way;
+using levels_detail::Way_line;
+using levels_detail::Ways;
+
+namespace {
+
+// Random lines out of a cell: so many at once, until some round finds no cell, or after so many rounds.
+constexpr std::size_t lines_at_once = 32, most_rounds = 64;
+
+/// A point of a polygon's inside, more often near corners than a mean of equal weights.
+Triple point_within(const Near_polygon& polygon, std::mt19937_64& dice) {
+  std::uniform_real_distribution<double> unit(0.02, 1);
+  Triple p{};
+  double sum = 0;
+  for (const Near_point& corner : polygon) {
+    const double weight = std::pow(unit(dice), 3);
+    sum += weight;
+    for (std::size_t k = 0; k < 3; ++k) p[k] += weight * corner.near[k];
+  }
+  for (double& x : p) x /= sum;
+  return p;
+}
+
+}  // namespace
+
+class Cell_pvs_search::Maker {
+ public:
+  Maker(const Level_cells& level, Pvs_options options)
+      : options_(std::move(options)),
+        occluders_(level.scene()),
+        ways_(level, occluders_, options_.outside),
+        count_(static_cast<Cell_id>(level.cells().size())),
+        columns_(count_),
+        is_done_(count_) {}
+
+  Cell_pvs make(std::uint32_t shard, std::uint32_t shards) {
+    // 1. Floods, lower cells first: they tell the others.
+    std::vector<Cell_id> own;
+    for (Cell_id c = shard; c < count_; c += shards)
+      if (is_asked(c)) own.push_back(c);
+    std::atomic<std::size_t> next{0}, done{0};
+    run_with_threads(options_.threads, [&] {
+      parallel_for(own.size(), [&](std::size_t) {
+        const Cell_id cell = own[next++];
+        if (!is_done_[cell].load(std::memory_order_acquire)) {
+          flood(cell);
+          is_done_[cell].store(true, std::memory_order_release);
+        }
+        if (options_.progress) options_.progress(++done, own.size());
+      });
+    });
+
+    // 2. Both halves.
+    Cell_pvs pvs{
+        ways_.is_asked(), std::vector<std::vector<Cell_id>>(count_), std::vector<std::vector<Cell_id>>(count_), {}};
+    for (const Cell_id cell : own) {
+      const Column& column = columns_[cell];
+      pvs.counters += column.counters;
+      for (const Cell_id other : column.visible) {
+        pvs.visible[cell].push_back(other);
+        pvs.visible[other].push_back(cell);
+      }
+      for (const Cell_id other : column.undecided) {
+        pvs.undecided[cell].push_back(other);
+        pvs.undecided[other].push_back(cell);
+      }
+    }
+    for (auto* lists : {&pvs.visible, &pvs.undecided})
+      for (std::vector<Cell_id>& list : *lists) std::sort(list.begin(), list.end());
+    pvs.counters.cells = ways_.cells_asked();
+    return pvs;
+  }
+
+ private:
+  /// What a cell's flood found of the cells above it.
+  struct Column {
+    std::vector<Cell_id> visible, undecided;
+    Cell_pvs_counters counters;
+  };
+  enum class Known : char { nothing, is_hidden, is_undecided, is_visible, is_told_hidden };
+  struct Flood {
+    Cell_id cell;
+    std::vector<Known> known;      // by cell
+    std::vector<Cell_id> waiting;  // cells that are visible or undecided, in the order in which they were found
+    Cell_pvs_counters& counters;
+
+    /// Whether it was not known.
+    bool see(Cell_id other) {
+      if (known[other] == Known::is_visible) return false;
+      if (known[other] != Known::is_undecided) waiting.push_back(other);
+      known[other] = Known::is_visible;
+      return true;
+    }
+  };
+
+  bool is_asked(Cell_id cell) const { return ways_.is_asked()[cell] != 0; }
+
+  /// What floods that have ended say of a pair.
+  Known told(Cell_id a, Cell_id b) const {
+    if (a == b) return Known::is_visible;
+    if (a > b) std::swap(a, b);
+    if (!is_done_[a].load(std::memory_order_acquire)) return Known::nothing;
+    const Column& column = columns_[a];
+    if (std::binary_search(column.visible.begin(), column.visible.end(), b)) return Known::is_visible;
+    const bool open = std::binary_search(column.undecided.begin(), column.undecided.end(), b);
+    return open ? Known::nothing : Known::is_told_hidden;
+  }
+
+  /// All cells that see a cell, outwards from there.
+  void flood(Cell_id cell) {
+    Column& column = columns_[cell];
+    Cell_pvs_counters& counters = column.counters;
+    Flood flood{cell, std::vector<Known>(count_, Known::nothing), {}, counters};
+    flood.see(cell);
+
+    // 1. What is known: by lower cells, and of neighbours.
+    for (Cell_id other = 0; other < cell; ++other) {
+      if (!is_asked(other)) continue;
+      const Known known = told(other, cell);
+      counters.told += known != Known::nothing;
+      if (known == Known::is_visible) flood.see(other);
+      else flood.known[other] = known;
+    }
+    for (const std::size_t w : ways_.into(cell)) counters.adjacent += flood.see(ways_[w].from);
+
+    // 2. Along lines, and then from cell to cell: who sees it sees it through a neighbour that does.
+    see_along_lines(flood);
+    for (std::size_t next = 0; next < flood.waiting.size(); ++next)
+      for (const std::size_t w : ways_.into(flood.waiting[next])) {
+        Known& of_cell = flood.known[ways_[w].from];
+        if (of_cell == Known::is_visible || of_cell == Known::is_told_hidden) continue;
+        const Weak_status found = look_through(w, flood);
+        if (found == Weak_status::hidden) of_cell = std::max(of_cell, Known::is_hidden);
+        if (found != Weak_status::undecided || of_cell == Known::is_undecided) continue;
+        of_cell = Known::is_undecided;
+        flood.waiting.push_back(ways_[w].from);
+      }
+
+    // 3. Pairs with cells above it.
+    for (Cell_id other = cell + 1; other < count_; ++other) {
+      if (!is_asked(other)) continue;
+      ++counters.pairs;
+      if (flood.known[other] == Known::is_visible) column.visible.push_back(other);
+      if (flood.known[other] == Known::is_undecided) column.undecided.push_back(other);
+      counters.unreached += flood.known[other] == Known::nothing;
+    }
+    counters.visible = column.visible.size();
+    counters.undecided = column.undecided.size();
+  }
+
+  void see_along_lines(Flood& flood) const {
+    std::mt19937_64 dice(options_.search.seed * 0x9e3779b97f4a7c15u + flood.cell);
+    const std::vector<std::size_t>& first = ways_.into(flood.cell);
+    for (std::size_t round = 0; round < most_rounds && !first.empty(); ++round) {
+      const std::size_t before = flood.counters.by_lines;
+      for (std::size_t k = 0; k < lines_at_once; ++k) {
+        const std::size_t back = first[dice() % first.size()];
+        const std::vector<std::size_t>& second = ways_.into(ways_[back].from);
+        const Way &out = ways_[Ways::back(back)], &on = ways_[Ways::back(second[dice() % second.size()])];
+        const Way_line line(point_within(out.source.polygon, dice), point_within(on.source.polygon, dice));
+        if (!comes_through(out, line) || !comes_through(on, line)) continue;
+        flood.counters.by_lines += flood.see(on.to);
+        follow(line, on.to, flood, flood.counters.by_lines);
+      }
+      if (flood.counters.by_lines == before) return;
+    }
+  }
+
+  /// Sees the cells that a line comes through beyond one that sees the flood's cell along it.
+  void follow(const Way_line& line, Cell_id cell, Flood& flood, std::size_t& counter) const {
+    for (bool goes_on = true; goes_on;) {
+      goes_on = false;
+      for (const std::size_t w : ways_.into(cell))
+        if (comes_through(ways_[Ways::back(w)], line)) {
+          cell = ways_[w].from;
+          counter += flood.see(cell);
+          goes_on = true;
+          break;
+        }
+    }
+  }
+
+  /// Whether the flood's cell is seen through a way, into any of its portals.
+  Weak_status look_through(std::size_t w, Flood& flood) const {
+    const Way& way = ways_[w];
+    Weak_status status = Weak_status::hidden;
+    for (const std::size_t in : ways_.into(flood.cell)) {
+      // 1. The cell before that portal would be seen too.
+      const Cell_id before = ways_[in].from;
+      if (told(way.from, before) == Known::is_told_hidden || told(way.to, before) == Known::is_told_hidden) {
+        ++flood.counters.implied;
+        continue;
+      }
+
+      // 2. A search, from portal to portal.
+      const std::size_t target = Ways::back(in);
+      Weak_answer answer = search(w, target, flood.counters);
+      if (answer.status == Weak_status::undecided) {
+        Weak_answer turned = search(target, w, flood.counters);
+        std::swap(turned.sightline[0], turned.sightline[1]);
+        answer = std::move(turned);
+      }
+      if (answer.status == Weak_status::visible) {
+        flood.see(way.from);
+        follow(Way_line(answer.sightline[1].near, answer.sightline[0].near), way.from, flood, flood.counters.extended);
+        return Weak_status::visible;
+      }
+      flood.counters.hidden += answer.status == Weak_status::hidden;
+      if (answer.status == Weak_status::undecided) status = Weak_status::undecided;
+    }
+    return status;
+  }
+
+  /// Whether there is a free line between two portals, in front of both.
+  Weak_answer search(std::size_t from, std::size_t to, Cell_pvs_counters& counters) const {
+    ++counters.searched;
+    const Weak_source &source = ways_[from].source, &target = ways_[to].source;
+    return Line_search(occluders_, source.polygon, source.plane, target.polygon, target.plane, options_.search,
+                       from * ways_.count() + to)
+        .run(counters.search);
+  }
+
+  Pvs_options options_;
+  Occluders occluders_;
+  Ways ways_;
+  Cell_id count_;
+  std::vector<Column> columns_;
+  std::vector<std::atomic<bool>> is_done_;
+};
+
+Cell_pvs mutually_visible_cells(const Level_cells& level, const Pvs_options& options) {
+  return Cell_pvs_search(level, options).ask(0, 1);
+}
+
+Cell_pvs_search::Cell_pvs_search(const Level_cells& level, Pvs_options options)
+    : maker_(std::make_unique<Maker>(level, std::move(options))) {}
+Cell_pvs_search::~Cell_pvs_search() = default;
+Cell_pvs Cell_pvs_search::ask(std::uint32_t shard, std::uint32_t shards) { return maker_->make(shard, shards); }
+
+}  // namespace sightline

@@ -1,0 +1,61 @@
+#include <sightline/algorithms/levels/ways.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace sightline::levels_detail {
+
+Way_line::Way_line(const Triple& p, const Triple& q)
+    : pair(pluecker_of_pair(p, q)), ends(sightline::ends(size(p), size(q))) {}
+
+bool comes_through(const Way& way, const Way_line& line) {
+  for (std::size_t i = 0; i < way.edges.size(); ++i) {
+    const double side = dot(line.pair, way.edges[i]), error = side_error(line.ends, way.ends[i]);
+    if (!(side < -error)) return false;
+  }
+  return true;
+}
+
+std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall& wall,
+                                      const std::vector<std::uint32_t>& part, Cell_id from) {
+  std::vector<Exact_point> polygon = level.polygon(part);
+  if (wall.front == from) std::reverse(polygon.begin(), polygon.end());
+  return polygon;
+}
+
+Ways::Ways(const Level_cells& level, const Occluders& occluders, bool outside) {
+  // 1. Cells that are asked about.
+  const std::vector<Level_cell>& cells = level.cells();
+  std::vector<char> has_way_out(level.counters().regions, 0);
+  for (const Level_cell& cell : cells)
+    if (cell.is_outside) has_way_out[cell.region] = 1;
+  const auto is_inside = [&](const Level_cell& cell) { return !cell.is_solid && has_way_out[cell.region] == 0; };
+  const bool all = outside || std::none_of(cells.begin(), cells.end(), is_inside);
+  for (const Level_cell& cell : cells) {
+    is_asked_.push_back(all ? !cell.is_solid : is_inside(cell));
+    cells_asked_ += is_asked_.back() != 0;
+  }
+
+  // 2. Ways between them.
+  into_.resize(cells.size());
+  for (const Cell_wall& wall : level.walls()) {
+    if (wall.behind == no_cell || is_asked_[wall.front] == 0 || is_asked_[wall.behind] == 0) continue;
+    for (const std::vector<std::uint32_t>& part : wall.open)
+      for (const Cell_id from : {wall.front, wall.behind})
+        add(from, from == wall.front ? wall.behind : wall.front,
+            weak_source(occluders, looking_from(level, wall, part, from)));
+  }
+}
+
+void Ways::add(Cell_id from, Cell_id to, Weak_source source) {
+  into_[to].push_back(ways_.size());
+  Way& way = ways_.emplace_back(Way{from, to, std::move(source), {}, {}});
+  const Near_polygon& corners = way.source.polygon;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Triple &a = corners[i].near, &b = corners[(i + 1) % corners.size()].near;
+    way.edges.push_back(pluecker_of_edge(a, b));
+    way.ends.push_back(ends(size(a), size(b)));
+  }
+}
+
+}  // namespace sightline::levels_detail
