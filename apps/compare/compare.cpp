@@ -4,6 +4,7 @@
 #include "compare.h"
 
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,9 +12,13 @@
 
 namespace sightline::app {
 
-/// Asks a contestant in a child process, since an inexact kernel may do anything, for at most the budget; what became
-/// of it otherwise is the row's status.
-static Json judge_apart(const Contestant& contestant, double limit) {
+static void limit_addresses(std::uint64_t bytes) {
+  const auto most = static_cast<rlim_t>(process_memory("self", "VmSize") + bytes);
+  const rlimit limit{most, most};
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+Json ask_apart(const Contestant& contestant, double seconds, std::uint64_t bytes) {
   const auto named = [&](const Json& row) {
     Json all = contestant.name;
     all.update(row);
@@ -25,6 +30,7 @@ static Json judge_apart(const Contestant& contestant, double limit) {
   if (child < 0) throw std::runtime_error("no process to be had");
   if (child == 0) {
     close(ends[0]);
+    if (bytes > 0) limit_addresses(bytes);
     std::string text;
     try {
       text = to_text(contestant.judge());
@@ -43,7 +49,7 @@ static Json judge_apart(const Contestant& contestant, double limit) {
   std::string text, status = "crashed";
   for (;;) {
     pollfd waiting{ends[0], POLLIN, 0};
-    const int left = limit > 0 ? static_cast<int>(std::clamp(1000 * (limit - watch.seconds()), 0.0, 1e9)) : -1;
+    const int left = seconds > 0 ? static_cast<int>(std::clamp(1000 * (seconds - watch.seconds()), 0.0, 1e9)) : -1;
     if (poll(&waiting, 1, left) == 0) {
       kill(child, SIGKILL);
       status = "timed out";
@@ -60,25 +66,25 @@ static Json judge_apart(const Contestant& contestant, double limit) {
   if (status != "timed out") {
     if (Json row = Json::parse(text, nullptr, false); !row.is_discarded()) return named(row);
     if (WIFSIGNALED(how)) status += fmt::format(" (signal {})", WTERMSIG(how));
+    if (WIFEXITED(how) && WEXITSTATUS(how) == static_cast<int>(Exit::undecided)) status = "out of memory";
   }
   return named({{"status", status}});
 }
 
-static bool is_exact(const Json& row) {
+bool claims_to_be_exact(const Json& row) {
   return row["kernel"] == "exact" || row["kernel"] == "epeck" || row["kernel"] == "gmpq";
 }
 
-Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
-         const std::function<bool(const Json&)>& right) {
+Exit ask(const Trial& trial, double budget, Json& rows) {
   bool disagree = false, undecided = false;
-  for (const Contestant& contestant : contestants) {
-    rows.push_back(judge_apart(contestant, budget));
+  for (const Contestant& contestant : trial.contestants) {
+    rows.push_back(ask_apart(contestant, budget));
     const Json& r = rows.back();
-    if (!is_exact(r)) continue;
+    if (!claims_to_be_exact(r)) continue;
     const std::string& status = r["status"].get_ref<const std::string&>();
     if (status == "timed out") undecided = true;
     else if (status.starts_with("left out")) continue;
-    else if (status != "done" || !right(r)) disagree = true;
+    else if (status != "done" || !trial.right(r)) disagree = true;
   }
   return disagree ? Exit::disagreement : undecided ? Exit::undecided : Exit::done;
 }

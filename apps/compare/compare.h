@@ -35,10 +35,32 @@ struct Contestant {
   std::function<Json()> judge;
 };
 
+/// A question about a scene, the truth about it, and who may be asked.
+struct Trial {
+  std::vector<Contestant> contestants;         ///< they refer to what the trial holds
+  std::function<bool(const Json& row)> right;  ///< what is true of a row of one that claims to be exact
+
+  virtual ~Trial() = default;
+};
+/// Trials of the questions, whatever the arguments name as SCENE. Errors: as the command has them; Out_of_budget where
+/// the truth takes longer than the budget.
+std::unique_ptr<Trial> order_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+std::unique_ptr<Trial> see_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+std::unique_ptr<Trial> weak_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+std::unique_ptr<Trial> trace_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+std::unique_ptr<Trial> render_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+
+/// Asks a contestant in a child process, since an inexact kernel may do anything, for at most so many seconds (0: as
+/// long as it takes) in so many bytes above what this process has (0: any); what became of it otherwise is the row's
+/// status: "timed out", "out of memory", "crashed ...", "error: ...".
+Json ask_apart(const Contestant& contestant, double seconds, std::uint64_t bytes = 0);
+
 /// Asks all of them, each for at most the budget in seconds (0: none). What claims to be exact must be, as far as
 /// `right` can tell from a row; a row whose status begins with "left out" was not asked.
-Exit ask(const std::vector<Contestant>& contestants, double budget, Json& rows,
-         const std::function<bool(const Json&)>& right);
+Exit ask(const Trial& trial, double budget, Json& rows);
+
+/// Whether the kernel of a row claims to be exact.
+bool claims_to_be_exact(const Json& row);
 
 Exit compare_orders(const Compare_arguments& arguments);
 Exit compare_visible(const Compare_arguments& arguments);

@@ -77,27 +77,43 @@ static void print_orders(const Json& rows) {
   }
 }
 
+namespace {
+
+struct Order_trial : Trial {
+  Compare_arguments arguments;
+  Scene scene;
+  Task task;
+
+  Order_trial(const Compare_arguments& all, const Polygon_soup& soup) : arguments(all), scene(soup) {
+    const Common& common = arguments.common;
+    task.bsp.seed = common.seed;
+    task.bsp.threads = common.threads == 0 ? 1 : common.threads;
+    if (arguments.command == "order") task.eye = eye_of(arguments.eye, scene);
+    for (const std::string& kernel : arguments.kernels)
+      contestants.push_back({{{"kernel", kernel}, {"method", "bsp"}},
+                             [this, kernel] { return judge_order(kernel, scene, arguments, task); }});
+    right = [has_eye = task.eye.has_value()](const Json& r) {
+      return !has_eye || (!(r["errors"]["pairs_wrong"].is_number() && r["errors"]["pairs_wrong"] != 0) &&
+                          r["errors"]["tiles_exactly"] == true);
+    };
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Trial> order_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
+  return std::make_unique<Order_trial>(arguments, soup);
+}
+
 Exit compare_orders(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
-  Scene scene(common.read());
-  Task task;
-  task.bsp.seed = common.seed;
-  task.bsp.threads = common.threads == 0 ? 1 : common.threads;
-  if (arguments.command == "order") task.eye = eye_of(arguments.eye, scene);
-  std::vector<Contestant> contestants;
-  for (const std::string& kernel : arguments.kernels)
-    contestants.push_back({{{"kernel", kernel}, {"method", "bsp"}}, [&scene, &arguments, &task, kernel] {
-                             return judge_order(kernel, scene, arguments, task);
-                           }});
+  const Order_trial trial(arguments, common.read());
   Json rows = Json::array();
-  const Exit exit = ask(contestants, common.budget, rows, [&](const Json& r) {
-    return !task.eye || (!(r["errors"]["pairs_wrong"].is_number() && r["errors"]["pairs_wrong"] != 0) &&
-                         r["errors"]["tiles_exactly"] == true);
-  });
-  if (write_json(common, "compare", scene, {{"question", arguments.command}, {"rows", rows}},
-                 {{"threads", task.bsp.threads}}, Json::object()))
+  const Exit exit = ask(trial, common.budget, rows);
+  if (write_json(common, "compare", trial.scene, {{"question", arguments.command}, {"rows", rows}},
+                 {{"threads", trial.task.bsp.threads}}, Json::object()))
     return exit;
-  scene_rows(scene);
+  scene_rows(trial.scene);
   print_orders(rows);
   return exit;
 }

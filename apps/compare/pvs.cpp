@@ -255,14 +255,14 @@ Exit compare_cells(const Compare_arguments& arguments) {
     if (!file.visibility.empty()) engine.emplace(std::move(file));
   }
 
-  std::vector<Contestant> contestants;
+  Trial trial;
   const auto add = [&](Json name, std::function<Sets()> method) {
-    contestants.push_back({std::move(name), [&question, method = std::move(method)] {
-                             const Peak_memory memory;
-                             const Stopwatch own;
-                             const Sets sets = method();
-                             return judged(question, sets, own.seconds(), memory);
-                           }});
+    trial.contestants.push_back({std::move(name), [&question, method = std::move(method)] {
+                                   const Peak_memory memory;
+                                   const Stopwatch own;
+                                   const Sets sets = method();
+                                   return judged(question, sets, own.seconds(), memory);
+                                 }});
   };
   add({{"kernel", "exact"}, {"method", "flooding"}}, [&] { return potentially_visible(level, options).visible; });
   for (const std::size_t rays : arguments.rays)
@@ -271,9 +271,10 @@ Exit compare_cells(const Compare_arguments& arguments) {
   add({{"kernel", "exact"}, {"method", "any portals"}}, [&] { return by_portals(question); });
   if (engine) add({{"kernel", "float"}, {"method", "the file's table"}}, [&] { return by_engine(question, *engine); });
   Json rows = Json::array();
-  Exit exit = ask(contestants, common.budget, rows, [](const Json& r) {
+  trial.right = [](const Json& r) {
     return r["errors"]["wrongly_hidden"] == 0 && (r["method"] == "any portals" || r["errors"]["wrongly_visible"] == 0);
-  });
+  };
+  Exit exit = ask(trial, common.budget, rows);
   if (exit == Exit::done && exact.counters.undecided > 0) exit = Exit::undecided;
 
   std::size_t refuted = 0;

@@ -96,69 +96,99 @@ static std::string image_plot(const Json& rows, bool transparent) {
   return plot.text();
 }
 
+namespace {
+
+struct Image_trial : Trial {
+  Compare_arguments arguments;
+  Scene scene;
+  Exact_point eye;
+  Pixel_view pixels;
+  Exact_view view;
+  int threads;
+  std::vector<Tint> tints;
+  bool transparent;
+  Image_truth truth;
+  std::uint64_t tied = 0;
+
+  Image_trial(const Compare_arguments& all, const Polygon_soup& soup)
+      : arguments(all),
+        scene(soup),
+        eye(eye_of(arguments.eye, scene)),
+        pixels(pixels_of(arguments.view, eye, scene)),
+        view(scene, eye),
+        threads(arguments.common.threads == 0 ? 1 : arguments.common.threads),
+        tints(tints_of(arguments.tints, arguments.common.scene, view, arguments.view.shade == "lambert")),
+        transparent(is_transparent(tints)) {
+    // 1. What all are compared with; on one thread, since processes are made after it.
+    Image_options alone;
+    alone.threads = 1;
+    alone.progress = arguments.common.within_budget([](std::size_t, std::size_t) {});
+    if (transparent) truth.blended = blended_centres(view, pixels, tints, alone);
+    else truth.pieces = centres(view, pixels, alone);
+    const std::vector<std::uint8_t>& ties = transparent ? truth.blended->tied : truth.pieces.tied;
+    tied = static_cast<std::uint64_t>(std::count(ties.begin(), ties.end(), 1));
+
+    // 2. Who is asked.
+    for (const std::string& method : image_methods) {
+      if (!is_built(method) || (transparent ? !shows_through(method) : method == "weighted")) continue;
+      if (method == "depth" || method == "weighted") {
+        for (const int bits : arguments.bits)
+          add({{"kernel", "float"}, {"method", method}, {"bits", bits}}, {method, "float", bits, seed()});
+        continue;
+      }
+      if (method == "rays") {
+        add({{"kernel", "float"}, {"method", method}}, {method, "float", 24, seed()});
+        continue;
+      }
+      for (const std::string& kernel : has_image_kernels(method) ? image_kernels : std::vector<std::string>{"exact"})
+        if (!arguments.kernels_given || kernel == "exact" ||
+            std::find(arguments.kernels.begin(), arguments.kernels.end(), kernel) != arguments.kernels.end())
+          add({{"kernel", kernel}, {"method", method}}, {method, kernel, 24, seed()});
+    }
+    right = [](const Json& r) {
+      return !is_true_method(r["method"]) || !r.contains("errors") || r["errors"]["wrong"] == 0;
+    };
+  }
+
+  std::uint64_t seed() const { return arguments.common.seed; }
+  void add(Json name, Image_task task) {
+    task.tints = transparent ? &tints : nullptr;
+    contestants.push_back({std::move(name), [this, task] { return judge_image(scene, pixels, task, threads, truth); }});
+  }
+  static Pixel_view pixels_of(View_arguments of_image, const Exact_point& eye, const Scene& scene) {
+    if (of_image.canvas.size.empty()) of_image.canvas.size = "512x512";
+    return pixel_view(aimed(of_image.view(eye, scene), scene));
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Trial> render_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
+  return std::make_unique<Image_trial>(arguments, soup);
+}
+
 Exit compare_images(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
   arguments.view.check_usage();
-  Scene scene(common.read());
-  const Exact_point eye = eye_of(arguments.eye, scene);
-  View_arguments of_image = arguments.view;
-  if (of_image.canvas.size.empty()) of_image.canvas.size = "512x512";
-  const Pixel_view pixels = pixel_view(aimed(of_image.view(eye, scene), scene));
-  const int threads = common.threads == 0 ? 1 : common.threads;
-
-  // What all are compared with; on one thread, since processes are made after it.
-  Image_options alone;
-  alone.threads = 1;
-  alone.progress = common.within_budget([](std::size_t, std::size_t) {});
-  const Exact_view view(scene, eye);
-  const std::vector<Tint> tints = tints_of(arguments.tints, common.scene, view, arguments.view.shade == "lambert");
-  const bool transparent = is_transparent(tints);
-  Image_truth truth;
-  if (transparent) truth.blended = blended_centres(view, pixels, tints, alone);
-  else truth.pieces = centres(view, pixels, alone);
-  const std::vector<std::uint8_t>& ties = transparent ? truth.blended->tied : truth.pieces.tied;
-  const auto tied = static_cast<std::uint64_t>(std::count(ties.begin(), ties.end(), 1));
-
-  std::vector<Contestant> contestants;
-  const auto add = [&](Json name, Image_task task) {
-    task.tints = transparent ? &tints : nullptr;
-    contestants.push_back({std::move(name), [&, task] { return judge_image(scene, pixels, task, threads, truth); }});
-  };
-  for (const std::string& method : image_methods) {
-    if (!is_built(method) || (transparent ? !shows_through(method) : method == "weighted")) continue;
-    if (method == "depth" || method == "weighted") {
-      for (const int bits : arguments.bits)
-        add({{"kernel", "float"}, {"method", method}, {"bits", bits}}, {method, "float", bits, common.seed});
-      continue;
-    }
-    if (method == "rays") {
-      add({{"kernel", "float"}, {"method", method}}, {method, "float", 24, common.seed});
-      continue;
-    }
-    for (const std::string& kernel : has_image_kernels(method) ? image_kernels : std::vector<std::string>{"exact"})
-      if (!arguments.kernels_given || kernel == "exact" ||
-          std::find(arguments.kernels.begin(), arguments.kernels.end(), kernel) != arguments.kernels.end())
-        add({{"kernel", kernel}, {"method", method}}, {method, kernel, 24, common.seed});
-  }
+  const Image_trial trial(arguments, common.read());
+  const Exact_point& eye = trial.eye;
   Json rows = Json::array();
-  const Exit exit = ask(contestants, common.budget, rows, [](const Json& r) {
-    return !is_true_method(r["method"]) || !r.contains("errors") || r["errors"]["wrong"] == 0;
-  });
-  if (!arguments.svg.empty()) write_file(arguments.svg, image_plot(rows, transparent));
-  if (write_json(common, "compare", scene,
+  const Exit exit = ask(trial, common.budget, rows);
+  if (!arguments.svg.empty()) write_file(arguments.svg, image_plot(rows, trial.transparent));
+  if (write_json(common, "compare", trial.scene,
                  {{"question", "render"},
                   {"eye", point_json(eye)},
-                  {"width", pixels.width},
-                  {"height", pixels.height},
-                  {"tied", tied},
-                  {"transparent", transparent},
+                  {"width", trial.pixels.width},
+                  {"height", trial.pixels.height},
+                  {"tied", trial.tied},
+                  {"transparent", trial.transparent},
                   {"rows", rows}},
-                 {{"threads", threads}}, Json::object()))
+                 {{"threads", trial.threads}}, Json::object()))
     return exit;
-  scene_rows(scene);
+  scene_rows(trial.scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
-  row("picture", fmt::format("{} x {} pixels, {} ties", pixels.width, pixels.height, tied));
-  print_images(rows, transparent);
+  row("picture", fmt::format("{} x {} pixels, {} ties", trial.pixels.width, trial.pixels.height, trial.tied));
+  print_images(rows, trial.transparent);
   return exit;
 }
 

@@ -84,51 +84,77 @@ static void print_visible(const Json& rows) {
   }
 }
 
+namespace {
+
+struct See_trial : Trial {
+  Compare_arguments arguments;
+  Scene scene;
+  Exact_point eye;
+  Visible_options options;
+  Piece_boxes boxes;
+  Exact_view view;
+  Visible_surface<Exact_view> surface;  // what all are compared with
+  Visible_reference reference;
+
+  See_trial(const Compare_arguments& all, const Polygon_soup& soup)
+      : arguments(all),
+        scene(soup),
+        eye(eye_of(arguments.eye, scene)),
+        boxes(scene),
+        view(scene, eye),
+        surface(visible_surface(view, boxes, alone(arguments.common))),
+        reference(view, surface) {
+    options.threads = arguments.common.threads == 0 ? 1 : arguments.common.threads;
+    for (const std::string& kernel : arguments.kernels)
+      if (kernel != "epick")
+        contestants.push_back({{{"kernel", kernel}, {"method", "partition"}},
+                               [this, kernel] { return judge_kernel(kernel, scene, eye, options, reference); }});
+    for (const std::uint32_t size : arguments.sizes)
+      for (const int bits : arguments.bits) {
+        const Depth_buffer_options pixels{size, bits, static_cast<float>(arguments.near),
+                                          static_cast<float>(arguments.far)};
+        contestants.push_back({{{"kernel", "float"}, {"method", "depth buffer"}, {"size", size}, {"bits", bits}},
+                               [this, pixels] { return judge_pixels(pixels, scene, eye, reference); }});
+      }
+    right = [](const Json& r) {
+      const Json& e = r["errors"];
+      for (const char* key : {"wrongly_visible", "wrongly_hidden", "missing", "not_finite"})
+        if (e[key] != 0) return false;
+      return e["wrong_area"] < 1e-12;  // a sum of areas in doubles
+    };
+  }
+
+  /// On one thread, since processes are made after it.
+  static Visible_options alone(const Common& common) {
+    Visible_options options;
+    options.threads = 1;
+    options.progress = common.within_budget([](std::size_t, std::size_t) {});
+    return options;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Trial> see_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
+  return std::make_unique<See_trial>(arguments, soup);
+}
+
 Exit compare_visible(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
   if (arguments.kernels_given &&
       std::find(arguments.kernels.begin(), arguments.kernels.end(), "epick") != arguments.kernels.end())
     throw Usage_error("--kernels: epick answers order and bsp only; its constructions are those of double");
-  const Scene scene(common.read());
-  const Exact_point eye = eye_of(arguments.eye, scene);
-  Visible_options options;
-  options.threads = common.threads == 0 ? 1 : common.threads;
-
-  // What all are compared with; on one thread, since processes are made after it.
-  Visible_options alone;
-  alone.threads = 1;
-  alone.progress = common.within_budget([](std::size_t, std::size_t) {});
-  const Piece_boxes boxes(scene);
-  const Exact_view view(scene, eye);
-  const auto surface = visible_surface(view, boxes, alone);
-  Visible_reference reference(view, surface);
-
-  std::vector<Contestant> contestants;
-  for (const std::string& kernel : arguments.kernels)
-    if (kernel != "epick")
-      contestants.push_back({{{"kernel", kernel}, {"method", "partition"}},
-                             [&, kernel] { return judge_kernel(kernel, scene, eye, options, reference); }});
-  for (const std::uint32_t size : arguments.sizes)
-    for (const int bits : arguments.bits) {
-      const Depth_buffer_options pixels{size, bits, static_cast<float>(arguments.near),
-                                        static_cast<float>(arguments.far)};
-      contestants.push_back({{{"kernel", "float"}, {"method", "depth buffer"}, {"size", size}, {"bits", bits}},
-                             [&, pixels] { return judge_pixels(pixels, scene, eye, reference); }});
-    }
+  const See_trial trial(arguments, common.read());
+  const auto& [scene, eye, visible] = std::tie(trial.scene, trial.eye, trial.surface.visible);
   Json rows = Json::array();
-  const Exit exit = ask(contestants, common.budget, rows, [](const Json& r) {
-    const Json& e = r["errors"];
-    for (const char* key : {"wrongly_visible", "wrongly_hidden", "missing", "not_finite"})
-      if (e[key] != 0) return false;
-    return e["wrong_area"] < 1e-12;  // a sum of areas in doubles
-  });
+  const Exit exit = ask(trial, common.budget, rows);
   if (write_json(common, "compare", scene,
-                 {{"question", "see"}, {"eye", point_json(eye)}, {"visible", surface.visible.size()}, {"rows", rows}},
-                 {{"threads", options.threads}}, Json::object()))
+                 {{"question", "see"}, {"eye", point_json(eye)}, {"visible", visible.size()}, {"rows", rows}},
+                 {{"threads", trial.options.threads}}, Json::object()))
     return exit;
   scene_rows(scene);
   row("eye", fmt::format("({}, {}, {})", to_string(eye[0]), to_string(eye[1]), to_string(eye[2])));
-  row("visible", fmt::format("{} of {} faces", surface.visible.size(), scene.counters().faces));
+  row("visible", fmt::format("{} of {} faces", visible.size(), scene.counters().faces));
   print_visible(rows);
   return exit;
 }

@@ -127,66 +127,80 @@ void print_rays(const Asked_rays& asked, const Json& rows) {
   }
 }
 
+struct Ray_trial : Trial {
+  Scene scene;
+  Asked_rays asked;
+  std::size_t hit = 0, tied = 0;
+
+  Ray_trial(const Compare_arguments& arguments, const Polygon_soup& soup)
+      : scene(soup), asked(rays_of(arguments, soup)) {
+    // 1. The truth by boxes; the tree is asked for it again, as a contestant.
+    {
+      const Ray_tracer tracer(scene);
+      Ray_counters counters;
+      const auto in_time = arguments.common.within_budget([](std::size_t, std::size_t) {});
+      for (const Exact_ray& ray : asked.rays) {
+        if (asked.truth.size() % 256 == 0) in_time(asked.truth.size(), asked.rays.size());
+        asked.truth.push_back(tracer.first(ray, Ray_start::open, counters));
+        hit += !asked.truth.back().empty();
+        tied += asked.truth.back().size() > 1;
+      }
+    }
+
+    // 2. Who is asked.
+    contestants = {{{{"kernel", "exact"}, {"method", "boxes"}},
+                    [this] {
+                      return judge_rays(asked, [&] {
+                        auto tracer = std::make_shared<Ray_tracer>(scene);
+                        return [&, tracer, counters = Ray_counters()](std::size_t i) mutable {
+                          return first_face(tracer->first(asked.rays[i], Ray_start::open, counters));
+                        };
+                      });
+                    }},
+                   {{{"kernel", "exact"}, {"method", "tree"}},
+                    [this] {
+                      return judge_rays(asked, [&] {
+                        struct Tree {
+                          Exact_traits traits;
+                          Exact_tree tree;
+                        };
+                        Bsp_options options;
+                        options.threads = 1;
+                        auto made = std::make_shared<Tree>(Tree{Exact_traits(scene), {}});
+                        made->tree = build_bsp(made->traits, options);
+                        return [&, made](std::size_t i) {
+                          return first_face(first_hits(made->traits, made->tree, asked.rays[i]));
+                        };
+                      });
+                    }},
+                   by_embree(scene, asked, false),
+                   by_embree(scene, asked, true)};
+    right = [](const Json& r) {
+      return r["errors"]["missed"] == 0 && r["errors"]["invented"] == 0 && r["errors"]["wrong_face"] == 0;
+    };
+  }
+};
+
 }  // namespace
+
+std::unique_ptr<Trial> trace_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
+  return std::make_unique<Ray_trial>(arguments, soup);
+}
 
 Exit compare_rays(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
-  const Polygon_soup soup = common.read();
-  const Scene scene(soup);
-  Asked_rays asked = rays_of(arguments, soup);
-
-  // The truth by boxes; the tree is asked for it again, as a contestant.
-  std::size_t hit = 0, tied = 0;
-  {
-    const Ray_tracer tracer(scene);
-    Ray_counters counters;
-    const auto in_time = common.within_budget([](std::size_t, std::size_t) {});
-    for (const Exact_ray& ray : asked.rays) {
-      if (asked.truth.size() % 256 == 0) in_time(asked.truth.size(), asked.rays.size());
-      asked.truth.push_back(tracer.first(ray, Ray_start::open, counters));
-      hit += !asked.truth.back().empty();
-      tied += asked.truth.back().size() > 1;
-    }
-  }
-
-  const std::vector<Contestant> contestants{
-      {{{"kernel", "exact"}, {"method", "boxes"}},
-       [&] {
-         return judge_rays(asked, [&] {
-           auto tracer = std::make_shared<Ray_tracer>(scene);
-           return [&, tracer, counters = Ray_counters()](std::size_t i) mutable {
-             return first_face(tracer->first(asked.rays[i], Ray_start::open, counters));
-           };
-         });
-       }},
-      {{{"kernel", "exact"}, {"method", "tree"}},
-       [&] {
-         return judge_rays(asked, [&] {
-           struct Tree {
-             Exact_traits traits;
-             Exact_tree tree;
-           };
-           Bsp_options options;
-           options.threads = 1;
-           auto made = std::make_shared<Tree>(Tree{Exact_traits(scene), {}});
-           made->tree = build_bsp(made->traits, options);
-           return [&, made](std::size_t i) { return first_face(first_hits(made->traits, made->tree, asked.rays[i])); };
-         });
-       }},
-      by_embree(scene, asked, false),
-      by_embree(scene, asked, true)};
+  const Ray_trial trial(arguments, common.read());
+  const std::size_t count = trial.asked.rays.size();
   Json rows = Json::array();
-  const Exit exit = ask(contestants, common.budget, rows, [](const Json& r) {
-    return r["errors"]["missed"] == 0 && r["errors"]["invented"] == 0 && r["errors"]["wrong_face"] == 0;
-  });
-  if (write_json(common, "compare", scene,
-                 {{"question", "trace"}, {"rays", asked.rays.size()}, {"hit", hit}, {"tied", tied}, {"rows", rows}},
+  const Exit exit = ask(trial, common.budget, rows);
+  if (write_json(common, "compare", trial.scene,
+                 {{"question", "trace"}, {"rays", count}, {"hit", trial.hit}, {"tied", trial.tied}, {"rows", rows}},
                  Json::object(), Json::object()))
     return exit;
-  scene_rows(scene);
-  row("rays", fmt::format("{}: {} meet something, {} of them several faces at once; errors are per million",
-                          asked.rays.size(), hit, tied));
-  print_rays(asked, rows);
+  scene_rows(trial.scene);
+  row("rays", fmt::format("{}: {} meet something, {} of them several faces at once; errors are per million", count,
+                          trial.hit, trial.tied));
+  print_rays(trial.asked, rows);
   return exit;
 }
 

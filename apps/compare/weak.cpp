@@ -67,63 +67,88 @@ static std::string weak_plot(const Json& rows, const Canvas_arguments& canvas) {
   return plot.text();
 }
 
+namespace {
+
+struct Weak_trial : Trial {
+  Compare_arguments arguments;
+  Scene scene;
+  Stopwatch watch;
+  Occluders occluders;
+  Sources sources;
+  double prepare_seconds;
+  Weak_task task;
+  Weak_faces exact;
+
+  Weak_trial(const Compare_arguments& all, const Polygon_soup& soup)
+      : arguments(all),
+        scene(soup),
+        occluders(scene),
+        sources(sources_of(arguments.sources, arguments.common, soup, occluders)),
+        prepare_seconds(watch.seconds()),
+        task(arguments.weak) {
+    // 1. What all are compared with: lines, then events; on one thread, since processes are made after it.
+    const Common& common = arguments.common;
+    task.two_sided = arguments.sources.two_sided;
+    task.seed = common.seed;
+    Weak_task alone = task;
+    alone.threads = 1;
+    watch = {};
+    if (common.budget > 0) alone.out_of_time = [&] { return watch.seconds() > common.budget; };
+    exact = run_weak_method("lines", occluders, sources, alone).found;
+
+    // 2. Who is asked.
+    task.threads = common.threads == 0 ? 1 : common.threads;
+    std::size_t edges = 0;  // that events would have to do with at most
+    for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
+      for (const Weak_source& source : sources.polygons)
+        edges = std::max(edges, edges_between(occluders, source, piece));
+    add("exact", "lines");
+    add("exact", "events");
+    if (is_asked("exact") && edges > task.event_edges)
+      contestants.back().judge = [edges, most = task.event_edges] {
+        return Json{{"status", fmt::format("left out: {} edges near a pair, --event-edges allows {}", edges, most)}};
+      };
+    add("exact", "conservative");
+    add("double", "doubles");
+    for (const std::size_t rays : arguments.rays) {
+      if (!is_asked("double")) break;
+      Weak_task sampling = task;
+      sampling.rays = rays;
+      contestants.push_back({{{"kernel", "double"}, {"method", "sample"}, {"rays", rays}},
+                             [this, sampling] { return judge_weak("sample", occluders, sources, sampling, exact); }});
+    }
+    right = [](const Json& r) {
+      return r["errors"]["wrongly_hidden"] == 0 &&
+             (r["method"] == "conservative" || r["errors"]["wrongly_visible"] == 0);
+    };
+  }
+
+  bool is_asked(const std::string& kernel) const {
+    return std::find(arguments.kernels.begin(), arguments.kernels.end(), kernel) != arguments.kernels.end();
+  }
+  void add(const std::string& kernel, const std::string& method) {
+    if (is_asked(kernel))
+      contestants.push_back({{{"kernel", kernel}, {"method", method}},
+                             [this, method] { return judge_weak(method, occluders, sources, task, exact); }});
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Trial> weak_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
+  return std::make_unique<Weak_trial>(arguments, soup);
+}
+
 Exit compare_weak(const Compare_arguments& arguments) {
   const Common& common = arguments.common;
-  const auto is_asked = [&](const std::string& kernel) {
-    return std::find(arguments.kernels.begin(), arguments.kernels.end(), kernel) != arguments.kernels.end();
-  };
   if (arguments.kernels_given)
     for (const std::string& kernel : arguments.kernels)
       if (kernel != "exact" && kernel != "double")
         throw Usage_error("--kernels: weak knows exact and double, not " + kernel);
-  const Polygon_soup soup = common.read();
-  const Scene scene(soup);
-  Stopwatch watch;
-  const Occluders occluders(scene);
-  const Sources sources = sources_of(arguments.sources, common, soup, occluders);
-  const double prepare_seconds = watch.seconds();
-
-  // What all are compared with: lines, then events; on one thread, since processes are made after it.
-  Weak_task alone = arguments.weak;
-  alone.two_sided = arguments.sources.two_sided;
-  alone.seed = common.seed;
-  alone.threads = 1;
-  watch = {};
-  if (common.budget > 0) alone.out_of_time = [&] { return watch.seconds() > common.budget; };
-  const Weak_faces exact = run_weak_method("lines", occluders, sources, alone).found;
-
-  Weak_task task = alone;
-  task.threads = common.threads == 0 ? 1 : common.threads;
-  task.out_of_time = nullptr;
-  std::vector<Contestant> contestants;
-  const auto add = [&](const std::string& kernel, const std::string& method) {
-    if (is_asked(kernel))
-      contestants.push_back({{{"kernel", kernel}, {"method", method}},
-                             [&, method] { return judge_weak(method, occluders, sources, task, exact); }});
-  };
-  std::size_t edges = 0;  // that events would have to do with at most
-  for (std::uint32_t piece = 0; piece < scene.pieces().size(); ++piece)
-    for (const Weak_source& source : sources.polygons) edges = std::max(edges, edges_between(occluders, source, piece));
-  add("exact", "lines");
-  add("exact", "events");
-  if (is_asked("exact") && edges > task.event_edges)
-    contestants.back().judge = [&] {
-      return Json{
-          {"status", fmt::format("left out: {} edges near a pair, --event-edges allows {}", edges, task.event_edges)}};
-    };
-  add("exact", "conservative");
-  add("double", "doubles");
-  for (const std::size_t rays : arguments.rays) {
-    if (!is_asked("double")) break;
-    Weak_task sampling = task;
-    sampling.rays = rays;
-    contestants.push_back({{{"kernel", "double"}, {"method", "sample"}, {"rays", rays}},
-                           [&, sampling] { return judge_weak("sample", occluders, sources, sampling, exact); }});
-  }
+  const Weak_trial trial(arguments, common.read());
+  const Weak_faces& exact = trial.exact;
   Json rows = Json::array();
-  Exit exit = ask(contestants, common.budget, rows, [](const Json& r) {
-    return r["errors"]["wrongly_hidden"] == 0 && (r["method"] == "conservative" || r["errors"]["wrongly_visible"] == 0);
-  });
+  Exit exit = ask(trial, common.budget, rows);
   if (exit == Exit::done && !exact.undecided.empty()) exit = Exit::undecided;
   if (!arguments.svg.empty()) write_file(arguments.svg, weak_plot(rows, arguments.view.canvas));
   Json result{{"question", "weak"},
@@ -131,11 +156,11 @@ Exit compare_weak(const Compare_arguments& arguments) {
               {"hidden", exact.hidden.size()},
               {"undecided", exact.undecided.size()},
               {"rows", rows}};
-  if (write_json(common, "compare", scene, std::move(result), {{"threads", task.threads}},
-                 {{"prepare", prepare_seconds}}))
+  if (write_json(common, "compare", trial.scene, std::move(result), {{"threads", trial.task.threads}},
+                 {{"prepare", trial.prepare_seconds}}))
     return exit;
-  scene_rows(scene);
-  row("sources", fmt::format("{} convex polygons", sources.polygons.size()));
+  scene_rows(trial.scene);
+  row("sources", fmt::format("{} convex polygons", trial.sources.polygons.size()));
   row("exact", fmt::format("{} visible, {} hidden, {} undecided", exact.visible.size(), exact.hidden.size(),
                            exact.undecided.size()));
   print_weak(rows);
