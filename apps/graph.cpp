@@ -1,5 +1,6 @@
 // sightline graph: the priority graph of a scene, its strongly connected components, and their order.
 
+#include "support/drawing.h"
 #include "support/page.h"
 #include "support/pixels.h"
 
@@ -22,7 +23,7 @@ namespace {
 
 struct Graph_arguments {
   Common common;
-  std::string method = "implicit", eye, direction, dot, html, certificate;
+  std::string method = "implicit", eye, direction, dot, html, mesh, certificate;
   std::vector<std::string> box, region;
   bool arcs = false, tree = false, split = false, codes = false, two_sided = false;
   Pixel_arguments pixels;
@@ -302,6 +303,19 @@ void print(const Scene& scene, const Found& found, const std::string& scope, con
 
 }  // namespace
 
+/// The pieces, in cycles or not, with the number of their component.
+static void write_mesh(const Scene& scene, const Priority_components& components, const std::string& file) {
+  Grouped_polygons polygons;
+  const std::uint32_t alone = polygons.add_group("alone", drawing_colours::hidden),
+                      cyclic = polygons.add_group("cyclic", drawing_colours::seen);
+  std::vector<std::uint32_t> numbers(scene.pieces().size());
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = components.h(i);
+  add_pieces(polygons, scene,
+             [&](std::uint32_t piece) { return components[components.h(piece)].size() > 1 ? cyclic : alone; });
+  polygons.add_column("component", std::move(numbers));
+  write_drawings({}, file, polygons);
+}
+
 static Exit run(const Graph_arguments& arguments) {
   const Common& common = arguments.common;
   // Usage errors come before a long read.
@@ -361,6 +375,7 @@ static Exit run(const Graph_arguments& arguments) {
   }
   if (!arguments.dot.empty()) write_file(arguments.dot, dot_of(scene, found));
   if (!arguments.html.empty()) write_page(scene, found, scope, arguments.html);
+  if (!arguments.mesh.empty()) write_mesh(scene, found.components, arguments.mesh);
   std::optional<Clusters> clusters;
   if (arguments.wants_tree()) clusters = clusters_of(scene, traits, arguments, in_time);
   std::vector<Pixel_image> images;
@@ -453,6 +468,7 @@ void add_graph(Command program) {
                   "write a page to look at: components, cycles, and what is in front of and behind a face")
       .writes_file()
       .check(ending(".html"));
+  add_mesh_option(command, a->mesh, "faces alone and in cycles, with their components,");
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
   command.footer(
       "Face r1 may obscure r2, r1 < r2, if from some eye in front of both a ray meets r1 first. Components are listed "

@@ -2,6 +2,7 @@
 // certificate.
 
 #include "methods/methods.h"
+#include "support/drawing.h"
 #include "support/page.h"
 
 #include <sightline/algorithms/covering_of_scene.h>
@@ -18,7 +19,7 @@ namespace sightline::app {
 struct Order_arguments {
   Common common;
   View_arguments view;
-  std::string eye, kernel = "exact", method = "bsp", certificate, svg, html;
+  std::string eye, kernel = "exact", method = "bsp", certificate, svg, html, mesh;
   bool two_sided = false, front_to_back = false, skip_hidden = false;
   bool by_graph() const { return method == "graph"; }
 };
@@ -140,6 +141,17 @@ static void write_page(const Order_arguments& arguments, const Scene& scene, con
   page.write(arguments.html);
 }
 
+/// The same for programs that draw.
+static void write_mesh(const std::string& file, const Outcome& outcome) {
+  Grouped_polygons polygons;
+  polygons.add_group("painted", drawing_colours::seen);
+  std::vector<std::uint32_t> order(outcome.drawn.size());
+  std::iota(order.begin(), order.end(), 0u);
+  for (const Drawn& item : outcome.drawn) polygons.add_polygon(0, item.fragment.face, item.fragment.vertices);
+  polygons.add_column("order", std::move(order));
+  write_drawings({}, file, polygons);
+}
+
 /// Of what does not go together.
 static void check_usage(const Order_arguments& arguments) {
   if (arguments.by_graph() && arguments.kernel != "exact")
@@ -150,7 +162,7 @@ static void check_usage(const Order_arguments& arguments) {
   if (!arguments.front_to_back) throw Usage_error("--skip-hidden needs --front-to-back: what hides comes first");
   if (arguments.by_graph() || arguments.kernel != "exact")
     throw Usage_error("--skip-hidden is for a tree, and exact: leave out --method and --kernel");
-  if (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty())
+  if (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty() || !arguments.mesh.empty())
     throw Usage_error("--skip-hidden leaves out fragments: no --certificate, and for a picture `sightline see`");
 }
 
@@ -195,6 +207,7 @@ static Exit run(const Order_arguments& arguments) {
   }
 
   if (!arguments.html.empty()) write_page(arguments, scene, eye, outcome);
+  if (!arguments.mesh.empty()) write_mesh(arguments.mesh, outcome);
 
   // The other way round is an order, too.
   if (arguments.front_to_back && !arguments.skip_hidden) std::reverse(outcome.drawn.begin(), outcome.drawn.end());
@@ -257,7 +270,7 @@ static Exit run(const Order_arguments& arguments) {
     row("lost", fmt::format("{} fragments degenerate, {} not finite", c.degenerate, outcome.not_finite));
   row("seconds", fmt::format("{:.3f} to build, {:.4f} to order ({})", outcome.build_seconds, outcome.order_seconds,
                              arguments.kernel));
-  if (arguments.certificate.empty() && arguments.svg.empty() && arguments.html.empty()) {
+  if (arguments.certificate.empty() && arguments.svg.empty() && arguments.html.empty() && arguments.mesh.empty()) {
     constexpr std::size_t shown = 20;
     for (std::size_t i = 0; i < std::min(shown, outcome.drawn.size()); ++i)
       std::cout << fmt::format("{:>6}. face {}, piece {}{}\n", i + 1, outcome.drawn[i].fragment.face,
@@ -295,6 +308,7 @@ void add_order(Command program) {
   command.add_option("--html", a->html, "write a page to look at, in which a slider paints back to front")
       .writes_file()
       .check(ending(".html"));
+  add_mesh_option(command, a->mesh, "the fragments, back to front,");
   a->view.add_to(command);
   command.footer(
       "Example: sightline order room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

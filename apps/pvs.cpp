@@ -3,6 +3,7 @@
 
 #include "methods/methods.h"
 #include "methods/weak.h"
+#include "support/drawing.h"
 #include "support/page.h"
 #include "support/picture.h"
 
@@ -34,7 +35,7 @@ struct Pvs_arguments {
   View_arguments view;
   unsigned candidates = 5;
   bool outside = false, resume = false, cells_too = false;
-  std::string out, shard, svg, html, eye, obj, certificates;
+  std::string out, shard, svg, html, eye, obj, mesh, certificates;
   std::vector<std::uint32_t> show;
 };
 
@@ -216,33 +217,26 @@ void write_table(const std::string& out, const Visibility_table& table) {
                                           : table_bytes(table));
 }
 
-/// The scene's pieces in groups "visible", "hidden" and "undecided", and cells in groups of their own. Rounded.
-std::string obj_text(const Level_cells& level, const Visibility_table& table, const std::vector<Cell_id>& cells) {
+/// The scene's pieces in groups "visible", "hidden" and "undecided", and cells in groups of their own.
+Grouped_polygons drawing_of(const Level_cells& level, const Visibility_table& table,
+                            const std::vector<Cell_id>& cells) {
   const Scene& scene = level.scene();
-  std::vector<const char*> names(scene.counters().faces_read, "hidden");
-  for (const bool visible : {false, true})
+  Grouped_polygons polygons;
+  const std::uint32_t hidden = polygons.add_group("hidden", drawing_colours::hidden),
+                      visible = polygons.add_group("visible", drawing_colours::seen),
+                      undecided = polygons.add_group("undecided", drawing_colours::open);
+  std::vector<std::uint32_t> groups(scene.counters().faces_read, hidden);
+  for (const bool sees : {false, true})
     for (const Cell_id cell : cells)
-      for (const Face_id face : visible ? table.row_of(cell)->visible : table.row_of(cell)->undecided)
-        names[face] = visible ? "visible" : "undecided";
-  std::string text;
-  std::size_t points = 0;
-  const auto add = [&](const std::string& group, const std::vector<Exact_point>& polygon) {
-    std::string face = "f";
-    for (const Exact_point& p : polygon) {
-      text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
-      face += fmt::format(" {}", ++points);
-    }
-    text += fmt::format("g {0}\nusemtl {0}\n{1}\n", group, face);
-  };
-  for (const Piece& piece : scene.pieces()) {
-    std::vector<Exact_point> polygon;
-    for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
-    add(names[piece.face], polygon);
-  }
-  for (const Cell_id cell : cells)
+      for (const Face_id face : sees ? table.row_of(cell)->visible : table.row_of(cell)->undecided)
+        groups[face] = sees ? visible : undecided;
+  add_pieces(polygons, scene, [&](std::uint32_t piece) { return groups[scene.pieces()[piece].face]; });
+  for (const Cell_id cell : cells) {
+    const std::uint32_t group = polygons.add_group(fmt::format("cell-{}", cell), drawing_colours::source);
     for (const std::uint32_t w : level.cells()[cell].walls)
-      add(fmt::format("cell-{}", cell), level.polygon(level.walls()[w].corners));
-  return text;
+      polygons.add_polygon(group, Grouped_polygons::no_face, level.polygon(level.walls()[w].corners));
+  }
+  return polygons;
 }
 
 /// The faces that look into cells that are asked about, from their fronts, so that one looks into rooms, and the cells.
@@ -401,7 +395,7 @@ Exit run_pvs(const Pvs_arguments& arguments) {
     throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
   if (shards > 1 && (!arguments.show.empty() || !arguments.certificates.empty()))
     throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
-  if (arguments.show.empty() && (!arguments.svg.empty() || !arguments.obj.empty()))
+  if (arguments.show.empty() && (!arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty()))
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
   arguments.view.check_usage();
   const Polygon_soup soup = common.read();
@@ -423,7 +417,8 @@ Exit run_pvs(const Pvs_arguments& arguments) {
           fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
   if (!arguments.out.empty()) write_table(arguments.out, table);
   if (!arguments.svg.empty()) draw(arguments, soup, level, table);
-  if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(level, table, arguments.show));
+  if (!arguments.obj.empty() || !arguments.mesh.empty())
+    write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
   if (!arguments.certificates.empty()) write_certificates(arguments, level, table);
 
@@ -522,10 +517,8 @@ void add_pvs(Command program) {
   command.add_flag("--cells-too", a->cells_too,
                    "find the pairs of cells of which some point of the one sees some point of the other, too");
   command.add_option("--show", a->show, "print what this cell sees; may be repeated");
-  command
-      .add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided from --show, and the cells")
-      .writes_file()
-      .check(ending(".obj"));
+  add_mesh_option(command, a->mesh, "faces visible, hidden, undecided from --show, and the cells,");
+  command.add_option("--obj", a->obj, "the same as OBJ").writes_file().check(ending(".obj"));
   command
       .add_option("--svg", a->svg, "draw the rooms and what --show sees of them, without what has its back to the eye")
       .writes_file()

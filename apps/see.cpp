@@ -1,5 +1,6 @@
 // sightline see: the exact visible parts of a scene from an eye, their picture and their certificate.
 
+#include "support/drawing.h"
 #include "support/page.h"
 #include "support/picture.h"
 
@@ -24,7 +25,7 @@ namespace {
 struct See_arguments {
   Common common;
   View_arguments view;
-  std::string eye, kernel = "exact", certificate, svg, html;
+  std::string eye, kernel = "exact", certificate, svg, html, mesh;
   bool two_sided = false, frustum = false, lines = false;
 };
 
@@ -209,6 +210,27 @@ void write_page(const See_arguments& arguments, const Scene& scene, const Exact_
   page.write(arguments.html);
 }
 
+/// The visible parts, and all of what has none.
+void write_mesh(const std::string& file, const Scene& scene, const Seen& seen) {
+  Grouped_polygons polygons;
+  const std::uint32_t front = polygons.add_group("visible", drawing_colours::seen),
+                      back = polygons.add_group("visible_from_behind", drawing_colours::other),
+                      hidden = polygons.add_group("hidden", drawing_colours::hidden);
+  std::vector<char> has_part(scene.counters().faces_read);
+  for (const Drawn& part : seen.parts) {
+    polygons.add_polygon(part.side == CGAL::POSITIVE ? front : back, part.fragment.face, part.fragment.vertices);
+    has_part[part.fragment.face] = 1;
+  }
+  std::vector<Exact_point> corners;
+  for (const Piece& piece : scene.pieces()) {
+    if (has_part[piece.face]) continue;
+    corners.clear();
+    for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+    polygons.add_polygon(hidden, piece.face, corners);
+  }
+  write_drawings({}, file, polygons);
+}
+
 /// Faces that show their front.
 std::size_t fronts_of(const Seen& seen) {
   std::size_t behind = 0;  // `visible` may count these too
@@ -263,9 +285,10 @@ static Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
   arguments.view.check_usage();
-  if (arguments.kernel != "exact" && (!arguments.certificate.empty() || !arguments.svg.empty() ||
-                                      !arguments.html.empty() || arguments.frustum || arguments.lines))
-    throw Usage_error("--certificate, --svg, --html, --lines and --frustum are exact: leave out --kernel");
+  if (arguments.kernel != "exact" &&
+      (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty() || !arguments.mesh.empty() ||
+       arguments.frustum || arguments.lines))
+    throw Usage_error("--certificate, --svg, --html, --mesh, --lines and --frustum are exact: leave out --kernel");
   const Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const bool has_view = !arguments.svg.empty() || arguments.frustum;
@@ -276,10 +299,11 @@ static Exit run(const See_arguments& arguments) {
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const std::vector<Exact_point> field = arguments.frustum && !empty ? corner_rays(view) : std::vector<Exact_point>();
-  const Seen seen = see(
-      scene, eye, arguments.kernel, field,
-      {arguments.two_sided, !common.json.empty() || !arguments.html.empty(), arguments.certificate, arguments.lines},
-      options);
+  const Seen seen =
+      see(scene, eye, arguments.kernel, field,
+          {arguments.two_sided, !common.json.empty() || !arguments.html.empty() || !arguments.mesh.empty(),
+           arguments.certificate, arguments.lines},
+          options);
 
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
@@ -292,6 +316,7 @@ static Exit run(const See_arguments& arguments) {
   }
 
   if (!arguments.html.empty()) write_page(arguments, scene, eye, seen);
+  if (!arguments.mesh.empty()) write_mesh(arguments.mesh, scene, seen);
 
   progress.clear();
   const auto counted = [&](const Drawn& drawn) { return arguments.two_sided || drawn.side == CGAL::POSITIVE; };
@@ -390,6 +415,7 @@ void add_see(Command program) {
                   "--lines what hides an edge")
       .writes_file()
       .check(ending(".html"));
+  add_mesh_option(command, a->mesh, "the visible parts, and the faces without,");
   a->view.add_to(command);
   command.footer(
       "Example: sightline see room.off --eye 0.5,-3,1.7 --svg room.svg --certificate room.json\n"

@@ -1,5 +1,6 @@
 // sightline shadow: which parts of faces lights reach, and what shadows the others; exactly.
 
+#include "support/drawing.h"
 #include "support/picture.h"
 
 #include <sightline/algorithms/point_visibility/boxes.h>
@@ -18,7 +19,7 @@ struct Shadow_arguments {
   Common common;
   std::vector<std::string> lights, suns;
   bool two_sided = false;
-  std::string eye, svg, obj;
+  std::string eye, svg, obj, mesh;
   View_arguments view;
 };
 
@@ -174,34 +175,29 @@ void draw(const Shadow_arguments& arguments, const Scene& scene, const Piece_box
 
 // ---- Other outputs
 
-/// Groups lit, shadowed and away; light-N-lit and so on where there are several. Coordinates are rounded.
-std::string obj_text(const Scene& scene, const std::vector<Shadows>& all) {
-  std::string text;
-  std::size_t points = 0;
-  const auto add = [&](const std::string& group, const std::vector<Exact_point>& corners) {
-    std::string face = "f";
-    for (const Exact_point& p : corners) {
-      text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
-      face += fmt::format(" {}", ++points);
-    }
-    text += fmt::format("g {}\nusemtl {}\n{}\n", group, group, face);
-  };
+/// Groups lit, shadowed and away; light-N-lit and so on where there are several.
+Grouped_polygons drawing_of(const Scene& scene, const std::vector<Shadows>& all) {
+  Grouped_polygons polygons;
+  std::vector<Exact_point> corners;
   for (std::size_t k = 0; k < all.size(); ++k) {
     const std::string prefix = all.size() > 1 ? fmt::format("light-{}-", k) : "";
+    const std::uint32_t lit = polygons.add_group(prefix + "lit", drawing_colours::seen),
+                        shadowed = polygons.add_group(prefix + "shadowed", drawing_colours::hidden),
+                        away = polygons.add_group(prefix + "away", drawing_colours::other);
     std::vector<bool> turned(scene.pieces().size());
     for (const Shadow_part& part : all[k].parts) {
       turned[part.piece] = true;
-      add(prefix + (part.is_lit() ? "lit" : "shadowed"), part.vertices);
+      polygons.add_polygon(part.is_lit() ? lit : shadowed, scene.pieces()[part.piece].face, part.vertices);
     }
     for (std::uint32_t i = 0; i < turned.size(); ++i) {
       if (turned[i]) continue;
-      std::vector<Exact_point> corners;
+      corners.clear();
       for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
         corners.push_back(scene.position(corner.point));
-      add(prefix + "away", corners);
+      polygons.add_polygon(away, scene.pieces()[i].face, corners);
     }
   }
-  return text;
+  return polygons;
 }
 
 Json part_json(const Scene& scene, const Shadow_part& part, std::size_t light) {
@@ -241,7 +237,8 @@ static Exit run(const Shadow_arguments& arguments) {
   }
   const double seconds = watch.seconds();
   if (!arguments.svg.empty()) draw(arguments, scene, boxes, all, eye_of(arguments.eye, scene));
-  if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(scene, all));
+  if (!arguments.obj.empty() || !arguments.mesh.empty())
+    write_drawings(arguments.obj, arguments.mesh, drawing_of(scene, all));
 
   // Faces that some light reaches, and the others.
   std::vector<bool> is_lit(scene.counters().faces_read), kept(is_lit.size());
@@ -308,9 +305,9 @@ void add_shadow(Command program) {
   command.add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
       .check(not_empty());
   a->view.add_to(command);
+  add_mesh_option(command, a->mesh, "the parts lit, in shadow and turned away,");
   command
-      .add_option("--obj", a->obj,
-                  "write the parts with groups lit, shadowed and away; light-0-lit and so on of several lights")
+      .add_option("--obj", a->obj, "the same as OBJ; groups are light-0-lit and so on where there are several lights")
       .writes_file()
       .check(ending(".obj"));
   command.footer(

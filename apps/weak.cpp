@@ -3,6 +3,7 @@
 #include "methods/along.h"
 #include "methods/methods.h"
 #include "methods/weak.h"
+#include "support/drawing.h"
 #include "support/page.h"
 #include "weak_partition.h"
 
@@ -18,7 +19,7 @@ struct Weak_arguments {
   Common common;
   View_arguments view;
   Source_arguments sources;
-  std::string method = "lines", certificate, svg, html, obj, eye, surfaces, along;
+  std::string method = "lines", certificate, svg, html, obj, mesh, eye, surfaces, along;
   Weak_task task;
   Partition_arguments partition;
 };
@@ -251,20 +252,20 @@ void draw(const Weak_arguments& arguments, Polygon_soup soup, const Occluders& o
   write_file(arguments.svg, svg.text());
 }
 
-/// The scene's pieces in groups "visible", "hidden", "undecided", coordinates rounded.
-std::string obj_text(const Scene& scene, const std::vector<std::string>& names) {
-  std::string text;
-  std::size_t points = 0;
-  for (const Piece& piece : scene.pieces()) {
-    std::string face = "f";
-    for (const Piece_corner& corner : scene.corners(piece)) {
-      const Exact_point p = scene.position(corner.point);
-      text += fmt::format("v {} {} {}\n", nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2]));
-      face += fmt::format(" {}", ++points);
-    }
-    text += fmt::format("g {}\nusemtl {}\n{}\n", names[piece.face], names[piece.face], face);
-  }
-  return text;
+/// The scene's pieces in groups "visible", "hidden", "undecided", and the sources.
+Grouped_polygons drawing_of(const Scene& scene, const Sources& sources, const std::vector<std::string>& names) {
+  Grouped_polygons polygons;
+  const std::uint32_t visible = polygons.add_group("visible", drawing_colours::seen),
+                      hidden = polygons.add_group("hidden", drawing_colours::hidden),
+                      undecided = polygons.add_group("undecided", drawing_colours::open),
+                      source = polygons.add_group("source", drawing_colours::source);
+  add_pieces(polygons, scene, [&](std::uint32_t piece) {
+    const std::string& name = names[scene.pieces()[piece].face];
+    return name == "visible" ? visible : name == "hidden" ? hidden : undecided;
+  });
+  for (const std::vector<Exact_point>& polygon : sources.points)
+    polygons.add_polygon(source, Grouped_polygons::no_face, polygon);
+  return polygons;
 }
 
 // ---- Event surfaces
@@ -431,6 +432,7 @@ Exit run_weak(const Weak_arguments& arguments) {
     const std::string name = is_partition ? "--partition" : "--along";
     for (const auto& [other, value] : {std::pair("--certificate", arguments.certificate),
                                        {"--obj", arguments.obj},
+                                       {"--mesh", arguments.mesh},
                                        {"--eye", arguments.eye},
                                        {"--html", arguments.html},
                                        {"--surfaces", arguments.surfaces}})
@@ -482,7 +484,8 @@ Exit run_weak(const Weak_arguments& arguments) {
                as_obj ? surfaces_obj(outcome.surfaces) : surfaces_json(scene, outcome.surfaces).dump() + "\n");
   const std::vector<std::string> names = names_of(scene, found, sources.points.size());
   if (!arguments.svg.empty()) draw(arguments, soup, occluders, sources, names);
-  if (!arguments.obj.empty()) write_file(arguments.obj, obj_text(scene, names));
+  if (!arguments.obj.empty() || !arguments.mesh.empty())
+    write_drawings(arguments.obj, arguments.mesh, drawing_of(scene, sources, names));
   if (!arguments.html.empty()) write_page(arguments, scene, sources, found, names);
 
   const Exit exit = found.undecided.empty() ? Exit::done : Exit::undecided;
@@ -619,9 +622,8 @@ void add_weak(Command program) {
                   "as a tree to walk")
       .writes_file()
       .check(ending(".html"));
-  command.add_option("--obj", a->obj, "write the scene with groups visible, hidden, undecided")
-      .writes_file()
-      .check(ending(".obj"));
+  add_mesh_option(command, a->mesh, "faces visible, hidden, undecided, and the sources,");
+  command.add_option("--obj", a->obj, "the same as OBJ").writes_file().check(ending(".obj"));
   command
       .add_option(
           "--eye", a->eye,

@@ -293,6 +293,27 @@ TEST_F(Outputs, with_the_ending_of_another_format_are_refused) {
   EXPECT_EQ(run({"order", scene, "--svg", path("picture").string()}).code, done) << "no ending says nothing else";
 }
 
+TEST_F(Outputs, for_programs_that_draw_are_of_all_commands_and_formats) {
+  const std::string scene = (corpus / "general" / "two_rooms.off").string();
+  const std::vector<std::vector<std::string>> commands{
+      {"order", scene, "--eye", "1,1,1"},  {"see", scene, "--eye", "1,1,1"}, {"graph", scene},
+      {"weak", scene, "--from-face", "3"}, {"pvs", scene, "--show", "30"},   {"shadow", scene, "--light", "1,1,1"}};
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.end(), {"--mesh", path("drawn.ply").string()});
+    EXPECT_EQ(run(words).code, done) << words[0];
+    EXPECT_EQ(run({"info", path("drawn.ply").string()}).code, done) << words[0];
+    words.back() = path("drawn.stl").string();
+    expect_refused(words, "does not end with one of .glb .vtp .vtu .ply .obj");
+  }
+  for (const char* name : {"drawn.glb", "drawn.vtp", "drawn.vtu", "drawn.obj"}) {
+    EXPECT_EQ(run({"see", scene, "--eye", "1,1,1", "--mesh", path(name).string()}).code, done);
+    EXPECT_GT(fs::file_size(path(name)), 1000u) << name;
+  }
+  // In its own order, with the place of each.
+  EXPECT_NE(run({"order", scene, "--eye", "1,1,1", "--mesh", path("order.ply").string()}).code, usage);
+  EXPECT_NE(read_file(path("order.ply")).find("property uint order\n"), std::string::npos);
+}
+
 // ---- A terminal
 
 TEST_F(Outputs, to_a_terminal_begin_where_the_bar_was) {
