@@ -37,7 +37,7 @@ function cornersOf(k) {
 function trianglesOf() {
   let count = 0;
   for (let k = 0; k < polygons.count; ++k) count += polygons.first[k + 1] - polygons.first[k] - 2;
-  const places = new Float32Array(9 * count), sides = new Uint8Array(12 * count), polygon = new Uint32Array(3 * count);
+  const places = new Float32Array(9 * count), sides = new Uint8Array(12 * count);
   const of = new Uint32Array(count), first = new Uint32Array(polygons.count + 1), shade = new Float32Array(polygons.count);
   const light = unit([-0.45, -0.65, 0.8]), from = polygons.corners;
   let t = 0;
@@ -52,7 +52,6 @@ function trianglesOf() {
         sides[12 * t + 4 * c] = c === 0 ? 255 : 0;
         sides[12 * t + 4 * c + 1] = c === 1 || i + 1 < n - 1 ? 255 : 0;
         sides[12 * t + 4 * c + 2] = c === 2 || i > 1 ? 255 : 0;
-        polygon[3 * t + c] = k;
       }
       of[t] = k;
       const p = 9 * t, ax = places[p + 3] - places[p], ay = places[p + 4] - places[p + 1], az = places[p + 5] - places[p + 2],
@@ -63,7 +62,7 @@ function trianglesOf() {
     shade[k] = l > 0 ? (nx * light[0] + ny * light[1] + nz * light[2]) / l : 0;
   }
   first[polygons.count] = t;
-  return {count, places, sides, polygon, of, first, shade};
+  return {count, places, sides, of, first, shade};
 }
 const triangles = trianglesOf();
 
