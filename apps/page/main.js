@@ -75,6 +75,8 @@ function outlinesOf(list, colour, width = 2.5) {
   }
   return lines;
 }
+/// Dark within light, to be seen on whatever colour.
+function cased(list, width = 2.5) { return [...outlinesOf(list, [255, 255, 255], width + 2.5), ...outlinesOf(list, ink, width)]; }
 function exactCorners(k) {
   const list = element('ul', {className: 'exact'}), begin = polygons.first[k], end = polygons.first[k + 1], most = 200;
   for (let i = begin; i < Math.min(end, begin + most); ++i)
@@ -87,7 +89,7 @@ function select(k, place = null) {
   selection.replaceChildren();
   setLines('selection', []);
   if (k >= 0) {
-    setLines('selection', outlinesOf([k], inkColour()), true);
+    setLines('selection', cased([k]), true);
     selection.append(element('h2', {}, 'Selected'), element('p', {id: 'selected-name'}, fullName(k)));
     if (command.select) selection.append(...[command.select(k)].flat().filter(Boolean));
     selection.append(element('p', {className: 'faint'}, polygons.exact ? 'Corners, exactly:' : 'Corners, rounded:'), exactCorners(k));

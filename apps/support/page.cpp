@@ -205,7 +205,7 @@ void Page::write(const std::string& file) {
   if (triangles_ > most_triangles) keep_the_largest(most_triangles);
   const bool is_thinned = kept_.size() < added_;
   if (is_thinned) add_note(fmt::format("thinned: of {} polygons the {} largest are drawn", added_, kept_.size()));
-  if (!keeps_texts_) add_note("coordinates are rounded: the exact ones of so many corners are in --json");
+  if (!keeps_texts_) add_note("coordinates are rounded: those of so many corners would take too much of a page");
 
   Json data{{"format", "sightline page 1"},
             {"command", command_},

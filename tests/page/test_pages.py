@@ -196,3 +196,59 @@ def test_a_result_is_in_its_solids_colours(open_page, tmp_path):
     k = first_seen(page, "cube.off")
     page.click_on(k)
     assert page.text("#selected-name").startswith("face ") and "cube.off" in page.text("#selected-name")
+
+
+def test_clicks_on_nothing_select_nothing_and_groups_can_be_left_out(open_page):
+    page = open_page("weak", corpus / "general" / "two_rooms.off", "--from-face", 0)
+    page.click_on(first_seen(page, "visible"))
+    page.click_at(3, 300)
+    assert page.js("return sightline.selected") == -1
+    before = page.picture()[0]
+    page.all(".legend input")[0].click()
+    assert page.picture()[0] < before
+    assert first_seen(page, "visible") == -1
+
+
+# ---- What needs no browser
+
+
+def test_a_page_stays_small(tmp_path):
+    scene, path = tmp_path / "terrain.off", tmp_path / "page.html"
+    run("generate", "terrain", "--size", 20000, "--out", scene)
+    run("cutset", scene, "--orbit", 500, "--html", path)
+    data = block_of(path)
+    triangles = data["polygons"]["count"]
+    assert triangles == 20000 and path.stat().st_size < 1e6 + 40 * triangles
+    assert any("evenly" in note for note in data["notes"]) and any("rounded" in note for note in data["notes"])
+
+
+def test_a_page_holds_no_other_tag_and_asks_for_nothing(tmp_path):
+    scene = tmp_path / "<!--<script> & 'x' ünï.off"
+    scene.write_text((corpus / "general" / "cube.off").read_text())
+    run("order", scene, "--html", tmp_path / "a page, <b>.html")
+    text = (tmp_path / "a page, <b>.html").read_text()
+    assert text.count("</script") == 2 and "http" not in text and " src=" not in text
+    assert block_of(tmp_path / "a page, <b>.html")["scene"].endswith("ünï.off")
+
+
+def test_a_page_goes_where_outputs_go(tmp_path):
+    cube = corpus / "general" / "cube.off"
+    assert run("order", cube, "--html", "-").startswith("<!DOCTYPE html>")
+    assert "-: that is where --json writes" in run("order", cube, "--json", "-", "--html", "-", code=2)
+    said = run("order", cube, "--html", tmp_path / "missing" / "page.html", code=3)
+    assert said.count("\n") == 1 and "page.html" in said
+    assert ".html" in run("order", cube, "--html", tmp_path / "page.svg", code=2)
+    assert "--decision-tree" in run("cutset", cube, "--decision-tree", "--html", tmp_path / "page.html", code=2)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_scenes_without_faces_far_away_and_out_of_range_have_pages(open_page, tmp_path):
+    nothing = tmp_path / "nothing.off"
+    nothing.write_text("OFF\n0 0 0\n")
+    for words in (["order"], ["see"], ["graph"], ["cutset", "--orbit", 2]):
+        page = open_page(words[0], nothing, *words[1:])
+        assert page.data["polygons"]["count"] == 0 and "no face" in page.text("#selection")
+    for shift, scale in (("1e12,1e12,-1e12", "1"), ("0,0,0", "2^900"), ("0,0,0", "2^-900")):
+        scene = tmp_path / "far.qoff"
+        run("generate", "rooms", "--size", 2, "--offset", shift, "--scale", scale, "--out", scene)
+        assert open_page("order", scene).is_drawn(), (shift, scale)
