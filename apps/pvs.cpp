@@ -276,7 +276,8 @@ void write_page(const Pvs_arguments& arguments, const Level_cells& level, const 
   page.add_pieces(level.scene());
   std::vector<Cell_id> cells = arguments.show;
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
-    if (table.cells[cell] && std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+    if (table.cells[cell] && std::find(arguments.show.begin(), arguments.show.end(), cell) == arguments.show.end())
+      cells.push_back(cell);
   constexpr std::size_t most_bytes = 500000;
   std::size_t bytes = 0;
   Json list = Json::array();
