@@ -352,6 +352,49 @@ commands.cutset = () => {
   };
 };
 
+/// Lines by the six numbers of each.
+function segments(ends, colour, width) {
+  const list = [];
+  for (let i = 0; i < ends.length; i += 6) list.push({from: [...ends.subarray(i, i + 3)], to: [...ends.subarray(i + 3, i + 6)], colour: [...colour, 255], width});
+  return list;
+}
+
+/// Cells to walk through, and leaks.
+commands.cells = () => {
+  const cells = new Map(data.cells.map(cell => [cell.cell, cell]));
+  drawing.backs = false;
+  // Faces that look into rooms, where there are rooms: outer walls would hide them.
+  const rooms = new Set(data.cells.filter(cell => cell.kind === 'room').flatMap(cell => [...unpacked(cell.faces)]));
+  let chosen = null, seen = new Set(), showAll = rooms.size === 0;
+  const where = element('div', {id: 'cell'});
+  const choose = cell => {
+    chosen = cell, seen = new Set(unpacked(cell.faces));
+    setLines('cell', segments(unpacked(cell.walls), palette.source, 2), true);
+    setLines('portals', segments(unpacked(cell.portals), palette.new, 4), true);
+    const next = [...new Set(unpacked(cell.neighbours))];
+    where.replaceChildren(element('p', {}, `cell ${cell.cell}, ${cell.kind}, about ${cell.inside}: ${seen.size} faces look into it`),
+      element('p', {className: 'faint'}, next.length > 0 ? 'Through its portals, which are green:' : 'It has no portal.'),
+      listOf(next.map(n => cells.get(n)).filter(Boolean), n => `cell ${n.cell}, ${n.kind}`, choose));
+    paint();
+  };
+  return {
+    colourOf: k => chosen && seen.has(polygons.faces[k]) ? palette.seen : palette.face,
+    isShown: k => showAll || rooms.has(polygons.faces[k]) || seen.has(polygons.faces[k]),
+    begin() {
+      const box = element('input', {type: 'checkbox', checked: showAll, onchange: () => { showAll = box.checked; paint(); }});
+      section('Shown', element('label', {className: 'row'}, box, 'faces too that look into no room'));
+      section('Cell', where);
+      section('All cells', listOf(data.cells, cell => `cell ${cell.cell}, ${cell.kind}`, choose, 1000));
+      if (data.leaks.length > 0) section('Ways out', listOf(data.leaks, leak => `from ${leak.from}, through ${unpacked(leak.cells).length} cells`, leak => {
+        const way = unpacked(leak.way), list = [];
+        for (let i = 0; i + 5 < way.length; i += 3) list.push({from: [...way.subarray(i, i + 3)], to: [...way.subarray(i + 3, i + 6)], colour: [...palette.front, 255], width: 4});
+        setLines('way', list, true);
+      }));
+      if (data.cells.length > 0) choose(data.cells[0]);
+    },
+  };
+};
+
 /// What a cell sees.
 commands.pvs = () => {
   const cells = data.cells.map(cell => ({...cell, visible: new Set(unpacked(cell.visible)), undecided: new Set(unpacked(cell.undecided)), walls: unpacked(cell.walls)}));
@@ -361,9 +404,7 @@ commands.pvs = () => {
   const stateOf = k => chosen && chosen.visible.has(polygons.faces[k]) ? 0 : chosen && chosen.undecided.has(polygons.faces[k]) ? 2 : 1;
   const choose = cell => {
     chosen = cell;
-    const list = [];
-    for (let i = 0; i < cell.walls.length; i += 6) list.push({from: [...cell.walls.subarray(i, i + 3)], to: [...cell.walls.subarray(i + 3, i + 6)], colour: [...palette.source, 255], width: 2.5});
-    setLines('cell', list, true);
+    setLines('cell', segments(cell.walls, palette.source, 2.5), true);
     document.getElementById('cell').textContent = `cell ${cell.cell} about ${cell.inside}: sees ${cell.visible.size} faces` + (cell.undecided.size > 0 ? `, ${cell.undecided.size} undecided` : '');
     paint();
   };

@@ -86,6 +86,13 @@ void Page::append_place(std::vector<float>& to, const Exact_point& p) const {
     to.push_back(static_cast<float>(nearest_double(Rational((p[k] - middle_[k]) / size_))));
 }
 
+void Page::append_sides(std::vector<float>& to, const std::vector<Exact_point>& polygon) const {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    append_place(to, polygon[i]);
+    append_place(to, polygon[(i + 1) % polygon.size()]);
+  }
+}
+
 Json Page::place(const Exact_point& p) const {
   Json at = Json::array();
   for (std::size_t k = 0; k < 3; ++k) {

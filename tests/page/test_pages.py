@@ -209,6 +209,67 @@ def test_clicks_on_nothing_select_nothing_and_groups_can_be_left_out(open_page):
     assert first_seen(page, "visible") == -1
 
 
+def test_cells_are_walked_through_and_leaks_drawn(open_page, tmp_path):
+    lines = [line for line in (corpus / "general" / "two_rooms.off").read_text().splitlines() if line.strip() and not line.startswith("#")]
+    points, faces = map(int, lines[1].split()[:2])
+    leaky = tmp_path / "leaky.off"
+    kept = lines[2:2 + points] + [face for k, face in enumerate(lines[2 + points:2 + points + faces]) if k != 79]
+    leaky.write_text(f"OFF\n{points} {faces - 1} 0\n" + "\n".join(kept) + "\n")
+    page = open_page("cells", leaky, "--seal", "1,1,2", code=1)
+    assert page.is_drawn()
+    result = json.loads(run("cells", leaky, "--seal", "1,1,2", "--json", "-", code=1))["result"]
+    assert len(page.data["cells"]) == result["cells"]
+    way = result["leaks"][0]["way"]
+    leak = next(b for b in page.all("section ul.list button") if b.text.startswith("from 1,1,2"))
+    assert leak.text == f"from 1,1,2, through {len(way)} cells"
+    leak.click()
+    assert page.js("return sightline.lines('way')") == len(way)
+    first = page.text("#cell p")
+    page.all("#cell ul.list button")[0].click()
+    assert page.text("#cell p") != first
+
+
+def test_a_painter_paints_what_a_depth_buffer_finds(open_page, tmp_path):
+    scene = tmp_path / "cycle.off"
+    run("generate", "bars", "--size", 7, "--out", scene)
+    for place in ("--eye=5,-7,9", "--eye=-4,3,8"):
+        page = open_page("order", scene, place)
+        assert page.js("return sightline.drawing.painter && sightline.camera.atEye")
+        differ = page.js("""
+            const view = document.getElementById('view'), gl = view.getContext('webgl2'), pixels = [];
+            sightline.drawing.outlines = false;
+            for (const painter of [true, false]) {
+              sightline.drawing.painter = painter;
+              sightline.measure(0), sightline.draw();
+              const all = new Uint8Array(4 * view.width * view.height);
+              gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+              pixels.push(new Uint32Array(all.buffer));
+            }
+            const paper = pixels[0][0];
+            let differ = 0, drawn = 0;
+            for (let i = 0; i < pixels[0].length; ++i) differ += pixels[0][i] !== pixels[1][i], drawn += pixels[0][i] !== paper;
+            return [differ, drawn];
+            """)
+        assert differ[1] > 5000 and differ[0] < 0.01 * differ[1], differ
+
+
+def test_hands_turn_pinch_and_do_not_click(open_page, town, browser):
+    from selenium.webdriver import ActionChains
+
+    page = open_page("graph", town)
+    before = page.js("return [sightline.camera.yaw, sightline.camera.pitch]")
+    ActionChains(browser).move_to_element(page.one("#view")).click_and_hold().move_by_offset(60, 30).release().perform()
+    after = page.js("return [sightline.camera.yaw, sightline.camera.pitch]")
+    assert after[0] < before[0] and after[1] > before[1] and page.js("return sightline.selected") == -1
+    distance = page.js("return sightline.camera.distance")
+
+    def touch(kind, *points):
+        browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": 300, "id": i} for i, x in enumerate(points)]})
+
+    touch("touchStart", 300), touch("touchStart", 300, 400), touch("touchMove", 250, 450), touch("touchMove", 200, 500), touch("touchEnd")
+    assert page.js("return sightline.camera.distance") < 0.6 * distance
+
+
 # ---- What needs no browser
 
 
