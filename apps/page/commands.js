@@ -99,7 +99,8 @@ commands.see = () => {
   while (base < polygons.count && polygons.number(base) < data.base) ++base;
   drawing.base = base;
   const from = data.lines, lines = [], width = 1024, height = 512;
-  let showHidden = true, sphere = null, plain = null, middle = 0;
+  const doubles = data.doubles ? [new Set(unpacked(data.doubles.missing)), new Set(unpacked(data.doubles.extra))] : null;
+  let showHidden = true, showDoubles = false, sphere = null, plain = null, middle = 0;
   if (from) {
     const ends = unpacked(from.ends), edges = unpacked(from.edges), kinds = unpacked(from.kinds), hidden = unpacked(from.hidden_by);
     for (let i = 0; i < edges.length; ++i) {
@@ -157,6 +158,13 @@ commands.see = () => {
   };
   return {
     beginsAtEye: true,
+    /// What doubles miss, what they add, and all else in grey; by itself as ever.
+    colourOf(k) {
+      const own = colourOfGroup(polygons.groups[k]) || colourOfFace(polygons.faces[k]);
+      if (!showDoubles) return own;
+      const face = polygons.faces[k];
+      return doubles[0].has(face) ? palette.front : doubles[1].has(face) ? palette.source : k < base ? palette.hidden : palette.face;
+    },
     begin() {
       drawing.outlines = lines.length === 0 && drawing.outlines;
       if (lines.length > 0) {
@@ -164,6 +172,13 @@ commands.see = () => {
         section('Lines', element('label', {className: 'row'}, box, 'hidden parts, dashed'),
           element('p', {className: 'faint'}, 'Click an edge: what hides it lights up.'));
         drawLines();
+      }
+      if (doubles) {
+        const same = doubles[0].size + doubles[1].size === 0, box = element('input', {type: 'checkbox', id: 'doubles', disabled: same, onchange: () => { showDoubles = box.checked; paint(); }});
+        const names = set => [...set].slice(0, 30).join(', ') + (set.size > 30 ? ' …' : '');
+        section('Plain doubles', same ? element('p', {className: 'faint'}, 'The same algorithm on plain doubles finds the same faces.')
+          : element('label', {className: 'row'}, box, `mark where they err: ${doubles[0].size} visible faces missing, ${doubles[1].size} hidden ones shown`),
+          same ? null : element('p', {className: 'faint', id: 'errors'}, (doubles[0].size ? `missing: ${names(doubles[0])}. ` : '') + (doubles[1].size ? `shown: ${names(doubles[1])}.` : '')));
       }
       if (!gl || !eyePlace || polygons.count === 0) return;
       sphere = element('canvas', {id: 'sphere', width, height, ariaLabel: 'All directions from the eye, unrolled'});

@@ -66,15 +66,29 @@ function trianglesOf() {
 }
 const triangles = trianglesOf();
 
-/// The box of all corners: its middle, and half its diagonal.
+/// Corners of faces, which views are fitted to; sources may be far away. All corners where there is no face.
+const framed = (function () {
+  const list = [];
+  for (let k = 0; k < polygons.count; ++k) if (polygons.faces[k] === noFace) list.push(k);
+  if (list.length === 0 || list.length === polygons.count) return polygons.corners;
+  const kept = [];
+  for (let k = 0; k < polygons.count; ++k)
+    if (polygons.faces[k] !== noFace) for (let i = 3 * polygons.first[k]; i < 3 * polygons.first[k + 1]; ++i) kept.push(polygons.corners[i]);
+  return Float32Array.from(kept);
+}());
+
+/// The box of these corners: its middle, half its diagonal; and how far from the middle there is anything, up to a hundred times that.
 function boundsOf() {
-  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity], from = polygons.corners;
-  for (let i = 0; i < from.length; ++i) {
+  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < framed.length; ++i) {
     const k = i % 3;
-    if (from[i] < least[k]) least[k] = from[i];
-    if (from[i] > most[k]) most[k] = from[i];
+    if (framed[i] < least[k]) least[k] = framed[i];
+    if (framed[i] > most[k]) most[k] = framed[i];
   }
-  if (from.length === 0) return {middle: [0, 0, 0], radius: 0.5};
-  return {middle: times(0.5, add(least, most)), radius: Math.max(1e-3, 0.5 * lengthOf(minus(most, least)))};
+  if (framed.length === 0) return {middle: [0, 0, 0], radius: 0.5, reach: 0.5};
+  const middle = times(0.5, add(least, most)), radius = Math.max(1e-3, 0.5 * lengthOf(minus(most, least)));
+  let reach = radius;
+  for (let i = 0; i < polygons.corners.length; i += 3) reach = Math.max(reach, Math.hypot(polygons.corners[i] - middle[0], polygons.corners[i + 1] - middle[1], polygons.corners[i + 2] - middle[2]));
+  return {middle, radius, reach: Math.min(reach, 100 * radius)};
 }
 const bounds = boundsOf();

@@ -173,7 +173,7 @@ begin();
 
 /// For tests and measurements.
 window.sightline = {
-  camera, drawing, select, redraw, draw, triangles: triangles.count,
+  camera, drawing, select, redraw, draw, looks, triangles: triangles.count,
   get frames() { return frames; },
   get selected() { return selected; },
   /// Milliseconds of so many frames, the camera turning, each waited for: the mean, and the least.

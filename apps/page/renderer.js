@@ -237,8 +237,8 @@ function unrolled(place, yaw, width, height) {
   gl.viewport(0, 0, size, size);
   gl.clearColor(...paperColour().map(c => c / 255), 1);
   gl.depthMask(true);
-  const far = lengthOf(minus(bounds.middle, place)) + 2.2 * bounds.radius;
-  const view = perspective(Math.PI / 2, 1, Math.max(1e-4 * bounds.radius, far - 4.4 * bounds.radius), far), whole = [drawing.from, drawing.backs];
+  const beyond = bounds.reach + 1.2 * bounds.radius, far = lengthOf(minus(bounds.middle, place)) + beyond;
+  const view = perspective(Math.PI / 2, 1, Math.max(1e-4 * bounds.radius, far - 2 * beyond), far), whole = [drawing.from, drawing.backs];
   drawing.from = drawing.base, drawing.backs = true;  // what is seen, nothing beneath
   [[[1, 0, 0], [0, -1, 0]], [[-1, 0, 0], [0, -1, 0]], [[0, 1, 0], [0, 0, 1]], [[0, -1, 0], [0, 0, -1]], [[0, 0, 1], [0, -1, 0]], [[0, 0, -1], [0, -1, 0]]]
     .map(two => two.map(d => add(times(d[0], aslant[0]), add(times(d[1], aslant[1]), times(d[2], aslant[2])))))

@@ -82,8 +82,10 @@ Page::Page(const std::string& command, const Scene& scene) : command_(command), 
 }
 
 void Page::append_place(std::vector<float>& to, const Exact_point& p) const {
+  constexpr double farthest = 1e6;  // sources and viewpoints may be out of all proportion
   for (std::size_t k = 0; k < 3; ++k)
-    to.push_back(static_cast<float>(nearest_double(Rational((p[k] - middle_[k]) / size_))));
+    to.push_back(
+        static_cast<float>(std::clamp(nearest_double(Rational((p[k] - middle_[k]) / size_)), -farthest, farthest)));
 }
 
 void Page::append_sides(std::vector<float>& to, const std::vector<Exact_point>& polygon) const {

@@ -270,6 +270,97 @@ def test_hands_turn_pinch_and_do_not_click(open_page, town, browser):
     assert page.js("return sightline.camera.distance") < 0.6 * distance
 
 
+def test_a_page_without_webgl_says_so_and_keeps_its_lists(open_page, browser):
+    script = browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": "HTMLCanvasElement.prototype.getContext = () => null"})
+    try:
+        page = open_page("pvs", corpus / "general" / "two_rooms.map")
+        assert "no WebGL 2" in page.text("#trouble")
+        page.all("section ul.list button")[1].click()
+        assert page.text("#cell").startswith(f"cell {page.data['cells'][1]['cell']} ")
+        page = open_page("see", corpus / "general" / "two_rooms.off", "--lines")
+        page.press("ArrowLeft")
+        assert "no WebGL 2" in page.text("#trouble")
+    finally:
+        browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", {"identifier": script["identifier"]})
+
+
+def test_a_lost_context_is_found_again(open_page, town):
+    page = open_page("see", town, eye, "--lines")
+    drawn = page.picture()[0]
+    page.browser.execute_async_script("""
+        const done = arguments[0], view = document.getElementById('view'), lose = view.getContext('webgl2').getExtension('WEBGL_lose_context');
+        view.addEventListener('webglcontextlost', () => setTimeout(() => lose.restoreContext(), 50));
+        view.addEventListener('webglcontextrestored', () => setTimeout(done, 300));
+        lose.loseContext();
+        """)
+    assert abs(page.picture()[0] - drawn) < 0.01
+
+
+def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town):
+    page = open_page("order", town, eye)
+    for _ in ("from the eye", "from outside"):
+        right, wrong = page.js("""
+            const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, pixel = new Uint8Array(4);
+            sightline.drawing.outlines = false;
+            sightline.draw();
+            let right = 0, wrong = 0;
+            for (let x = 10; x < view.clientWidth; x += 19)
+              for (let y = 10; y < view.clientHeight; y += 17) {
+                const k = sightline.pickAt(x, y);
+                if (k < 0 || [[3, 0], [-3, 0], [0, 3], [0, -3]].some(([a, b]) => sightline.pickAt(x + a, y + b) !== k)) continue;
+                gl.readPixels(Math.round(x * scale), view.height - 1 - Math.round(y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+                const own = [...sightline.looks.slice(4 * k, 4 * k + 3)], grey = own.reduce((a, b) => a + b) * 0.33;
+                const fits = colour => colour.every((c, i) => Math.abs(c - pixel[i]) < 3);
+                fits(own) || fits(own.map(c => (c * 0.45 + grey * 0.55) * 0.8)) ? ++right : ++wrong;
+              }
+            return [right, wrong];
+            """)
+        assert right > 50 and wrong == 0, _
+        page.press("e")
+
+
+def test_where_doubles_err_is_marked(open_page, tmp_path):
+    scene = tmp_path / "leaves.qoff"
+    run("generate", "leaves", "--seed", 1, "--ulps", 0, "--out", scene, "--query", tmp_path / "leaves.json")
+    place = "--eye=" + ",".join(json.loads((tmp_path / "leaves.json").read_text())["eye"])
+    exact, doubles = (set(json.loads(run("see", scene, place, "--kernel", kernel, "--json", "-"))["result"]["visible"]) for kernel in ("exact", "double"))
+    page = open_page("see", scene, place)
+    missing = sorted(exact - doubles)
+    assert missing and not doubles - exact, "a scene that doubles get wrong"
+    assert page.text("#errors") == f"missing: {', '.join(map(str, missing))}."
+    colours = lambda: page.js("return [...sightline.looks]")
+    before = colours()
+    page.one("#doubles").click()
+    assert colours() != before
+    page = open_page("see", corpus / "general" / "cube.off", "--eye=3,4,5", name="other.html")
+    assert page.one("#panel").text.count("finds the same faces") == 1
+
+
+def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
+    size = page.js("const s = document.getElementById('sphere'); return [s.clientWidth, s.clientHeight]")
+    page.js("const s = document.getElementById('sphere'); window.before = s.getContext('2d').getImageData(0, 0, s.width, s.height)")
+    met = set()
+    for x in (0.07, 0.2, 0.33, 0.46, 0.61, 0.78, 0.93):
+        for y in (0.22, 0.47, 0.71):
+            at = [round(x * size[0]), round(y * size[1])]
+            pixel = page.js("const s = document.getElementById('sphere'), [x, y] = arguments[0];"
+                            "const i = 4 * (Math.floor(y / s.clientHeight * s.height) * s.width + Math.floor(x / s.clientWidth * s.width));"
+                            "return [...before.data.slice(i, i + 3)]", at)
+            page.js("const s = document.getElementById('sphere'), box = s.getBoundingClientRect(), [x, y] = arguments[0];"
+                    "s.dispatchEvent(new MouseEvent('click', {clientX: box.left + s.clientLeft + x, clientY: box.top + s.clientTop + y}))", at)
+            k = page.js("return sightline.selected")
+            colour = page.js("return [...sightline.looks.slice(4 * arguments[0], 4 * arguments[0] + 3)]", k)
+            if all(abs(a - b) < 3 for a, b in zip(colour, pixel)):
+                met.add(k)
+    assert len(met) > 12, "but for borders, and the lines of the grid"
+
+
+def test_a_source_out_of_all_proportion_leaves_the_scene_in_view(open_page):
+    page = open_page("weak", corpus / "general" / "cube.off", "--from", "-1e9,0,0 -1e9,0,1 -1e9,1,1 -1e9,1,0")
+    assert page.is_drawn()
+
+
 # ---- What needs no browser
 
 
