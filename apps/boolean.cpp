@@ -127,8 +127,10 @@ void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_res
   if (!by_solid) page.add_group("of so many solids", "one a face");
   page.add_pieces(
       scene, [&](std::uint32_t piece) { return by_solid ? 2 * of(piece).operand + (of(piece).turned ? 1u : 0u) : 0u; });
+  constexpr std::size_t most_names = 1000000;
   std::vector<std::uint32_t> faces;
-  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) faces.push_back(of(i).face);
+  if (scene.pieces().size() <= most_names)
+    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) faces.push_back(of(i).face);
   page.more()["operand_faces"] = packed(faces);
   if (!result.crowded.empty()) page.add_note(fmt::format("{} edges of more than two faces", result.crowded.size()));
   page.write(a.html);

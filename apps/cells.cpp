@@ -1,10 +1,12 @@
 // sightline cells: the convex cells of a level, the walls between them, what is solid, and ways out.
 
-#include "support/common.h"
+#include "support/page.h"
 
 #include <sightline/algorithms/levels/cells.h>
 
+#include <array>
 #include <iostream>
+#include <numeric>
 
 namespace sightline::app {
 
@@ -14,7 +16,7 @@ struct Cells_arguments {
   Common common;
   unsigned candidates = 5;
   std::vector<std::string> seals;
-  std::string out;
+  std::string out, html;
 };
 
 Json ids_json(const std::vector<std::uint32_t>& ids) { return Json(ids); }
@@ -44,6 +46,62 @@ Json cells_json(const Level_cells& level) {
           {"points", std::move(points)},
           {"cells", std::move(cells)},
           {"walls", std::move(walls)}};
+}
+
+/// The faces, and cells to walk through: rooms first, then what has no end, then solids; ways out of --seal.
+void write_page(const Cells_arguments& arguments, const Level_cells& level,
+                const std::vector<std::vector<Cell_id>>& ways) {
+  const Cell_counters& c = level.counters();
+  Page page("cells", level.scene());
+  page.add_fact("faces", fmt::format("{}", level.scene().counters().faces));
+  page.add_fact("cells", fmt::format("{}: {} solid, {} without end", c.cells, c.solid, c.outside));
+  page.add_fact("portals", fmt::format("{}", c.portals));
+  page.add_group("faces", "face");
+  page.add_pieces(level.scene());
+  static constexpr std::array<const char*, 3> kinds{"room", "without end", "solid"};
+  const auto kind_of = [&](Cell_id cell) {
+    return level.cells()[cell].is_solid ? 2 : level.cells()[cell].is_outside ? 1 : 0;
+  };
+  std::vector<Cell_id> cells(level.cells().size());
+  std::iota(cells.begin(), cells.end(), 0);
+  std::stable_sort(cells.begin(), cells.end(), [&](Cell_id a, Cell_id b) { return kind_of(a) < kind_of(b); });
+  constexpr std::size_t most_bytes = 500000;
+  std::size_t bytes = 0;
+  Json list = Json::array();
+  for (const Cell_id cell : cells) {
+    std::vector<float> walls, portals;
+    std::vector<std::uint32_t> neighbours;
+    for (const std::uint32_t w : level.cells()[cell].walls) {
+      const Cell_wall& wall = level.walls()[w];
+      page.append_sides(walls, level.polygon(wall.corners));
+      if (wall.behind == no_cell || level.cells()[wall.front].is_solid || level.cells()[wall.behind].is_solid) continue;
+      for (const std::vector<std::uint32_t>& part : wall.open) page.append_sides(portals, level.polygon(part));
+      if (!wall.open.empty()) neighbours.push_back(wall.front == cell ? wall.behind : wall.front);
+    }
+    bytes += 200 + 6 * (walls.size() + portals.size());
+    if (bytes > most_bytes) {
+      page.add_note(fmt::format("{} of {} cells are shown, rooms first", list.size(), cells.size()));
+      break;
+    }
+    list.push_back({{"cell", cell},
+                    {"kind", kinds.at(static_cast<std::size_t>(kind_of(cell)))},
+                    {"inside", Page::text(level.inside(cell))},
+                    {"faces", packed(level.cells()[cell].faces)},
+                    {"walls", packed(walls)},
+                    {"portals", packed(portals)},
+                    {"neighbours", packed(neighbours)}});
+  }
+  page.more()["cells"] = std::move(list);
+  Json leaks = Json::array();
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (ways[i].empty() || ways[i][0] == no_cell) continue;
+    std::vector<float> way;
+    page.append_place(way, parse_point(arguments.seals[i], "--seal"));
+    for (const Cell_id cell : ways[i]) page.append_place(way, level.inside(cell));
+    leaks.push_back({{"from", arguments.seals[i]}, {"cells", packed(ways[i])}, {"way", packed(way)}});
+  }
+  page.more()["leaks"] = std::move(leaks);
+  page.write(arguments.html);
 }
 
 Exit run(const Cells_arguments& arguments) {
@@ -78,6 +136,7 @@ Exit run(const Cells_arguments& arguments) {
       if (on_way != no_cell) way.push_back({{"cell", on_way}, {"point", point_json(level.inside(on_way))}});
     leaks.push_back({{"from", point_json(p)}, {"way", std::move(way)}});
   }
+  if (!arguments.html.empty()) write_page(arguments, level, ways);
   const Exit exit = leaks.empty() ? Exit::done : Exit::disagreement;
   const Json result{{"cells", c.cells},
                     {"solid", c.solid},
@@ -118,6 +177,9 @@ void add_cells(Command program) {
       "a point X,Y,Z of a room from which there should be no way out; may be repeated. Exit code 1 where "
       "there is one");
   command.add_option("--out", a->out, "write points, cells and walls as JSON").writes_file().check(ending(".json"));
+  command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")
+      .writes_file()
+      .check(ending(".html"));
   command.footer(
       "Example: sightline cells level.map --seal 64,64,24 --out cells.json\n"
       "A cell is solid where the faces close up and have it behind them; a portal is what faces leave open "

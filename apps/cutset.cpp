@@ -93,7 +93,7 @@ constexpr std::size_t frames_shown = 20;
 
 /// As many frames as a page of so many pieces has: a bit for each of both.
 std::size_t frames_of_page(std::size_t pieces) {
-  constexpr std::size_t most_bits = 1800000, most = 360, least = 12;
+  constexpr std::size_t most_bits = 1800000, most = 360, least = 2;
   return std::clamp(most_bits / std::max<std::size_t>(pieces, 1), least, most);
 }
 

@@ -186,8 +186,11 @@ void write_page(const Scene& scene, const Found& found, const std::string& scope
                 fmt::format("{}, {} of them cyclic, the largest of {} faces", all.size(), all.cyclic(), all.largest()));
   page.add_group("faces", "face");
   page.add_pieces(scene);
+  constexpr std::size_t most_components = 1000000;  // that are told one by one
   std::vector<std::uint32_t> h;
-  for (std::uint32_t i = 0; i < all.faces(); ++i) h.push_back(all.h(i));
+  if (all.faces() <= most_components)
+    for (std::uint32_t i = 0; i < all.faces(); ++i) h.push_back(all.h(i));
+  else page.add_note("which component a face is in is too much for a page: --json has it");
   page.more()["components"] = packed(h);
   if (found.arcs) {
     constexpr std::size_t most_arcs = 60000, most_faces = 1700;

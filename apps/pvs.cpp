@@ -306,20 +306,16 @@ void write_page(const Pvs_arguments& arguments, const Level_cells& level, const 
   page.add_pieces(level.scene());
   std::vector<Cell_id> cells = arguments.show;
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
-    if (table.cells[cell] && std::find(cells.begin(), cells.end(), cell) == cells.end()) cells.push_back(cell);
+    if (table.cells[cell] && std::find(arguments.show.begin(), arguments.show.end(), cell) == arguments.show.end())
+      cells.push_back(cell);
   constexpr std::size_t most_bytes = 500000;
   std::size_t bytes = 0;
   Json list = Json::array();
   for (const Cell_id cell : cells) {
     const Visibility_table::Row& row = *table.row_of(cell);
     std::vector<float> ends;  // of the sides of its walls
-    for (const std::uint32_t w : level.cells()[cell].walls) {
-      const std::vector<Exact_point> polygon = level.polygon(level.walls()[w].corners);
-      for (std::size_t i = 0; i < polygon.size(); ++i) {
-        page.append_place(ends, polygon[i]);
-        page.append_place(ends, polygon[(i + 1) % polygon.size()]);
-      }
-    }
+    for (const std::uint32_t w : level.cells()[cell].walls)
+      page.append_sides(ends, level.polygon(level.walls()[w].corners));
     bytes += 160 + 6 * ends.size() + 4 * (row.visible.size() + row.undecided.size());
     if (bytes > most_bytes) {
       page.add_note(fmt::format("{} of {} cells are shown: --show CELL, which may be repeated, chooses", list.size(),

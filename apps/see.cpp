@@ -165,8 +165,16 @@ void draw(Svg& svg, const View& view, const Seen& seen) {
     }
 }
 
-/// The visible parts over the scene's pieces, and its lines.
-void write_page(const See_arguments& arguments, const Scene& scene, const Exact_point& eye, const Seen& seen) {
+/// The faces of one sorted list that are not in the other.
+std::vector<Face_id> without(const std::vector<Face_id>& faces, const std::vector<Face_id>& others) {
+  std::vector<Face_id> left;
+  std::set_difference(faces.begin(), faces.end(), others.begin(), others.end(), std::back_inserter(left));
+  return left;
+}
+
+/// The visible parts over the scene's pieces, its lines, and what plain doubles would have made of it.
+void write_page(const See_arguments& arguments, const Scene& scene, const Exact_point& eye, const Seen& seen,
+                const Seen* doubles) {
   Page page("see", scene);
   page.set_eye(eye);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
@@ -180,6 +188,9 @@ void write_page(const See_arguments& arguments, const Scene& scene, const Exact_
   page.more()["base"] = page.polygons();
   for (const Drawn& part : seen.parts)
     page.add_polygon(part.fragment.face, part.fragment.vertices, part.side == CGAL::POSITIVE ? 0 : 1);
+  if (doubles != nullptr)
+    page.more()["doubles"] = {{"missing", packed(without(seen.visible, doubles->visible))},
+                              {"extra", packed(without(doubles->visible, seen.visible))}};
   if (!arguments.lines) page.add_note("--lines adds the scene's edges, hidden ones dashed, and what hides them");
   constexpr std::size_t most_parts = 12000, most_texts = 1000;
   std::size_t parts = 0;
@@ -315,7 +326,11 @@ static Exit run(const See_arguments& arguments) {
     write_file(arguments.svg, svg.text());
   }
 
-  if (!arguments.html.empty()) write_page(arguments, scene, eye, seen);
+  if (!arguments.html.empty()) {
+    std::optional<Seen> doubles;  // of the whole sphere
+    if (field.empty()) doubles = see(scene, eye, "double", field, {arguments.two_sided, false, "", false}, options);
+    write_page(arguments, scene, eye, seen, doubles ? &*doubles : nullptr);
+  }
   if (!arguments.mesh.empty()) write_mesh(arguments.mesh, scene, seen);
 
   progress.clear();

@@ -36,7 +36,7 @@ function goRound() {
 }
 /// The tangents that hold all corners as seen from a place: their middle, and half of what they span, in heights of the canvas.
 function extent(place, ahead) {
-  const [right, up] = across(ahead), least = [Infinity, Infinity], most = [-Infinity, -Infinity], from = polygons.corners;
+  const [right, up] = across(ahead), least = [Infinity, Infinity], most = [-Infinity, -Infinity], from = framed;
   for (let i = 0; i < from.length; i += 3) {
     const v = minus([from[i], from[i + 1], from[i + 2]], place), depth = dot(v, ahead);
     if (depth <= 0) return null;
@@ -80,8 +80,8 @@ function cameraFrame() {
   const d = direction(), ahead = camera.atEye ? d : times(-1, d);
   const place = camera.atEye ? eyePlace : add(camera.target, times(camera.distance, d));
   const [right, up] = across(ahead);
-  const toMiddle = dot(minus(bounds.middle, place), ahead), far = toMiddle + 2.2 * bounds.radius;
-  const near = Math.max(toMiddle - 2.2 * bounds.radius, 1e-4 * bounds.radius);
+  const toMiddle = dot(minus(bounds.middle, place), ahead), beyond = bounds.reach + 1.2 * bounds.radius, far = toMiddle + beyond;
+  const near = Math.max(toMiddle - beyond, 1e-4 * bounds.radius);
   const matrix = product(perspective(camera.field * Math.PI / 180, aspect(), near, Math.max(far, 2 * near)), lookMatrix(place, right, up, ahead));
   return {place, ahead, right, up, matrix, near};
 }

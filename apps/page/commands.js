@@ -12,7 +12,7 @@ commands.order = () => ({
     const show = n => {
       drawing.to = n;
       last.textContent = n > 0 ? `painted last: face ${polygons.faces[n - 1]}` : 'nothing is painted yet';
-      setLines('last', n > 0 && n < polygons.count ? outlinesOf([n - 1], inkColour(), 1.5) : [], true);
+      setLines('last', n > 0 && n < polygons.count ? cased([n - 1], 1.5) : [], true);
       redraw();
     };
     section('Back to front', player('how many polygons are painted', 0, polygons.count, polygons.count, show), last,
@@ -26,7 +26,9 @@ commands.graph = () => {
   for (const c of component) sizes.set(c, (sizes.get(c) || 0) + 1);
   const cycles = [...sizes].filter(([, size]) => size > 1).map(([c]) => c).sort((a, b) => a - b);
   const cycleNumber = new Map(cycles.map((c, i) => [c, i]));
-  const count = Math.max(1, ...sizes.keys()), list = data.arcs ? unpacked(data.arcs) : null, matrix = data.arc_matrix ? unpacked(data.arc_matrix) : null;
+  let count = 1;
+  for (const c of sizes.keys()) count = Math.max(count, c);
+  const list = data.arcs ? unpacked(data.arcs) : null, matrix = data.arc_matrix ? unpacked(data.arc_matrix) : null;
   let inFront = new Set(), behind = new Set(), mode = cycles.length > 0 ? 'cycles' : 'priority', chosen = -1;
   const findArcs = k => {
     inFront = new Set(), behind = new Set();
@@ -49,13 +51,14 @@ commands.graph = () => {
         if (inFront.has(k) && behind.has(k)) return palette.open;
         return inFront.has(k) ? palette.front : behind.has(k) ? palette.source : palette.face;
       }
+      if (c === undefined) return palette.face;
       if (mode === 'priority') return scaleColour(c / count);
       if (!cycleNumber.has(c)) return palette.face;
       return chosen >= 0 && c !== chosen ? palette.face : cycleColours[cycleNumber.get(c) % cycleColours.length];
     },
     nameOf: k => {
       const c = component[polygons.number(k)];
-      return `component ${c + 1}` + (sizes.get(c) > 1 ? `, a cycle of ${sizes.get(c)}` : '');
+      return c === undefined ? '' : `component ${c + 1}` + (sizes.get(c) > 1 ? `, a cycle of ${sizes.get(c)}` : '');
     },
     begin() {
       const by = (text, value) => button(text, () => { mode = value, chosen = -1; refresh(); select(-1); });
@@ -71,7 +74,7 @@ commands.graph = () => {
           select(-1);
           const members = [];
           component.forEach((d, n) => { if (d === chosen && polygons.place(n) !== undefined) members.push(polygons.place(n)); });
-          setLines('cycle', outlinesOf(members, inkColour(), 1.5), true);
+          setLines('cycle', cased(members, 1.5), true);
         }));
     },
     select(k) {
@@ -96,7 +99,8 @@ commands.see = () => {
   while (base < polygons.count && polygons.number(base) < data.base) ++base;
   drawing.base = base;
   const from = data.lines, lines = [], width = 1024, height = 512;
-  let showHidden = true, sphere = null, plain = null, middle = 0;
+  const doubles = data.doubles ? [new Set(unpacked(data.doubles.missing)), new Set(unpacked(data.doubles.extra))] : null;
+  let showHidden = true, showDoubles = false, sphere = null, plain = null, middle = 0;
   if (from) {
     const ends = unpacked(from.ends), edges = unpacked(from.edges), kinds = unpacked(from.kinds), hidden = unpacked(from.hidden_by);
     for (let i = 0; i < edges.length; ++i) {
@@ -104,7 +108,7 @@ commands.see = () => {
       lines.push({
         from: [...ends.subarray(6 * i, 6 * i + 3)], to: [...ends.subarray(6 * i + 3, 6 * i + 6)], edge: edges[i], kind, hiddenBy: hidden[i], text: from.texts[i],
         width: hidden[i] ? 1.2 : kind === 'intersection' ? 2 : strong ? 2.2 : 1.4, dash: hidden[i] ? 7 : 0,
-        colour: hidden[i] ? [...inkColour(), 100] : kind === 'intersection' ? [...palette.front, 255] : [...inkColour(), 255],
+        colour: hidden[i] ? [...ink, 110] : kind === 'intersection' ? [...palette.front, 255] : [...ink, 255],
       });
     }
   }
@@ -135,11 +139,11 @@ commands.see = () => {
     for (let i = 1; i < 12; ++i) pen.fillRect(i * width / 12, 0, 1, height);
     for (let i = 1; i < 6; ++i) pen.fillRect(0, i * height / 6, width, i === 3 ? 2 : 1);
     if (selected < 0) return;
-    pen.strokeStyle = css(inkColour()), pen.lineWidth = 3;
     const corners = cornersOf(selected);
-    corners.forEach((p, i) => {
+    for (const [colour, wide] of [['white', 7], [css(ink), 3]]) corners.forEach((p, i) => {
       const q = corners[(i + 1) % corners.length];
       let last = null;
+      pen.strokeStyle = colour, pen.lineWidth = wide;
       pen.beginPath();
       for (let s = 0; s <= 48; ++s) {
         const d = unit(minus(add(times(1 - s / 48, p), times(s / 48, q)), eyePlace));
@@ -154,6 +158,13 @@ commands.see = () => {
   };
   return {
     beginsAtEye: true,
+    /// What doubles miss, what they add, and all else in grey; by itself as ever.
+    colourOf(k) {
+      const own = colourOfGroup(polygons.groups[k]) || colourOfFace(polygons.faces[k]);
+      if (!showDoubles) return own;
+      const face = polygons.faces[k];
+      return doubles[0].has(face) ? palette.front : doubles[1].has(face) ? palette.source : k < base ? palette.hidden : palette.face;
+    },
     begin() {
       drawing.outlines = lines.length === 0 && drawing.outlines;
       if (lines.length > 0) {
@@ -161,6 +172,13 @@ commands.see = () => {
         section('Lines', element('label', {className: 'row'}, box, 'hidden parts, dashed'),
           element('p', {className: 'faint'}, 'Click an edge: what hides it lights up.'));
         drawLines();
+      }
+      if (doubles) {
+        const same = doubles[0].size + doubles[1].size === 0, box = element('input', {type: 'checkbox', id: 'doubles', disabled: same, onchange: () => { showDoubles = box.checked; paint(); }});
+        const names = set => [...set].slice(0, 30).join(', ') + (set.size > 30 ? ' …' : '');
+        section('Plain doubles', same ? element('p', {className: 'faint'}, 'The same algorithm on plain doubles finds the same faces.')
+          : element('label', {className: 'row'}, box, `mark where they err: ${doubles[0].size} visible faces missing, ${doubles[1].size} hidden ones shown`),
+          same ? null : element('p', {className: 'faint', id: 'errors'}, (doubles[0].size ? `missing: ${names(doubles[0])}. ` : '') + (doubles[1].size ? `shown: ${names(doubles[1])}.` : '')));
       }
       if (!gl || !eyePlace || polygons.count === 0) return;
       sphere = element('canvas', {id: 'sphere', width, height, ariaLabel: 'All directions from the eye, unrolled'});
@@ -241,7 +259,7 @@ commands.weak = () => {
     const grow = () => {
       if (kind > 2) return;
       grown = !grown;
-      const first = step + 1, ways = kind === 0 ? ['left of it: ', 'right of it: '] : ['in front: ', 'behind: '];
+      const first = step + 1, ways = kind === 0 ? ['on one side: ', 'on the other: '] : ['in front: ', 'behind: '];
       parts.replaceChildren(...(grown ? [nodeOf(first, ways[0], depth + 1), nodeOf(endOf(first), ways[1], depth + 1)] : []));
     };
     const item = element('li', {}, button(way + what + (kind < 3 ? ' …' : ''), () => { showStep(step); grow(); }), parts);
@@ -276,7 +294,7 @@ commands.weak = () => {
         element('p', {className: 'faint'}, 'Click a face: its sightline, or what hides it.'));
     },
     select(k) {
-      setLines('step', []), setLines('sightline', []);
+      setLines('step', []), setLines('sightline', []), setLines('blockers', []);
       blockers = new Set();
       if (k < 0) return null;
       const face = polygons.faces[k], line = sightOfFace.get(face), pairs = proofsOfFace.get(face) || [];
@@ -287,7 +305,9 @@ commands.weak = () => {
           element('ul', {className: 'exact'}, element('li', {}, 'from ' + (sight.texts[2 * line] || `${p}, rounded`)), element('li', {}, 'to ' + (sight.texts[2 * line + 1] || `${q}, rounded`))));
       }
       if (pairs.length === 0) return face === noFace ? null : element('p', {className: 'faint'}, 'There is no proof of it on this page.');
-      return element('div', {id: 'proof'}, element('p', {className: 'faint'}, 'All lines from the source to it are in a leaf of a tree. Click a node: its edge, or what blocks it.'), ...pairs.slice(0, 50).flatMap(proofOf));
+      const trees = pairs.slice(0, 50).flatMap(proofOf);
+      setLines('blockers', outlinesOf([...blockers], palette.other, 2), true);
+      return element('div', {id: 'proof'}, element('p', {className: 'faint'}, 'Nearly every line from the source to it is in a leaf of this tree. Click a node: its edge, or what blocks it.'), ...trees);
     },
   };
 };
@@ -310,7 +330,7 @@ commands.cutset = () => {
       const k = polygons.place(piece), other = polygons.place(edges.others[i]);
       if (k === undefined || other === undefined || isOn(frame, k) === isOn(frame, other)) return;
       const a = polygons.first[k] + edges.corners[i], b = edges.corners[i] + 1 < polygons.first[k + 1] - polygons.first[k] ? a + 1 : polygons.first[k];
-      list.push({from: cornerOf(a), to: cornerOf(b), colour: [...inkColour(), 255], width: 3});
+      list.push({from: cornerOf(a), to: cornerOf(b), colour: [...ink, 255], width: 3});
     });
     return list;
   };
@@ -325,7 +345,7 @@ commands.cutset = () => {
         let faces = 0;
         for (let k = 0; k < polygons.count; ++k) faces += isOn(frame, k);
         where.textContent = `${far[frame >> 3] >> (frame & 7) & 1 ? 'direction' : 'viewpoint'} ${numbers[frame]}: ${from.texts[frame]}`;
-        what.textContent = `${faces} polygons on-view, ${cuts[frame]} edges in the cut-set, ${tests[frame]} tests`;
+        what.textContent = `${faces} polygons on-view${polygons.count < polygons.of ? ' of those drawn' : ''}, ${cuts[frame]} edges in the cut-set, ${tests[frame]} tests`;
         setLines('cut', cutLines());
         follow();
         paint();
@@ -347,6 +367,49 @@ commands.cutset = () => {
   };
 };
 
+/// Lines by the six numbers of each.
+function segments(ends, colour, width) {
+  const list = [];
+  for (let i = 0; i < ends.length; i += 6) list.push({from: [...ends.subarray(i, i + 3)], to: [...ends.subarray(i + 3, i + 6)], colour: [...colour, 255], width});
+  return list;
+}
+
+/// Cells to walk through, and leaks.
+commands.cells = () => {
+  const cells = new Map(data.cells.map(cell => [cell.cell, cell]));
+  drawing.backs = false;
+  // Faces that look into rooms, where there are rooms: outer walls would hide them.
+  const rooms = new Set(data.cells.filter(cell => cell.kind === 'room').flatMap(cell => [...unpacked(cell.faces)]));
+  let chosen = null, seen = new Set(), showAll = rooms.size === 0;
+  const where = element('div', {id: 'cell'});
+  const choose = cell => {
+    chosen = cell, seen = new Set(unpacked(cell.faces));
+    setLines('cell', segments(unpacked(cell.walls), palette.source, 2), true);
+    setLines('portals', segments(unpacked(cell.portals), palette.new, 4), true);
+    const next = [...new Set(unpacked(cell.neighbours))];
+    where.replaceChildren(element('p', {}, `cell ${cell.cell}, ${cell.kind}, about ${cell.inside}: ${seen.size} faces look into it`),
+      element('p', {className: 'faint'}, next.length > 0 ? 'Through its portals, which are green:' : 'It has no portal.'),
+      listOf(next.map(n => cells.get(n)).filter(Boolean), n => `cell ${n.cell}, ${n.kind}`, choose));
+    paint();
+  };
+  return {
+    colourOf: k => chosen && seen.has(polygons.faces[k]) ? palette.seen : palette.face,
+    isShown: k => showAll || rooms.has(polygons.faces[k]) || seen.has(polygons.faces[k]),
+    begin() {
+      const box = element('input', {type: 'checkbox', checked: showAll, onchange: () => { showAll = box.checked; paint(); }});
+      section('Shown', element('label', {className: 'row'}, box, 'faces too that look into no room'));
+      section('Cell', where);
+      section('All cells', listOf(data.cells, cell => `cell ${cell.cell}, ${cell.kind}`, choose, 1000));
+      if (data.leaks.length > 0) section('Ways out', listOf(data.leaks, leak => `from ${leak.from}, through ${unpacked(leak.cells).length} cells`, leak => {
+        const way = unpacked(leak.way), list = [];
+        for (let i = 0; i + 5 < way.length; i += 3) list.push({from: [...way.subarray(i, i + 3)], to: [...way.subarray(i + 3, i + 6)], colour: [...palette.front, 255], width: 4});
+        setLines('way', list, true);
+      }));
+      if (data.cells.length > 0) choose(data.cells[0]);
+    },
+  };
+};
+
 /// What a cell sees.
 commands.pvs = () => {
   const cells = data.cells.map(cell => ({...cell, visible: new Set(unpacked(cell.visible)), undecided: new Set(unpacked(cell.undecided)), walls: unpacked(cell.walls)}));
@@ -356,9 +419,7 @@ commands.pvs = () => {
   const stateOf = k => chosen && chosen.visible.has(polygons.faces[k]) ? 0 : chosen && chosen.undecided.has(polygons.faces[k]) ? 2 : 1;
   const choose = cell => {
     chosen = cell;
-    const list = [];
-    for (let i = 0; i < cell.walls.length; i += 6) list.push({from: [...cell.walls.subarray(i, i + 3)], to: [...cell.walls.subarray(i + 3, i + 6)], colour: [...palette.source, 255], width: 2.5});
-    setLines('cell', list, true);
+    setLines('cell', segments(cell.walls, palette.source, 2.5), true);
     document.getElementById('cell').textContent = `cell ${cell.cell} about ${cell.inside}: sees ${cell.visible.size} faces` + (cell.undecided.size > 0 ? `, ${cell.undecided.size} undecided` : '');
     paint();
   };
@@ -384,5 +445,5 @@ commands.pvs = () => {
 /// Faces in the colours of their solids.
 commands.boolean = () => {
   const faces = unpacked(data.operand_faces);
-  return {nameOf: k => `face ${faces[polygons.number(k)]} of its solid`};
+  return {nameOf: k => faces.length > 0 ? `face ${faces[polygons.number(k)]} of its solid` : ''};
 };

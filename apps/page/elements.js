@@ -18,7 +18,7 @@ function scaleColour(share) {
   return stops[i].map((c, k) => c + (at - i) * (stops[i + 1][k] - c));
 }
 const css = c => `rgb(${c.slice(0, 3).map(Math.round).join(',')})`;
-const inkColour = () => isDark() ? [240, 240, 236] : [25, 25, 25];
+const ink = [25, 25, 25];  // on faces, which are light on a dark page too
 
 function element(tag, properties = {}, ...children) {
   const made = document.createElement(tag);

@@ -37,7 +37,7 @@ function cornersOf(k) {
 function trianglesOf() {
   let count = 0;
   for (let k = 0; k < polygons.count; ++k) count += polygons.first[k + 1] - polygons.first[k] - 2;
-  const places = new Float32Array(9 * count), sides = new Uint8Array(12 * count), polygon = new Uint32Array(3 * count);
+  const places = new Float32Array(9 * count), sides = new Uint8Array(12 * count);
   const of = new Uint32Array(count), first = new Uint32Array(polygons.count + 1), shade = new Float32Array(polygons.count);
   const light = unit([-0.45, -0.65, 0.8]), from = polygons.corners;
   let t = 0;
@@ -52,7 +52,6 @@ function trianglesOf() {
         sides[12 * t + 4 * c] = c === 0 ? 255 : 0;
         sides[12 * t + 4 * c + 1] = c === 1 || i + 1 < n - 1 ? 255 : 0;
         sides[12 * t + 4 * c + 2] = c === 2 || i > 1 ? 255 : 0;
-        polygon[3 * t + c] = k;
       }
       of[t] = k;
       const p = 9 * t, ax = places[p + 3] - places[p], ay = places[p + 4] - places[p + 1], az = places[p + 5] - places[p + 2],
@@ -63,19 +62,33 @@ function trianglesOf() {
     shade[k] = l > 0 ? (nx * light[0] + ny * light[1] + nz * light[2]) / l : 0;
   }
   first[polygons.count] = t;
-  return {count, places, sides, polygon, of, first, shade};
+  return {count, places, sides, of, first, shade};
 }
 const triangles = trianglesOf();
 
-/// The box of all corners: its middle, and half its diagonal.
+/// Corners of faces, which views are fitted to; sources may be far away. All corners where there is no face.
+const framed = (function () {
+  const list = [];
+  for (let k = 0; k < polygons.count; ++k) if (polygons.faces[k] === noFace) list.push(k);
+  if (list.length === 0 || list.length === polygons.count) return polygons.corners;
+  const kept = [];
+  for (let k = 0; k < polygons.count; ++k)
+    if (polygons.faces[k] !== noFace) for (let i = 3 * polygons.first[k]; i < 3 * polygons.first[k + 1]; ++i) kept.push(polygons.corners[i]);
+  return Float32Array.from(kept);
+}());
+
+/// The box of these corners: its middle, half its diagonal; and how far from the middle there is anything, up to a hundred times that.
 function boundsOf() {
-  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity], from = polygons.corners;
-  for (let i = 0; i < from.length; ++i) {
+  const least = [Infinity, Infinity, Infinity], most = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < framed.length; ++i) {
     const k = i % 3;
-    if (from[i] < least[k]) least[k] = from[i];
-    if (from[i] > most[k]) most[k] = from[i];
+    if (framed[i] < least[k]) least[k] = framed[i];
+    if (framed[i] > most[k]) most[k] = framed[i];
   }
-  if (from.length === 0) return {middle: [0, 0, 0], radius: 0.5};
-  return {middle: times(0.5, add(least, most)), radius: Math.max(1e-3, 0.5 * lengthOf(minus(most, least)))};
+  if (framed.length === 0) return {middle: [0, 0, 0], radius: 0.5, reach: 0.5};
+  const middle = times(0.5, add(least, most)), radius = Math.max(1e-3, 0.5 * lengthOf(minus(most, least)));
+  let reach = radius;
+  for (let i = 0; i < polygons.corners.length; i += 3) reach = Math.max(reach, Math.hypot(polygons.corners[i] - middle[0], polygons.corners[i + 1] - middle[1], polygons.corners[i + 2] - middle[2]));
+  return {middle, radius, reach: Math.min(reach, 100 * radius)};
 }
 const bounds = boundsOf();

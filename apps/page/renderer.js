@@ -1,32 +1,31 @@
 // ---- Drawing, by WebGL 2
 
 const canvas = document.getElementById('view');
-let gl = canvas.getContext('webgl2', {antialias: true, alpha: false});
+const isLarge = triangles.count > 30000;  // neither outlines nor smooth borders, which would take a software renderer twice as long
+let gl = canvas.getContext('webgl2', {antialias: !isLarge, alpha: false});
 
-const faceVertex = `#version 300 es
+const faceVertex = outlined => `#version 300 es
 precision highp float;
-precision highp sampler2D;
-in vec3 place; in vec4 sides; in uint polygon;
-uniform mat4 matrix; uniform sampler2D looks;
-flat out vec3 colour; out vec3 side;
+layout(location = 0) in vec3 place; layout(location = 1) in vec4 look;
+uniform mat4 matrix;
+flat out vec3 colour;
+${outlined ? 'layout(location = 2) in vec4 sides; out vec3 side;' : ''}
 void main() {
-  vec4 look = texelFetch(looks, ivec2(int(polygon & 2047u), int(polygon >> 11u)), 0);
   colour = look.rgb;
-  side = sides.xyz;
+  ${outlined ? 'side = sides.xyz;' : ''}
   gl_Position = look.a < 0.5 ? vec4(2.0, 2.0, 2.0, 1.0) : matrix * vec4(place, 1.0);
 }`;
-const faceFragment = `#version 300 es
+const faceFragment = outlined => `#version 300 es
 precision highp float;
-flat in vec3 colour; in vec3 side;
-uniform float outline; uniform vec3 ink;
+flat in vec3 colour;
+${outlined ? 'in vec3 side;' : ''}
 out vec4 pixel;
 void main() {
   vec3 c = gl_FrontFacing ? colour : mix(colour, vec3(dot(colour, vec3(0.33))), 0.55) * 0.8;
-  if (outline > 0.0) {
-    vec3 width = max(fwidth(side), vec3(1e-6));
-    vec3 line = (1.0 - smoothstep(0.4, 1.4, side / width)) * clamp(1.5 - 2.5 * width, 0.0, 1.0);
-    c = mix(c, ink, outline * max(line.x, max(line.y, line.z)));
-  }
+  ${outlined ? `
+  vec3 width = max(fwidth(side), vec3(1e-6));
+  vec3 line = (1.0 - smoothstep(0.4, 1.4, side / width)) * clamp(1.5 - 2.5 * width, 0.0, 1.0);
+  c = mix(c, vec3(0.08, 0.08, 0.1), 0.6 * max(line.x, max(line.y, line.z)));` : ''}
   pixel = vec4(c, 1.0);
 }`;
 const lineVertex = `#version 300 es
@@ -41,9 +40,10 @@ void main() {
   vec2 a = p.xy / p.w * size, b = q.xy / q.w * size, d = b - a;
   float l = length(d);
   vec2 normal = l > 1e-6 ? vec2(-d.y, d.x) / l : vec2(0.0, 1.0);
-  bool last = gl_VertexID > 1;
+  int corner = gl_VertexID % 6;  // of two triangles
+  bool last = corner == 2 || corner == 4 || corner == 5;
   vec4 c = last ? q : p;
-  c.xy += (gl_VertexID % 2 == 0 ? -1.0 : 1.0) * 0.5 * kind.x * normal / size * c.w;
+  c.xy += (corner == 0 || corner == 2 || corner == 4 ? -1.0 : 1.0) * 0.5 * kind.x * normal / size * c.w;
   c.z -= bias * c.w;
   along = vec2(last ? l * c.w : 0.0, c.w);
   colour = paint;
@@ -92,36 +92,34 @@ function programOf(vertex, fragment) {
   }
   return at;
 }
-function attribute(program, name, array, size, options = {}) {
+function attribute(program, name, array, size) {
   const at = gl.getAttribLocation(program.program, name);
-  gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
   gl.bufferData(gl.ARRAY_BUFFER, array, gl.STATIC_DRAW);
   gl.enableVertexAttribArray(at);
-  if (array instanceof Uint32Array) gl.vertexAttribIPointer(at, size, gl.UNSIGNED_INT, 0, 0);
-  else gl.vertexAttribPointer(at, size, array instanceof Float32Array ? gl.FLOAT : gl.UNSIGNED_BYTE, !(array instanceof Float32Array), 0, 0);
-  if (options.perInstance) gl.vertexAttribDivisor(at, 1);
+  gl.vertexAttribPointer(at, size, array instanceof Float32Array ? gl.FLOAT : gl.UNSIGNED_BYTE, !(array instanceof Float32Array), 0, 0);
+  return buffer;
 }
 
 // ---- What there is to draw
 
-const looksWidth = 2048, looksHeight = Math.max(1, Math.ceil(polygons.count / looksWidth));
-const looks = new Uint8Array(4 * looksWidth * looksHeight);  // colour, and whether it is shown, of each polygon
+const looks = new Uint8Array(4 * polygons.count);              // colour, and whether it is shown, of each polygon
+const looksOfCorners = new Uint32Array(3 * triangles.count);  // the same for each corner of each triangle
 const drawing = {
   from: 0, to: polygons.count,  // polygons
   base: 0,                      // so many of the first lie beneath those that follow
-  outlines: triangles.count <= 150000, backs: true,
+  outlines: !isLarge, backs: true,
   painter: false,               // in their order, without a depth buffer
 };
 let faces = null, lineLayers = new Map(), frames = 0, wanted = false, looksChanged = true;
 
 function prepare() {
-  faces = {program: programOf(faceVertex, faceFragment), vertices: gl.createVertexArray(), looks: gl.createTexture()};
+  faces = {plain: programOf(faceVertex(false), faceFragment(false)), outlined: programOf(faceVertex(true), faceFragment(true)), vertices: gl.createVertexArray()};
   gl.bindVertexArray(faces.vertices);
-  attribute(faces.program, 'place', triangles.places, 3);
-  attribute(faces.program, 'sides', triangles.sides, 4);
-  attribute(faces.program, 'polygon', triangles.polygon, 1);
-  gl.bindTexture(gl.TEXTURE_2D, faces.looks);
-  for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.NEAREST);
+  attribute(faces.outlined, 'place', triangles.places, 3);
+  attribute(faces.outlined, 'sides', triangles.sides, 4);
+  faces.looks = attribute(faces.outlined, 'look', new Uint8Array(looksOfCorners.buffer), 4);
   faces.lines = programOf(lineVertex, lineFragment);
   for (const layer of lineLayers.values()) layer.vertices = null;
   looksChanged = true;
@@ -130,19 +128,24 @@ function prepare() {
 
 /// Lines by a name, in place of those it had: {from, to, colour: [r, g, b, a] of 255, width, dash}. `through`: in front of all.
 function setLines(name, list, through = false) {
+  const before = lineLayers.get(name);
+  if (before && before.vertices && gl) gl.deleteVertexArray(before.vertices), before.buffers.forEach(buffer => gl.deleteBuffer(buffer));
   if (list.length === 0) lineLayers.delete(name);
   else lineLayers.set(name, {list, through, vertices: null});
   redraw();
 }
+/// Each line as two triangles of its own: a software renderer takes as long for an instance as for a draw.
 function prepareLines(layer) {
-  const n = layer.list.length, from = new Float32Array(3 * n), to = new Float32Array(3 * n), paint = new Uint8Array(4 * n), kind = new Float32Array(2 * n);
+  const n = 6 * layer.list.length, from = new Float32Array(3 * n), to = new Float32Array(3 * n), paint = new Uint8Array(4 * n), kind = new Float32Array(2 * n);
   layer.list.forEach((line, i) => {
-    from.set(line.from, 3 * i), to.set(line.to, 3 * i), paint.set(line.colour, 4 * i), kind.set([line.width * devicePixelRatio, (line.dash || 0) * devicePixelRatio], 2 * i);
+    for (let c = 6 * i; c < 6 * i + 6; ++c) {
+      from.set(line.from, 3 * c), to.set(line.to, 3 * c), paint.set(line.colour, 4 * c);
+      kind[2 * c] = line.width * devicePixelRatio, kind[2 * c + 1] = (line.dash || 0) * devicePixelRatio;
+    }
   });
   layer.vertices = gl.createVertexArray();
   gl.bindVertexArray(layer.vertices);
-  for (const [key, array, size] of [['from', from, 3], ['to', to, 3], ['paint', paint, 4], ['kind', kind, 2]])
-    attribute(faces.lines, key, array, size, {perInstance: true});
+  layer.buffers = [['from', from, 3], ['to', to, 3], ['paint', paint, 4], ['kind', kind, 2]].map(([key, array, size]) => attribute(faces.lines, key, array, size));
 }
 
 // ---- A frame
@@ -155,16 +158,18 @@ function redraw() {
 function isDark() { return matchMedia('(prefers-color-scheme: dark)').matches; }
 function paperColour() { return isDark() ? [23, 24, 27] : [246, 245, 241]; }
 
-function drawFaces(matrix, outline, painter) {
-  gl.useProgram(faces.program.program);
+function drawFaces(matrix, outlines, painter) {
+  const program = outlines ? faces.outlined : faces.plain;
+  gl.useProgram(program.program);
   gl.bindVertexArray(faces.vertices);
-  gl.activeTexture(gl.TEXTURE0);
-  gl.bindTexture(gl.TEXTURE_2D, faces.looks);
-  if (looksChanged) gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, looksWidth, looksHeight, 0, gl.RGBA, gl.UNSIGNED_BYTE, looks);
-  looksChanged = false;
-  gl.uniformMatrix4fv(faces.program.matrix, false, Float32Array.from(matrix));
-  gl.uniform1f(faces.program.outline, outline);
-  gl.uniform3fv(faces.program.ink, [0.08, 0.08, 0.1]);
+  if (looksChanged) {
+    const all = new Uint32Array(looks.buffer);
+    for (let t = 0; t < triangles.count; ++t) looksOfCorners.fill(all[triangles.of[t]], 3 * t, 3 * t + 3);
+    gl.bindBuffer(gl.ARRAY_BUFFER, faces.looks);
+    gl.bufferData(gl.ARRAY_BUFFER, looksOfCorners, gl.DYNAMIC_DRAW);
+    looksChanged = false;
+  }
+  gl.uniformMatrix4fv(program.matrix, false, Float32Array.from(matrix));
   painter ? gl.disable(gl.DEPTH_TEST) : gl.enable(gl.DEPTH_TEST);
   gl.depthFunc(gl.LEQUAL);
   drawing.backs ? gl.disable(gl.CULL_FACE) : gl.enable(gl.CULL_FACE);
@@ -191,7 +196,7 @@ function draw() {
   gl.depthMask(true);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
   const frame = cameraFrame();
-  drawFaces(frame.matrix, drawing.outlines ? 0.6 : 0, drawing.painter && camera.atEye);
+  drawFaces(frame.matrix, drawing.outlines, drawing.painter && camera.atEye);
   gl.disable(gl.CULL_FACE);
   gl.enable(gl.BLEND);
   gl.useProgram(faces.lines.program);
@@ -205,7 +210,7 @@ function draw() {
       through ? gl.disable(gl.DEPTH_TEST) : gl.enable(gl.DEPTH_TEST);
       gl.uniform1f(faces.lines.bias, through ? 0 : 4e-4);
       gl.bindVertexArray(layer.vertices);
-      gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, layer.list.length);
+      gl.drawArrays(gl.TRIANGLES, 0, 6 * layer.list.length);
     }
   gl.disable(gl.BLEND);
   ++frames;
@@ -232,15 +237,15 @@ function unrolled(place, yaw, width, height) {
   gl.viewport(0, 0, size, size);
   gl.clearColor(...paperColour().map(c => c / 255), 1);
   gl.depthMask(true);
-  const far = lengthOf(minus(bounds.middle, place)) + 2.2 * bounds.radius;
-  const view = perspective(Math.PI / 2, 1, Math.max(1e-4 * bounds.radius, far - 4.4 * bounds.radius), far), whole = [drawing.from, drawing.backs];
+  const beyond = bounds.reach + 1.2 * bounds.radius, far = lengthOf(minus(bounds.middle, place)) + beyond;
+  const view = perspective(Math.PI / 2, 1, Math.max(1e-4 * bounds.radius, far - 2 * beyond), far), whole = [drawing.from, drawing.backs];
   drawing.from = drawing.base, drawing.backs = true;  // what is seen, nothing beneath
   [[[1, 0, 0], [0, -1, 0]], [[-1, 0, 0], [0, -1, 0]], [[0, 1, 0], [0, 0, 1]], [[0, -1, 0], [0, 0, -1]], [[0, 0, 1], [0, -1, 0]], [[0, 0, -1], [0, -1, 0]]]
     .map(two => two.map(d => add(times(d[0], aslant[0]), add(times(d[1], aslant[1]), times(d[2], aslant[2])))))
     .forEach(([ahead, up], side) => {
       gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + side, cube, 0);
       gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-      drawFaces(product(view, lookMatrix(place, cross(ahead, up), up, ahead)), 0, false);
+      drawFaces(product(view, lookMatrix(place, cross(ahead, up), up, ahead)), false, false);
     });
   [drawing.from, drawing.backs] = whole;
   // The sphere.

@@ -82,8 +82,17 @@ Page::Page(const std::string& command, const Scene& scene) : command_(command), 
 }
 
 void Page::append_place(std::vector<float>& to, const Exact_point& p) const {
+  constexpr double farthest = 1e6;  // sources and viewpoints may be out of all proportion
   for (std::size_t k = 0; k < 3; ++k)
-    to.push_back(static_cast<float>(nearest_double(Rational((p[k] - middle_[k]) / size_))));
+    to.push_back(
+        static_cast<float>(std::clamp(nearest_double(Rational((p[k] - middle_[k]) / size_)), -farthest, farthest)));
+}
+
+void Page::append_sides(std::vector<float>& to, const std::vector<Exact_point>& polygon) const {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    append_place(to, polygon[i]);
+    append_place(to, polygon[(i + 1) % polygon.size()]);
+  }
 }
 
 Json Page::place(const Exact_point& p) const {
@@ -205,7 +214,7 @@ void Page::write(const std::string& file) {
   if (triangles_ > most_triangles) keep_the_largest(most_triangles);
   const bool is_thinned = kept_.size() < added_;
   if (is_thinned) add_note(fmt::format("thinned: of {} polygons the {} largest are drawn", added_, kept_.size()));
-  if (!keeps_texts_) add_note("coordinates are rounded: the exact ones of so many corners are in --json");
+  if (!keeps_texts_) add_note("coordinates are rounded: those of so many corners would take too much of a page");
 
   Json data{{"format", "sightline page 1"},
             {"command", command_},

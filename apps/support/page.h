@@ -54,6 +54,8 @@ class Page {
   Json place(const Exact_point& p) const;
   /// The same beside others, as floats.
   void append_place(std::vector<float>& to, const Exact_point& p) const;
+  /// The two ends of each side of a polygon.
+  void append_sides(std::vector<float>& to, const std::vector<Exact_point>& polygon) const;
   /// "1/2, 3, 4".
   static std::string text(const Exact_point& p);
   /// Where one looks from: the page begins there.

@@ -196,3 +196,211 @@ def test_a_result_is_in_its_solids_colours(open_page, tmp_path):
     k = first_seen(page, "cube.off")
     page.click_on(k)
     assert page.text("#selected-name").startswith("face ") and "cube.off" in page.text("#selected-name")
+
+
+def test_clicks_on_nothing_select_nothing_and_groups_can_be_left_out(open_page):
+    page = open_page("weak", corpus / "general" / "two_rooms.off", "--from-face", 0)
+    page.click_on(first_seen(page, "visible"))
+    page.click_at(3, 300)
+    assert page.js("return sightline.selected") == -1
+    before = page.picture()[0]
+    page.all(".legend input")[0].click()
+    assert page.picture()[0] < before
+    assert first_seen(page, "visible") == -1
+
+
+def test_cells_are_walked_through_and_leaks_drawn(open_page, tmp_path):
+    lines = [line for line in (corpus / "general" / "two_rooms.off").read_text().splitlines() if line.strip() and not line.startswith("#")]
+    points, faces = map(int, lines[1].split()[:2])
+    leaky = tmp_path / "leaky.off"
+    kept = lines[2:2 + points] + [face for k, face in enumerate(lines[2 + points:2 + points + faces]) if k != 79]
+    leaky.write_text(f"OFF\n{points} {faces - 1} 0\n" + "\n".join(kept) + "\n")
+    page = open_page("cells", leaky, "--seal", "1,1,2", code=1)
+    assert page.is_drawn()
+    result = json.loads(run("cells", leaky, "--seal", "1,1,2", "--json", "-", code=1))["result"]
+    assert len(page.data["cells"]) == result["cells"]
+    way = result["leaks"][0]["way"]
+    leak = next(b for b in page.all("section ul.list button") if b.text.startswith("from 1,1,2"))
+    assert leak.text == f"from 1,1,2, through {len(way)} cells"
+    leak.click()
+    assert page.js("return sightline.lines('way')") == len(way)
+    first = page.text("#cell p")
+    page.all("#cell ul.list button")[0].click()
+    assert page.text("#cell p") != first
+
+
+def test_a_painter_paints_what_a_depth_buffer_finds(open_page, tmp_path):
+    scene = tmp_path / "cycle.off"
+    run("generate", "bars", "--size", 7, "--out", scene)
+    for place in ("--eye=5,-7,9", "--eye=-4,3,8"):
+        page = open_page("order", scene, place)
+        assert page.js("return sightline.drawing.painter && sightline.camera.atEye")
+        differ = page.js("""
+            const view = document.getElementById('view'), gl = view.getContext('webgl2'), pixels = [];
+            sightline.drawing.outlines = false;
+            for (const painter of [true, false]) {
+              sightline.drawing.painter = painter;
+              sightline.measure(0), sightline.draw();
+              const all = new Uint8Array(4 * view.width * view.height);
+              gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+              pixels.push(new Uint32Array(all.buffer));
+            }
+            const paper = pixels[0][0];
+            let differ = 0, drawn = 0;
+            for (let i = 0; i < pixels[0].length; ++i) differ += pixels[0][i] !== pixels[1][i], drawn += pixels[0][i] !== paper;
+            return [differ, drawn];
+            """)
+        assert differ[1] > 5000 and differ[0] < 0.01 * differ[1], differ
+
+
+def test_hands_turn_pinch_and_do_not_click(open_page, town, browser):
+    from selenium.webdriver import ActionChains
+
+    page = open_page("graph", town)
+    before = page.js("return [sightline.camera.yaw, sightline.camera.pitch]")
+    ActionChains(browser).move_to_element(page.one("#view")).click_and_hold().move_by_offset(60, 30).release().perform()
+    after = page.js("return [sightline.camera.yaw, sightline.camera.pitch]")
+    assert after[0] < before[0] and after[1] > before[1] and page.js("return sightline.selected") == -1
+    distance = page.js("return sightline.camera.distance")
+
+    def touch(kind, *points):
+        browser.execute_cdp_cmd("Input.dispatchTouchEvent", {"type": kind, "touchPoints": [{"x": x, "y": 300, "id": i} for i, x in enumerate(points)]})
+
+    touch("touchStart", 300), touch("touchStart", 300, 400), touch("touchMove", 250, 450), touch("touchMove", 200, 500), touch("touchEnd")
+    assert page.js("return sightline.camera.distance") < 0.6 * distance
+
+
+def test_a_page_without_webgl_says_so_and_keeps_its_lists(open_page, browser):
+    script = browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": "HTMLCanvasElement.prototype.getContext = () => null"})
+    try:
+        page = open_page("pvs", corpus / "general" / "two_rooms.map")
+        assert "no WebGL 2" in page.text("#trouble")
+        page.all("section ul.list button")[1].click()
+        assert page.text("#cell").startswith(f"cell {page.data['cells'][1]['cell']} ")
+        page = open_page("see", corpus / "general" / "two_rooms.off", "--lines")
+        page.press("ArrowLeft")
+        assert "no WebGL 2" in page.text("#trouble")
+    finally:
+        browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", {"identifier": script["identifier"]})
+
+
+def test_a_lost_context_is_found_again(open_page, town):
+    page = open_page("see", town, eye, "--lines")
+    drawn = page.picture()[0]
+    page.browser.execute_async_script("""
+        const done = arguments[0], view = document.getElementById('view'), lose = view.getContext('webgl2').getExtension('WEBGL_lose_context');
+        view.addEventListener('webglcontextlost', () => setTimeout(() => lose.restoreContext(), 50));
+        view.addEventListener('webglcontextrestored', () => setTimeout(done, 300));
+        lose.loseContext();
+        """)
+    assert abs(page.picture()[0] - drawn) < 0.01
+
+
+def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town):
+    page = open_page("order", town, eye)
+    for _ in ("from the eye", "from outside"):
+        right, wrong = page.js("""
+            const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, pixel = new Uint8Array(4);
+            sightline.drawing.outlines = false;
+            sightline.draw();
+            let right = 0, wrong = 0;
+            for (let x = 10; x < view.clientWidth; x += 19)
+              for (let y = 10; y < view.clientHeight; y += 17) {
+                const k = sightline.pickAt(x, y);
+                if (k < 0 || [[3, 0], [-3, 0], [0, 3], [0, -3]].some(([a, b]) => sightline.pickAt(x + a, y + b) !== k)) continue;
+                gl.readPixels(Math.round(x * scale), view.height - 1 - Math.round(y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+                const own = [...sightline.looks.slice(4 * k, 4 * k + 3)], grey = own.reduce((a, b) => a + b) * 0.33;
+                const fits = colour => colour.every((c, i) => Math.abs(c - pixel[i]) < 3);
+                fits(own) || fits(own.map(c => (c * 0.45 + grey * 0.55) * 0.8)) ? ++right : ++wrong;
+              }
+            return [right, wrong];
+            """)
+        assert right > 50 and wrong == 0, _
+        page.press("e")
+
+
+def test_where_doubles_err_is_marked(open_page, tmp_path):
+    scene = tmp_path / "leaves.qoff"
+    run("generate", "leaves", "--seed", 1, "--ulps", 0, "--out", scene, "--query", tmp_path / "leaves.json")
+    place = "--eye=" + ",".join(json.loads((tmp_path / "leaves.json").read_text())["eye"])
+    exact, doubles = (set(json.loads(run("see", scene, place, "--kernel", kernel, "--json", "-"))["result"]["visible"]) for kernel in ("exact", "double"))
+    page = open_page("see", scene, place)
+    missing = sorted(exact - doubles)
+    assert missing and not doubles - exact, "a scene that doubles get wrong"
+    assert page.text("#errors") == f"missing: {', '.join(map(str, missing))}."
+    colours = lambda: page.js("return [...sightline.looks]")
+    before = colours()
+    page.one("#doubles").click()
+    assert colours() != before
+    page = open_page("see", corpus / "general" / "cube.off", "--eye=3,4,5", name="other.html")
+    assert page.one("#panel").text.count("finds the same faces") == 1
+
+
+def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
+    page = open_page("see", corpus / "general" / "two_rooms.off", "--eye", "1,1,2")
+    size = page.js("const s = document.getElementById('sphere'); return [s.clientWidth, s.clientHeight]")
+    page.js("const s = document.getElementById('sphere'); window.before = s.getContext('2d').getImageData(0, 0, s.width, s.height)")
+    met = set()
+    for x in (0.07, 0.2, 0.33, 0.46, 0.61, 0.78, 0.93):
+        for y in (0.22, 0.47, 0.71):
+            at = [round(x * size[0]), round(y * size[1])]
+            pixel = page.js("const s = document.getElementById('sphere'), [x, y] = arguments[0];"
+                            "const i = 4 * (Math.floor(y / s.clientHeight * s.height) * s.width + Math.floor(x / s.clientWidth * s.width));"
+                            "return [...before.data.slice(i, i + 3)]", at)
+            page.js("const s = document.getElementById('sphere'), box = s.getBoundingClientRect(), [x, y] = arguments[0];"
+                    "s.dispatchEvent(new MouseEvent('click', {clientX: box.left + s.clientLeft + x, clientY: box.top + s.clientTop + y}))", at)
+            k = page.js("return sightline.selected")
+            colour = page.js("return [...sightline.looks.slice(4 * arguments[0], 4 * arguments[0] + 3)]", k)
+            if all(abs(a - b) < 3 for a, b in zip(colour, pixel)):
+                met.add(k)
+    assert len(met) > 12, "but for borders, and the lines of the grid"
+
+
+def test_a_source_out_of_all_proportion_leaves_the_scene_in_view(open_page):
+    page = open_page("weak", corpus / "general" / "cube.off", "--from", "-1e9,0,0 -1e9,0,1 -1e9,1,1 -1e9,1,0")
+    assert page.is_drawn()
+
+
+# ---- What needs no browser
+
+
+def test_a_page_stays_small(tmp_path):
+    scene, path = tmp_path / "terrain.off", tmp_path / "page.html"
+    run("generate", "terrain", "--size", 20000, "--out", scene)
+    run("cutset", scene, "--orbit", 500, "--html", path)
+    data = block_of(path)
+    triangles = data["polygons"]["count"]
+    assert triangles == 20000 and path.stat().st_size < 1e6 + 40 * triangles
+    assert any("evenly" in note for note in data["notes"]) and any("rounded" in note for note in data["notes"])
+
+
+def test_a_page_holds_no_other_tag_and_asks_for_nothing(tmp_path):
+    scene = tmp_path / "<!--<script> & 'x' ünï.off"
+    scene.write_text((corpus / "general" / "cube.off").read_text())
+    run("order", scene, "--html", tmp_path / "a page, <b>.html")
+    text = (tmp_path / "a page, <b>.html").read_text()
+    assert text.count("</script") == 2 and "http" not in text and " src=" not in text
+    assert block_of(tmp_path / "a page, <b>.html")["scene"].endswith("ünï.off")
+
+
+def test_a_page_goes_where_outputs_go(tmp_path):
+    cube = corpus / "general" / "cube.off"
+    assert run("order", cube, "--html", "-").startswith("<!DOCTYPE html>")
+    assert "-: that is where --json writes" in run("order", cube, "--json", "-", "--html", "-", code=2)
+    said = run("order", cube, "--html", tmp_path / "missing" / "page.html", code=3)
+    assert said.count("\n") == 1 and "page.html" in said
+    assert ".html" in run("order", cube, "--html", tmp_path / "page.svg", code=2)
+    assert "--decision-tree" in run("cutset", cube, "--decision-tree", "--html", tmp_path / "page.html", code=2)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_scenes_without_faces_far_away_and_out_of_range_have_pages(open_page, tmp_path):
+    nothing = tmp_path / "nothing.off"
+    nothing.write_text("OFF\n0 0 0\n")
+    for words in (["order"], ["see"], ["graph"], ["cutset", "--orbit", 2]):
+        page = open_page(words[0], nothing, *words[1:])
+        assert page.data["polygons"]["count"] == 0 and "no face" in page.text("#selection")
+    for shift, scale in (("1e12,1e12,-1e12", "1"), ("0,0,0", "2^900"), ("0,0,0", "2^-900")):
+        scene = tmp_path / "far.qoff"
+        run("generate", "rooms", "--size", 2, "--offset", shift, "--scale", scale, "--out", scene)
+        assert open_page("order", scene).is_drawn(), (shift, scale)
