@@ -194,6 +194,7 @@ std::vector<std::pair<std::string, Json>> report_members() {
   return {{"asked", type("object")},
           {"shard", tuple_of(count, 2)},
           {"units", count},
+          {"open", count},
           {"result", object({{"questions", list_of(object({{"question", text}, {"error", text}}))},
                              {"summaries", list_of(object(summary))},
                              {"rows", list_of(object(row))},

@@ -419,18 +419,22 @@ Exit run(const Report_arguments& given) {
     journal.begin(done);
   }
   const std::size_t kept = done.size();
-  bool out_of_time = false;
+  report::Report report;
   {
     Progress progress("asking");
+    bool is_first = true;  // which is asked whatever the budget, so that to try again comes to an end
     for (const Unit& unit : units) {
       progress(unit.number, units.size());
       if (unit.number % shards != shard || done.count(unit.number) > 0) continue;
-      if (out_of_time = a.budget > 0 && watch.seconds() > a.budget; out_of_time) break;
+      if (a.budget > 0 && watch.seconds() > a.budget && !is_first) {
+        ++report.open;
+        continue;
+      }
+      is_first = false;
       const Answered& answers = done[unit.number] = answered(unit, a, effort, limits, programs);
       if (a.resume) journal.add(unit.number, answers);
     }
   }
-  report::Report report;
   report.asked = asked_json(a);
   report.shard = shard, report.shards = shards;
   report.units = units.size();
@@ -444,9 +448,9 @@ Exit run(const Report_arguments& given) {
     for (const auto& [why, count] : answers.not_asked.items())
       report.not_asked[why] = report.not_asked.value(why, std::size_t{0}) + count.get<std::size_t>();
   }
-  if (out_of_time) {
+  if (report.open > 0) {
     std::cerr << fmt::format(
-        "sightline: undecided: --budget ran out after {} of {} units; {}\n", done.size(), units.size(),
+        "sightline: undecided: --budget ran out, {} of {} units are open; {}\n", report.open, done.size() + report.open,
         a.resume ? "the same command goes on from there" : "with --resume the same command would go on from there");
     write(a, report);
     return Exit::undecided;

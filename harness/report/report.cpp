@@ -149,6 +149,7 @@ Json to_json(const Report& report) {
           {"asked", report.asked},
           {"shard", {report.shard, report.shards}},
           {"units", report.units},
+          {"open", report.open},
           {"result",
            {{"questions", std::move(questions)},
             {"summaries", std::move(summed)},
@@ -168,6 +169,7 @@ Report report_from_json(const nlohmann::json& document) {
     throw std::invalid_argument("no report: \"shard\" is none");
   report.shard = shard[0].get<std::uint32_t>(), report.shards = shard[1].get<std::uint32_t>();
   report.units = member<std::size_t>(document, "units");
+  report.open = member<std::size_t>(document, "open");
   const auto result = member<nlohmann::json>(document, "result");
   for (const nlohmann::json& q : list(result, "questions"))
     report.questions.push_back({member<std::string>(q, "question"), member<std::string>(q, "error")});
@@ -179,6 +181,10 @@ Report report_from_json(const nlohmann::json& document) {
 }
 
 Report merged(const std::vector<Report>& parts) {
+  for (const Report& part : parts)
+    if (part.open > 0)
+      throw std::invalid_argument("shard " + std::to_string(part.shard) +
+                                  " was not finished; run it again with --resume, and merge again");
   Report all = parts.at(0);
   std::set<std::uint32_t> there{all.shard};
   for (std::size_t k = 1; k < parts.size(); ++k) {

@@ -67,6 +67,7 @@ struct Report {
   Json asked = Json::object();  ///< the options that say which rows there are
   std::uint32_t shard = 0, shards = 1;
   std::size_t units = 0;  ///< of all shards
+  std::size_t open = 0;   ///< of this one, not reached in time
   std::vector<Question> questions;
   std::vector<Row> rows;
   std::vector<Example> examples;
@@ -83,7 +84,7 @@ Json to_json(const Report& report);
 Report report_from_json(const nlohmann::json& document);
 
 /// The shards of one report as one: rows in the order of units, of each method the example of the smallest wrong case.
-/// Errors: std::invalid_argument where parts are of different reports, a shard is there twice, or one is missing,
+/// Errors: std::invalid_argument where parts are of different reports, a shard is there twice, not finished, or missing,
 /// which it names. Pre: at least one part.
 Report merged(const std::vector<Report>& parts);
 
