@@ -73,8 +73,9 @@ class Witness {
     if (program_ != nullptr)
       return fmt::format("sightline judge --program {} --query {} --contract exact --scenes {}.off --ask {}.json",
                          shell_word(program_->command), row_.who.question, stem, stem);
-    return fmt::format("sightline compare {}.off {} --seed {}", stem, question_.again(arguments(asked), name),
-                       row_.smallest->seed);
+    const std::string options = question_.again(arguments(asked), name);
+    return fmt::format("sightline {} {}.off {} --seed {}", options.starts_with("--") ? "report" : "compare", stem,
+                       options, row_.smallest->seed);
   }
 
   bool is_program() const { return program_ != nullptr; }

@@ -122,11 +122,28 @@ Verdict trace_judged(const Json& row, std::size_t) {
 }
 std::string trace_again(const Compare_arguments& a, const Json&) { return fmt::format("trace --random {}", a.random); }
 
+// ---- cutset
+
+Compare_arguments cutset_arguments(const Judge_case&, const Report_effort& effort) {
+  Compare_arguments a;
+  a.random = effort.views;
+  return a;
+}
+Verdict cutset_judged(const Json& row, std::size_t) {
+  const Json& e = row["errors"];
+  return {e["wrong_frames"] != 0 ? Verdict::wrong : Verdict::right,
+          e["wrong_frames"].get<double>() / std::max(1.0, e["frames"].get<double>())};
+}
+std::string cutset_again(const Compare_arguments& a, const Json&) {
+  return fmt::format("--questions cutset --cases 1 --reduce 1{} --json -",
+                     a.random == report_effort(true).views ? " --quick" : "");
+}
+
 }  // namespace
 
 Report_effort report_effort(bool quick) {
-  if (quick) return {{64}, {24}, 48, {100, 1000}, 20, 24};
-  return {{64, 256}, {16, 24, 32}, 128, {100, 1000, 10000}, 100, 100};
+  if (quick) return {true, {64}, {24}, 48, {100, 1000}, 20, 24};
+  return {false, {64, 256}, {16, 24, 32}, 128, {100, 1000, 10000}, 100, 100};
 }
 
 const std::vector<Report_question>& report_questions() {
@@ -140,7 +157,11 @@ const std::vector<Report_question>& report_questions() {
       {"weak", "share of the faces that are said to be visible and are hidden, or hidden and are visible",
        weak_arguments, weak_trial, weak_judged, weak_again},
       {"trace", "share of the rays that miss what they meet, or meet what they miss, or another face first",
-       trace_arguments, trace_trial, trace_judged, trace_again}};
+       trace_arguments, trace_trial, trace_judged, trace_again},
+      {"cutset",
+       "share of the viewpoints along a path where a face is on-view and said not to be, or the other way round, or an "
+       "edge of the cut is missing or too many",
+       cutset_arguments, cutset_trial, cutset_judged, cutset_again}};
   return all;
 }
 

@@ -15,6 +15,7 @@ namespace sightline::app {
 
 /// How much is asked of each case: what differs between a quick report and a whole one.
 struct Report_effort {
+  bool quick;
   std::vector<std::uint32_t> buffer_sizes;  ///< see: pixels along each side of the cube
   std::vector<int> bits;                    ///< see, render: of depths
   int image_size;                           ///< render: pixels along each side
@@ -46,21 +47,20 @@ struct Report_question {
   std::unique_ptr<Trial> (*trial)(const Compare_arguments& arguments, const Polygon_soup& soup);
   /// The share of an answer that is wrong, and whether it is wrong at all. Pre: its status is done.
   Verdict (*judged)(const Json& row, std::size_t faces);
-  /// The options of `compare` that ask it of one contender again; empty: no command asks it so.
+  /// What asks it of one contender again, after the scene: the options of `compare`, or, where they begin with a dash,
+  /// of this command.
   std::string (*again)(const Compare_arguments& arguments, const Json& name);
 };
 /// order, see, render, weak, trace, cutset.
 const std::vector<Report_question>& report_questions();
 const Report_question& report_question(const std::string& name);
 
+/// The cut-set along a path of viewpoints that follows from the scene and the seed: by trackers, and face by face in
+/// several numbers.
+std::unique_ptr<Trial> cutset_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+
 /// What tells a contender from others of its question, in words: "depth buffer 256, 24 bit".
 std::string method_of(const Json& name);
-
-/// A question about a case that is ready to be asked.
-struct Posed_trial {
-  std::shared_ptr<const Judge_case> asked;
-  std::unique_ptr<Trial> trial;
-};
 
 /// Asks one contender, apart.
 Verdict verdict_of(const Report_question& question, const Trial& trial, const Contestant& contestant, std::size_t faces,

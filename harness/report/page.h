@@ -1,5 +1,5 @@
 #pragma once
-// A report as a page to look at, and as a picture.
+// A report as a page to look at.
 
 #include <sightline/harness/report/report.h>
 
@@ -10,8 +10,5 @@ namespace sightline::report {
 /// One self-contained HTML file, with plots that answer to the pointer; without a network. Rows beyond 30,000 are left
 /// out evenly and counted on it; tables and examples are of all.
 std::string report_page(const Report& report);
-
-/// SVG: for each of the first questions a plot, one mark a method and kernel, with a legend.
-std::string report_picture(const Report& report);
 
 }  // namespace sightline::report

@@ -1,4 +1,4 @@
-#include <sightline/harness/report/page.h>
+#include <sightline/harness/report/picture.h>
 
 #include <sightline/io/svg.h>
 

@@ -84,8 +84,8 @@ Json to_json(const Report& report);
 Report report_from_json(const nlohmann::json& document);
 
 /// The shards of one report as one: rows in the order of units, of each method the example of the smallest wrong case.
-/// Errors: std::invalid_argument where parts are of different reports, a shard is there twice, not finished, or missing,
-/// which it names. Pre: at least one part.
+/// Errors: std::invalid_argument where parts are of different reports, a shard is there twice, not finished, or
+/// missing, which it names. Pre: at least one part.
 Report merged(const std::vector<Report>& parts);
 
 /// All rows of a contender.

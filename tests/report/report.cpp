@@ -1,6 +1,7 @@
 // A report's rows, their sums, and parts together; the page and the picture.
 
 #include <sightline/harness/report/page.h>
+#include <sightline/harness/report/picture.h>
 #include <sightline/harness/report/report.h>
 
 #include <gtest/gtest.h>
