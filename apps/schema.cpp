@@ -172,6 +172,7 @@ std::vector<std::pair<std::string, Json>> report_members() {
   auto row = of_contender(counts), summary = row;
   row.insert(row.end(),
              {{"unit", count},
+              {"broken", count},
               {"family", text},
               {"distance", text},
               {"size", count},

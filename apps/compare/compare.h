@@ -48,6 +48,7 @@ std::unique_ptr<Trial> order_trial(const Compare_arguments& arguments, const Pol
 std::unique_ptr<Trial> see_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 std::unique_ptr<Trial> weak_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 std::unique_ptr<Trial> trace_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+std::unique_ptr<Trial> pvs_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 std::unique_ptr<Trial> render_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 
 /// Asks a contestant in a child process, since an inexact kernel may do anything, for at most so many seconds (0: as

@@ -2,6 +2,8 @@
 
 #include "questions.h"
 
+#include <limits>
+
 namespace sightline::app {
 
 namespace {
@@ -139,6 +141,23 @@ std::string cutset_again(const Compare_arguments& a, const Json&) {
                      a.random == report_effort(true).views ? " --quick" : "");
 }
 
+// ---- pvs
+
+Compare_arguments pvs_arguments(const Judge_case&, const Report_effort& effort) {
+  Compare_arguments a;
+  a.command = "pvs";
+  a.rays = effort.weak_rays;
+  return a;
+}
+Verdict pvs_judged(const Json& row, std::size_t) {
+  const Json& e = row["errors"];
+  const double wrong = e["wrongly_visible"].get<double>() + e["wrongly_hidden"].get<double>();
+  return {wrong > 0 ? Verdict::wrong : Verdict::right, wrong / std::max(1.0, row["pairs"].get<double>())};
+}
+std::string pvs_again(const Compare_arguments&, const Json& name) {
+  return name.contains("rays") ? fmt::format("pvs --rays {}", name["rays"].get<std::size_t>()) : "pvs --rays 100";
+}
+
 }  // namespace
 
 Report_effort report_effort(bool quick) {
@@ -147,21 +166,25 @@ Report_effort report_effort(bool quick) {
 }
 
 const std::vector<Report_question>& report_questions() {
+  constexpr std::size_t any_size = std::numeric_limits<std::size_t>::max();
   static const std::vector<Report_question> all{
       {"order", "share of overlapping pairs of fragments drawn in the wrong order, or of area lost or drawn twice",
-       order_arguments, order_trial, order_judged, order_again},
-      {"see", "share of all directions in which another face is shown than the one that is seen", see_arguments,
-       see_trial, see_judged, see_again},
-      {"render", "share of the pixels that show another face than an exact ray meets first", render_arguments,
+       any_size, order_arguments, order_trial, order_judged, order_again},
+      {"see", "share of all directions in which another face is shown than the one that is seen", any_size,
+       see_arguments, see_trial, see_judged, see_again},
+      {"render", "share of the pixels that show another face than an exact ray meets first", any_size, render_arguments,
        render_trial, render_judged, render_again},
-      {"weak", "share of the faces that are said to be visible and are hidden, or hidden and are visible",
+      {"weak", "share of the faces that are said to be visible and are hidden, or hidden and are visible", any_size,
        weak_arguments, weak_trial, weak_judged, weak_again},
-      {"trace", "share of the rays that miss what they meet, or meet what they miss, or another face first",
+      {"trace", "share of the rays that miss what they meet, or meet what they miss, or another face first", any_size,
        trace_arguments, trace_trial, trace_judged, trace_again},
       {"cutset",
        "share of the viewpoints along a path where a face is on-view and said not to be, or the other way round, or an "
        "edge of the cut is missing or too many",
-       cutset_arguments, cutset_trial, cutset_judged, cutset_again}};
+       any_size, cutset_arguments, cutset_trial, cutset_judged, cutset_again},
+      {"pvs",
+       "share of the pairs of a cell and a face that are said to be visible and are hidden, or hidden and are visible",
+       0, pvs_arguments, pvs_trial, pvs_judged, pvs_again}};
   return all;
 }
 
@@ -187,14 +210,15 @@ Verdict verdict_of(const Report_question& question, const Trial& trial, const Co
   if (status.starts_with("left out")) return {};
   if (status == "timed out" || status == "out of memory") return {Verdict::stopped};
   if (status.starts_with("error: --program")) throw Usage_error(status.substr(7));  // it cannot be started
-  if (status != "done") return {Verdict::crashed};
+  const bool promises = claims_to_be_exact(row);
+  if (status != "done") return {.kind = Verdict::crashed, .broken = promises};
   Verdict verdict = row["kernel"] == "program"
                         ? Verdict{static_cast<Verdict::Kind>(row["kind"].get<int>()), row["error"].get<double>()}
                         : question.judged(row, faces);
   verdict.seconds = row["seconds"].get<double>() + row.value("prepare", 0.0);
   verdict.peak_bytes = row["peak_bytes"].get<std::uint64_t>();
-  if (verdict.kind == Verdict::right && claims_to_be_exact(row) && row.contains("errors") && !trial.right(row))
-    verdict.kind = Verdict::wrong;
+  verdict.broken = promises && row.contains("errors") && !trial.right(row);
+  if (verdict.broken) verdict.kind = Verdict::wrong;
   if (verdict.kind != Verdict::not_asked && verdict.seconds > limits.seconds) verdict.kind = Verdict::stopped;
   return verdict;
 }

@@ -37,11 +37,13 @@ struct Verdict {
   double error = 0;  ///< the share of the answer that is wrong, as the question has it
   double seconds = 0;
   std::uint64_t peak_bytes = 0;
+  bool broken = false;  ///< it claims to be exact, and its answer is not what that promises
 };
 
 struct Report_question {
   std::string name;
   std::string error_means;
+  std::size_t quick_size;  ///< where a quick report has larger scenes, it is not asked of them
   /// The arguments of `compare` that ask it of a case.
   Compare_arguments (*arguments)(const Judge_case& asked, const Report_effort& effort);
   std::unique_ptr<Trial> (*trial)(const Compare_arguments& arguments, const Polygon_soup& soup);
@@ -51,7 +53,7 @@ struct Report_question {
   /// of this command.
   std::string (*again)(const Compare_arguments& arguments, const Json& name);
 };
-/// order, see, render, weak, trace, cutset.
+/// order, see, render, weak, trace, cutset, pvs.
 const std::vector<Report_question>& report_questions();
 const Report_question& report_question(const std::string& name);
 

@@ -101,6 +101,7 @@ Json to_json(const Row& r) {
                {"abstained", r.abstained},
                {"crashed", r.crashed},
                {"stopped", r.stopped},
+               {"broken", r.broken},
                {"faces", r.faces},
                {"seconds", optional_number(r.seconds)},
                {"worst_seconds", r.worst_seconds},
@@ -126,6 +127,7 @@ Row row_from_json(const nlohmann::json& v) {
   r.abstained = member<std::size_t>(v, "abstained");
   r.crashed = member<std::size_t>(v, "crashed");
   r.stopped = member<std::size_t>(v, "stopped");
+  r.broken = member<std::size_t>(v, "broken");
   r.faces = member<double>(v, "faces");
   if (const auto seconds = member<nlohmann::json>(v, "seconds"); !seconds.is_null())
     r.seconds = member<double>(v, "seconds");
