@@ -190,6 +190,7 @@ std::vector<std::pair<std::string, Json>> report_members() {
                                             {"file", text},
                                             {"scene", text},
                                             {"query", text},
+                                            {"why", text},
                                             {"again", text},
                                             {"picture", text}}));
   return {{"asked", type("object")},

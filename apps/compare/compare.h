@@ -27,6 +27,7 @@ struct Compare_arguments {
   Tint_arguments tints;
   std::string ray_file;
   std::size_t random = 1000;  ///< rays of each kind
+  bool says = false;          ///< order, see, weak: rows hold the answer too, as "said"
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.

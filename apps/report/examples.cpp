@@ -4,6 +4,7 @@
 
 #include "../judge/picture.h"
 
+#include <sightline/harness/judge/truth.h>
 #include <sightline/harness/laws/reduce.h>
 #include <sightline/io/write.h>
 
@@ -49,6 +50,7 @@ class Witness {
     a.common.seed = row_.smallest->seed;
     a.common.threads = 1;
     a.common.budget = options_.limits.seconds;
+    a.says = true;
     return a;
   }
 
@@ -93,11 +95,32 @@ judge::Question judged_as(const std::string& question) {
                               : judge::Question::see;
 }
 
-std::string picture_of_case(const Judge_case& asked) {
+/// An answer as the judge has it.
+judge::Answer answer_of(judge::Question question, const Json& said) {
+  judge::Answer answer;
+  if (question != judge::Question::order) {
+    answer.visible = said.get<std::vector<Face_id>>();
+    return answer;
+  }
+  for (const Json& item : said)
+    answer.order.push_back({item[0].get<Face_id>(), judge::points_from_json(nlohmann::json(item[1]), "said")});
+  return answer;
+}
+
+/// Draws a wrong case, with the line that refutes the answer where one does, and tells of it.
+void explain_case(const Judge_case& asked, const Json& said, report::Example& example) {
+  judge::Grade grade;
+  judge::Explanation why;
   try {
-    return picture_of(asked.soup, asked.query, {}, {});
+    if (!said.is_null()) {
+      const judge::Answer answer = answer_of(asked.query.question, said);
+      grade = judge::grade(judge::truth_of(asked.soup, asked.query, {1, 20, true}), answer);
+      if (grade.wrong()) why = judge::explain(asked.soup, asked.query, answer, grade, judge::Contract::exact);
+      if (why.refutation) example.why = why.refutation->words;
+    }
+    example.picture = picture_of(asked.soup, asked.query, grade, why);
   } catch (const std::exception&) {
-    return {};  // nothing to see
+    example.picture.clear();  // nothing to see: no point, or numbers beyond those of a picture
   }
 }
 
@@ -153,7 +176,7 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   example.scene = text.str();
   if (witness.is_program()) example.query = judge::to_json(left->query).dump() + "\n";
   example.again = witness.again(*left, name, stem);
-  example.picture = picture_of_case(*left);
+  explain_case(*left, last.said, example);
   return example;
 }
 

@@ -217,6 +217,7 @@ Verdict verdict_of(const Report_question& question, const Trial& trial, const Co
                         : question.judged(row, faces);
   verdict.seconds = row["seconds"].get<double>() + row.value("prepare", 0.0);
   verdict.peak_bytes = row["peak_bytes"].get<std::uint64_t>();
+  if (row.contains("said")) verdict.said = row["said"];
   verdict.broken = promises && row.contains("errors") && !trial.right(row);
   if (verdict.broken) verdict.kind = Verdict::wrong;
   if (verdict.kind != Verdict::not_asked && verdict.seconds > limits.seconds) verdict.kind = Verdict::stopped;
@@ -247,6 +248,18 @@ Report_program report_program(const std::string& text, const Report_limits& limi
   return {question, options.program, std::make_shared<Court>(options)};
 }
 
+/// An answer as rows of `compare` have it.
+static Json said_json(const judge::Answer& answer) {
+  if (answer.order.empty()) return answer.visible;
+  Json all = Json::array();
+  for (const judge::Drawn_face& item : answer.order) {
+    Json points = Json::array();
+    for (const Exact_point& p : item.part) points.push_back(point_json(p));
+    all.push_back({item.face, std::move(points)});
+  }
+  return all;
+}
+
 Contestant contestant_of(const Report_program& program, std::shared_ptr<const Judge_case> asked, std::uint64_t seed) {
   return {{{"kernel", "program"}, {"method", program.name()}}, [court = program.court, asked = std::move(asked), seed] {
             const Judged judged = court->judge(*asked, seed);
@@ -269,6 +282,7 @@ Contestant contestant_of(const Report_program& program, std::shared_ptr<const Ju
                         {"kind", static_cast<int>(kind)},
                         {"seconds", judged.seconds},
                         {"peak_bytes", judged.bytes},
+                        {"said", said_json(judged.answer)},
                         {"error",
                          wrong / std::max(1.0, static_cast<double>(std::max(grade.judged, asked->soup.face_count())))}};
           }};

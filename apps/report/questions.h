@@ -38,6 +38,7 @@ struct Verdict {
   double seconds = 0;
   std::uint64_t peak_bytes = 0;
   bool broken = false;  ///< it claims to be exact, and its answer is not what that promises
+  Json said = nullptr;  ///< the answer, where the arguments ask for it; or null
 };
 
 struct Report_question {

@@ -45,7 +45,7 @@ struct Usual {
 Usual usual(bool quick) {
   if (quick)
     return {{"hinged", "boxes", "cyclic", "edge_on", "leaves", "touching_faces", "triangles_between_squares",
-             "city_rotated"},
+             "city_rotated", "convex_sphere"},
             {"0", "1", "-1", "1000", "-1000", "far"},
             {0, 20},
             1,

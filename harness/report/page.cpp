@@ -63,6 +63,7 @@ Json examples_json(const std::vector<Example>& examples) {
                    {"file", e.file},
                    {"scene", e.scene},
                    {"query", e.query},
+                   {"why", e.why},
                    {"again", e.again},
                    {"picture", picture}});
   }

@@ -28,7 +28,7 @@ svg.focused .series { opacity: .16 } svg.focused .series.focus { opacity: 1 } .f
 .legend button.entry:hover { background: var(--panel) } .legend button[aria-pressed=false] { opacity: .38; text-decoration: line-through }
 .legend svg { flex: none } .legend .kernel { color: var(--soft); margin-left: auto; padding-left: 6px }
 #tip { position: fixed; z-index: 9; pointer-events: none; max-width: 340px; background: var(--paper); border: 1px solid var(--soft); border-radius: 6px; padding: 7px 10px; box-shadow: 0 3px 14px #0004; display: none; font-size: 13px }
-#tip b { display: block } #tip td { padding: 0 10px 0 0; border: 0 } #tip td + td { text-align: right; padding: 0; font-variant-numeric: tabular-nums }
+#tip b { display: block } #tip td { padding: 0 10px 0 0; border: 0; text-align: left } #tip td + td { text-align: right; padding: 0; font-variant-numeric: tabular-nums }
 .scroll { overflow-x: auto } table { border-collapse: collapse; font-variant-numeric: tabular-nums }
 td, th { padding: 2px 8px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap } th { font-weight: 600; cursor: pointer; user-select: none }
 td.name, th.name { text-align: left } .swatch { display: inline-block; width: 10px; height: 10px; border-radius: 2px; margin-right: 6px }
@@ -209,7 +209,7 @@ const section = q => {
     const copy = element('button', { type: 'button', onclick: () => { navigator.clipboard?.writeText(e.again); copy.textContent = 'copied'; } }, 'copy');
     const links = element('div', { class: 'row' }, copy, save(e.file, e.scene));
     if (e.query) links.append(save(e.file.replace(/[.]off$/, '.json'), e.query));
-    cards.append(element('div', { class: 'card' }, element('b', {}, `${e.method} (${e.kernel})`), element('div', { class: 'soft' }, `${e.faces} ${e.faces === 1 ? 'face' : 'faces'}, made of ${e.faces_before} of ${e.family}, ${e.distance}, seed ${e.seed}; error ${number(e.error)}`), picture, element('code', {}, e.again), links));
+    cards.append(element('div', { class: 'card' }, element('b', {}, `${e.method} (${e.kernel})`), element('div', { class: 'soft' }, `${e.faces} ${e.faces === 1 ? 'face' : 'faces'}, made of ${e.faces_before} of ${e.family}, ${e.distance}, seed ${e.seed}; error ${number(e.error)}`), picture, ...(e.why ? [element('p', {}, e.why)] : []), element('code', {}, e.again), links));
   }
   byId('main').append(element('section', { id: 'q' + q }, element('h2', {}, data.questions[q].question), element('p', { class: 'soft' }, 'Error: ' + data.questions[q].error + '. A mark is a method and kernel at one size, larger for larger scenes; a line joins its sizes.'), element('div', { class: 'plot' }, svg, legend), tables));
   if (examples.length) byId('q' + q).append(element('h3', {}, 'The smallest scene that shows each error'), cards);

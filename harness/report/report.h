@@ -36,7 +36,7 @@ struct Row {
   std::size_t size = 0;    ///< faces that were asked for; 0: as small as the family has them
   std::uint64_t seed = 0;  ///< of the first case; the next has the next number
   std::size_t cases = 0, wrong = 0, abstained = 0, crashed = 0, stopped = 0;
-  std::size_t broken = 0;  ///< of the wrong and crashed, those where the method promises more, as exact ones do
+  std::size_t broken = 0;         ///< of the wrong and crashed, those where the method promises more, as exact ones do
   double faces = 0;               ///< mean
   std::optional<double> seconds;  ///< median of the cases that ended; none where none did
   double worst_seconds = 0;
@@ -55,6 +55,7 @@ struct Example {
   double error = 0;
   std::string file, scene;  ///< a name, and what the file holds: OFF with exact coordinates
   std::string query;        ///< the same of a program's query; empty where the command line says it
+  std::string why;          ///< what refutes the answer, in words; empty where nothing does by itself
   std::string again;        ///< the command that shows the error, beside the file
   std::string picture;      ///< SVG
 };
