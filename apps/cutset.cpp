@@ -6,6 +6,7 @@
 
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/cutset/update_1977.h>
+#include <sightline/harness/compare/cut_set_errors.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <iostream>
@@ -51,25 +52,7 @@ std::vector<Face_id> faces_on_view(const Face_graph& graph, const Tracker& track
 template <class Tracker>
 std::size_t disagreements(const Exact_traits& traits, const Face_graph& graph, const Tracker& tracker,
                           const Viewpoint& view) {
-  const Scene& scene = graph.scene();
-  std::vector<bool> on(graph.size());
-  Predicate_counts counts;
-  const Located_point eye = traits.eye(view.at);
-  for (std::uint32_t node = 0; node < graph.size(); ++node) {
-    if (!view.at_infinity) {
-      on[node] = traits.side(eye, graph.plane(node), counts) == CGAL::POSITIVE;
-      continue;
-    }
-    const std::array<Rational, 4> h = scene.file_coefficients(graph.plane(node));
-    on[node] = h[0] * view.at[0] + h[1] * view.at[1] + h[2] * view.at[2] > 0;
-  }
-  std::size_t wrong = 0;
-  for (std::uint32_t node = 0; node < graph.size(); ++node) wrong += tracker.on_view(node) != on[node];
-  std::vector<bool> cut(graph.edges().size());
-  for (const std::uint32_t e : tracker.cut_edges()) cut[e] = true;
-  for (std::size_t e = 0; e < cut.size(); ++e)
-    wrong += cut[e] != (on[graph.edges()[e].first] != on[graph.edges()[e].second]);
-  return wrong;
+  return cut_set_errors(graph, on_view_nodes(traits, graph, view), tracker);
 }
 
 /// A frame of the page: which pieces are on-view.

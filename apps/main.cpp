@@ -58,9 +58,9 @@ static Exit run(int argc, char** argv) {
       "Exit codes: 0 done; 1 a check failed, or methods disagree; 2 usage; 3 bad input, or an output that cannot be "
       "written; 4 undecided, or the budget or memory ran out.");
   for (const auto add :
-       {add_info,     add_bsp,    add_order,   add_graph, add_cutset,     add_see,   add_weak,   add_shadow,
-        add_trace,    add_render, add_boolean, add_cells, add_pvs,        add_merge, add_verify, add_compare,
-        add_generate, add_fuzz,   add_reduce,  add_judge, add_completion, add_schema})
+       {add_info,     add_bsp,    add_order,   add_graph, add_cutset, add_see,        add_weak,   add_shadow,
+        add_trace,    add_render, add_boolean, add_cells, add_pvs,    add_merge,      add_verify, add_compare,
+        add_generate, add_fuzz,   add_reduce,  add_judge, add_report, add_completion, add_schema})
     add(program.root());
   try {
     return program.run(argc, argv).value_or(Exit::done);

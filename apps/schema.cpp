@@ -160,15 +160,64 @@ const std::map<std::string, Json>& results() {
   return all;
 }
 
+/// What the members of a report are, which is of no one scene.
+std::vector<std::pair<std::string, Json>> report_members() {
+  const Json count = a_count(), text = type("string"), number = type("number");
+  const Json seconds = any_of({number, type("null")});
+  const auto of_contender = [&](std::vector<std::pair<std::string, Json>> more) {
+    std::vector<std::pair<std::string, Json>> all{{"question", text}, {"method", text}, {"kernel", text}};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const std::vector<std::pair<std::string, Json>> counts{
+      {"cases", count},   {"wrong", count},       {"abstained", count},      {"crashed", count},
+      {"stopped", count}, {"seconds", seconds},   {"worst_seconds", number}, {"peak_bytes", count},
+      {"error", number},  {"worst_error", number}};
+  auto row = of_contender(counts), summary = row;
+  row.insert(row.end(),
+             {{"unit", count},
+              {"broken", count},
+              {"family", text},
+              {"distance", text},
+              {"size", count},
+              {"seed", count},
+              {"faces", number},
+              {"smallest", any_of({type("null"), object({{"faces", count}, {"seed", count}, {"error", number}})})}});
+  summary.emplace_back("rows", count);
+  const Json example = object(of_contender({{"family", text},
+                                            {"distance", text},
+                                            {"size", count},
+                                            {"seed", count},
+                                            {"faces_before", count},
+                                            {"faces", count},
+                                            {"error", number},
+                                            {"file", text},
+                                            {"scene", text},
+                                            {"query", text},
+                                            {"why", text},
+                                            {"again", text},
+                                            {"picture", text}}));
+  return {{"asked", type("object")},
+          {"shard", tuple_of(count, 2)},
+          {"units", count},
+          {"open", count},
+          {"result", object({{"questions", list_of(object({{"question", text}, {"error", text}}))},
+                             {"summaries", list_of(object(summary))},
+                             {"rows", list_of(object(row))},
+                             {"examples", list_of(example)},
+                             {"not_asked", {{"type", "object"}, {"additionalProperties", count}}}})}};
+}
+
 Exit run(const std::string& command) {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "sightline " + command + " --json"},
               {"$defs", definitions()}};
-  schema.update(object({{"command", {{"const", command}}},
-                        {"scene", named("scene")},
-                        {"result", results().at(command)},
-                        {"counters", type("object")},
-                        {"seconds", {{"type", "object"}, {"additionalProperties", type("number")}}}}));
+  std::vector<std::pair<std::string, Json>> members{{"scene", named("scene")}, {"counters", type("object")}};
+  if (command == "report") members = report_members();
+  else members.emplace_back("result", results().at(command));
+  members.emplace_back("command", Json{{"const", command}});
+  members.emplace_back("seconds", Json{{"type", "object"}, {"additionalProperties", type("number")}});
+  schema.update(object(members));
   std::cout << to_text(schema, 1) << '\n';
   return Exit::done;
 }
@@ -180,6 +229,7 @@ void add_schema(Command program) {
   auto name = std::make_shared<std::string>();
   std::vector<std::string> names;
   for (const auto& [of, result] : schema::results()) names.push_back(of);
+  names.emplace_back("report");
   command.add_option("COMMAND", *name, "the command").required().check(one_of(names));
   command.footer(
       "Keys may be added in later versions; these stay. Of weak it is what is written without --partition and "

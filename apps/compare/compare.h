@@ -27,6 +27,7 @@ struct Compare_arguments {
   Tint_arguments tints;
   std::string ray_file;
   std::size_t random = 1000;  ///< rays of each kind
+  bool says = false;          ///< order, see, weak: rows hold the answer too, as "said"
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.
@@ -48,6 +49,7 @@ std::unique_ptr<Trial> order_trial(const Compare_arguments& arguments, const Pol
 std::unique_ptr<Trial> see_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 std::unique_ptr<Trial> weak_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 std::unique_ptr<Trial> trace_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+std::unique_ptr<Trial> pvs_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 std::unique_ptr<Trial> render_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
 
 /// Asks a contestant in a child process, since an inexact kernel may do anything, for at most so many seconds (0: as

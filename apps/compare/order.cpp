@@ -8,6 +8,17 @@
 
 namespace sightline::app {
 
+/// Faces and parts, farthest first.
+static Json drawn_json(const std::vector<Drawn>& drawn) {
+  Json all = Json::array();
+  for (const Drawn& item : drawn) {
+    Json points = Json::array();
+    for (const Exact_point& p : item.fragment.vertices) points.push_back(point_json(p));
+    all.push_back({item.fragment.face, std::move(points)});
+  }
+  return all;
+}
+
 /// All that is said of one kernel's order.
 static Json judge_order(const std::string& kernel, Scene& scene, const Compare_arguments& arguments, const Task& task) {
   const Peak_memory memory;
@@ -50,6 +61,7 @@ static Json judge_order(const std::string& kernel, Scene& scene, const Compare_a
     errors["tiles_exactly"] = e.lost == 0 && e.overlapping == 0 && e.outside == 0 && drawn.not_finite == 0;
   }
   row["errors"] = errors;
+  if (arguments.says && task.eye) row["said"] = drawn_json(run_method(kernel, scene, task).drawn);
   return row;
 }
 

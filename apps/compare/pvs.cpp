@@ -43,6 +43,7 @@ Json judged(const Question& question, const Sets& said, double seconds, const Pe
       {"seconds", seconds},
       {"peak_bytes", memory.bytes()},
       {"visible", visible},
+      {"pairs", question.exact.counters.pairs},
       {"errors", {{"wrongly_visible", visible_wrongly}, {"wrongly_hidden", hidden_wrongly}, {"worst_cell", worst}}}};
 }
 
@@ -227,53 +228,94 @@ void print(const Json& rows) {
   }
 }
 
-}  // namespace
-
-Exit compare_cells(const Compare_arguments& arguments) {
-  const Common& common = arguments.common;
-  const Polygon_soup soup = common.read();
-  Cell_options cell_options;
-  cell_options.seed = common.seed;
-  cell_options.threads = 1;  // processes are made after it
-  const Level_cells level(soup, cell_options);
-  const Occluders occluders(level.scene());
-  Pvs_options options;
-  options.threads = 1;
-  options.search.seed = common.seed;
-  const Stopwatch watch;
-  const Pvs exact = potentially_visible(level, options);
-  const double seconds = watch.seconds();
+/// Cells that eyes may be in.
+std::vector<Cell_id> asked_cells(const Pvs& exact) {
   std::vector<Cell_id> cells;
   for (Cell_id c = 0; c < exact.is_asked.size(); ++c)
     if (exact.is_asked[c] != 0) cells.push_back(c);
-  const Question question{level, occluders, exact, cells};
+  return cells;
+}
 
+struct Level_trial : Trial {
+  Level_cells level;
+  Occluders occluders;
+  Pvs_options options;
+  Stopwatch watch;
+  Pvs exact;
+  double seconds;
+  std::vector<Cell_id> cells;
+  Question question;
   std::optional<Engine> engine;
-  const std::string bytes = common.scene == "-" ? std::string() : read_bytes(common.scene);
-  if (looks_like_quake_level(bytes)) {
-    Quake_level file = read_quake_level({common.scene, bytes});
-    if (!file.visibility.empty()) engine.emplace(std::move(file));
+
+  /// `limited`: the budget is for the truth too, which leaves pairs open then.
+  Level_trial(const Compare_arguments& arguments, const Polygon_soup& soup, bool limited)
+      : level(soup, cell_options(arguments.common)),
+        occluders(level.scene()),
+        options(pvs_options(arguments.common)),
+        exact(potentially_visible(level, limited ? within(arguments.common.budget) : options)),
+        seconds(watch.seconds()),
+        cells(asked_cells(exact)),
+        question{level, occluders, exact, cells} {
+    const Common& common = arguments.common;
+    const std::string bytes = common.scene.empty() || common.scene == "-" ? std::string() : read_bytes(common.scene);
+    if (looks_like_quake_level(bytes)) {
+      Quake_level file = read_quake_level({common.scene, bytes});
+      if (!file.visibility.empty()) engine.emplace(std::move(file));
+    }
+    add({{"kernel", "exact"}, {"method", "flooding"}}, [this] { return potentially_visible(level, options).visible; });
+    for (const std::size_t rays : arguments.rays)
+      add({{"kernel", "double"}, {"method", "rays"}, {"rays", rays}},
+          [this, rays, seed = common.seed] { return by_rays(question, rays, seed); });
+    add({{"kernel", "exact"}, {"method", "any portals"}}, [this] { return by_portals(question); });
+    if (engine)
+      add({{"kernel", "float"}, {"method", "the file's table"}}, [this] { return by_engine(question, *engine); });
+    right = [](const Json& r) {
+      return r["errors"]["wrongly_hidden"] == 0 &&
+             (r["method"] == "any portals" || r["errors"]["wrongly_visible"] == 0);
+    };
   }
 
-  Trial trial;
-  const auto add = [&](Json name, std::function<Sets()> method) {
-    trial.contestants.push_back({std::move(name), [&question, method = std::move(method)] {
-                                   const Peak_memory memory;
-                                   const Stopwatch own;
-                                   const Sets sets = method();
-                                   return judged(question, sets, own.seconds(), memory);
-                                 }});
-  };
-  add({{"kernel", "exact"}, {"method", "flooding"}}, [&] { return potentially_visible(level, options).visible; });
-  for (const std::size_t rays : arguments.rays)
-    add({{"kernel", "double"}, {"method", "rays"}, {"rays", rays}},
-        [&question, rays, &common] { return by_rays(question, rays, common.seed); });
-  add({{"kernel", "exact"}, {"method", "any portals"}}, [&] { return by_portals(question); });
-  if (engine) add({{"kernel", "float"}, {"method", "the file's table"}}, [&] { return by_engine(question, *engine); });
+  void add(Json name, std::function<Sets()> method) {
+    contestants.push_back({std::move(name), [this, method = std::move(method)] {
+                             const Peak_memory memory;
+                             const Stopwatch own;
+                             const Sets sets = method();
+                             return judged(question, sets, own.seconds(), memory);
+                           }});
+  }
+  Pvs_options within(double budget) const {
+    Pvs_options limited = options;
+    limited.search.out_of_time = [this, budget] { return watch.seconds() > budget; };
+    return limited;
+  }
+  /// On one thread, since processes are made after it.
+  static Cell_options cell_options(const Common& common) {
+    Cell_options options;
+    options.seed = common.seed;
+    options.threads = 1;
+    return options;
+  }
+  static Pvs_options pvs_options(const Common& common) {
+    Pvs_options options;
+    options.threads = 1;
+    options.search.seed = common.seed;
+    return options;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Trial> pvs_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
+  auto trial = std::make_unique<Level_trial>(arguments, soup, arguments.common.budget > 0);
+  if (trial->exact.counters.undecided > 0) throw Out_of_budget("undecided: the truth takes longer than the budget");
+  return trial;
+}
+
+Exit compare_cells(const Compare_arguments& arguments) {
+  const Common& common = arguments.common;
+  const Level_trial trial(arguments, common.read(), false);
+  const auto& [level, exact, question, engine] = std::tie(trial.level, trial.exact, trial.question, trial.engine);
   Json rows = Json::array();
-  trial.right = [](const Json& r) {
-    return r["errors"]["wrongly_hidden"] == 0 && (r["method"] == "any portals" || r["errors"]["wrongly_visible"] == 0);
-  };
   Exit exit = ask(trial, common.budget, rows);
   if (exit == Exit::done && exact.counters.undecided > 0) exit = Exit::undecided;
 
@@ -287,7 +329,7 @@ Exit compare_cells(const Compare_arguments& arguments) {
     }
   }
   Json result{{"question", "pvs"},
-              {"cells", cells.size()},
+              {"cells", trial.cells.size()},
               {"pairs", exact.counters.pairs},
               {"visible", exact.counters.visible},
               {"undecided", exact.counters.undecided},
@@ -295,10 +337,10 @@ Exit compare_cells(const Compare_arguments& arguments) {
               {"refuted", refuted},
               {"sightlines", sightlines}};
   if (write_json(common, "compare", level.scene(), std::move(result), counters_json(exact.counters),
-                 {{"pvs", seconds}}))
+                 {{"pvs", trial.seconds}}))
     return exit;
   scene_rows(level.scene());
-  row("exact", fmt::format("{} cells, {} pairs of a cell and a face: {} visible, {} undecided", cells.size(),
+  row("exact", fmt::format("{} cells, {} pairs of a cell and a face: {} visible, {} undecided", trial.cells.size(),
                            exact.counters.pairs, exact.counters.visible, exact.counters.undecided));
   print(rows);
   if (engine)

@@ -9,6 +9,7 @@
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
 #include <iostream>
+#include <set>
 
 namespace sightline::app {
 
@@ -25,7 +26,8 @@ static Json visible_json(const Visible_errors& e) {
           {"not_finite", e.not_finite}};
 }
 template <class Make_view>
-Json judge_view(Make_view make, const Scene& scene, const Visible_options& options, Visible_reference& reference) {
+Json judge_view(Make_view make, const Scene& scene, const Visible_options& options, Visible_reference& reference,
+                bool says) {
   const Peak_memory memory;
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
@@ -38,19 +40,28 @@ Json judge_view(Make_view make, const Scene& scene, const Visible_options& optio
            {"visible", surface.visible.size()},
            {"parts", surface.parts.size()}};
   row["errors"] = visible_json(reference.errors(view, surface));
+  if (says) row["said"] = surface.visible;
   return row;
 }
 static Json judge_kernel(const std::string& kernel, const Scene& scene, const Exact_point& eye,
-                         const Visible_options& options, Visible_reference& reference) {
-  const auto with = [&](auto make) { return judge_view(make, scene, options, reference); };
+                         const Visible_options& options, Visible_reference& reference, bool says) {
+  const auto with = [&](auto make) { return judge_view(make, scene, options, reference, says); };
   if (kernel == "exact") return with([&] { return Exact_view(scene, eye); });
   if (kernel == "double") return with([&] { return Number_view<double>(scene, eye); });
   if (kernel == "float") return with([&] { return Number_view<float>(scene, eye); });
   if (kernel == "gmpq") return with([&] { return Number_view<CGAL::Gmpq>(scene, eye); });
   return with([&] { return Number_view<CGAL::Exact_predicates_exact_constructions_kernel::FT>(scene, eye); });
 }
+/// Faces with a piece that has a pixel, and whose front the eye is in front of.
+static std::vector<Face_id> shown_faces(const Depth_buffer& buffer, const Exact_view& view) {
+  std::set<Face_id> faces;
+  for (const std::uint32_t piece : buffer.pieces)
+    if (piece != Depth_buffer::nothing && view.eye_side(piece) == CGAL::POSITIVE)
+      faces.insert(view.scene().pieces()[piece].face);
+  return {faces.begin(), faces.end()};
+}
 static Json judge_pixels(const Depth_buffer_options& options, const Scene& scene, const Exact_point& eye,
-                         Visible_reference& reference) {
+                         Visible_reference& reference, bool says) {
   const Peak_memory memory;
   const Stopwatch watch;
   const Depth_buffer buffer = depth_buffer(scene, eye, options);
@@ -59,6 +70,7 @@ static Json judge_pixels(const Depth_buffer_options& options, const Scene& scene
            {"near", buffer.near},      {"far", buffer.far},  {"triangles", buffer.triangles},
            {"clipped", buffer.clipped}};
   row["errors"] = visible_json(reference.errors(buffer));
+  if (says) row["said"] = shown_faces(buffer, Exact_view(scene, eye));
   return row;
 }
 
@@ -107,14 +119,15 @@ struct See_trial : Trial {
     options.threads = arguments.common.threads == 0 ? 1 : arguments.common.threads;
     for (const std::string& kernel : arguments.kernels)
       if (kernel != "epick")
-        contestants.push_back({{{"kernel", kernel}, {"method", "partition"}},
-                               [this, kernel] { return judge_kernel(kernel, scene, eye, options, reference); }});
+        contestants.push_back({{{"kernel", kernel}, {"method", "partition"}}, [this, kernel] {
+                                 return judge_kernel(kernel, scene, eye, options, reference, arguments.says);
+                               }});
     for (const std::uint32_t size : arguments.sizes)
       for (const int bits : arguments.bits) {
         const Depth_buffer_options pixels{size, bits, static_cast<float>(arguments.near),
                                           static_cast<float>(arguments.far)};
         contestants.push_back({{{"kernel", "float"}, {"method", "depth buffer"}, {"size", size}, {"bits", bits}},
-                               [this, pixels] { return judge_pixels(pixels, scene, eye, reference); }});
+                               [this, pixels] { return judge_pixels(pixels, scene, eye, reference, arguments.says); }});
       }
     right = [](const Json& r) {
       const Json& e = r["errors"];

@@ -11,21 +11,23 @@ namespace sightline::app {
 
 /// A method's answer, and where it differs from the exact one.
 static Json judge_weak(const std::string& method, const Occluders& occluders, const Sources& sources,
-                       const Weak_task& task, const Weak_faces& exact) {
+                       const Weak_task& task, const Weak_faces& exact, bool says) {
   const Peak_memory memory;
   const Stopwatch watch;
   const Weak_outcome outcome = run_weak_method(method, occluders, sources, task);
   const double seconds = watch.seconds();
   const Weak_errors e = weak_errors(exact, outcome.found);
-  return {{"status", "done"},
-          {"seconds", seconds},
-          {"peak_bytes", memory.bytes()},
-          {"visible", outcome.found.visible.size()},
-          {"errors",
-           {{"wrongly_visible", e.wrongly_visible},
-            {"wrongly_hidden", e.wrongly_hidden},
-            {"undecided", e.undecided},
-            {"unjudged", e.unjudged}}}};
+  Json row{{"status", "done"},
+           {"seconds", seconds},
+           {"peak_bytes", memory.bytes()},
+           {"visible", outcome.found.visible.size()},
+           {"errors",
+            {{"wrongly_visible", e.wrongly_visible},
+             {"wrongly_hidden", e.wrongly_hidden},
+             {"undecided", e.undecided},
+             {"unjudged", e.unjudged}}}};
+  if (says) row["said"] = outcome.found.visible;
+  return row;
 }
 
 static std::string weak_name(const Json& r) {
@@ -114,8 +116,9 @@ struct Weak_trial : Trial {
       if (!is_asked("double")) break;
       Weak_task sampling = task;
       sampling.rays = rays;
-      contestants.push_back({{{"kernel", "double"}, {"method", "sample"}, {"rays", rays}},
-                             [this, sampling] { return judge_weak("sample", occluders, sources, sampling, exact); }});
+      contestants.push_back({{{"kernel", "double"}, {"method", "sample"}, {"rays", rays}}, [this, sampling] {
+                               return judge_weak("sample", occluders, sources, sampling, exact, arguments.says);
+                             }});
     }
     right = [](const Json& r) {
       return r["errors"]["wrongly_hidden"] == 0 &&
@@ -128,8 +131,9 @@ struct Weak_trial : Trial {
   }
   void add(const std::string& kernel, const std::string& method) {
     if (is_asked(kernel))
-      contestants.push_back({{{"kernel", kernel}, {"method", method}},
-                             [this, method] { return judge_weak(method, occluders, sources, task, exact); }});
+      contestants.push_back({{{"kernel", kernel}, {"method", method}}, [this, method] {
+                               return judge_weak(method, occluders, sources, task, exact, arguments.says);
+                             }});
   }
 };
 

@@ -193,7 +193,7 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
   if (!grade.wrong_visible.empty()) key("hsl(285,60%,62%)", order ? "drawn over it" : "shown but hidden");
   if (why.refutation && why.refutation->by) key("hsl(205,55%,58%)", "in the way");
   if (weak) key("hsl(50,85%,60%)", "source");
-  key("hsl(140,12%,72%)", "right");
+  if (grade.wrong()) key("hsl(140,12%,72%)", "right");
   return svg.text();
 }
 

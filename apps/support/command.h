@@ -23,6 +23,7 @@ void add_generate(Command program);
 void add_fuzz(Command program);
 void add_reduce(Command program);
 void add_judge(Command program);
+void add_report(Command program);
 void add_completion(Command program);
 void add_schema(Command program);
 void add_trace(Command program);

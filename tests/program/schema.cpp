@@ -93,6 +93,7 @@ TEST_F(Schema, of_each_command_is_what_it_writes) {
       {"cells", rooms, "--seal", "1,1,1"},
       {"pvs", rooms},
       {"pvs", (corpus / "general" / "two_rooms.map").string(), "--show", "54"},
+      {"report", "--questions", "see", "--families", "edge_on", "--distances", "1", "--sizes", "0", "--reduce", "1"},
       {"verify", cube, certificate}};
   for (std::vector<std::string> arguments : documents) {
     const Outcome schema = run({"schema", arguments[0]});

@@ -1,0 +1,165 @@
+// The question cutset: which faces a moving viewpoint is in front of, and the edges between these and the rest.
+
+#include "questions.h"
+
+#include <sightline/algorithms/cutset/tracker.h>
+#include <sightline/algorithms/cutset/update_1977.h>
+#include <sightline/harness/compare/cut_set_errors.h>
+#include <sightline/harness/generate/random.h>
+
+namespace sightline::app {
+
+namespace {
+
+/// Viewpoints where answers are hard: at corners, beyond them along edges, between them; and a walk of small steps
+/// about the scene. The same arguments give the same.
+std::vector<Viewpoint> hard_views(const Polygon_soup& soup, std::size_t count, std::uint64_t seed) {
+  generate::Random random(seed);
+  std::vector<Viewpoint> views;
+  if (soup.point_count() == 0) return views;
+  const auto any = [&] { return soup.point(static_cast<Point_id>(random.below(soup.point_count()))); };
+  const auto between = [](const Exact_point& p, const Exact_point& q, const Rational& t) {
+    Exact_point r;
+    for (std::size_t k = 0; k < 3; ++k) r[k] = p[k] + t * (q[k] - p[k]);
+    return r;
+  };
+  Exact_point walk = any();
+  for (std::size_t k = 0; k < count; ++k) {
+    const Exact_point p = any(), q = any();
+    switch (k % 4) {
+      case 0: views.push_back({between(p, q, Rational(static_cast<long>(random.between(-2, 3))))}); break;
+      case 1: views.push_back({between(p, q, Rational(static_cast<long>(random.between(-3, 6)), 3))}); break;
+      default: views.push_back({walk = between(walk, between(p, q, 2), Rational(1, 16))}); break;
+    }
+    for (Rational& x : views.back().at) x.canonicalize(), x = exact(nearest_double(x));
+  }
+  return views;
+}
+
+/// A node's plane as a program has it in its own numbers: Newell's normal, through the first corner.
+template <class Number>
+std::array<Number, 4> plane_in(const Scene& scene, const Piece& piece) {
+  std::vector<std::array<Number, 3>> corners;
+  for (const Piece_corner& corner : scene.corners(piece)) {
+    const Exact_point p = scene.position(corner.point);
+    corners.push_back({static_cast<Number>(nearest_double(p[0])), static_cast<Number>(nearest_double(p[1])),
+                       static_cast<Number>(nearest_double(p[2]))});
+  }
+  std::array<Number, 4> h{};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto &p = corners[i], &q = corners[(i + 1) % corners.size()];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
+      h[k] += (p[x] - q[x]) * (p[y] + q[y]);
+    }
+  }
+  for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * corners[0][k];
+  return h;
+}
+
+/// Moves to a viewpoint, and gives what counts the errors there, once the time is taken.
+using Count = std::function<std::size_t()>;
+using Frame = std::function<Count(std::size_t view)>;
+
+struct Cut_set_trial : Trial {
+  Scene scene;
+  Face_graph graph;
+  Exact_traits traits;
+  std::vector<Viewpoint> views;
+  std::vector<std::vector<bool>> truth;
+
+  Cut_set_trial(const Compare_arguments& arguments, const Polygon_soup& soup)
+      : scene(soup), graph(scene), traits(scene), views(hard_views(soup, arguments.random, arguments.common.seed)) {
+    for (const Viewpoint& view : views) truth.push_back(on_view_nodes(traits, graph, view));
+    const auto add = [&](const char* kernel, const char* method, std::function<Json()> judge) {
+      contestants.push_back({{{"kernel", kernel}, {"method", method}}, std::move(judge)});
+    };
+    add("exact", "tracker", [this] {
+      return judged([this] {
+        auto tracker = std::make_shared<Cut_set_tracker<Exact_traits>>(traits, graph);
+        return [this, tracker](std::size_t k) {
+          tracker->move_to(views[k]);
+          return wrong(k, *tracker);
+        };
+      });
+    });
+    for (const bool mended : {true, false})
+      add("exact", mended ? "1977" : "1977-literal", [this, mended] {
+        return judged([this, mended] {
+          auto update = std::make_shared<Cut_set_1977<Exact_traits>>(
+              traits, graph, views[0], mended ? Reading_1977::mended : Reading_1977::literal);
+          return [this, update](std::size_t k) {
+            if (k > 0) update->update_1977(views[k]);
+            return wrong(k, *update);
+          };
+        });
+      });
+    add("exact", "each face", [this] {
+      return judged([this] {
+        return [this](std::size_t k) -> Count {
+          const std::vector<bool> on = on_view_nodes(traits, graph, views[k]);
+          return [this, k, on] { return errors(k, on); };
+        };
+      });
+    });
+    add("double", "each face", [this] { return judged([this] { return in_numbers<double>(); }); });
+    add("float", "each face", [this] { return judged([this] { return in_numbers<float>(); }); });
+    right = [](const Json& r) {
+      return r["method"].get<std::string>().starts_with("1977") || r["errors"]["wrong_frames"] == 0;
+    };
+  }
+
+  std::size_t errors(std::size_t k, const std::vector<bool>& on) const {
+    std::size_t wrong_nodes = 0;
+    for (std::size_t node = 0; node < on.size(); ++node) wrong_nodes += on[node] != truth[k][node];
+    return wrong_nodes;
+  }
+  template <class Tracker>
+  Count wrong(std::size_t k, const Tracker& tracker) const {
+    return [this, k, &tracker] { return cut_set_errors(graph, truth[k], tracker); };
+  }
+
+  template <class Number>
+  Frame in_numbers() const {
+    std::vector<std::array<Number, 4>> planes;
+    for (std::uint32_t node = 0; node < graph.size(); ++node)
+      planes.push_back(plane_in<Number>(scene, scene.pieces()[graph.piece(node)]));
+    return [this, planes = std::move(planes)](std::size_t k) -> Count {
+      std::array<Number, 3> eye;
+      for (std::size_t i = 0; i < 3; ++i) eye[i] = static_cast<Number>(nearest_double(views[k].at[i]));
+      std::vector<bool> on(planes.size());
+      for (std::size_t node = 0; node < on.size(); ++node) {
+        const auto& h = planes[node];
+        on[node] = h[0] * eye[0] + h[1] * eye[1] + h[2] * eye[2] + h[3] > 0;
+      }
+      return [this, k, on] { return errors(k, on); };
+    };
+  }
+
+  Json judged(const std::function<Frame()>& prepare) const {
+    const Peak_memory memory;
+    Stopwatch watch;
+    const Frame frame = prepare();
+    double seconds = watch.seconds();
+    std::size_t wrong_frames = 0;
+    for (std::size_t k = 0; k < views.size(); ++k) {
+      watch = {};
+      const Count count = frame(k);
+      seconds += watch.seconds();
+      wrong_frames += count() > 0;
+    }
+    return {{"status", "done"},
+            {"seconds", seconds},
+            {"peak_bytes", memory.bytes()},
+            {"errors", {{"frames", views.size()}, {"wrong_frames", wrong_frames}}}};
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Trial> cutset_trial(const Compare_arguments& arguments, const Polygon_soup& soup) {
+  if (soup.point_count() == 0) throw std::invalid_argument("the scene has no point to look from");
+  return std::make_unique<Cut_set_trial>(arguments, soup);
+}
+
+}  // namespace sightline::app

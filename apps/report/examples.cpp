@@ -1,0 +1,183 @@
+// The smallest scene that shows an error.
+
+#include "examples.h"
+
+#include "../judge/picture.h"
+
+#include <sightline/harness/judge/truth.h>
+#include <sightline/harness/laws/reduce.h>
+#include <sightline/io/write.h>
+
+#include <set>
+#include <sstream>
+
+namespace sightline::app {
+
+namespace {
+
+/// A file's name of a contender.
+std::string stem_of(const report::Contender& who) {
+  std::string stem;
+  for (const char c : who.question + ' ' + who.method + ' ' + who.kernel) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    if (plain) stem += c;
+    else if (!stem.empty() && stem.back() != '-') stem += '-';
+  }
+  return stem.substr(0, 80);
+}
+
+bool repeats_a_point(const Polygon_soup& soup) {
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    std::set<Exact_point> corners;
+    for (const Point_id p : soup.loop(f)) corners.insert(soup.point(p));
+    if (corners.size() < soup.loop(f).size()) return true;
+  }
+  return false;
+}
+
+/// One contender, asked about one scene after another.
+class Witness {
+ public:
+  Witness(const report::Row& row, const Example_options& options)
+      : row_(row), options_(options), question_(report_question(row.who.question)) {
+    for (const Report_program& program : options.programs)
+      if (program.question == row.who.question && program.name() == row.who.method && row.who.kernel == "program")
+        program_ = &program;
+  }
+
+  Compare_arguments arguments(const Judge_case& asked) const {
+    Compare_arguments a = question_.arguments(asked, options_.effort);
+    a.common.seed = row_.smallest->seed;
+    a.common.threads = 1;
+    a.common.budget = options_.limits.seconds;
+    a.says = true;
+    return a;
+  }
+
+  /// The answer to a case, and the contender's name as its trial has it.
+  Verdict ask(const std::shared_ptr<const Judge_case>& asked, Json& name) const {
+    if (program_ != nullptr) {
+      const Contestant contestant = contestant_of(*program_, asked, row_.smallest->seed);
+      name = contestant.name;
+      return verdict_of(question_, Trial{}, contestant, asked->soup.face_count(), options_.limits);
+    }
+    const std::unique_ptr<Trial> trial = question_.trial(arguments(*asked), asked->soup);
+    for (const Contestant& contestant : trial->contestants) {
+      if (contestant.name["kernel"] != row_.who.kernel || method_of(contestant.name) != row_.who.method) continue;
+      name = contestant.name;
+      return verdict_of(question_, *trial, contestant, asked->soup.face_count(), options_.limits);
+    }
+    return {};
+  }
+
+  /// The command that asks it again about a file.
+  std::string again(const Judge_case& asked, const Json& name, const std::string& stem) const {
+    if (program_ != nullptr)
+      return fmt::format("sightline judge --program {} --query {} --contract exact --scenes {}.off --ask {}.json",
+                         shell_word(program_->command), row_.who.question, stem, stem);
+    const std::string options = question_.again(arguments(asked), name);
+    return fmt::format("sightline {} {}.off {} --seed {}", options.starts_with("--") ? "report" : "compare", stem,
+                       options, row_.smallest->seed);
+  }
+
+  bool is_program() const { return program_ != nullptr; }
+
+ private:
+  const report::Row& row_;
+  const Example_options& options_;
+  const Report_question& question_;
+  const Report_program* program_ = nullptr;
+};
+
+judge::Question judged_as(const std::string& question) {
+  return question == "order"  ? judge::Question::order
+         : question == "weak" ? judge::Question::weak
+                              : judge::Question::see;
+}
+
+/// An answer as the judge has it.
+judge::Answer answer_of(judge::Question question, const Json& said) {
+  judge::Answer answer;
+  if (question != judge::Question::order) {
+    answer.visible = said.get<std::vector<Face_id>>();
+    return answer;
+  }
+  for (const Json& item : said)
+    answer.order.push_back({item[0].get<Face_id>(), judge::points_from_json(nlohmann::json(item[1]), "said")});
+  return answer;
+}
+
+/// Draws a wrong case, with the line that refutes the answer where one does, and tells of it.
+void explain_case(const Judge_case& asked, const Json& said, report::Example& example) {
+  judge::Grade grade;
+  judge::Explanation why;
+  try {
+    if (!said.is_null()) {
+      const judge::Answer answer = answer_of(asked.query.question, said);
+      grade = judge::grade(judge::truth_of(asked.soup, asked.query, {1, 20, true}), answer);
+      if (grade.wrong()) why = judge::explain(asked.soup, asked.query, answer, grade, judge::Contract::exact);
+      if (why.refutation) example.why = why.refutation->words;
+    }
+    example.picture = picture_of(asked.soup, asked.query, grade, why);
+  } catch (const std::exception&) {
+    example.picture.clear();  // nothing to see: no point, or numbers beyond those of a picture
+  }
+}
+
+}  // namespace
+
+std::optional<report::Example> example_of(const report::Row& row, const Judge_case& asked,
+                                          const Example_options& options) {
+  const Witness witness(row, options);
+  const Case_options as_programs_get_it{judged_as(row.who.question), false, true};
+  const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
+    return std::make_shared<const Judge_case>(
+        case_of(smaller.soup, {as_programs_get_it.question, smaller.eye, smaller.source, false}, as_programs_get_it));
+  };
+  const bool repeats = repeats_a_point(asked.soup);
+  Json name;
+  Verdict last;
+  const auto fails = [&](const generate::Posed_scene& smaller) {
+    try {
+      const std::shared_ptr<const Judge_case> other = case_of_smaller(smaller);
+      if (!other->not_asked.empty() || !other->as_given || (!repeats && repeats_a_point(other->soup))) return false;
+      const Verdict verdict = witness.ask(other, name);
+      if (verdict.kind == Verdict::wrong) last = verdict;
+      return verdict.kind == Verdict::wrong;
+    } catch (const std::exception&) {
+      return false;  // a scene that cannot be asked about
+    }
+  };
+
+  // 1. Smaller, and rounder.
+  generate::Posed_scene scene;
+  scene.soup = asked.soup;
+  scene.eye = asked.query.eye;
+  scene.source = asked.query.source;
+  if (!fails(scene)) return std::nullopt;
+  const Stopwatch watch;
+  harness::Reduce_options reduce;
+  reduce.most_tests = options.tests;
+  reduce.out_of_time = [&] { return watch.seconds() > options.seconds; };
+  const harness::Reduced reduced = harness::reduce(scene, fails, reduce);
+  const std::shared_ptr<const Judge_case> left = case_of_smaller(reduced.scene);
+
+  // 2. What is told of it.
+  report::Example example;
+  example.who = row.who;
+  example.family = row.family, example.distance = row.distance;
+  example.size = row.size, example.seed = row.smallest->seed;
+  example.faces_before = asked.soup.face_count(), example.faces = left->soup.face_count();
+  example.error = last.error;
+  const std::string stem = stem_of(row.who);
+  std::ostringstream text;
+  write_scene(left->soup, text, Format::off);
+  example.file = stem + ".off";
+  example.scene = text.str();
+  if (witness.is_program()) example.query = judge::to_json(left->query).dump() + "\n";
+  example.again = witness.again(*left, name, stem);
+  explain_case(*left, last.said, example);
+  return example;
+}
+
+}  // namespace sightline::app

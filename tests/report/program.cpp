@@ -1,0 +1,179 @@
+// sightline report: a program that is wrong is found wrong, with the smallest scene; shards, resuming, bad input.
+
+#include "../program/program.h"
+
+#include <map>
+
+namespace program {
+
+namespace {
+
+class Report_command : public Program {
+ protected:
+  std::vector<std::string> words(const std::vector<std::string>& more) const {
+    std::vector<std::string> all{"report",      "--questions", "see",     "--families", "hinged,edge_on",
+                                 "--distances", "0,1",         "--sizes", "0"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  /// A report as it is in a file, without what differs between runs.
+  static nlohmann::json lasting(const std::string& text) {
+    nlohmann::json report = nlohmann::json::parse(text, nullptr, false);
+    report.erase("seconds");
+    for (const char* list : {"rows", "summaries"})
+      for (nlohmann::json& row : report["result"][list])
+        for (const char* key : {"seconds", "worst_seconds", "peak_bytes"}) row.erase(key);
+    return report;
+  }
+  /// Runs the command that shows an error again, where its scene is.
+  Outcome again(const std::string& command, const std::string& more) const {
+    const std::string script = file("again.sh", "cd " + path("kept").string() + " && " + executable +
+                                                    command.substr(command.find(' ')) + more + "\n");
+    Outcome outcome;
+    outcome.code = WEXITSTATUS(std::system(("sh " + script + " > " + path("said").string()).c_str()));
+    outcome.out = read_file(path("said"));
+    return outcome;
+  }
+};
+
+TEST_F(Report_command, finds_a_program_wrong_and_shows_the_smallest_scene) {
+  const std::string blind = file("blind.sh", "echo '# nothing' > /dev/null; : > \"$3\"\n");  // it sees nothing
+  const std::string json = path("report.json").string();
+  const Outcome r = run(
+      words({"--program", "see=sh " + blind + " {scene} {query} {answer}", "--keep", path("kept").string(), "--reduce",
+             "150", "--json", json, "--html", path("report.html").string(), "--svg", path("report.svg").string()}));
+  ASSERT_EQ(r.code, done) << r;
+  const Json report = Json::parse(read_file(json));
+
+  // 1. Exact kernels are right, the program is wrong wherever there is something to see, and doubles err here.
+  std::map<std::string, Json> sums;
+  for (const Json& s : report["result"]["summaries"]) sums[s["kernel"]] = s;
+  for (const char* kernel : {"exact", "epeck", "gmpq"}) {
+    EXPECT_EQ(sums.at(kernel)["wrong"], 0) << kernel;
+    EXPECT_EQ(sums.at(kernel)["error"], 0) << kernel;
+    EXPECT_EQ(sums.at(kernel)["cases"], 12) << kernel;
+  }
+  EXPECT_GE(sums.at("program")["wrong"], 6) << sums.at("program");
+  EXPECT_EQ(sums.at("program")["crashed"], 0);
+  EXPECT_GT(sums.at("program")["error"], 0);
+
+  // 2. The smallest scene has one face, and the command shows the error.
+  std::map<std::string, Json> examples;
+  for (const Json& e : report["result"]["examples"])
+    examples[e["method"].get<std::string>() + e["kernel"].get<std::string>()] = e;
+  const Json& smallest = examples.at("sh " + blind + "program");
+  EXPECT_EQ(smallest["faces"], 1) << smallest;
+  EXPECT_EQ(read_file(path("kept") / smallest["file"].get<std::string>()), smallest["scene"]);
+  const Outcome judged = again(smallest["again"], "");
+  EXPECT_EQ(judged.code, disagreement) << smallest["again"] << judged.out;
+  EXPECT_NE(judged.out.find("missing but visible"), std::string::npos) << judged.out;
+
+  // 3. The same of a depth buffer, which this program's own `compare` asks.
+  const Json& pixels = examples.at("depth buffer 64, 24 bitfloat");
+  EXPECT_LE(pixels["faces"], 2);
+  const Json compared = again(pixels["again"], " --json -").json();
+  ASSERT_FALSE(compared.is_discarded()) << pixels["again"];
+  EXPECT_GT(compared["result"]["rows"][1]["errors"]["wrong_area"], 0x1p-20) << compared["result"]["rows"];
+
+  // 4. The page and the picture.
+  const std::string page = read_file(path("report.html"));
+  EXPECT_NE(page.find(smallest["file"].get<std::string>()), std::string::npos);
+  EXPECT_LT(page.size(), 3'000'000u);
+  EXPECT_NE(read_file(path("report.svg")).find("see: seconds against error"), std::string::npos);
+}
+
+TEST_F(Report_command, of_shards_and_resumed_is_the_same) {
+  const auto ask = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"--cases", "1", "--reduce", "20", "--quick", "--json", path(name).string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(words(all));
+  };
+  ASSERT_EQ(ask("whole.json", {}).code, done);
+  const nlohmann::json whole = lasting(read_file(path("whole.json")));
+  EXPECT_EQ(whole["units"], 4);
+  EXPECT_FALSE(whole["result"]["examples"].empty());
+
+  // 1. Shards.
+  for (const char* shard : {"0", "1", "2"})
+    ASSERT_EQ(ask(std::string("part") + shard + ".json", {"--shard", std::string(shard) + "/3"}).code, done);
+  const auto part = [&](int k) { return path("part" + std::to_string(k) + ".json").string(); };
+  const Outcome merged = run({"report", "--merge", part(2), part(0), part(1), "--json", path("merged.json").string()});
+  ASSERT_EQ(merged.code, done) << merged;
+  EXPECT_EQ(lasting(read_file(path("merged.json"))), whole);
+  const Outcome missing = run({"report", "--merge", part(2), part(0), "--json", "-"});
+  EXPECT_EQ(missing.code, bad_input) << missing;
+  EXPECT_NE(missing.err.find("shard 1 of 3 is missing"), std::string::npos) << missing;
+
+  // 2. A unit a run, since the budget is over at once; then what is left.
+  const std::vector<std::string> a_unit{"--resume", "--budget", "1e-9"};
+  for (int k = 1; k <= 2; ++k) {
+    const Outcome stopped = ask("resumed.json", a_unit);
+    EXPECT_EQ(stopped.code, undecided) << stopped;
+    EXPECT_TRUE(stopped.one_line_of_error()) << stopped;
+    EXPECT_EQ(lasting(read_file(path("resumed.json")))["open"], 4 - k);
+    EXPECT_TRUE(fs::exists(path("resumed.json.units")));
+  }
+  const Outcome unfinished = run({"report", "--merge", path("resumed.json").string(), "--json", "-"});
+  EXPECT_EQ(unfinished.code, bad_input) << unfinished;
+  std::ofstream(path("resumed.json.units"), std::ios::app) << "{\"unit\":3,\"ro";  // as an end in the middle leaves it
+  const Outcome rest = ask("resumed.json", {"--resume"});
+  ASSERT_EQ(rest.code, done) << rest;
+  EXPECT_NE(rest.out.find("2 of 4 units were there"), std::string::npos) << rest;
+  EXPECT_EQ(lasting(read_file(path("resumed.json"))), whole);
+  EXPECT_FALSE(fs::exists(path("resumed.json.units")));
+}
+
+TEST_F(Report_command, says_what_to_do_about_bad_input) {
+  const std::string torn = file("torn.json", "{\"command\": \"rep"),
+                    other = file("other.json", "{\"command\": \"see\"}");
+  const std::string json = path("x.json").string();
+  const std::string program = "sh " + file("p.sh", "exit 0\n") + " {scene} {query} {answer}";
+  const std::vector<std::pair<std::vector<std::string>, int>> all{
+      {{"report"}, usage},
+      {{"report", "--html", path("x.txt").string()}, usage},
+      {{"report", "--resume", "--html", path("x.html").string()}, usage},
+      {{"report", "--json", json, "--shard", "3/2"}, usage},
+      {{"report", "--json", json, "--shard", "x"}, usage},
+      {{"report", "--json", json, "--families", "none"}, usage},
+      {{"report", "--json", json, "--distances", "near"}, usage},
+      {{"report", "--json", json, "--questions", "what"}, usage},
+      {{"report", "--json", json, "--program", program}, usage},
+      {{"report", "--json", json, "--program", "trace=" + program}, usage},
+      {{"report", "--json", json, "--program", "see=sh x"}, usage},
+      {{"report", "--json", json, "--questions", "order", "--program", "see=" + program}, usage},
+      {words({"--json", json, "--program", "see=/none/there {scene} {query} {answer}"}), usage},
+      {{"report", "--json", json, path("none.off").string()}, usage},
+      {{"report", "--json", json, "--merge", torn}, bad_input},
+      {{"report", "--json", json, "--merge", other}, bad_input},
+      {{"report", "--json", json, "--merge", path("none.json").string()}, bad_input},
+      {{"report", "--json", json, "--merge", other, "--shard", "0/2"}, usage},
+      {{"report", "--json", torn, "--merge", torn}, usage}};
+  for (const auto& [arguments, code] : all) {
+    const Outcome r = run(arguments);
+    EXPECT_EQ(r.code, code) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+  }
+}
+
+TEST_F(Report_command, asks_about_scenes_and_counts_what_it_cannot_ask) {
+  const Outcome r = run({"report", "--questions", "see,trace", "--quick", "--reduce", "1", "--json", "-",
+                         (corpus / "general" / "cube.off").string(), (corpus / "general" / "two_rooms.off").string()});
+  ASSERT_EQ(r.code, done) << r;
+  const Json report = r.json();
+  EXPECT_EQ(report["units"], 4);
+  std::map<std::string, int> families;
+  for (const Json& row : report["result"]["rows"]) {
+    ++families[row["family"]];
+    EXPECT_EQ(row["distance"], "as given");
+  }
+  EXPECT_EQ(families.size(), 2u);
+  EXPECT_GT(families["cube.off"], 6);
+  const Outcome huge = run({"report", "--questions", "see", "--quick", "--reduce", "1", "--json", "-",
+                            (corpus / "robust" / "huge.off").string()});
+  ASSERT_EQ(huge.code, done) << huge;
+  EXPECT_EQ(huge.json()["result"]["rows"].size() + huge.json()["result"]["not_asked"].size() > 0, true) << huge.out;
+}
+
+}  // namespace
+
+}  // namespace program
