@@ -1,0 +1,19 @@
+#pragma once
+// Levels that a game's compiler made: their own tree and leaves, for cells within them.
+
+#include "common.h"
+
+#include <sightline/algorithms/levels/cells.h>
+#include <sightline/io/quake_bsp.h>
+
+#include <string>
+
+namespace sightline::app {
+
+/// The bytes of SCENE where it is a compiled level. Errors: Usage_error that begins with `wanted` where it is none.
+std::string compiled_level(const Common& common, const std::string& wanted);
+
+/// The level's own tree, exactly as its floats say. Errors: Input_error where a node's plane has no normal.
+Space_tree space_tree(const Quake_level& level, const std::string& file);
+
+}  // namespace sightline::app
