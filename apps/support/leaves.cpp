@@ -2,6 +2,8 @@
 
 #include <sightline/io/file.h>
 
+#include <algorithm>
+
 namespace sightline::app {
 
 std::string compiled_level(const Common& common, const std::string& wanted) {
@@ -23,6 +25,17 @@ Space_tree space_tree(const Quake_level& level, const std::string& file) {
   }
   if (tree.nodes.empty() && tree.root >= 0) tree.root = -1;
   return tree;
+}
+
+std::vector<std::vector<bool>> rows_of_level(const Level_cells& level, const Cell_pvs& pvs, const Quake_level& file) {
+  std::vector<std::vector<bool>> rows = visible_leaves(level, pvs, std::max<std::size_t>(1, file.leaves.size()));
+  rows.erase(rows.begin());  // leaf 0, which is solid, has none
+  rows.resize(file.visible_leaves);
+  for (std::vector<bool>& row : rows) {
+    row.erase(row.begin());
+    row.resize(file.visible_leaves);
+  }
+  return rows;
 }
 
 }  // namespace sightline::app

@@ -3,10 +3,12 @@
 
 #include "common.h"
 
+#include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/cells.h>
 #include <sightline/io/quake_bsp.h>
 
 #include <string>
+#include <vector>
 
 namespace sightline::app {
 
@@ -15,5 +17,8 @@ std::string compiled_level(const Common& common, const std::string& wanted);
 
 /// The level's own tree, exactly as its floats say. Errors: Input_error where a node's plane has no normal.
 Space_tree space_tree(const Quake_level& level, const std::string& file);
+
+/// What leaves see, as a level has it: rows[l] is of leaf l + 1. Pre: cells are within the leaves of the level's tree.
+std::vector<std::vector<bool>> rows_of_level(const Level_cells& level, const Cell_pvs& pvs, const Quake_level& file);
 
 }  // namespace sightline::app
