@@ -1,5 +1,6 @@
 // sightline cells: the convex cells of a level, the walls between them, what is solid, and ways out.
 
+#include "support/leaves.h"
 #include "support/page.h"
 
 #include <sightline/algorithms/levels/cells.h>
@@ -17,6 +18,7 @@ struct Cells_arguments {
   unsigned candidates = 5;
   std::vector<std::string> seals;
   std::string out, html;
+  bool leaves = false;
 };
 
 Json ids_json(const std::vector<std::uint32_t>& ids) { return Json(ids); }
@@ -30,6 +32,7 @@ Json cells_json(const Level_cells& level) {
                      {"outside", cell.is_outside},
                      {"winding", cell.winding},
                      {"region", cell.region},
+                     {"leaf", cell.leaf},
                      {"faces", ids_json(cell.faces)},
                      {"walls", ids_json(cell.walls)}});
   for (const Cell_wall& wall : level.walls()) {
@@ -114,6 +117,10 @@ Exit run(const Cells_arguments& arguments) {
   options.candidates = arguments.candidates;
   options.seed = common.seed;
   options.threads = common.threads;
+  if (arguments.leaves) {
+    const std::string bytes = compiled_level(common, "--leaves");
+    options.tree = space_tree(read_quake_level({common.scene, bytes}), common.scene);
+  }
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Stopwatch watch;
   const Level_cells level(soup, options);
@@ -176,6 +183,7 @@ void add_cells(Command program) {
       "--seal", a->seals,
       "a point X,Y,Z of a room from which there should be no way out; may be repeated. Exit code 1 where "
       "there is one");
+  command.add_flag("--leaves", a->leaves, "of a compiled level (.bsp): cells within its own leaves, by number");
   command.add_option("--out", a->out, "write points, cells and walls as JSON").writes_file().check(ending(".json"));
   command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")
       .writes_file()

@@ -4,6 +4,7 @@
 #include "methods/methods.h"
 #include "methods/weak.h"
 #include "support/drawing.h"
+#include "support/leaves.h"
 #include "support/page.h"
 #include "support/picture.h"
 
@@ -34,8 +35,8 @@ struct Pvs_arguments {
   Common common;
   View_arguments view;
   unsigned candidates = 5;
-  bool outside = false, resume = false, cells_too = false;
   std::string out, shard, svg, html, eye, obj, mesh, certificates;
+  bool outside = false, resume = false, cells_too = false, leaves = false;
   std::vector<std::uint32_t> show;
 };
 
@@ -44,9 +45,9 @@ class Table_maker {
  public:
   Table_maker(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_cells& level)
       : arguments_(arguments), level_(level), faces_(soup.face_count()), search_(level, options()) {
-    question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}", fingerprint(soup), arguments.candidates,
+    question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), arguments.candidates,
                             arguments.common.seed, arguments.outside ? ", outside" : "",
-                            arguments.cells_too ? ", cells too" : "");
+                            arguments.leaves ? ", leaves" : "", arguments.cells_too ? ", cells too" : "");
     if (arguments.cells_too) cell_search_.emplace(level, options());
   }
 
@@ -384,8 +385,72 @@ double percent(std::size_t part, std::size_t whole) {
   return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(1, whole));
 }
 
+void row_of_cells(const Cell_pvs_counters& c, std::size_t visible, std::size_t undecided) {
+  row("", fmt::format("{} of two cells: {} see each other ({:.3g}%), {} undecided", c.pairs, visible,
+                      percent(visible, c.pairs), undecided));
+  row("",
+      fmt::format("{} neighbours, {} along random lines, {} along a sightline made longer; {} searches, {} of which "
+                  "found hidden, {} left to events; {} pairs were not reached",
+                  c.adjacent, c.by_lines, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
+}
+
+/// A copy of a compiled level with what its leaves see in the place of its own table: cells from cells alone.
+Exit run_into_level(const Pvs_arguments& arguments) {
+  const Common& common = arguments.common;
+  if (!arguments.shard.empty() || arguments.resume || !arguments.show.empty() || !arguments.certificates.empty())
+    throw Usage_error("--out FILE.bsp is about leaves alone: leave out --shard, --resume, --show and --certificates");
+  const std::string bytes = compiled_level(common, "--out FILE.bsp");
+  const Quake_level file = read_quake_level({common.scene, bytes});
+  Cell_options cell_options;
+  cell_options.candidates = arguments.candidates;
+  cell_options.seed = common.seed;
+  cell_options.threads = common.threads;
+  cell_options.tree = space_tree(file, common.scene);
+  const Stopwatch watch;
+  const Level_cells level(common.read(), cell_options);
+  const double cells_seconds = watch.seconds();
+  Progress progress("looking");
+  Pvs_options options;
+  options.outside = arguments.outside;
+  options.threads = common.threads;
+  options.search.seed = common.seed;
+  options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
+  if (common.budget > 0) options.search.out_of_time = [&] { return watch.seconds() > common.budget; };
+  const Cell_pvs pvs = mutually_visible_cells(level, options);
+  progress.clear();
+  const double seconds = watch.seconds() - cells_seconds;
+  const std::vector<std::vector<bool>> rows = rows_of_level(level, pvs, file);
+  write_file(arguments.out, with_visibility(bytes, rows));
+
+  std::size_t visible = 0;
+  for (const std::vector<bool>& row : rows)
+    visible += static_cast<std::size_t>(std::count(row.begin(), row.end(), true));
+  const Cell_pvs_counters& c = pvs.counters;
+  const Exit exit = c.undecided > 0 ? Exit::undecided : Exit::done;
+  Json counters = counters_json(c);
+  counters["cells"] = counters_json(level.counters());
+  if (write_json(common, "pvs", level.scene(),
+                 {{"cells", c.cells},
+                  {"faces", 0},
+                  {"visible", 0},
+                  {"undecided", 0},
+                  {"blocks_kept", 0},
+                  {"pairs_of_cells", {{"visible", c.visible}, {"undecided", c.undecided}}},
+                  {"leaves", {{"leaves", rows.size()}, {"visible", visible}}}},
+                 std::move(counters), {{"cells", cells_seconds}, {"pvs", seconds}}))
+    return exit;
+  scene_rows(level.scene());
+  row("cells", fmt::format("{} of {} are asked about", c.cells, level.counters().cells));
+  row_of_cells(c, c.visible, c.undecided);
+  row("leaves", fmt::format("{} have rows: of {} pairs, each with itself too, {} are visible", rows.size(),
+                            rows.size() * rows.size(), visible));
+  row("seconds", fmt::format("{:.3f} for cells, {:.3f} for what they see", cells_seconds, seconds));
+  return exit;
+}
+
 Exit run_pvs(const Pvs_arguments& arguments) {
   const Common& common = arguments.common;
+  if (arguments.out.ends_with(".bsp")) return run_into_level(arguments);
   const auto [shard, shards] = shard_of(arguments.shard);
   if (arguments.resume && (arguments.out.empty() || arguments.out == "-"))
     throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
@@ -399,6 +464,10 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   cell_options.candidates = arguments.candidates;
   cell_options.seed = common.seed;
   cell_options.threads = common.threads;
+  if (arguments.leaves) {
+    const std::string bytes = compiled_level(common, "--leaves");
+    cell_options.tree = space_tree(read_quake_level({common.scene, bytes}), common.scene);
+  }
   const Stopwatch watch;
   const Level_cells level(soup, cell_options);
   const double cells_seconds = watch.seconds();
@@ -453,14 +522,7 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   row("seen", fmt::format("{} within their cell, {} by a neighbour's sightline; {} searches, {} of which found hidden, "
                           "{} left to events; {} pairs were not reached",
                           c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
-  if (arguments.cells_too) {
-    row("", fmt::format("{} of two cells: {} see each other ({:.3g}%), {} undecided", of_cells.pairs, cells_visible,
-                        percent(cells_visible, of_cells.pairs), cells_undecided));
-    row("", fmt::format("{} neighbours, {} along random lines, {} along a sightline made longer; {} searches, {} of "
-                        "which found hidden; {} pairs were not reached",
-                        of_cells.adjacent, of_cells.by_lines, of_cells.extended, of_cells.searched, of_cells.hidden,
-                        of_cells.unreached));
-  }
+  if (arguments.cells_too) row_of_cells(of_cells, cells_visible, cells_undecided);
   if (arguments.resume) row("resumed", fmt::format("{} of {} blocks were there", maker.blocks_kept(), blocks));
   for (const Cell_id cell : arguments.show) {
     row(fmt::format("cell {}", cell), fmt::format("sees {}", fmt::join(table.row_of(cell)->visible, " ")));
@@ -505,13 +567,19 @@ void add_pvs(Command program) {
       program.add_command("pvs", "What each cell of a level can see, exactly: a table, in parts, with certificates");
   auto a = std::make_shared<Pvs_arguments>();
   a->common.add_to(command);
-  command.add_option("--out", a->out, "write the table: .json, .csv, or else binary").writes_file();
+  command
+      .add_option(
+          "--out", a->out,
+          "write the table: .json, .csv, or else binary; .bsp: a copy of SCENE, a compiled level, with what its "
+          "leaves see in the place of its own table")
+      .writes_file();
   command.add_option("--candidates", a->candidates, "face planes tried for each node of the tree of cells")
       .check(range(1, 1000))
       .show_default();
   command.add_flag("--outside", a->outside, "ask about cells too from which there is a way out of the level");
   command.add_flag("--cells-too", a->cells_too,
                    "find the pairs of cells of which some point of the one sees some point of the other, too");
+  command.add_flag("--leaves", a->leaves, "of a compiled level (.bsp): cells within its own leaves");
   command.add_option("--show", a->show, "print what this cell sees; may be repeated");
   add_mesh_option(command, a->mesh, "faces visible, hidden, undecided from --show, and the cells,");
   command.add_option("--obj", a->obj, "the same as OBJ").writes_file().check(ending(".obj"));
@@ -536,7 +604,9 @@ void add_pvs(Command program) {
       "Example: sightline pvs level.map --out level.pvs\n"
       "         for i in 0 1 2 3; do sightline pvs level.map --shard $i/4 --out part$i.pvs --resume & done; wait\n"
       "         sightline merge part?.pvs --out level.pvs\n"
-      "Cells are those of `sightline cells` with the same --candidates and --seed. Exit code 4: pairs are undecided.");
+      "         sightline pvs level.bsp --out better.bsp\n"
+      "Cells are those of `sightline cells` with the same --candidates, --seed and --leaves. Exit code 4: pairs are "
+      "undecided; in a .bsp their leaves see each other.");
   command.set_action([a] { return run_pvs(*a); });
 }
 

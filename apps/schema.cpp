@@ -146,6 +146,7 @@ const std::map<std::string, Json>& results() {
                       {"visible", count},
                       {"undecided", count},
                       {"blocks_kept", count},
+                      {"leaves?", object({{"leaves", count}, {"visible", count}})},
                       {"pairs_of_cells?", object({{"visible", count}, {"undecided", count}})},
                       {"shown?", list_of(object({{"cell", count},
                                                  {"point", named("point")},

@@ -29,8 +29,14 @@ struct Bsp_options {
   unsigned split_weight = 3;  ///< a split costs as much as an imbalance of this many polygons
   std::uint64_t seed = 1;     ///< of the random choice of candidates
   std::vector<Plane> first =
-      {};           ///< planes of the topmost nodes on every way from the root, in this order: a near plane, say
-  int threads = 0;  ///< 0: as many as there are processors; the tree is the same for any number
+      {};  ///< planes of the topmost nodes on every way from the root, in this order: a near plane, say
+  /// A node to begin with, and the places of its children: below 0, none.
+  struct Given {
+    Plane plane;
+    std::int32_t front = -1, behind = -1;
+  };
+  std::vector<Given> given = {};  ///< a tree from place 0 on, all of it, behind the first planes: as a level has one
+  int threads = 0;                ///< 0: as many as there are processors; the tree is the same for any number
   std::function<void(std::size_t done, std::size_t all)> progress =
       {};  ///< polygons settled, of the pieces; called from any thread
 };
@@ -67,7 +73,7 @@ class Builder {
     Part root;
     run_with_threads(options_.threads, [&] {
       Task_group group;
-      group.run_and_wait([&] { settle({input(), options_.seed, 1}, root, group); });
+      group.run_and_wait([&] { settle({input(), options_.seed, 1, options_.given.empty() ? none : 0}, root, group); });
     });
     Tree tree;
     join(root, tree);
@@ -81,6 +87,7 @@ class Builder {
     Polygons polygons;
     std::uint64_t seed;
     std::uint64_t depth;
+    std::int32_t given;  // the node that it is to have, or none
   };
   /// A cell whose polygons are the last ones on a stack, from `begin` on; and the side of a node that waits for its
   /// number: 2 node + side, or none.
@@ -89,6 +96,7 @@ class Builder {
     std::int64_t place;
     std::uint64_t seed;
     std::uint64_t depth;
+    std::int32_t given;
   };
   /// The tree of a cell, in preorder; that of a large cell is its first node and those of its two sides.
   struct Part {
@@ -150,14 +158,15 @@ class Builder {
     };
     if (!is_large(cell.polygons)) return settle_here(std::move(cell), part, mine);
     Draws draws(cell.seed);
-    const auto middle =
-        cell.polygons.begin() +
-        static_cast<std::ptrdiff_t>(divide(cell.polygons, {0, nowhere, cell.seed, cell.depth}, draws.own, part, mine));
-    Cell front{{middle, cell.polygons.end()}, draws.front, cell.depth + 1};
+    const auto middle = cell.polygons.begin() +
+                        static_cast<std::ptrdiff_t>(divide(
+                            cell.polygons, {0, nowhere, cell.seed, cell.depth, cell.given}, draws.own, part, mine));
+    const auto [given_front, given_behind] = given_below(cell.given, cell.depth);
+    Cell front{{middle, cell.polygons.end()}, draws.front, cell.depth + 1, given_front};
     cell.polygons.erase(middle, cell.polygons.end());
-    Cell behind{std::move(cell.polygons), draws.behind, cell.depth + 1};
+    Cell behind{std::move(cell.polygons), draws.behind, cell.depth + 1, given_behind};
     const auto settle_side = [&](Cell side, Part*& place) {
-      if (side.polygons.empty()) return;
+      if (side.polygons.empty() && side.given < 0) return;
       place = &mine.parts.emplace_back();
       if (!is_large(side.polygons)) settle_here(std::move(side), *place, mine);
       else
@@ -173,19 +182,30 @@ class Builder {
   void settle_here(Cell cell, Part& part, Workspace& mine) {
     Polygons polygons = std::move(cell.polygons);
     std::vector<Waiting> stack;
-    if (!polygons.empty()) stack.push_back({0, nowhere, cell.seed, cell.depth});
+    if (!polygons.empty() || cell.given >= 0) stack.push_back({0, nowhere, cell.seed, cell.depth, cell.given});
     while (!stack.empty()) {
       const Waiting job = stack.back();
       stack.pop_back();
       Draws draws(job.seed);
       const std::int64_t number = static_cast<std::int64_t>(part.nodes.size());
       const std::size_t middle = divide(polygons, job, draws.own, part, mine);
-      if (middle > job.begin) stack.push_back({job.begin, 2 * number + 1, draws.behind, job.depth + 1});
-      if (polygons.size() > middle) stack.push_back({middle, 2 * number, draws.front, job.depth + 1});
+      const auto [front, behind] = given_below(job.given, job.depth);
+      if (middle > job.begin || behind >= 0)
+        stack.push_back({job.begin, 2 * number + 1, draws.behind, job.depth + 1, behind});
+      if (polygons.size() > middle || front >= 0)
+        stack.push_back({middle, 2 * number, draws.front, job.depth + 1, front});
     }
   }
 
   static constexpr std::int64_t nowhere = -1;
+  static constexpr std::int32_t none = -1;
+
+  /// The given nodes in front of a cell's plane and behind it.
+  std::array<std::int32_t, 2> given_below(std::int32_t given, std::uint64_t depth) const {
+    if (given < 0 || depth <= options_.first.size()) return {given, given};
+    const Bsp_options::Given& node = options_.given[static_cast<std::size_t>(given)];
+    return {node.front, node.behind};
+  }
 
   /// Makes the node of a cell and replaces its polygons by those behind the node's plane and, from the index returned
   /// on, those in front.
@@ -193,8 +213,10 @@ class Builder {
     mine.counters.depth = std::max(mine.counters.depth, job.depth);
     if (job.place != nowhere) child(part.nodes, job.place) = static_cast<std::int32_t>(part.nodes.size());
     const std::span<const Polygon> cell = std::span<const Polygon>(polygons).subspan(job.begin);
-    const bool is_given = job.depth <= options_.first.size();
-    const Choice choice = is_given ? Choice{options_.first[job.depth - 1]} : choose(cell, random, mine);
+    const bool is_first = job.depth <= options_.first.size(), is_given = is_first || job.given >= 0;
+    const Choice choice = is_first   ? Choice{options_.first[job.depth - 1]}
+                          : is_given ? Choice{options_.given[static_cast<std::size_t>(job.given)].plane}
+                                     : choose(cell, random, mine);
     const std::uint32_t first = static_cast<std::uint32_t>(part.fragments.size());
     const std::size_t middle = cell.size() == 1 && !is_given ? keep_only(polygons, choice.plane, part)
                                                              : partition(polygons, job.begin, choice, part, mine);

@@ -3,6 +3,8 @@
 #include <sightline/algorithms/levels/ways.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
+#include <sightline/kernel/located_point.h>
+#include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
@@ -42,7 +44,8 @@ Triple point_within(const Near_polygon& polygon, std::mt19937_64& dice) {
 class Cell_pvs_search::Maker {
  public:
   Maker(const Level_cells& level, Pvs_options options)
-      : options_(std::move(options)),
+      : level_(level),
+        options_(std::move(options)),
         occluders_(level.scene()),
         ways_(level, occluders_, options_.outside),
         count_(static_cast<Cell_id>(level.cells().size())),
@@ -85,6 +88,31 @@ class Cell_pvs_search::Maker {
       for (std::vector<Cell_id>& list : *lists) std::sort(list.begin(), list.end());
     pvs.counters.cells = ways_.cells_asked();
     return pvs;
+  }
+
+  std::optional<std::array<Exact_point, 2>> sightline(Cell_id from, Cell_id to) const {
+    if (!is_asked(from) || !is_asked(to) || from == to) return std::nullopt;
+    // 1. Through a portal between them, from a point of the one.
+    for (const std::size_t w : ways_.into(from))
+      if (ways_[w].from == to) {
+        const Exact_point r = middle_of(ways_[w].source.polygon), p = level_.inside(from);
+        Exact_point way;
+        for (std::size_t k = 0; k < 3; ++k) way[k] = r[k] - p[k];
+        return into_cells(from, to, r, r, way);
+      }
+    // 2. From portal to portal.
+    Cell_pvs_counters counters;
+    for (const std::size_t w : ways_.into(from))
+      for (const std::size_t v : ways_.into(to)) {
+        const Weak_answer answer = decide(Ways::back(w), Ways::back(v), counters);
+        if (answer.status != Weak_status::visible) continue;
+        const Exact_point r = level_.scene().position(answer.sightline[0].exact),
+                          s = level_.scene().position(answer.sightline[1].exact);
+        Exact_point way;
+        for (std::size_t k = 0; k < 3; ++k) way[k] = s[k] - r[k];
+        return into_cells(from, to, r, s, way);
+      }
+    return std::nullopt;
   }
 
  private:
@@ -209,13 +237,7 @@ class Cell_pvs_search::Maker {
       }
 
       // 2. A search, from portal to portal.
-      const std::size_t target = Ways::back(in);
-      Weak_answer answer = search(w, target, flood.counters);
-      if (answer.status == Weak_status::undecided) {
-        Weak_answer turned = search(target, w, flood.counters);
-        std::swap(turned.sightline[0], turned.sightline[1]);
-        answer = std::move(turned);
-      }
+      const Weak_answer answer = decide(w, Ways::back(in), flood.counters);
       if (answer.status == Weak_status::visible) {
         flood.see(way.from);
         follow(Way_line(answer.sightline[1].near, answer.sightline[0].near), way.from, flood, flood.counters.extended);
@@ -227,7 +249,41 @@ class Cell_pvs_search::Maker {
     return status;
   }
 
-  /// Whether there is a free line between two portals, in front of both.
+  Exact_point middle_of(const Near_polygon& polygon) const {
+    Exact_point sum{};
+    for (const Exact_point& p : points_of(polygon))
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += p[k];
+    for (Rational& x : sum) x /= static_cast<long>(polygon.size());
+    return sum;
+  }
+
+  /// A sightline from r to s, both in portals, made longer by as much as leaves its ends in the cells.
+  std::array<Exact_point, 2> into_cells(Cell_id from, Cell_id to, const Exact_point& r, const Exact_point& s,
+                                        const Exact_point& way) const {
+    for (Rational part(1, 2);; part /= 4) {
+      std::array<Exact_point, 2> ends{r, s};
+      for (std::size_t k = 0; k < 3; ++k) {
+        ends[0][k] -= part * way[k];
+        ends[1][k] += part * way[k];
+      }
+      if (level_.at(ends[0]) == from && level_.at(ends[1]) == to) return ends;
+    }
+  }
+
+  /// Whether there is a free line between two portals, in front of both. What is undecided is asked the other way
+  /// round, and then of events.
+  Weak_answer decide(std::size_t from, std::size_t to, Cell_pvs_counters& counters) const {
+    Weak_answer answer = search(from, to, counters);
+    if (answer.status == Weak_status::undecided) {
+      answer = search(to, from, counters);
+      std::swap(answer.sightline[0], answer.sightline[1]);
+    }
+    if (answer.status == Weak_status::undecided && options_.event_edges > 0) {
+      answer = by_events(from, to);
+      counters.by_events += answer.status != Weak_status::undecided;
+    }
+    return answer;
+  }
   Weak_answer search(std::size_t from, std::size_t to, Cell_pvs_counters& counters) const {
     ++counters.searched;
     const Weak_source &source = ways_[from].source, &target = ways_[to].source;
@@ -236,6 +292,43 @@ class Cell_pvs_search::Maker {
         .run(counters.search);
   }
 
+  /// The same in a scene of its own, in which the portal that is looked at is a face.
+  Weak_answer by_events(std::size_t from, std::size_t to) const {
+    const Scene& level = level_.scene();
+    Polygon_soup soup;
+    const auto add = [&](const std::vector<Exact_point>& polygon) {
+      std::vector<Point_id> loop;
+      for (const Exact_point& p : polygon) loop.push_back(soup.add_point(p[0], p[1], p[2]));
+      soup.add_face(loop);
+    };
+    for (const Piece& piece : level.pieces()) {
+      std::vector<Exact_point> polygon;
+      for (const Piece_corner& corner : level.corners(piece)) polygon.push_back(level.position(corner.point));
+      add(polygon);
+    }
+    const Face_id target = static_cast<Face_id>(soup.face_count());
+    add(points_of(ways_[to].source.polygon));
+    const Scene scene(soup);
+    const Occluders occluders(scene);
+    const Weak_answer found = levels_detail::visible_at_any_cost(
+        occluders, weak_source(occluders, points_of(ways_[from].source.polygon)), target, options_);
+    Weak_answer answer = nothing_known();
+    answer.status = found.status;
+    if (found.status == Weak_status::visible)
+      for (const std::size_t k : {0u, 1u}) {
+        const Located_point at = level.locate(scene.position(found.sightline[k].exact));
+        answer.sightline[k] = near_point(occluders_.frame(), {at.x, at.y, at.z, at.w});
+      }
+    return answer;
+  }
+
+  std::vector<Exact_point> points_of(const Near_polygon& polygon) const {
+    std::vector<Exact_point> points;
+    for (const Near_point& corner : polygon) points.push_back(level_.scene().position(corner.exact));
+    return points;
+  }
+
+  const Level_cells& level_;
   Pvs_options options_;
   Occluders occluders_;
   Ways ways_;
@@ -248,9 +341,21 @@ Cell_pvs mutually_visible_cells(const Level_cells& level, const Pvs_options& opt
   return Cell_pvs_search(level, options).ask(0, 1);
 }
 
+std::vector<std::vector<bool>> visible_leaves(const Level_cells& level, const Cell_pvs& pvs, std::size_t leaves) {
+  std::vector<std::vector<bool>> rows(leaves, std::vector<bool>(leaves));
+  for (std::size_t leaf = 0; leaf < leaves; ++leaf) rows[leaf][leaf] = true;
+  for (Cell_id c = 0; c < level.cells().size(); ++c)
+    for (const std::vector<Cell_id>* others : {&pvs.visible[c], &pvs.undecided[c]})
+      for (const Cell_id other : *others) rows[level.cells()[c].leaf][level.cells()[other].leaf] = true;
+  return rows;
+}
+
 Cell_pvs_search::Cell_pvs_search(const Level_cells& level, Pvs_options options)
     : maker_(std::make_unique<Maker>(level, std::move(options))) {}
 Cell_pvs_search::~Cell_pvs_search() = default;
+std::optional<std::array<Exact_point, 2>> Cell_pvs_search::sightline(Cell_id from, Cell_id to) const {
+  return maker_->sightline(from, to);
+}
 Cell_pvs Cell_pvs_search::ask(std::uint32_t shard, std::uint32_t shards) { return maker_->make(shard, shards); }
 
 }  // namespace sightline

@@ -5,9 +5,11 @@
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace sightline {
@@ -23,7 +25,7 @@ struct Cell_pvs_counters {
   std::size_t searched = 0, hidden = 0;  ///< pairs of portals that were searched; that were found hidden
   std::size_t implied = 0;               ///< pairs of portals hidden since cells beside them are
   std::size_t unreached = 0;             ///< pairs that no search was needed for: hidden from all neighbours
-  std::size_t undecided = 0;
+  std::size_t by_events = 0, undecided = 0;
   Weak_counters search;
 
   template <class Visit>
@@ -39,6 +41,7 @@ struct Cell_pvs_counters {
     visit("hidden", &Cell_pvs_counters::hidden);
     visit("implied", &Cell_pvs_counters::implied);
     visit("unreached", &Cell_pvs_counters::unreached);
+    visit("by_events", &Cell_pvs_counters::by_events);
     visit("undecided", &Cell_pvs_counters::undecided);
     visit("", &Cell_pvs_counters::search);
   }
@@ -55,10 +58,13 @@ struct Cell_pvs {
 /// each other what they found; parts asked of several find again what they need.
 class Cell_pvs_search {
  public:
-  /// Of the options, event_edges have no meaning here.
   explicit Cell_pvs_search(const Level_cells& level, Pvs_options options = {});
   ~Cell_pvs_search();
   Cell_pvs ask(std::uint32_t shard, std::uint32_t shards);
+
+  /// A point inside of each of two cells that are asked about, between which no closed face is; nothing where they do
+  /// not see each other, or it is undecided. Exact: yes.
+  std::optional<std::array<Exact_point, 2>> sightline(Cell_id from, Cell_id to) const;
 
  private:
   class Maker;
@@ -74,5 +80,10 @@ class Cell_pvs_search {
 /// pairs on the border of these; in parts that are asked of several objects up to twice as many. Exact: yes, or
 /// undecided. Source: lecture slides "Visibility Computation" (PVS). Proof: P-90
 Cell_pvs mutually_visible_cells(const Level_cells& level, const Pvs_options& options = {});
+
+/// Which leaves of the tree that space was divided by see each other: rows[a][b] for leaves a and b, of `leaves`. Each
+/// sees itself; two do where some cell of the one and some cell of the other do, or could not be decided. Exact: yes,
+/// or more where something is undecided.
+std::vector<std::vector<bool>> visible_leaves(const Level_cells& level, const Cell_pvs& pvs, std::size_t leaves);
 
 }  // namespace sightline

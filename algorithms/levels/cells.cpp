@@ -23,15 +23,110 @@ using levels_detail::Wall_polygon;
 
 using Box_planes = std::array<std::array<Plane, 2>, 3>;
 
+namespace {
+
+/// A given tree without nodes whose planes miss the inside of what the nodes above leave; and what is a leaf in it.
+class Given_tree {
+ public:
+  std::vector<Bsp_options::Given> nodes;
+  std::vector<std::array<std::uint32_t, 2>> leaves;  // by node: in front and behind, where there is no node
+  std::uint32_t root_leaf = 0;                       // where there is no node at all
+
+  Given_tree(Scene& scene, const Box_planes& box, const Space_tree& tree) : box_(box) {
+    for (const Space_tree::Node& node : tree.nodes) planes_.push_back(scene.add_plane(on_grid(scene, node.plane)));
+    if (tree.root < 0) {
+      root_leaf = static_cast<std::uint32_t>(-1 - tree.root);
+      return;
+    }
+    const Predicates predicates = scene.predicates();
+    Wall_cutter cutter(predicates);
+    struct Waiting {
+      std::int32_t number;  // in the tree
+      std::int32_t above;   // in `nodes`
+      bool in_front;
+      std::vector<Plane> within;
+      Wall_polygon last;  // what the plane of the node above has in its cell
+    };
+    std::vector<Waiting> stack;
+    stack.push_back({tree.root, -1, true, {}, {}});
+    while (!stack.empty()) {
+      Waiting job = std::move(stack.back());
+      stack.pop_back();
+      // 1. Down to a plane that passes through the inside.
+      Wall_polygon section;
+      while (job.number >= 0 && (section = section_of(job.number, job.within, cutter)).empty())
+        job.number = tree.nodes[static_cast<std::size_t>(job.number)]
+                         .children[is_in_front(predicates, job.number, job.last, job.within, cutter) ? 0 : 1];
+      // 2. A node, or a leaf.
+      const auto number = static_cast<std::int32_t>(nodes.size());
+      if (job.above >= 0) {
+        const auto above = static_cast<std::size_t>(job.above);
+        if (job.number < 0) leaves[above][job.in_front ? 0 : 1] = static_cast<std::uint32_t>(-1 - job.number);
+        else (job.in_front ? nodes[above].front : nodes[above].behind) = number;
+      } else if (job.number < 0) {
+        root_leaf = static_cast<std::uint32_t>(-1 - job.number);
+      }
+      if (job.number < 0) continue;
+      const Plane plane = planes_[static_cast<std::size_t>(job.number)];
+      nodes.push_back({plane});
+      leaves.push_back({});
+      for (const bool in_front : {false, true}) {
+        Waiting& below =
+            stack.emplace_back(Waiting{tree.nodes[static_cast<std::size_t>(job.number)].children[in_front ? 0 : 1],
+                                       number, in_front, job.within, section});
+        below.within.push_back(in_front ? plane : plane.opposite());
+      }
+    }
+  }
+
+ private:
+  static std::array<Integer, 4> on_grid(const Scene& scene, const std::array<Rational, 4>& plane) {
+    const Exact_point origin = scene.position(std::array<Integer, 4>{0, 0, 0, 1});
+    const Rational unit = scene.position(std::array<Integer, 4>{1, 0, 0, 1})[0] - origin[0];
+    std::array<Rational, 4> h{plane[0] * unit, plane[1] * unit, plane[2] * unit, plane[3]};
+    for (std::size_t k = 0; k < 3; ++k) h[3] += plane[k] * origin[k];
+    Integer common = 1;
+    for (const Rational& x : h) common = lcm(common, x.get_den());
+    std::array<Integer, 4> whole;
+    for (std::size_t k = 0; k < 4; ++k) whole[k] = h[k].get_num() * (common / h[k].get_den());
+    return whole;
+  }
+  Wall_polygon section_of(std::int32_t node, const std::vector<Plane>& within, Wall_cutter& cutter) const {
+    Wall_polygon polygon = cutter.section(planes_[static_cast<std::size_t>(node)], box_);
+    for (const Plane plane : within) polygon = cutter.in_front(polygon, plane);
+    return polygon;
+  }
+  /// Where a cell is to a plane that misses its inside: as some of its boundary is, which is in the plane above, or,
+  /// where that is the same plane, as the cell is to that.
+  bool is_in_front(const Predicates& predicates, std::int32_t node, const Wall_polygon& last,
+                   const std::vector<Plane>& within, Wall_cutter& cutter) const {
+    const Plane plane = planes_[static_cast<std::size_t>(node)];
+    if (within.empty()) return sgn(predicates.coefficients(plane)[3]) > 0;  // the middle of the box
+    const Wall_halves halves = cutter.cut(last, plane);
+    if (halves.is_in_plane) return within.back().flipped() == plane.flipped();
+    return !halves.front.empty();
+  }
+
+  const Box_planes& box_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace
+
 struct Level_cells::Space {
   Scene scene;
   Box_planes box;
+  Given_tree given;
   Exact_traits traits;
   Exact_tree tree;
   std::vector<std::array<Cell_id, 2>> leaves;  // by node: the cells in front and behind, where those are leaves
 
   Space(const Polygon_soup& soup, const Cell_options& options)
-      : scene(soup), box(box_about(scene)), traits(scene), tree(build_bsp(traits, bsp_options(options))) {}
+      : scene(soup),
+        box(box_about(scene)),
+        given(scene, box, options.tree),
+        traits(scene),
+        tree(build_bsp(traits, bsp_options(options))) {}
 
   /// Beyond all points of the scene: its coordinates on the grid are less than that.
   static Box_planes box_about(Scene& scene) {
@@ -46,12 +141,40 @@ struct Level_cells::Space {
     }
     return box;
   }
-  static Bsp_options bsp_options(const Cell_options& options) {
+  Bsp_options bsp_options(const Cell_options& options) const {
     Bsp_options bsp;
+    bsp.given = given.nodes;
     bsp.candidates = options.candidates;
     bsp.seed = options.seed;
     bsp.threads = options.threads;
     return bsp;
+  }
+
+  /// The leaf of the given tree that each cell is in.
+  void find_leaves(std::vector<Level_cell>& cells) const {
+    struct Waiting {
+      std::int32_t node;   // of the tree
+      std::int32_t given;  // the same of the given one, or none
+      std::uint32_t leaf;  // then
+    };
+    std::vector<Waiting> stack;
+    if (!tree.nodes.empty()) stack.push_back({0, given.nodes.empty() ? -1 : 0, given.root_leaf});
+    else cells[0].leaf = given.root_leaf;
+    while (!stack.empty()) {
+      const Waiting job = stack.back();
+      stack.pop_back();
+      const auto n = static_cast<std::size_t>(job.node);
+      for (const std::size_t side : {0u, 1u}) {
+        Waiting below{side == 0 ? tree.nodes[n].front : tree.nodes[n].behind, -1, job.leaf};
+        if (job.given >= 0) {
+          const auto g = static_cast<std::size_t>(job.given);
+          below.given = side == 0 ? given.nodes[g].front : given.nodes[g].behind;
+          below.leaf = given.leaves[g][side];
+        }
+        if (below.node != Exact_tree::leaf) stack.push_back(below);
+        else cells[leaves[n][side]].leaf = below.leaf;
+      }
+    }
   }
 };
 
@@ -348,6 +471,8 @@ Level_cells::Level_cells(const Polygon_soup& soup, const Cell_options& options)
     std::sort(cell.faces.begin(), cell.faces.end());
     cell.faces.erase(std::unique(cell.faces.begin(), cell.faces.end()), cell.faces.end());
   }
+
+  space_->find_leaves(cells_);
 
   // 2. What is solid, and what is connected.
   closed_ = closure(space_->scene).closed;

@@ -32,6 +32,17 @@ struct Level_cell {
   bool is_solid = false;       ///< the faces close up, and it is behind some of them
   bool is_outside = false;     ///< it has no end, but for the box that is put about the scene
   std::uint32_t region = 0;    ///< of cells with a way through open walls from each to each, all solid or none
+  std::uint32_t leaf = 0;      ///< of the tree that space was divided by before
+};
+
+/// A tree that divides space before faces do, as a compiled level has one: leaves are convex, and known by numbers.
+struct Space_tree {
+  struct Node {
+    std::array<Rational, 4> plane;         ///< a x + b y + c z + d, in the file's coordinates; not a = b = c = 0
+    std::array<std::int32_t, 2> children;  ///< in front, behind: a node, or below 0 leaf -1 - child
+  };
+  std::vector<Node> nodes;
+  std::int32_t root = -1;  ///< a node, or a leaf
 };
 
 struct Cell_counters {
@@ -57,7 +68,8 @@ struct Cell_counters {
 struct Cell_options {
   unsigned candidates = 5;  ///< face planes tried for each node of the tree
   std::uint64_t seed = 1;
-  int threads = 0;                                                       ///< 0: as many as there are processors
+  int threads = 0;       ///< 0: as many as there are processors
+  Space_tree tree = {};  ///< each cell is within one of its leaves. Pre: no node is below itself
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< nodes
 };
 
@@ -65,8 +77,9 @@ struct Cell_options {
 /// disjoint; with their walls they fill the box. No face passes through a cell: each lies in walls.
 /// Where the faces close up (P-08), a cell is solid unless its winding number is the least of all: behind faces that
 /// look outwards, as of solids, and outside faces that look inwards, as of rooms. Where they do not, none is.
-/// Degenerate: an empty scene is one cell. Cost: the tree's, and O(walls depth). Exact: yes. Source: lecture slides
-/// "Visibility Computation" (decomposition into convex regions). Proof: P-88
+/// Degenerate: an empty scene is one cell; a leaf of `tree` that has no inside has no cell. Cost: the tree's, and
+/// O(walls depth). Exact: yes. Source: lecture slides "Visibility Computation" (decomposition into convex regions).
+/// Proof: P-88
 class Level_cells {
  public:
   explicit Level_cells(const Polygon_soup& soup, const Cell_options& options = {});

@@ -2,15 +2,10 @@
 
 #include <sightline/algorithms/levels/ways.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
-#include <sightline/algorithms/weak_visibility/settle.h>
-#include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/kernel/threads.h>
-#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <atomic>
-#include <iterator>
-#include <optional>
 #include <utility>
 
 namespace sightline {
@@ -149,30 +144,11 @@ class Pvs_maker {
 
     // 3. What that leaves open.
     if (status == Weak_status::undecided && options_.event_edges > 0) {
-      status = by_events(way, target);
+      status = visible_at_any_cost(occluders_, way.source, target.face, options_).status;
       counters.by_events += status != Weak_status::undecided;
     }
     counters.hidden += status == Weak_status::hidden;
     return status;
-  }
-
-  Weak_status by_events(const Way& way, const Target& target) const {
-    Weak_options options;
-    options.search = options_.search;
-    options.faces = {target.face};
-    options.threads = 1;
-    const std::vector<Weak_source> sources{way.source};
-    Weakly_visible found = weakly_visible(occluders_, sources, options);
-    Events_options events;
-    events.two_sided = options_.search.two_sided;
-    events.seed = options_.search.seed;
-    events.threads = 1;
-    events.out_of_time = options_.search.out_of_time;
-    settle_by_events(occluders_, sources, options_.event_edges, events, found);
-    if (!found.undecided.empty()) decide_the_rest(occluders_, sources, options, options_.event_edges, events, found);
-    return !found.visible.empty()  ? Weak_status::visible
-           : !found.hidden.empty() ? Weak_status::hidden
-                                   : Weak_status::undecided;
   }
 
   const Level_cells& level_;

@@ -1,5 +1,8 @@
 #include <sightline/algorithms/levels/ways.h>
 
+#include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/weak.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -56,6 +59,28 @@ void Ways::add(Cell_id from, Cell_id to, Weak_source source) {
     way.edges.push_back(pluecker_of_edge(a, b));
     way.ends.push_back(ends(size(a), size(b)));
   }
+}
+
+Weak_answer visible_at_any_cost(const Occluders& occluders, const Weak_source& source, Face_id face,
+                                const Pvs_options& options) {
+  Weak_options search;
+  search.search = options.search;
+  search.faces = {face};
+  search.threads = 1;
+  const std::vector<Weak_source> sources{source};
+  Weakly_visible found = weakly_visible(occluders, sources, search);
+  Events_options events;
+  events.two_sided = options.search.two_sided;
+  events.seed = options.search.seed;
+  events.threads = 1;
+  events.out_of_time = options.search.out_of_time;
+  settle_by_events(occluders, sources, options.event_edges, events, found);
+  if (!found.undecided.empty()) decide_the_rest(occluders, sources, search, options.event_edges, events, found);
+  Weak_answer answer = nothing_known();
+  if (!found.hidden.empty()) answer.status = Weak_status::hidden;
+  for (const Weakly_visible::Pair& pair : found.pairs)
+    if (pair.answer.status == Weak_status::visible) answer = pair.answer;
+  return answer;
 }
 
 }  // namespace sightline::levels_detail

@@ -2,8 +2,10 @@
 // Ways from cell to cell: the open parts of walls, as sources that look onwards, and lines that come through them.
 
 #include <sightline/algorithms/levels/cells.h>
+#include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
 
 #include <cstddef>
@@ -57,5 +59,10 @@ class Ways {
   std::vector<char> is_asked_;
   std::size_t cells_asked_ = 0;
 };
+
+/// Whether a face is visible from a source that searches left undecided: by events, and then by longer searches, for as
+/// long as it takes. The sightline where it is.
+Weak_answer visible_at_any_cost(const Occluders& occluders, const Weak_source& source, Face_id face,
+                                const Pvs_options& options);
 
 }  // namespace sightline::levels_detail

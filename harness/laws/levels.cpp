@@ -164,10 +164,68 @@ Outcome windings(const Level_cells& level, const std::vector<Flat_face>& flats, 
   return {};
 }
 
+/// A tree of planes along axes and through points of the scene: some miss what those above leave, some come twice.
+Space_tree any_tree(const Polygon_soup& soup, Random& random) {
+  Space_tree tree;
+  std::int32_t leaves = 0;
+  const std::size_t nodes = random.below(8);
+  for (std::size_t n = 0; n < nodes; ++n) {
+    Space_tree::Node node;
+    const std::size_t made = tree.nodes.size();
+    if (made > 0 && random.chance(1, 4)) node.plane = tree.nodes[random.below(made)].plane;
+    else {
+      for (std::size_t k = 0; k < 3; ++k) node.plane[k] = generate::integer(random, -2, 2);
+      if (random.chance(1, 2) || is_zero(Exact_point{node.plane[0], node.plane[1], node.plane[2]})) {
+        node.plane = {};
+        node.plane[random.below(3)] = random.chance(1, 2) ? 1 : -1;
+      }
+      Exact_point p{};
+      if (soup.point_count() > 0) p = soup.point(static_cast<Point_id>(random.below(soup.point_count())));
+      for (std::size_t k = 0; k < 3; ++k) node.plane[3] -= node.plane[k] * p[k];
+    }
+    for (std::int32_t& child : node.children) child = -1 - leaves++;
+    if (made > 0) {  // in the place of a leaf
+      Space_tree::Node& above = tree.nodes[random.below(made)];
+      std::int32_t& child = above.children[random.below(2)];
+      if (child >= 0) continue;
+      child = static_cast<std::int32_t>(made);
+    }
+    tree.nodes.push_back(node);
+  }
+  tree.root = tree.nodes.empty() ? -1 - leaves : 0;
+  return tree;
+}
+
+/// Each cell is in the leaf that it names: the middle of it, by the tree itself, and no corner beyond a plane above.
+Outcome leaves(const Level_cells& level, const Space_tree& tree) {
+  const auto height = [](const std::array<Rational, 4>& h, const Exact_point& p) {
+    return Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]);
+  };
+  for (Cell_id c = 0; c < level.cells().size(); ++c) {
+    std::int32_t at = tree.root;
+    while (at >= 0) {
+      const Space_tree::Node& node = tree.nodes[static_cast<std::size_t>(at)];
+      const int side = sgn(height(node.plane, level.inside(c)));
+      if (side == 0) return Outcome::failed("cell " + std::to_string(c) + " has a given plane through its middle");
+      for (const std::uint32_t w : level.cells()[c].walls)
+        for (const Exact_point& p : level.polygon(level.walls()[w].corners))
+          if (side * sgn(height(node.plane, p)) < 0)
+            return Outcome::failed("cell " + std::to_string(c) + " is on both sides of a given plane");
+      at = node.children[side > 0 ? 0 : 1];
+    }
+    if (level.cells()[c].leaf != static_cast<std::uint32_t>(-1 - at))
+      return Outcome::failed("cell " + std::to_string(c) + " is in another leaf than it names");
+  }
+  return {};
+}
+
 Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
-  const Level_cells level(posed.soup);
+  Cell_options options;
+  if (random.chance(1, 2)) options.tree = any_tree(posed.soup, random);
+  const Level_cells level(posed.soup, options);
   const std::vector<Flat_face> flats = flat_faces_of(level.scene());
   if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
+  if (const Outcome outcome = leaves(level, options.tree); outcome.state != Outcome::State::passed) return outcome;
   for (std::size_t k = 0; k < 20; ++k)
     if (const Outcome outcome = point_of_wall(level, flats, random); outcome.state != Outcome::State::passed)
       return outcome;
