@@ -92,7 +92,8 @@ std::string Covered::text() const {
   return std::to_string(set_aside) + " faces set aside, " + std::to_string(not_planar) + " not planar";
 }
 
-Covered check_covering(const Polygon_soup& soup, const Covering& covering, int threads, const Exact_point* eye) {
+Covered check_covering(const Polygon_soup& soup, const Covering& covering, int threads, const Exact_point* eye,
+                       const std::vector<bool>& known) {
   constexpr std::size_t faces_worth_a_thread = 100;
   const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
     return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
@@ -141,7 +142,7 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, int t
   std::atomic<std::size_t> not_planar = 0;
   for_each_below(soup.face_count(), faces_worth_a_thread, threads, [&](std::size_t place) {
     const auto f = static_cast<Face_id>(place);
-    if (set_aside.count(f)) return;
+    if (set_aside.count(f) || (!known.empty() && known[f])) return;
     const std::string what = name("face", f);
     const Face face(soup, f);
     not_planar += !face.planar;

@@ -48,9 +48,10 @@ struct Covered {
 };
 
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
-/// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Proof: P-21, P-22
+/// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Faces that are
+/// `known` to be tiled need no fragments. Proof: P-21, P-22
 Covered check_covering(const Polygon_soup& soup, const Covering& covering, int threads,
-                       const Exact_point* eye = nullptr);
+                       const Exact_point* eye = nullptr, const std::vector<bool>& known = {});
 
 }  // namespace certificate_check
 

@@ -1,13 +1,11 @@
 #pragma once
-// Faces of a soup as points, and boundaries as chains. To be read after polygons.h.
+// Faces of a soup as points, and boundaries as chains. To be read after numbered_points.h.
 
+#include <sightline/algorithms/verify/numbered_points.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
-#include <cstddef>
 #include <optional>
-#include <unordered_map>
-#include <utility>
 #include <vector>
 
 namespace sightline::certificate_check {
@@ -26,30 +24,19 @@ struct Face {
   Integer_vector some_normal() const;
 };
 
-/// A sum of directed segments as a chain: two sums are the same chain iff on each line, at each point, the net number
-/// of arrivals is the same. A line through a known point is its direction, so the key is (direction up to sign, point).
-/// Segments with the same two ends cancel first. Proof: P-21b
+/// A Numbered_chain that numbers its points itself.
 class Boundary_chain {
  public:
-  void add(const Polygon& loop, long multiplicity);
+  void add(const Polygon& loop, long multiplicity) { chain_.add(points_.add(loop), multiplicity); }
   void add(const std::vector<Polygon>& loops, long multiplicity) {
     for (const Polygon& loop : loops) add(loop, multiplicity);
   }
   /// A point where the chain is not zero, if there is one.
-  std::optional<Exact_point> nonzero() const;
+  std::optional<Exact_point> nonzero() const { return chain_.nonzero(points_); }
 
  private:
-  struct Hash {
-    std::size_t operator()(const Exact_point& p) const;
-    std::size_t operator()(const std::pair<std::size_t, std::size_t>& ends) const {
-      return ends.first * 0x9e3779b97f4a7c15 + ends.second;
-    }
-  };
-  std::size_t number_of(const Exact_point& p);
-
-  std::vector<Exact_point> points_;
-  std::unordered_map<Exact_point, std::size_t, Hash> numbers_;
-  std::unordered_map<std::pair<std::size_t, std::size_t>, long, Hash> net_;  // from the earlier point to the later one
+  Numbered_points points_;
+  Numbered_chain chain_;
 };
 
 }  // namespace sightline::certificate_check

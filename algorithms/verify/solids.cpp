@@ -1,184 +1,132 @@
-// To be read after covering.cpp: the fragments on a grid of ranks, then the check, step by step.
+// To be read after covering.cpp and solid_faces.cpp: the fragments on grids of ranks, then the check, step by step.
 
 #include <sightline/algorithms/verify/solids.h>
 
 #include <sightline/algorithms/verify/covering.h>
-#include <sightline/algorithms/verify/faces.h>
+#include <sightline/algorithms/verify/numbered_points.h>
 #include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/solid_faces.h>
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <map>
+#include <numeric>
 #include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace sightline::certificate_check {
 namespace {
 
-/// A fragment, made ready: its corners, its plane, and the planes of its edges, which have its inside in front.
-struct Solid_face {
-  std::vector<Homogeneous> corners;
-  Homogeneous plane;
-  std::array<std::uint32_t, 3> low, high;  // ranks of its coordinates
-};
-
-/// Fragments by squares of a grid over ranks of their first two coordinates: whole numbers from here on.
+/// Fragments by squares of grids over ranks of two of their coordinates: whole numbers from here on.
 class Rank_grid {
  public:
-  explicit Rank_grid(const std::vector<Solid_certificate::Fragment>& fragments, std::vector<Solid_face>& faces) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      for (const auto& fragment : fragments)
-        for (const Exact_point& p : fragment.vertices) values_[k].push_back(p[k]);
-      std::sort(values_[k].begin(), values_[k].end());
-      values_[k].erase(std::unique(values_[k].begin(), values_[k].end()), values_[k].end());
-    }
-    while (side_ * side_ < fragments.size()) ++side_;
-    squares_.resize(side_ * side_);
-    for (std::size_t i = 0; i < fragments.size(); ++i) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto [low, high] =
-            std::minmax_element(fragments[i].vertices.begin(), fragments[i].vertices.end(),
-                                [&](const Exact_point& p, const Exact_point& q) { return p[k] < q[k]; });
-        faces[i].low[k] = rank((*low)[k], k);
-        faces[i].high[k] = rank((*high)[k], k);
-      }
-      for (std::size_t x = square(faces[i].low[0], 0); x <= square(faces[i].high[0], 0); ++x)
-        for (std::size_t y = square(faces[i].low[1], 1); y <= square(faces[i].high[1], 1); ++y)
-          squares_[x * side_ + y].push_back(static_cast<std::uint32_t>(i));
+  using Number = Numbered_points::Number;
+
+  struct Box {
+    std::array<std::uint32_t, 3> low, high;  // ranks
+  };
+
+  Rank_grid(const Numbered_points& points, const std::vector<Solid_point>& near, const std::vector<Solid_face>& faces)
+      : boxes_(faces.size()) {
+    while (side_ * side_ < faces.size()) ++side_;
+    for (std::size_t k = 0; k < 3; ++k) rank_faces(points, near, faces, k);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+      squares_[axis].resize(side_ * side_);
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        for (std::size_t s = square(boxes_[i].low[x], x); s <= square(boxes_[i].high[x], x); ++s)
+          for (std::size_t t = square(boxes_[i].low[y], y); t <= square(boxes_[i].high[y], y); ++t)
+            squares_[axis][s * side_ + t].push_back(static_cast<std::uint32_t>(i));
     }
   }
   /// The number of values below x.
   std::uint32_t rank(const Rational& x, std::size_t k) const {
-    return static_cast<std::uint32_t>(std::lower_bound(values_[k].begin(), values_[k].end(), x) - values_[k].begin());
+    const auto at = std::lower_bound(values_[k].begin(), values_[k].end(), x,
+                                     [](const Rational* value, const Rational& than) { return *value < than; });
+    return static_cast<std::uint32_t>(at - values_[k].begin());
   }
+  const Box& box(std::size_t i) const { return boxes_[i]; }
   std::size_t side() const { return side_; }
   std::size_t square(std::uint32_t rank, std::size_t k) const {
     return std::min(side_ - 1, rank * side_ / std::max<std::size_t>(1, values_[k].size()));
   }
-  const std::vector<std::uint32_t>& at(std::size_t x, std::size_t y) const { return squares_[x * side_ + y]; }
+  /// Those in a square as seen along an axis.
+  const std::vector<std::uint32_t>& at(std::size_t axis, std::size_t x, std::size_t y) const {
+    return squares_[axis][x * side_ + y];
+  }
 
  private:
-  std::array<std::vector<Rational>, 3> values_;
+  void rank_faces(const Numbered_points& points, const std::vector<Solid_point>& near,
+                  const std::vector<Solid_face>& faces, std::size_t k) {
+    std::vector<Number> sorted(near.size());
+    std::iota(sorted.begin(), sorted.end(), Number{0});
+    std::sort(sorted.begin(), sorted.end(), [&](Number i, Number j) {
+      const int known = (near[i].near[k] - near[j].near[k]).sign();
+      return known != 0 ? known < 0 : points[i][k] < points[j][k];
+    });
+    std::vector<std::uint32_t> ranks(near.size());
+    for (const Number number : sorted) {
+      if (values_[k].empty() || *values_[k].back() != points[number][k]) values_[k].push_back(&points[number][k]);
+      ranks[number] = static_cast<std::uint32_t>(values_[k].size() - 1);
+    }
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      boxes_[i].low[k] = boxes_[i].high[k] = ranks[faces[i].numbers[0]];
+      for (const Number number : faces[i].numbers) {
+        boxes_[i].low[k] = std::min(boxes_[i].low[k], ranks[number]);
+        boxes_[i].high[k] = std::max(boxes_[i].high[k], ranks[number]);
+      }
+    }
+  }
+
+  std::vector<Box> boxes_;  // of the fragments
+  std::array<std::vector<const Rational*>, 3> values_;
   std::size_t side_ = 1;
-  std::vector<std::vector<std::uint32_t>> squares_;
+  std::array<std::vector<std::vector<std::uint32_t>>, 3> squares_;
 };
 
-bool boxes_meet(const Solid_face& a, const Solid_face& b) {
+bool boxes_meet(const Rank_grid::Box& a, const Rank_grid::Box& b) {
   for (std::size_t k = 0; k < 3; ++k)
     if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
   return true;
 }
 
-/// The turn from p over q to r as seen against an axis.
-int turn_along(const Homogeneous& p, const Homogeneous& q, const Homogeneous& r, std::size_t axis) {
-  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-  return sgn(Integer(p[x] * (q[y] * r[3] - r[y] * q[3]) - p[y] * (q[x] * r[3] - r[x] * q[3]) +
-                     p[3] * (q[x] * r[y] - r[x] * q[y])));
-}
+/// Sets of fragments that hang together.
+class Patches {
+ public:
+  explicit Patches(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
+  /// The least of those with i.
+  std::uint32_t least(std::uint32_t i) {
+    while (parents_[i] != i) i = parents_[i] = parents_[parents_[i]];
+    return i;
+  }
+  void join(std::uint32_t i, std::uint32_t j) {
+    i = least(i);
+    j = least(j);
+    parents_[std::max(i, j)] = std::min(i, j);
+  }
 
-std::size_t axis_of(const Homogeneous& plane) {
-  std::size_t axis = 0;
-  for (std::size_t k = 1; k < 3; ++k)
-    if (mpz_cmpabs(plane[k].get_mpz_t(), plane[axis].get_mpz_t()) > 0) axis = k;
-  return axis;
-}
+ private:
+  std::vector<std::uint32_t> parents_;
+};
 
-/// Whether a point in the face's plane is strictly inside it.
-bool is_strictly_inside(const Solid_face& face, const Homogeneous& p) {
-  const std::size_t axis = axis_of(face.plane), size = face.corners.size();
-  const int sense = sgn(face.plane[axis]);
-  for (std::size_t k = 0; k < size; ++k)
-    if (turn_along(face.corners[k], face.corners[(k + 1) % size], p, axis) * sense <= 0) return false;
-  return true;
-}
-
-bool same_plane(const Homogeneous& a, const Homogeneous& b) {
-  for (std::size_t i = 0; i < 4; ++i)
-    for (std::size_t j = i + 1; j < 4; ++j)
-      if (a[i] * b[j] != a[j] * b[i]) return false;
-  return true;
-}
-
-Homogeneous mean(const Homogeneous& p, const Homogeneous& q) {
-  Homogeneous m;
-  for (std::size_t k = 0; k < 3; ++k) m[k] = p[k] * q[3] + q[k] * p[3];
-  m[3] = 2 * p[3] * q[3];
-  return m;
-}
-
-/// Where the segment from p (at height s) to q (at t, of the other sign) is at height 0.
-Homogeneous crossing(const Homogeneous& p, const Integer& s, const Homogeneous& q, const Integer& t) {
-  Homogeneous c;
-  for (std::size_t k = 0; k < 4; ++k) c[k] = p[k] * t - q[k] * s;
-  if (sgn(c[3]) < 0)
-    for (Integer& n : c) n = -n;
-  return c;
+/// Whether one loop of numbers is the other, begun elsewhere.
+bool is_rotation(std::span<const Numbered_points::Number> a, std::span<const Numbered_points::Number> b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t first = 0; first < b.size(); ++first)
+    if (std::equal(a.begin(), a.end() - static_cast<std::ptrdiff_t>(first),
+                   b.begin() + static_cast<std::ptrdiff_t>(first)) &&
+        std::equal(a.end() - static_cast<std::ptrdiff_t>(first), a.end(), b.begin()))
+      return true;
+  return false;
 }
 
 Integer height(const Homogeneous& plane, const Homogeneous& p) {
   return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3];
-}
-
-/// Lexicographic: along a line, one way.
-bool is_less(const Homogeneous& p, const Homogeneous& q) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (const int order = cmp(Integer(p[k] * q[3]), Integer(q[k] * p[3])); order != 0) return order < 0;
-  return false;
-}
-
-/// Whether b has a whole segment inside a: pieces in different planes.
-bool cuts_into(const Solid_face& a, const Solid_face& b) {
-  // 1. Where b meets a's plane.
-  std::vector<Homogeneous> ends;
-  const std::size_t size = b.corners.size();
-  std::vector<Integer> heights;
-  for (const Homogeneous& p : b.corners) heights.push_back(height(a.plane, p));
-  for (std::size_t k = 0; k < size; ++k) {
-    const std::size_t next = (k + 1) % size;
-    if (sgn(heights[k]) == 0) ends.push_back(b.corners[k]);
-    else if (sgn(heights[k]) * sgn(heights[next]) < 0)
-      ends.push_back(crossing(b.corners[k], heights[k], b.corners[next], heights[next]));
-  }
-  if (ends.empty()) return false;
-  Homogeneous from = ends[0], to = ends[0];
-  for (const Homogeneous& end : ends) {  // straight corners may make them more than two
-    if (is_less(end, from)) from = end;
-    if (is_less(to, end)) to = end;
-  }
-  if (!is_less(from, to)) return false;
-  // 2. Of that, what a holds.
-  const std::size_t axis = axis_of(a.plane), corners = a.corners.size();
-  const int sense = sgn(a.plane[axis]);
-  for (std::size_t k = 0; k < corners; ++k) {
-    const auto turn = [&](const Homogeneous& p) -> Integer {
-      const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-      const Homogeneous &q = a.corners[k], &r = a.corners[(k + 1) % corners];
-      const Integer value =
-          q[x] * (r[y] * p[3] - p[y] * r[3]) - q[y] * (r[x] * p[3] - p[x] * r[3]) + q[3] * (r[x] * p[y] - p[x] * r[y]);
-      return sense > 0 ? value : Integer(-value);
-    };
-    const Integer s = turn(from), t = turn(to);
-    if (sgn(s) <= 0 && sgn(t) <= 0) return false;
-    if (sgn(s) < 0) from = crossing(from, s, to, t);
-    else if (sgn(t) < 0) to = crossing(from, s, to, t);
-  }
-  return is_strictly_inside(a, mean(from, to));
-}
-
-/// Whether two faces in one plane have area in common.
-bool overlap(const Solid_face& a, const Solid_face& b) {
-  const std::size_t axis = axis_of(a.plane);
-  const auto apart = [&](const Solid_face& one, const Solid_face& other) {
-    const int sense = sgn(one.plane[axis]);
-    const std::size_t size = one.corners.size();
-    for (std::size_t k = 0; k < size; ++k)
-      if (std::all_of(other.corners.begin(), other.corners.end(), [&](const Homogeneous& p) {
-            return turn_along(one.corners[k], one.corners[(k + 1) % size], p, axis) * sense <= 0;
-          }))
-        return true;
-    return false;
-  };
-  return !apart(a, b) && !apart(b, a);
 }
 
 using Numbers = std::map<std::uint32_t, int>;
@@ -186,18 +134,15 @@ using Numbers = std::map<std::uint32_t, int>;
 class Solid_check {
  public:
   Solid_check(std::span<const Polygon_soup> operands, const Solid_certificate& claim, const Verify_options& options)
-      : operands_(operands), claim_(claim), options_(options), faces_(claim.fragments.size()) {}
+      : operands_(operands), claim_(claim), options_(options), touched_(claim.fragments.size()) {}
 
   std::string check(const Polygon_soup* result) {
     check_names();
+    number_points(result);
     check_coverings();
-    for (std::size_t i = 0; i < faces_.size(); ++i) {
-      faces_[i].corners = homogeneous(claim_.fragments[i].vertices);
-      faces_[i].plane = plane_of(claim_.fragments[i].vertices);
-    }
-    const Rank_grid grid(claim_.fragments, faces_);
+    const Rank_grid grid(points_, near_, faces_);
     check_crossings(grid);
-    for_each_below(faces_.size(), 100, options_.threads, [&](std::size_t i) { check_numbers(grid, i); });
+    check_numbers(grid);
     check_boundary();
     if (result != nullptr) check_result(*result);
     std::size_t kept = 0;
@@ -207,6 +152,8 @@ class Solid_check {
   }
 
  private:
+  using Number = Numbered_points::Number;
+
   /// All refer to something.
   void check_names() const {
     if (claim_.operands != operands_.size())
@@ -235,19 +182,34 @@ class Solid_check {
     for (const auto& entry : claim_.set_aside) in_operands("set_aside", entry.operand);
   }
 
+  /// All points by number: first those of fragments, which are made ready, then those of operands and of the result.
+  void number_points(const Polygon_soup* result) {
+    std::vector<std::vector<Number>> numbers;
+    for (std::size_t i = 0; i < claim_.fragments.size(); ++i) {
+      const std::size_t before = points_.size();
+      numbers.push_back(points_.add(claim_.fragments[i].vertices));
+      for (std::size_t k = before; k < points_.size(); ++k)
+        if (!canonical(points_[static_cast<Number>(k)]))
+          reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
+    }
+    for (Number k = 0; k < points_.size(); ++k) near_.emplace_back(points_[k]);
+    for (std::vector<Number>& corners : numbers) faces_.emplace_back(std::move(corners), near_);
+    const auto add = [&](const Polygon_soup& soup) {
+      std::vector<Number> all;
+      for (Point_id p = 0; p < soup.point_count(); ++p) all.push_back(points_.add(soup.point(p)));
+      return all;
+    };
+    for (const Polygon_soup& operand : operands_) operand_numbers_.push_back(add(operand));
+    if (result != nullptr) result_numbers_ = add(*result);
+  }
+
   /// Each operand is its fragments, and closed.
   void check_coverings() const {
+    std::vector<std::vector<std::pair<std::size_t, const Solid_certificate::Part*>>> parts(operands_.size());
+    for (std::size_t i = 0; i < claim_.fragments.size(); ++i)
+      for (const Solid_certificate::Part& part : claim_.fragments[i].parts) parts[part.operand].emplace_back(i, &part);
     for (std::uint32_t operand = 0; operand < operands_.size(); ++operand) {
       Covering covering;
-      std::vector<std::size_t> of;
-      for (std::size_t i = 0; i < claim_.fragments.size(); ++i)
-        for (const Solid_certificate::Part& part : claim_.fragments[i].parts) {
-          if (part.operand != operand) continue;
-          covering.fragments.push_back({part.face, part.piece, claim_.fragments[i].vertices});
-          if (part.turned)
-            std::reverse(covering.fragments.back().vertices.begin(), covering.fragments.back().vertices.end());
-          of.push_back(i);
-        }
       for (const auto& piece : claim_.pieces)
         if (piece.operand == operand) covering.pieces.push_back({piece.face, piece.piece, piece.vertices});
       for (const auto& entry : claim_.set_aside) {
@@ -257,89 +219,150 @@ class Solid_check {
                  " is set aside, and not for zero area: it bounds nothing");
         covering.set_aside.push_back({entry.face, entry.why});
       }
+      const std::vector<bool> whole = whole_triangles(operand, parts[operand], covering);
+      std::vector<std::size_t> of;
+      for (const auto& [i, part] : parts[operand]) {
+        if (part->face < whole.size() && whole[part->face]) continue;
+        covering.fragments.push_back({part->face, part->piece, claim_.fragments[i].vertices});
+        if (part->turned)
+          std::reverse(covering.fragments.back().vertices.begin(), covering.fragments.back().vertices.end());
+        of.push_back(i);
+      }
       try {
-        check_covering(operands_[operand], covering, options_.threads);
+        check_covering(operands_[operand], covering, options_.threads, nullptr, whole);
       } catch (Rejection& rejection) {
         rejection.verdict.why = "solid " + std::to_string(operand) + ": " + rejection.verdict.why;
         for (std::size_t& i : rejection.verdict.fragments) i = of[i];
         throw;
       }
-      Boundary_chain boundary;
-      for (const Order_fragment& fragment : covering.fragments) boundary.add(fragment.vertices, 1);
-      if (const auto point = boundary.nonzero())
+      Numbered_chain boundary;
+      for (const auto& [i, part] : parts[operand]) boundary.add(faces_[i].numbers, part->turned ? -1 : 1);
+      if (const auto point = boundary.nonzero(points_))
         reject("solid " + std::to_string(operand) + " is not closed near " + name(*point));
     }
   }
 
-  /// No fragment is cut into by another one.
-  void check_crossings(const Rank_grid& grid) const {
+  /// The operand's faces that are triangles, each the one fragment that names it: those are tiled.
+  std::vector<bool> whole_triangles(std::uint32_t operand,
+                                    const std::vector<std::pair<std::size_t, const Solid_certificate::Part*>>& parts,
+                                    const Covering& covering) const {
+    const Polygon_soup& soup = operands_[operand];
+    std::vector<std::size_t> times(soup.face_count());
+    for (const auto& [i, part] : parts)
+      if (part->face < times.size()) ++times[part->face];
+    for (const auto& piece : covering.pieces)
+      if (piece.face < times.size()) times[piece.face] = 0;
+    for (const auto& entry : covering.set_aside)
+      if (entry.face < times.size()) times[entry.face] = 0;
+    std::vector<bool> whole(soup.face_count());
+    for (const auto& [i, part] : parts) {
+      if (part->face >= times.size() || times[part->face] != 1 || !faces_[i].has_plane()) continue;
+      if (soup.loop_count(part->face) != 1 || soup.loop(part->face).size() != 3) continue;
+      std::vector<Number> loop;
+      for (const Point_id p : soup.loop(part->face))
+        if (p < soup.point_count()) loop.push_back(operand_numbers_[operand][p]);
+      if (part->turned) std::reverse(loop.begin(), loop.end());
+      whole[part->face] = is_rotation(loop, faces_[i].numbers);
+    }
+    return whole;
+  }
+
+  /// No fragment is cut into by another one. Post: those are marked that may share more with another than whole edges.
+  void check_crossings(const Rank_grid& grid) {
     for_each_below(grid.side() * grid.side(), 20, options_.threads, [&](std::size_t place) {
       const std::size_t x = place / grid.side(), y = place % grid.side();
-      const std::vector<std::uint32_t>& here = grid.at(x, y);
+      const std::vector<std::uint32_t>& here = grid.at(2, x, y);
       for (std::size_t j = 0; j < here.size(); ++j)
         for (std::size_t i = 0; i < j; ++i) {
-          const Solid_face &a = faces_[here[i]], &b = faces_[here[j]];
+          const Rank_grid::Box &a = grid.box(here[i]), &b = grid.box(here[j]);
           // Each pair once: where both are for the first time.
-          if (!boxes_meet(a, b) || std::max(grid.square(a.low[0], 0), grid.square(b.low[0], 0)) != x ||
-              std::max(grid.square(a.low[1], 1), grid.square(b.low[1], 1)) != y)
+          if (!boxes_meet(a, b) || grid.square(std::max(a.low[0], b.low[0]), 0) != x ||
+              grid.square(std::max(a.low[1], b.low[1]), 1) != y)
             continue;
-          const bool wrong = same_plane(a.plane, b.plane) ? overlap(a, b) : cuts_into(a, b) || cuts_into(b, a);
-          if (wrong)
+          const Contact contact = contact_of(faces_[here[i]], faces_[here[j]]);
+          if (contact == Contact::crossed)
             reject(name("fragment", here[i]) + " and " + name("fragment", here[j]) + " cross or overlap",
                    {here[i], here[j]});
+          if (contact == Contact::little) continue;
+          for (const std::uint32_t touched : {here[i], here[j]})
+            std::atomic_ref(touched_[touched]).store(1, std::memory_order_relaxed);
         }
     });
   }
 
+  /// Fragments of which the points just before them hang together: neighbours across an edge that no others have, that
+  /// share nothing but whole edges and single points with any.
+  Patches patches() const {
+    struct Edge {
+      Number low, high;
+      std::uint32_t fragment;
+      bool upwards;
+    };
+    std::vector<Edge> edges;
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+      Number from = faces_[i].numbers.back();
+      for (const Number to : faces_[i].numbers) {
+        edges.push_back({std::min(from, to), std::max(from, to), i, from < to});
+        from = to;
+      }
+    }
+    std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
+      return std::tie(a.low, a.high, a.fragment) < std::tie(b.low, b.high, b.fragment);
+    });
+    Patches patches(faces_.size());
+    for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+      while (end < edges.size() && edges[end].low == edges[begin].low && edges[end].high == edges[begin].high) ++end;
+      const Edge &one = edges[begin], &other = edges[end - 1];
+      if (end - begin == 2 && one.upwards != other.upwards && !touched_[one.fragment] && !touched_[other.fragment])
+        patches.join(one.fragment, other.fragment);
+    }
+    return patches;
+  }
+
   /// A point inside fragment i; different ones for different attempts.
-  Homogeneous point_inside(std::size_t i, std::size_t attempt) const {
-    const std::vector<Homogeneous>& corners = faces_[i].corners;
-    Homogeneous sum = corners[0];
-    Integer weights = 1;
-    for (std::size_t k = 1; k < corners.size(); ++k) {
-      const Integer weight = static_cast<unsigned long>(1 + (7 * k + 13 * attempt * k * k + 5 * attempt) % 11);
-      Homogeneous next;
-      for (std::size_t c = 0; c < 3; ++c) next[c] = sum[c] * corners[k][3] + weight * corners[k][c] * sum[3];
-      next[3] = sum[3] * corners[k][3];
-      sum = next;
+  Exact_point point_inside(std::size_t i, std::size_t attempt) const {
+    Exact_point sum = points_[faces_[i].numbers[0]];
+    Rational weights = 1;
+    for (std::size_t k = 1; k < faces_[i].numbers.size(); ++k) {
+      const Rational weight = static_cast<unsigned long>(1 + (7 * k + 13 * attempt * k * k + 5 * attempt) % 11);
+      for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * points_[faces_[i].numbers[k]][c];
       weights += weight;
     }
-    sum[3] *= weights;
+    for (Rational& x : sum) x /= weights;
     return sum;
   }
 
-  /// The winding numbers just before a fragment's front, by a ray along the third axis; nothing where it meets an edge.
-  std::optional<Numbers> numbers_at(const Rank_grid& grid, std::size_t i, const Homogeneous& p) const {
-    const auto coordinate = [&](std::size_t k) {
-      Rational x(p[k], p[3]);
-      x.canonicalize();
-      return x;
-    };
-    const std::uint32_t x = grid.rank(coordinate(0), 0), y = grid.rank(coordinate(1), 1);
-    const int front_is_up = sgn(faces_[i].plane[2]);
+  /// The winding numbers just before a fragment's front, by a ray from a point in it along the axis in which its normal
+  /// is longest; nothing where that meets an edge.
+  std::optional<Numbers> numbers_at(const Rank_grid& grid, std::size_t i, const Exact_point& at) const {
+    const Solid_point p(at);
+    const std::size_t axis = faces_[i].axis, x_axis = (axis + 1) % 3, y_axis = (axis + 2) % 3;
+    const std::uint32_t x = grid.rank(at[x_axis], x_axis), y = grid.rank(at[y_axis], y_axis);
     Numbers above;
     // Between two values a point is in the square of either, whichever its rank says; boxes hold both.
-    for (const std::uint32_t j : grid.at(grid.square(x, 0), grid.square(y, 1))) {
+    for (const std::uint32_t j : grid.at(axis, grid.square(x, x_axis), grid.square(y, y_axis))) {
+      const Rank_grid::Box& box = grid.box(j);
+      if (j == i || box.low[x_axis] > x || x > box.high[x_axis] || box.low[y_axis] > y || y > box.high[y_axis])
+        continue;
       const Solid_face& face = faces_[j];
-      if (j == i || face.low[0] > x || x > face.high[0] || face.low[1] > y || y > face.high[1]) continue;
       bool left = false, right = false, on = false;
       const std::size_t size = face.corners.size();
       for (std::size_t k = 0; k < size && !(left && right); ++k) {
-        const int turn = turn_along(face.corners[k], face.corners[(k + 1) % size], p, 2);
+        const int turn = turn_along(*face.corners[k], *face.corners[k + 1 == size ? 0 : k + 1], p, axis);
         left |= turn > 0;
         right |= turn < 0;
         on |= turn == 0;
       }
       if (left && right) continue;
       if (on) return std::nullopt;
-      const int upwards = sgn(face.plane[2]), here = side(face.plane, p);
+      const int upwards = sgn(face.plane[axis]), here = face.side(p);
       if (here == 0) return std::nullopt;
       if (here == upwards) continue;  // it is below
       for (const Solid_certificate::Part& part : claim_.fragments[j].parts)
         above[part.operand] += part.turned ? -upwards : upwards;
     }
     // The ray begins above the fragment; its front may be below.
-    if (front_is_up < 0)
+    if (sgn(faces_[i].plane[axis]) < 0)
       for (const Solid_certificate::Part& part : claim_.fragments[i].parts) above[part.operand] -= part.turned ? -1 : 1;
     std::erase_if(above, [](const auto& entry) { return entry.second == 0; });
     return above;
@@ -348,7 +371,7 @@ class Solid_check {
   /// The same by a ray in any direction, past all fragments.
   Numbers numbers_by_brute_force(std::size_t i) const {
     for (std::size_t attempt = 0;; ++attempt) {
-      const Homogeneous p = point_inside(i, attempt);
+      const Homogeneous p = homogeneous(point_inside(i, attempt));
       const Integer_vector d{Integer(static_cast<unsigned long>(1009 + 31 * attempt)),
                              Integer(static_cast<unsigned long>(97 + attempt * attempt)),
                              Integer(static_cast<unsigned long>(10007))};
@@ -364,31 +387,29 @@ class Solid_check {
     for (std::size_t j = 0; j < faces_.size(); ++j) {
       if (j == i) continue;
       const Solid_face& face = faces_[j];
-      const int along = slope(face.plane), here = side(face.plane, p);
+      const Integer value = height(face.plane, p);
+      const int along = slope(face.plane), here = sgn(value);
       if (along == 0 && here != 0) continue;
       if (along == 0) return std::nullopt;
-      if (here == 0 || here == along) {
-        if (here == 0 && !same_plane(face.plane, faces_[i].plane)) return std::nullopt;
-        continue;
-      }
-      // Where the ray meets its plane: p + t d.
-      const Integer value = height(face.plane, p);
+      if (here == along) continue;
+      // Where the ray meets its plane: p + t d. At p itself, a face beside this one in its plane is not met.
       const Integer rate = face.plane[0] * d[0] + face.plane[1] * d[1] + face.plane[2] * d[2];
-      Homogeneous q;
-      for (std::size_t k = 0; k < 3; ++k) q[k] = p[k] * rate - value * d[k];
-      q[3] = p[3] * rate;
-      if (sgn(q[3]) < 0)
-        for (Integer& n : q) n = -n;
-      const std::size_t axis = axis_of(face.plane), size = face.corners.size();
-      const int sense = sgn(face.plane[axis]);
+      Exact_point q;
+      for (std::size_t k = 0; k < 3; ++k) {
+        q[k] = Rational(p[k] * rate - value * d[k], p[3] * rate);
+        q[k].canonicalize();
+      }
+      const Solid_point met(q);
+      const std::size_t size = face.corners.size();
+      const int sense = sgn(face.plane[face.axis]);
       bool outside = false, on = false;
       for (std::size_t k = 0; k < size; ++k) {
-        const int turn = turn_along(face.corners[k], face.corners[(k + 1) % size], q, axis) * sense;
+        const int turn = turn_along(*face.corners[k], *face.corners[(k + 1) % size], met, face.axis) * sense;
         outside |= turn < 0;
         on |= turn == 0;
       }
       if (outside) continue;
-      if (on) return std::nullopt;
+      if (on || here == 0) return std::nullopt;
       for (const Solid_certificate::Part& part : claim_.fragments[j].parts)
         beyond[part.operand] += part.turned ? -along : along;
     }
@@ -415,19 +436,33 @@ class Solid_check {
     return inside % 2 == 1;
   }
 
-  void check_numbers(const Rank_grid& grid, std::size_t i) const {
+  /// Before each fragment the solids wind round as it says, and its fate follows from that.
+  void check_numbers(const Rank_grid& grid) const {
+    Patches patches = this->patches();
+    std::vector<std::uint32_t> least(faces_.size()), first;
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
+      least[i] = patches.least(i);
+      if (least[i] == i) first.push_back(i);
+    }
+    std::vector<Numbers> numbers(faces_.size());
+    for_each_below(first.size(), 20, options_.threads, [&](std::size_t k) {
+      const std::size_t i = first[k];
+      std::optional<Numbers> found;
+      for (std::size_t attempt = 0; attempt < 4 && !found; ++attempt)
+        found = numbers_at(grid, i, point_inside(i, attempt));
+      numbers[i] = found ? *found : numbers_by_brute_force(i);
+    });
+    for_each_below(faces_.size(), 1000, options_.threads, [&](std::size_t i) { check_fate(i, numbers[least[i]]); });
+  }
+
+  void check_fate(std::size_t i, const Numbers& front) const {
     const Solid_certificate::Fragment& fragment = claim_.fragments[i];
-    std::optional<Numbers> front;
-    if (sgn(faces_[i].plane[2]) != 0)  // else it is upright
-      for (std::size_t attempt = 0; attempt < 4 && !front; ++attempt)
-        front = numbers_at(grid, i, point_inside(i, attempt));
-    if (!front) front = numbers_by_brute_force(i);
-    if (!std::equal(front->begin(), front->end(), fragment.front.begin(), fragment.front.end(),
+    if (!std::equal(front.begin(), front.end(), fragment.front.begin(), fragment.front.end(),
                     [](const auto& a, const auto& b) { return a.first == b.first && a.second == b.second; }))
       reject("before " + name("fragment", i) + " the solids wind round otherwise than it says", {i});
-    Numbers behind = *front;
+    Numbers behind = front;
     for (const Solid_certificate::Part& part : fragment.parts) behind[part.operand] += part.turned ? -1 : 1;
-    const bool before = is_in_result(*front), beyond = is_in_result(behind);
+    const bool before = is_in_result(front), beyond = is_in_result(behind);
     const auto fate = before == beyond ? Solid_certificate::Fate::dropped
                       : before         ? Solid_certificate::Fate::turned
                                        : Solid_certificate::Fate::kept;
@@ -440,48 +475,75 @@ class Solid_check {
                                                      : "dropped";
   }
 
-  /// A kept fragment as the result has it.
-  Polygon boundary_of(const Solid_certificate::Fragment& fragment) const {
-    Polygon polygon = fragment.vertices;
-    if (fragment.fate == Solid_certificate::Fate::turned) std::reverse(polygon.begin(), polygon.end());
-    return polygon;
+  /// How often the boundary of a fragment is the result's: 1, -1 or 0.
+  long times(std::size_t i) const {
+    const Solid_certificate::Fate fate = claim_.fragments[i].fate;
+    return fate == Solid_certificate::Fate::kept ? 1 : fate == Solid_certificate::Fate::turned ? -1 : 0;
   }
 
   void check_boundary() const {
-    Boundary_chain boundary;
-    for (const auto& fragment : claim_.fragments)
-      if (fragment.fate != Solid_certificate::Fate::dropped) boundary.add(boundary_of(fragment), 1);
-    if (const auto point = boundary.nonzero()) reject("what is kept is not closed near " + name(*point));
+    Numbered_chain boundary;
+    for (std::size_t i = 0; i < faces_.size(); ++i)
+      if (times(i) != 0) boundary.add(faces_[i].numbers, times(i));
+    if (const auto point = boundary.nonzero(points_)) reject("what is kept is not closed near " + name(*point));
   }
 
   /// In each plane, and from each side of it, the result's faces and what is kept are the same chain.
   void check_result(const Polygon_soup& result) const {
-    std::map<std::array<Rational, 4>, Boundary_chain> planes;
-    const auto add = [&](const std::vector<Polygon>& loops, long times) {
-      const Integer_vector n = newell_normal(loops[0]);
-      if (is_zero(n)) reject("a face of the result has no area");
-      const Rational offset = dot(n, loops[0][0]);
-      for (const Polygon& loop : loops)
-        for (const Exact_point& p : loop)
-          if (dot(n, p) != offset) reject("a face of the result is not planar near " + name(p));
-      planes[{Rational(n[0]), Rational(n[1]), Rational(n[2]), offset}].add(loops, times);
+    // 1. Faces that are a fragment, corner by corner, are what is kept of that.
+    std::map<std::vector<Number>, std::vector<std::size_t>> kept;  // by loops that begin with their least number
+    const auto from_least = [](std::vector<Number> loop) {
+      std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
+      return loop;
     };
-    for (Face_id f = 0; f < result.face_count(); ++f) {
-      std::vector<Polygon> loops(result.loop_count(f));
-      for (std::size_t k = 0; k < loops.size(); ++k)
-        for (const Point_id p : result.loop(f, k)) loops[k].push_back(result.point(p));
-      add(loops, 1);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+      if (times(i) == 0) continue;
+      std::vector<Number> loop = faces_[i].numbers;
+      if (times(i) < 0) std::reverse(loop.begin(), loop.end());
+      kept[from_least(std::move(loop))].push_back(i);
     }
-    for (const auto& fragment : claim_.fragments)
-      if (fragment.fate != Solid_certificate::Fate::dropped) add({boundary_of(fragment)}, -1);
+    // 2. The others are, plane by plane, what is left.
+    std::map<Homogeneous, Numbered_chain> planes;
+    for (Face_id f = 0; f < result.face_count(); ++f) {
+      std::vector<std::vector<Number>> loops(result.loop_count(f));
+      for (std::size_t k = 0; k < loops.size(); ++k)
+        for (const Point_id p : result.loop(f, k)) loops[k].push_back(result_numbers_.at(p));
+      if (loops.size() == 1 && !loops[0].empty())
+        if (const auto same = kept.find(from_least(loops[0])); same != kept.end() && !same->second.empty()) {
+          same->second.pop_back();
+          continue;
+        }
+      Polygon outer;
+      for (const Number p : loops[0]) outer.push_back(points_[p]);
+      const Integer_vector normal = newell_normal(outer);
+      if (is_zero(normal)) reject("a face of the result has no area");
+      const Homogeneous plane = plane_of(Plane{normal, outer[0]});
+      for (const std::vector<Number>& loop : loops)
+        for (const Number p : loop)
+          if (side(plane, homogeneous(points_[p])) != 0)
+            reject("a face of the result is not planar near " + name(points_[p]));
+      for (const std::vector<Number>& loop : loops) planes[plane].add(loop, 1);
+    }
+    for (const auto& [loop, same] : kept)
+      for (const std::size_t i : same) {
+        Homogeneous plane = faces_[i].plane;
+        if (times(i) < 0)
+          for (Integer& n : plane) n = -n;
+        planes[plane].add(loop, -1);
+      }
     for (const auto& [plane, chain] : planes)
-      if (const auto point = chain.nonzero()) reject("the result is not what is kept, near " + name(*point));
+      if (const auto point = chain.nonzero(points_)) reject("the result is not what is kept, near " + name(*point));
   }
 
   std::span<const Polygon_soup> operands_;
   const Solid_certificate& claim_;
   const Verify_options& options_;
-  std::vector<Solid_face> faces_;
+  Numbered_points points_;
+  std::vector<Solid_point> near_;  // of the fragments' corners
+  std::vector<Solid_face> faces_;  // the fragments
+  std::vector<char> touched_;      // by fragment
+  std::vector<std::vector<Number>> operand_numbers_;
+  std::vector<Number> result_numbers_;
 };
 
 }  // namespace

@@ -1,0 +1,251 @@
+// The checker of set operations by itself: what two faces have in common, against clipping in rationals; sides in
+// doubles, against rationals; certificates that are forged so that all but one step would accept them.
+
+#include "shapes.h"
+
+#include "../sample.h"
+
+#include <sightline/algorithms/solids/certificate.h>
+#include <sightline/algorithms/solids/set_operation.h>
+#include <sightline/algorithms/verify/solid_faces.h>
+#include <sightline/algorithms/verify/solids.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+namespace {
+
+using namespace sightline;
+using namespace test_solids;
+using certificate_check::Contact;
+using certificate_check::Numbered_points;
+using certificate_check::Solid_face;
+using certificate_check::Solid_point;
+
+using Triangle = std::array<Exact_point, 3>;
+
+Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Exact_point minus(const Exact_point& a, const Exact_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Exact_point cross(const Exact_point& a, const Exact_point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Exact_point normal_of(const Triangle& t) { return cross(minus(t[1], t[0]), minus(t[2], t[0])); }
+
+/// What has a form not negative, of the convex hull of points in a ring.
+std::vector<Exact_point> clipped(const std::vector<Exact_point>& ring, const Exact_point& form,
+                                 const Exact_point& from) {
+  std::vector<Exact_point> left;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const Exact_point &p = ring[k], &q = ring[(k + 1) % ring.size()];
+    const Rational s = dot(form, minus(p, from)), t = dot(form, minus(q, from));
+    if (s >= 0) left.push_back(p);
+    if (sgn(s) * sgn(t) >= 0) continue;
+    const Rational share = s / (s - t);
+    left.push_back({p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]), p[2] + share * (q[2] - p[2])});
+  }
+  return left;
+}
+
+bool is_strictly_inside(const Triangle& t, const Exact_point& p) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (dot(cross(normal_of(t), minus(t[(k + 1) % 3], t[k])), minus(p, t[k])) <= 0) return false;
+  return true;
+}
+
+/// By clipping one to the other.
+struct Common {
+  bool crossed = false;
+  std::set<Exact_point> ends;
+};
+Common common_of(const Triangle& a, const Triangle& b) {
+  const Exact_point n = normal_of(a);
+  std::vector<Exact_point> ring(b.begin(), b.end());
+  ring = clipped(clipped(ring, n, a[0]), minus({}, n), a[0]);
+  for (std::size_t k = 0; k < 3; ++k) ring = clipped(ring, cross(n, minus(a[(k + 1) % 3], a[k])), a[k]);
+  Common common{false, {ring.begin(), ring.end()}};
+  if (common.ends.size() < 2) return common;
+  Exact_point middle{};
+  for (const Exact_point& p : common.ends)
+    for (std::size_t k = 0; k < 3; ++k) middle[k] += p[k] / Rational(static_cast<unsigned long>(common.ends.size()));
+  common.crossed = is_strictly_inside(a, middle) || is_strictly_inside(b, middle);
+  return common;
+}
+bool is_edge(const Triangle& t, const std::set<Exact_point>& ends) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (ends == std::set<Exact_point>{t[k], t[(k + 1) % 3]}) return true;
+  return false;
+}
+
+Contact contact_of(const std::vector<Exact_point>& a, const std::vector<Exact_point>& b) {
+  Numbered_points points;
+  std::array<std::vector<Numbered_points::Number>, 2> numbers;
+  for (const Exact_point& p : a) numbers[0].push_back(points.add(p));
+  for (const Exact_point& p : b) numbers[1].push_back(points.add(p));
+  std::vector<Solid_point> near;
+  for (Numbered_points::Number k = 0; k < points.size(); ++k) near.emplace_back(points[k]);
+  return certificate_check::contact_of(Solid_face(numbers[0], near), Solid_face(numbers[1], near));
+}
+
+TEST(Checker, what_faces_have_in_common_is_what_clipping_in_rationals_leaves) {
+  std::mt19937 random(5);
+  const Rational tiny(1, Integer(1) << 70), huge = Rational(Integer(1) << 600);
+  std::map<std::string, int> cases;
+  for (int k = 0; k < test_scenes::sample(6000); ++k) {
+    std::array<Triangle, 2> t;
+    for (Triangle& one : t)
+      for (Exact_point& p : one)
+        for (Rational& x : p) {
+          x = static_cast<long>(random() % 3);
+          if (k % 3 == 1 && random() % 4 == 0) x += tiny * static_cast<long>(random() % 3);
+          if (k % 3 == 2) x *= k % 2 == 0 ? huge : Rational(1 / huge);
+        }
+    if (random() % 2 == 0) t[1][random() % 3] = t[0][random() % 3];
+    if (random() % 3 == 0) t[1][random() % 3] = t[0][random() % 3];
+    if (normal_of(t[0]) == Exact_point{} || normal_of(t[1]) == Exact_point{}) continue;
+    const Common common = common_of(t[0], t[1]);
+    const bool is_whole = common.ends.size() < 2 || (is_edge(t[0], common.ends) && is_edge(t[1], common.ends));
+    const std::vector<Exact_point> one(t[0].begin(), t[0].end()), other(t[1].begin(), t[1].end());
+    for (const Contact found : {contact_of(one, other), contact_of(other, one)}) {
+      ASSERT_EQ(found == Contact::crossed, common.crossed) << k;
+      ASSERT_TRUE(found != Contact::little || is_whole) << k;
+      ++cases[common.crossed ? "crossed" : !is_whole ? "edges" : found == Contact::little ? "little" : "not told"];
+    }
+  }
+  EXPECT_GT(cases["crossed"], test_scenes::least(1500));
+  EXPECT_GT(cases["edges"], test_scenes::least(100));
+  EXPECT_GT(cases["little"], test_scenes::least(1500));
+  EXPECT_LT(cases["not told"], cases["little"]);
+}
+
+TEST(Checker, edges_that_go_on_beyond_a_straight_corner_are_more_than_a_whole_edge) {
+  const std::vector<Exact_point> flat{{0, 0, 0}, {1, 0, 0}, {3, 0, 0}, {0, 3, 0}},
+      upright{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 0, 2}}, beside{{0, 0, 0}, {0, -2, 0}, {2, 0, 0}, {1, 0, 0}};
+  for (const auto& other : {upright, beside}) {
+    EXPECT_EQ(contact_of(flat, other), Contact::edges);
+    EXPECT_EQ(contact_of(other, flat), Contact::edges);
+  }
+  EXPECT_EQ(contact_of(flat, {{0, 0, 0}, {1, 0, 0}, {0, 0, 1}}), Contact::little);
+}
+
+TEST(Checker, sides_and_turns_are_those_of_rationals_however_near_the_plane) {
+  std::mt19937_64 random(6);
+  const auto number = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::map<int, int> signs;
+  for (int k = 0; k < test_scenes::sample(3000); ++k) {
+    Numbered_points points;
+    Triangle t;
+    std::vector<Numbered_points::Number> numbers;
+    for (Exact_point& p : t) {
+      for (Rational& x : p) x = exact(number());
+      numbers.push_back(points.add(p));
+    }
+    std::vector<Solid_point> near(points.size(), Solid_point(t[0]));
+    for (std::size_t i = 0; i < 3; ++i) near[i] = Solid_point(t[i]);
+    const Solid_face face(numbers, near);
+    ASSERT_TRUE(face.has_plane());
+    Exact_point p;
+    const double s = number(), r = number();
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] = t[0][i] + exact(s) * (t[1][i] - t[0][i]) + (k % 2 == 0 ? exact(r) * (t[2][i] - t[0][i]) : Rational(0));
+      if (k % 3 == 0) p[i] = exact(p[i].get_d());
+    }
+    const int side = sgn(dot(normal_of(t), minus(p, t[0])));
+    ASSERT_EQ(face.side(Solid_point(p)), side) << k;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      ASSERT_EQ(turn_along(near[0], near[1], Solid_point(p), axis), sgn(cross(minus(t[1], t[0]), minus(p, t[0]))[axis]))
+          << k;
+    ++signs[side];
+  }
+  for (const int sign : {-1, 0, 1}) EXPECT_GT(signs[sign], test_scenes::least(300)) << sign;
+}
+
+Polygon_soup tetrahedron(int x) {
+  Polygon_soup soup;
+  for (const Exact_point& p : {Exact_point{x, 0, 0}, {x + 1, 0, 0}, {x, 1, 0}, {x, 0, 1}})
+    soup.add_point(p[0], p[1], p[2]);
+  for (const std::array<Point_id, 3>& face : {std::array<Point_id, 3>{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}})
+    soup.add_face(face);
+  return soup;
+}
+
+/// Of each solid by itself, put together: nothing is cut where they cross.
+Solid_certificate uncut(const std::vector<Polygon_soup>& solids) {
+  Solid_certificate all{"union", "positive", static_cast<std::uint32_t>(solids.size()), {}, {}, {}};
+  for (std::uint32_t k = 0; k < solids.size(); ++k) {
+    Set_options options;
+    options.keep_fragments = true;
+    const Operands operands(std::vector{solids[k]});
+    Solid_certificate one = solid_certificate(operands, options, set_operation(operands, options));
+    for (auto& fragment : one.fragments) {
+      for (auto& part : fragment.parts) part.operand = k;
+      for (auto& number : fragment.front) number.first = k;
+      all.fragments.push_back(fragment);
+    }
+  }
+  return all;
+}
+
+TEST(Checker, refuses_what_all_but_one_of_its_steps_would_accept) {
+  const Polygon_soup cube = box({0, 0, 0}, {2, 2, 2}), apart = box({3, 0, 0}, {4, 1, 1});
+  const auto verdict = [](const std::vector<Polygon_soup>& solids, const Solid_certificate& claim) {
+    return verify_solids(solids, claim);
+  };
+  EXPECT_TRUE(verdict({cube, apart}, uncut({cube, apart})).accepted);
+  // 1. Fragments that cross, or overlap in one plane.
+  for (const Polygon_soup& other : {box({1, 1, 1}, {3, 3, 3}), box({1, 1, 2}, {3, 3, 3}), box({-1, 1, 1}, {3, 3, 3}),
+                                    box({0, 0, 0}, {2, 2, 2}), box({0, 0, -1}, {1, 1, 0})}) {
+    const Verdict found = verdict({cube, other}, uncut({cube, other}));
+    EXPECT_FALSE(found.accepted);
+    EXPECT_TRUE(found.why.ends_with("cross or overlap")) << found.why;
+  }
+  // 2. Numbers that are wrong everywhere, and all that follows from them.
+  Solid_certificate more = uncut({cube});
+  for (auto& fragment : more.fragments) {
+    fragment.front = {{0, 1}};
+    fragment.fate = Solid_certificate::Fate::dropped;
+  }
+  EXPECT_EQ(verdict({cube}, more).why, "before fragment 0 the solids wind round otherwise than it says");
+  // 3. A solid inside another is inside: numbers of one patch are not those of the other.
+  const Polygon_soup inner = box({Rational(1, 2), Rational(1, 2), Rational(1, 2)}, {1, 1, 1});
+  EXPECT_EQ(verdict({cube, inner}, uncut({cube, inner})).why,
+            "before fragment 6 the solids wind round otherwise than it says");
+  // 4. Fragments that are no part of any face, though all is closed: instead of the solid's, and besides.
+  const Polygon_soup here = tetrahedron(0), there = tetrahedron(5);
+  EXPECT_TRUE(verdict({here}, uncut({here})).accepted);
+  EXPECT_FALSE(verdict({here}, uncut({there})).accepted);
+  Solid_certificate both = uncut({there}), rest = uncut({here});
+  both.fragments.insert(both.fragments.end(), rest.fragments.begin(), rest.fragments.end());
+  EXPECT_FALSE(verdict({here}, both).accepted);
+  // 5. What is kept is not closed, and a result that is another one.
+  Solid_certificate right = uncut({cube, apart});
+  EXPECT_FALSE(verify_solids(std::vector{cube, apart}, right, &cube).accepted);
+  EXPECT_FALSE(verify_solids(std::vector{cube}, uncut({cube}), &apart).accepted);
+  Polygon_soup turned;
+  for (Point_id p = 0; p < 8; ++p) turned.add_point(cube.point(p)[0], cube.point(p)[1], cube.point(p)[2]);
+  for (Face_id f = 0; f < 6; ++f) {
+    std::vector<Point_id> loop(cube.loop(f).begin(), cube.loop(f).end());
+    if (f == 3) std::reverse(loop.begin(), loop.end());
+    turned.add_face(loop);
+  }
+  EXPECT_TRUE(verify_solids(std::vector{cube}, uncut({cube}), &cube).accepted);
+  EXPECT_FALSE(verify_solids(std::vector{cube}, uncut({cube}), &turned).accepted);
+}
+
+TEST(Checker, takes_neighbours_for_one_patch_only_if_their_fronts_are_on_one_side) {
+  // A cube, and one of its faces twice more: first turned round, so that its fragment's front looks inwards.
+  Polygon_soup cube = box({0, 0, 0}, {2, 2, 2}), all;
+  for (Point_id p = 0; p < 8; ++p) all.add_point(cube.point(p)[0], cube.point(p)[1], cube.point(p)[2]);
+  const std::vector<Point_id> face(cube.loop(3).begin(), cube.loop(3).end());
+  all.add_face(std::vector<Point_id>(face.rbegin(), face.rend()));
+  for (Face_id f = 0; f < 6; ++f) all.add_face(cube.loop(f));
+  all.add_face(face);
+  const Solid_certificate claim = uncut({all});
+  EXPECT_EQ(claim.fragments.size(), 6u);
+  EXPECT_EQ(verify_solids(std::vector{all}, claim, &cube).why,
+            "union of 1 solids: 6 of 6 fragments bound it, and are the result");
+}
+
+}  // namespace
