@@ -2,6 +2,8 @@
 
 #include "methods/methods.h"
 
+#include <sightline/kernel/predicates.h>
+
 #include <iostream>
 
 namespace sightline::app {

@@ -5,6 +5,7 @@
 #include "support/drawing.h"
 #include "support/page.h"
 
+#include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/priority/eye_order.h>

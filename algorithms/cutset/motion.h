@@ -1,7 +1,7 @@
 #pragma once
 // A moving object is a viewpoint that moves the other way: rational rotations and translations, exactly.
 
-#include <sightline/algorithms/cutset/on_view.h>
+#include <sightline/algorithms/cutset/viewpoint.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 

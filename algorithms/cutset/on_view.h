@@ -1,6 +1,7 @@
 #pragma once
 // Whether a viewpoint is strictly in front of a face's plane, and how far it can move before that changes.
 
+#include <sightline/algorithms/cutset/viewpoint.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/convex_parts.h>
@@ -18,13 +19,6 @@
 #include <stdexcept>
 
 namespace sightline {
-
-/// A point to look from, or a direction towards a viewpoint at infinity (of any length but zero).
-struct Viewpoint {
-  Exact_point at;
-  bool at_infinity = false;
-};
-bool operator==(const Viewpoint& a, const Viewpoint& b);
 
 /// The on-view predicate over the nodes of a face graph: a viewpoint in a node's plane is off-view, and so is one at
 /// infinity along it. Doubles decide where their bound allows, and tell how far the viewpoint is from the plane; else

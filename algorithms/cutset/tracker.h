@@ -4,7 +4,8 @@
 
 #include <sightline/algorithms/cutset/on_view.h>
 #include <sightline/algorithms/cutset/watch_list.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/located_point.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/face_graph.h>
 #include <sightline/kernel/traits/exact_traits.h>

@@ -1,13 +1,16 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 
+#include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/vectors.h>
 #include <sightline/kernel/vertex.h>
-#include <sightline/algorithms/point_visibility/visible.h>
 
 #include <limits>
 #include <type_traits>
 
 namespace sightline {
+
+Predicates Exact_view::predicates() const { return scene_->predicates(); }
 
 Exact_view::Exact_view(const Scene& scene, const Sun& sun)
     : scene_(&scene), eye_point_(sun.direction), forms_(scene.pieces().size()) {

@@ -7,7 +7,7 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/sign.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -163,7 +163,7 @@ class Exact_view {
     Approximate_vector approximate;
   };
 
-  Predicates predicates() const { return scene_->predicates(); }
+  Predicates predicates() const;
   static double magnitude(double x, double y, double z) {
     return (std::fabs(x) + std::fabs(y) + std::fabs(z)) * (1 + 0x1p-50);
   }

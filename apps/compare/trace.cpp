@@ -5,6 +5,7 @@
 #include "../methods/rays.h"
 #include "../support/paths.h"
 
+#include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/rays/by_tree.h>
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/harness/generate/rays.h>

@@ -3,7 +3,7 @@
 
 #include "../support/picture.h"
 
-#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/bsp/options.h>
 #include <sightline/algorithms/bsp/traverse.h>
 
 #include <optional>

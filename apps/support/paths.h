@@ -3,6 +3,7 @@
 
 #include "picture.h"
 
+#include <sightline/kernel/scene/face_graph.h>
 #include <sightline/algorithms/cutset/motion.h>
 #include <sightline/algorithms/rays/ray.h>
 

@@ -4,6 +4,7 @@
 #include "paths.h"
 #include "picture.h"
 
+#include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/io/input.h>
 #include <sightline/io/materials.h>
 

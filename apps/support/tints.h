@@ -4,10 +4,13 @@
 #include "common.h"
 
 #include <sightline/algorithms/image/colour.h>
-#include <sightline/algorithms/point_visibility/exact_view.h>
 
 #include <string>
 #include <vector>
+
+namespace sightline {
+class Exact_view;
+}
 
 namespace sightline::app {
 
