@@ -7,6 +7,7 @@
 #include "support/leaves.h"
 #include "support/page.h"
 #include "support/picture.h"
+#include "support/shard.h"
 
 #include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/pvs.h>
@@ -16,7 +17,6 @@
 #include <sightline/io/file.h>
 #include <sightline/io/visibility_table.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <set>
@@ -152,34 +152,6 @@ class Table_maker {
   double cell_seconds_ = 0;
   std::uint32_t blocks_kept_ = 0;
 };
-
-/// I/N as --shard has it, or what an array of jobs says where that is not given.
-std::array<std::uint32_t, 2> shard_of(const std::string& text) {
-  if (text.empty()) {
-    const char *const id = std::getenv("SLURM_ARRAY_TASK_ID"), *const count = std::getenv("SLURM_ARRAY_TASK_COUNT"),
-                      *const least = std::getenv("SLURM_ARRAY_TASK_MIN");
-    if (id == nullptr || count == nullptr) return {0, 1};
-    const auto number = [](const char* digits) {
-      return static_cast<std::uint32_t>(std::strtoul(digits, nullptr, 10));
-    };
-    const std::uint32_t shard = number(id) - (least == nullptr ? 0 : number(least)), shards = number(count);
-    if (shards == 0 || shard >= shards)
-      throw Usage_error("SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT name no shard; give --shard I/N");
-    std::cerr << fmt::format("sightline: shard {}/{}, as the array of jobs says\n", shard, shards);
-    return {shard, shards};
-  }
-  const std::size_t slash = text.find('/');
-  const std::optional<std::uint64_t> none;
-  const auto number = [&](const std::string& digits) -> std::optional<std::uint64_t> {
-    if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos) return none;
-    return std::stoul(digits);
-  };
-  const auto shard = slash == std::string::npos ? none : number(text.substr(0, slash)),
-             shards = slash == std::string::npos ? none : number(text.substr(slash + 1));
-  if (!shard || !shards || *shards == 0 || *shard >= *shards)
-    throw Usage_error("--shard " + text + ": write I/N with I from 0 to N - 1, as in 3/8");
-  return {static_cast<std::uint32_t>(*shard), static_cast<std::uint32_t>(*shards)};
-}
 
 Json table_json(const Visibility_table& table) {
   Json cells = Json::array();

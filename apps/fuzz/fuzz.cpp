@@ -4,6 +4,7 @@
 
 #include "case_watch.h"
 #include "../support/query.h"
+#include "../support/shard.h"
 
 #include <sightline/harness/laws/fuzz.h>
 #include <sightline/harness/laws/subjects.h>
@@ -20,7 +21,7 @@ namespace sightline::app {
 namespace {
 
 struct Fuzz_arguments {
-  std::string command, family, only, check, scene, query, out = "sightline-fuzz", json;
+  std::string command, family, only, check, scene, query, out = "sightline-fuzz", json, shard;
   bool quiet = false;  ///< an output takes standard output
   double seconds = 60, case_seconds = 120;
   std::size_t scenes = 0, reduce_seconds = 120, most_faces = harness::Fuzz_options{}.most_faces;
@@ -93,10 +94,13 @@ Exit run_one(const harness::Subject& subject, const generate::Posed_scene& scene
 }
 
 Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) {
+  const auto [shard, shards] = shard_of(arguments.shard);
   Countdown time("fuzzing", arguments.seconds);
   harness::Fuzz_options options;
   options.seed = arguments.seed;
   options.scenes = arguments.scenes;
+  options.shard = shard;
+  options.shards = shards;
   options.family = arguments.family;
   options.most_faces = arguments.most_faces;
   options.out_of_time = [&] { return time.over() && arguments.scenes == 0; };
@@ -129,7 +133,7 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
   }
 
   if (!arguments.json.empty()) {
-    Json result{{"subject", subject.name}, {"seed", arguments.seed}, {"finding", nullptr}};
+    Json result{{"subject", subject.name}, {"seed", arguments.seed}, {"shard", {shard, shards}}, {"finding", nullptr}};
     if (finding)
       result["finding"] = {{"case", to_string(finding->which)},
                            {"check", finding->disagreement.check},
@@ -250,12 +254,16 @@ void add_fuzz(Command program) {
                   "of processor time; a case that takes longer ends the run: a finding, named on standard error")
       .check(positive() & finite_number())
       .show_default();
-  command.add_option("--scenes", a->scenes, "draw so many scenes instead, however long that takes")
+  command
+      .add_option("--scenes", a->scenes, "draw so many scenes instead, in all shards together, however long that takes")
       .check(whole_number());
   command.add_option("--reduce-seconds", a->reduce_seconds, "how long to make small what was found; 0: as it was found")
       .check(whole_number())
       .show_default();
   command.add_option("--seed", a->seed, "one seed is one sequence of cases").check(whole_number()).show_default();
+  command.add_option("--shard", a->shard,
+                     "I/N: of the scenes of that sequence those whose number is I modulo N; by default what "
+                     "SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT say");
   command.add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");
   command.add_option("--max-faces", a->most_faces, "pass over scenes of more faces")
       .check(whole_number())

@@ -3,6 +3,7 @@
 #include "examples.h"
 
 #include "../judge/cases.h"
+#include "../support/shard.h"
 
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/report/page.h>
@@ -11,7 +12,6 @@
 #include <sightline/io/file.h>
 #include <sightline/io/read.h>
 
-#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -357,18 +357,6 @@ Exit merge(const Report_arguments& a) {
   return Exit::done;
 }
 
-std::array<std::uint32_t, 2> report_shard(const std::string& text) {
-  if (text.empty()) return {0, 1};
-  std::array<std::uint32_t, 2> shard{};
-  const char* const end = text.data() + text.size();
-  const auto [slash, first] = std::from_chars(text.data(), end, shard[0]);
-  if (first == std::errc() && slash != end && *slash == '/') {
-    const auto [last, second] = std::from_chars(slash + 1, end, shard[1]);
-    if (second == std::errc() && last == end && shard[0] < shard[1]) return shard;
-  }
-  throw Usage_error("--shard " + text + ": write I/N with I from 0 to N - 1, as in 3/8");
-}
-
 /// Fills in what was not given.
 Report_arguments completed(Report_arguments a) {
   const Usual given = usual(a.quick);
@@ -395,7 +383,7 @@ Exit run(const Report_arguments& given) {
   const Report_arguments a = completed(given);
   const Report_limits limits{a.limit, a.memory << 20};
   const Report_effort effort = report_effort(a.quick);
-  const auto [shard, shards] = report_shard(a.shard);
+  const auto [shard, shards] = shard_of(a.shard);
   std::vector<Report_program> programs;
   for (const std::string& program : a.programs) {
     programs.push_back(report_program(program, limits));

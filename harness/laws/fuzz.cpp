@@ -103,7 +103,8 @@ std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& options,
   if (families.empty()) generate::family(options.family);  // says which there are
   Random random(options.seed);
   std::size_t unfit = 0;  // in a row
-  while ((options.scenes == 0 || summary.scenes < options.scenes) && !(options.out_of_time && options.out_of_time())) {
+  std::size_t drawn = 0;  // of all shards
+  while ((options.scenes == 0 || drawn < options.scenes) && !(options.out_of_time && options.out_of_time())) {
     const generate::Family& family = *families[random.below(families.size())];
     const Fuzz_case which = draw_case(family, random);
     if (options.begin) options.begin(which);
@@ -116,6 +117,7 @@ std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& options,
       continue;
     }
     unfit = 0;
+    if (drawn++ % options.shards != options.shard) continue;
     ++summary.scenes;
     const auto tell = [&](const std::string& check, const Outcome& outcome) {
       for (Tally* tally : {&summary.by_check[check], &summary.by_family[family.name]}) {

@@ -83,7 +83,9 @@ Reduced reduce(const Subject& subject, const Posed_scene& scene, std::uint64_t s
 
 struct Fuzz_options {
   std::uint64_t seed = 1;
-  std::size_t scenes = 0;                       ///< 0: no limit
+  std::size_t scenes = 0;  ///< 0: no limit; of all shards together
+  /// Of the scenes drawn those whose number is `shard` modulo `shards`.
+  std::size_t shard = 0, shards = 1;
   std::string family;                           ///< empty: any
   std::size_t most_faces = 40;                  ///< scenes of more faces are passed over
   std::function<bool()> out_of_time;            ///< asked before each scene

@@ -55,6 +55,36 @@ TEST(Fuzz_options, keep_scenes_out_that_are_too_large_or_have_no_source) {
   EXPECT_EQ(summary.scenes, 100u);
 }
 
+TEST(Fuzz_options, shards_run_together_what_one_run_does_and_each_its_own) {
+  harness::Subject subject;
+  std::multiset<std::string> asked;
+  subject.answer = [&](const Posed_scene& posed) {
+    std::string text;
+    for (Point_id p = 0; p < posed.soup.point_count(); ++p)
+      for (const Rational& x : posed.soup.point(p)) text += to_string(x) + ' ';
+    asked.insert(text);
+    return all_alike(posed);
+  };
+  const auto asked_by = [&](std::size_t shard, std::size_t shards) {
+    harness::Fuzz_options options;
+    options.scenes = 50, options.shard = shard, options.shards = shards;
+    harness::Fuzz_summary summary;
+    asked.clear();
+    EXPECT_FALSE(harness::fuzz(subject, options, summary));
+    EXPECT_EQ(summary.scenes, asked.size());
+    return asked;
+  };
+  const std::multiset<std::string> all = asked_by(0, 1);
+  std::multiset<std::string> together;
+  for (std::size_t shard = 0; shard < 3; ++shard) {
+    const std::multiset<std::string> own = asked_by(shard, 3);
+    EXPECT_EQ(own.size(), shard < 2 ? 17u : 16u);
+    together.insert(own.begin(), own.end());
+  }
+  EXPECT_EQ(all.size(), 50u);
+  EXPECT_EQ(together, all);
+}
+
 TEST(First_disagreement, runs_the_named_check_alone_and_each_with_numbers_of_its_own) {
   std::vector<std::uint64_t> drawn;
   harness::Subject subject;
