@@ -42,6 +42,11 @@ struct Quake_level {
   /// The leaves that a leaf's row says may be seen from it, ascending; all where it has no row. Pre: checked by
   /// reading.
   std::vector<std::size_t> seen_from(std::size_t leaf) const;
+  /// Whether eyes may be in a leaf: it has a row, and is neither solid nor sky.
+  bool is_open(std::size_t leaf) const {
+    constexpr std::int32_t solid = -2, sky = -6;
+    return leaf != 0 && leaf <= visible_leaves && leaves[leaf].contents != solid && leaves[leaf].contents != sky;
+  }
 };
 
 /// Whether the bytes begin as a level of version 29 does.

@@ -2,6 +2,7 @@
 // compiled level came with.
 
 #include "compare.h"
+#include "leaves.h"
 
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
@@ -123,6 +124,7 @@ class Engine {
       faces_[l].assign(faces.begin(), faces.end());
     }
   }
+  const Quake_level& file() const { return level_; }
   /// The leaf of a point, by the file's own planes, exactly.
   std::size_t leaf_at(const Exact_point& p) const {
     std::int32_t at = level_.root;
@@ -136,12 +138,7 @@ class Engine {
     return static_cast<std::size_t>(-1 - at);
   }
   const std::vector<Face_id>& seen_from(std::size_t leaf) const { return faces_[leaf]; }
-  /// Whether eyes may be in a leaf: it has a row, and is neither solid nor sky.
-  bool knows(std::size_t leaf) const {
-    constexpr std::int32_t solid = -2, sky = -6;
-    return leaf != 0 && leaf <= level_.visible_leaves && level_.leaves[leaf].contents != solid &&
-           level_.leaves[leaf].contents != sky;
-  }
+  bool knows(std::size_t leaf) const { return level_.is_open(leaf); }
 
  private:
   Quake_level level_;
@@ -317,7 +314,10 @@ Exit compare_cells(const Compare_arguments& arguments) {
   const auto& [level, exact, question, engine] = std::tie(trial.level, trial.exact, trial.question, trial.engine);
   Json rows = Json::array();
   Exit exit = ask(trial, common.budget, rows);
-  if (exit == Exit::done && exact.counters.undecided > 0) exit = Exit::undecided;
+  std::optional<Leaves_compared> leaves;
+  if (engine) leaves = compare_leaves(arguments, engine->file(), common.read());
+  if (exit == Exit::done && leaves) exit = leaves->exit;
+  if (exit == Exit::done && exact.counters.undecided + (leaves ? leaves->undecided : 0) > 0) exit = Exit::undecided;
 
   std::size_t refuted = 0;
   Json sightlines = Json::array();
@@ -336,6 +336,15 @@ Exit compare_cells(const Compare_arguments& arguments) {
               {"rows", rows},
               {"refuted", refuted},
               {"sightlines", sightlines}};
+  if (leaves)
+    result["leaves"] = {{"pairs", leaves->pairs},
+                        {"visible", leaves->visible},
+                        {"undecided", leaves->undecided},
+                        {"seconds", leaves->seconds},
+                        {"rows", leaves->rows},
+                        {"refuted", leaves->refuted},
+                        {"through_solid", leaves->through_solid},
+                        {"sightlines", leaves->sightlines}};
   if (write_json(common, "compare", level.scene(), std::move(result), counters_json(exact.counters),
                  {{"pvs", trial.seconds}}))
     return exit;
@@ -343,6 +352,15 @@ Exit compare_cells(const Compare_arguments& arguments) {
   row("exact", fmt::format("{} cells, {} pairs of a cell and a face: {} visible, {} undecided", trial.cells.size(),
                            exact.counters.pairs, exact.counters.visible, exact.counters.undecided));
   print(rows);
+  if (leaves) {
+    row("leaves", fmt::format("{} pairs of leaves, each other way round too: {} visible, {} undecided", leaves->pairs,
+                              leaves->visible, leaves->undecided));
+    print(leaves->rows);
+    row("the table",
+        fmt::format("hides {} pairs of leaves that have an exact sightline in the open, {} more through what it calls "
+                    "solid and has no face; --json lists all",
+                    leaves->refuted, leaves->through_solid));
+  }
   if (engine)
     row("the table", fmt::format("hides {} pairs of a cell and a face from a leaf that has an exact sightline; --json "
                                  "lists the first",
