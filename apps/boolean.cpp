@@ -24,6 +24,7 @@ namespace {
 struct Boolean_arguments {
   std::string operation, out, json, certificate, html, inside = "positive", coordinates = "exact", round = "double";
   std::vector<std::string> solids;
+  bool snap = false;
   int threads = 0;
 };
 
@@ -51,7 +52,8 @@ std::string place_text(const Exact_point& p) {
 }
 
 /// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, which is reported.
-std::optional<Rounded_surface> written(const Polygon_soup& soup, const std::string& out, const std::string& round) {
+std::optional<Rounded_surface> written(const Polygon_soup& soup, const std::string& out, const std::string& round,
+                                       bool snap) {
   const std::optional<Format> format = format_of_ending(out);
   if (format == Format::qoff || !format) {
     write_scene(soup, out);
@@ -63,7 +65,8 @@ std::optional<Rounded_surface> written(const Polygon_soup& soup, const std::stri
       return std::nullopt;
     } catch (const Not_representable&) {
     }
-  Rounded_surface near = rounded(soup, round == "float" ? Rounding::to_float : Rounding::to_double, triangles);
+  const Rounding to = round == "float" ? Rounding::to_float : Rounding::to_double;
+  Rounded_surface near = snap ? snapped(soup, to, triangles) : rounded(soup, to, triangles);
   write_scene(near.soup, out);
   return near;
 }
@@ -72,15 +75,22 @@ Json rounding_json(const Rounded_surface& near) {
   Json crossing = Json::array();
   for (const auto& [one, other] : near.crossing) crossing.push_back({one, other});
   return {{"moved", near.moved},         {"farthest", near.farthest}, {"not_planar", near.not_planar},
-          {"collapsed", near.collapsed}, {"turned", near.turned},     {"crossing", std::move(crossing)}};
+          {"collapsed", near.collapsed}, {"turned", near.turned},     {"crossing", std::move(crossing)},
+          {"misplaced", near.misplaced}, {"snapped", near.snapped},   {"rounds", near.rounds},
+          {"sound", near.is_sound()}};
 }
 
 std::string rounding_text(const Rounded_surface& near) {
   std::string text = fmt::format("{} points, by {:.2g} at most; {} faces no longer planar, now triangles", near.moved,
                                  near.farthest, near.not_planar.size());
-  if (near.collapsed.size() + near.turned.size() + near.crossing.size() > 0)
-    text += fmt::format("; {} without area, {} turned over, {} pairs cross that did not: write .qoff",
-                        near.collapsed.size(), near.turned.size(), near.crossing.size());
+  if (!near.is_sound())
+    text += fmt::format(
+        "; {} without area, {} turned over, {} pairs cross that did not, {} inside out: {}write .qoff",
+        near.collapsed.size(), near.turned.size(), near.crossing.size(), near.misplaced.size(),
+        near.rounds == 0 ? "give --snap, or " : fmt::format("{} rounds of snapping did not help; ", near.rounds));
+  else if (near.rounds > 0)
+    text += fmt::format("; {} points were put elsewhere than nearest, in {} rounds, and nothing is broken",
+                        near.snapped, near.rounds);
   return text;
 }
 
@@ -137,6 +147,8 @@ void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_res
 }
 
 Exit run(const Boolean_arguments& a, const Command& command) {
+  if (a.snap && (a.out.empty() || format_of_ending(a.out) == Format::qoff))
+    throw Usage_error("--snap is for rounded points: give --out a format that rounds, .obj .off .ply .stl");
   // 1. The solids.
   Stopwatch watch;
   Read_options reading;
@@ -164,7 +176,8 @@ Exit run(const Boolean_arguments& a, const Command& command) {
 
   // 3. What is written.
   const Hole_free flat = without_holes(result.soup);
-  const std::optional<Rounded_surface> rounding = a.out.empty() ? std::nullopt : written(flat.soup, a.out, a.round);
+  const std::optional<Rounded_surface> rounding =
+      a.out.empty() ? std::nullopt : written(flat.soup, a.out, a.round, a.snap);
   const auto before = [&](std::size_t written_face) {  // the face of flat.soup
     return rounding ? rounding->face_of[written_face] : static_cast<Face_id>(written_face);
   };
@@ -280,6 +293,8 @@ void add_boolean(Command program) {
   command.add_option("--round", a->round, "what coordinates of a format that cannot hold them are rounded to")
       .check(one_of({"double", "float"}))
       .show_default();
+  command.add_flag("--snap", a->snap,
+                   "where rounding turns faces over, or makes them cross, move their corners until it does not");
   command.add_option("--threads", a->threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))
       .show_default();

@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/algorithms/verify/solids.h>
@@ -18,6 +19,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 
 namespace sightline::harness {
@@ -432,6 +434,32 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random&
   return {};
 }
 
+std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& random) {
+  const Set_result result = result_of(solids, all_operations[random.below(4)]);
+  const Rational far = generate::power_of_two(static_cast<long>(random.below(22)));
+  const Polygon_soup exact = without_holes(generate::translated(result.soup, {far, far / 3, 0})).soup;
+  std::vector<Rounded_surface> both;
+  try {
+    both = {rounded(exact, Rounding::to_float), snapped(exact, Rounding::to_float)};
+  } catch (const std::domain_error&) {  // beyond what floats hold
+    return {};
+  }
+  for (const Rounded_surface& near : both) {
+    const std::string name = near.rounds > 0 ? "snapped: " : "rounded: ";
+    const std::vector<Polygon_soup> one{near.soup};
+    const std::vector<Operand_flaw> all = flaws(Operands(one));
+    const bool crosses_itself =  // a face; its edges are open then
+        std::any_of(all.begin(), all.end(), [](const Operand_flaw& flaw) { return !flaw.why.empty(); });
+    if (!all.empty() && (!crosses_itself || near.is_sound())) return name + "the surface is not closed any more";
+    if (!near.is_sound()) continue;
+    const Rational signed_volume = volume(near.soup);
+    for (const Inside_rule rule : {Inside_rule::positive, Inside_rule::nonzero})
+      if (volume(result_of(one, Set_operation::unite, rule).soup) != signed_volume)
+        return name + "said to be sound, but not wound once round what is " + sightline::name(rule);
+  }
+  return {};
+}
+
 Subject boolean() {
   Subject subject;
   subject.name = "boolean";
@@ -447,7 +475,10 @@ Subject boolean() {
                       [](const std::vector<Polygon_soup>& solids, Random&) { return flaw_of_surfaces(solids); }),
       check_of_solids(
           "proof", "the certificate is accepted, and rejected when it is forged",
-          [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_certificate(solids, random); })};
+          [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_certificate(solids, random); }),
+      check_of_solids(
+          "rounding", "rounded results are closed, and solids where they are said to be sound",
+          [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_rounding(solids, random); })};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut"});
   return subject;
 }
