@@ -39,7 +39,7 @@ struct Rounded_surface {
 /// they become the triangles that they would be cut into exactly. `triangulate`: all faces become triangles.
 /// Pre: a closed planar soup without holes that winds once round what is inside, as results do; coordinates within the
 /// numbers' range, or std::domain_error. Cost: O(n log n) and the pairs whose boxes meet. Exact: yes, all that it says
-/// of the rounded surface
+/// of the rounded surface. Proof: P-117
 Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate = false);
 
 /// Rounds likewise, then moves the corners of faces that this breaks: round by round to the nearest point of a grid of
