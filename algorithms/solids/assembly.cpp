@@ -434,7 +434,7 @@ class Assembler {
     const std::size_t one = (axis + 1) % 3, other = (axis + 2) % 3;
     const Group_view view{vertices_, upwards ? one : other, upwards ? other : one};
     std::vector<Loop> loops = loops_of(group.edges, view);
-    // 2. Holes, each in the least loop around it.
+    // 2. Holes, each in the least loop around it: an island in a hole may touch it, and is smaller.
     std::vector<Area_loop> all;
     for (Loop& loop : loops) {
       const Rational area = loops.size() == 1 ? Rational(1) : doubled_area(loop, view);
@@ -444,8 +444,8 @@ class Assembler {
       if (sgn(all[i].area) > 0) continue;
       std::size_t around = all.size();
       for (std::size_t j = 0; j < all.size(); ++j)
-        if (sgn(all[j].area) > 0 && (around == all.size() || all[j].area < all[around].area) &&
-            is_inside(all[i].loop[0], all[j].loop, view))
+        if (sgn(all[j].area) > 0 && all[j].area > -all[i].area &&
+            (around == all.size() || all[j].area < all[around].area) && is_inside(all[i].loop[0], all[j].loop, view))
           around = j;
       if (around < all.size()) all[around].holes.push_back(i);
     }

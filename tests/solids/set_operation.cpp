@@ -202,6 +202,45 @@ TEST(Set_operations, merge_the_pieces_of_a_face_and_say_whose_it_is) {
   EXPECT_LT(surface[1] - surface[0], 1e-9);
 }
 
+TEST(Set_operations, give_a_hole_to_the_face_around_it_though_an_island_in_it_touches_it) {
+  // A block less two prisms that leave a triangle between them, which touches the hole's outline in one corner.
+  const auto prism = [](const std::vector<std::array<Rational, 2>>& outline) {
+    Polygon_soup soup;
+    const auto n = static_cast<Point_id>(outline.size());
+    for (const Rational& z : {Rational(-1), Rational(3)})
+      for (const auto& p : outline) soup.add_point(p[0], p[1], z);
+    std::vector<Point_id> bottom, top;
+    for (Point_id k = 0; k < n; ++k) {
+      bottom.insert(bottom.begin(), k);
+      top.push_back(n + k);
+      soup.add_face({k, (k + 1) % n, n + (k + 1) % n, n + k});
+    }
+    soup.add_face(bottom);
+    soup.add_face(top);
+    return soup;
+  };
+  const Rational half(3, 2);
+  const std::vector<Polygon_soup> solids{box({-1, -1, 0}, {5, 5, 1}),
+                                         prism({{0, 0}, {4, 0}, {4, 4}, {half, half}, {2, 1}}),
+                                         prism({{0, 0}, {1, 2}, {half, half}, {4, 4}, {0, 4}})};
+  const Polygon_soup result = of(Set_operation::subtract, solids).soup;
+  EXPECT_EQ(volume(result), 36 - 16 + half);
+  std::size_t with_hole = 0, islands = 0;
+  for (Face_id f = 0; f < result.face_count(); ++f) {
+    if (result.loop_count(f) == 2) {
+      ++with_hole;
+      EXPECT_EQ(result.loop(f, 0).size(), 4u);
+      EXPECT_EQ(result.loop(f, 1).size(), 4u);
+    } else {
+      const std::span<const Point_id> loop = result.loop(f);
+      islands += std::all_of(loop.begin(), loop.end(), [&](Point_id p) { return result.point(p)[2] == 1; });
+    }
+  }
+  EXPECT_EQ(with_hole, 2u);  // top and bottom
+  EXPECT_EQ(islands, 1u);
+  EXPECT_EQ(volume(without_holes(result).soup), volume(result));
+}
+
 TEST(Set_operations, list_edges_of_four_faces) {
   const Set_result result = of(Set_operation::unite, {box({0, 0, 0}, {1, 1, 1}), box({1, 1, 0}, {2, 2, 1})});
   ASSERT_EQ(result.crowded.size(), 1u);
