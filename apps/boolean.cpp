@@ -1,10 +1,10 @@
 // sightline boolean: set operations on solids, exactly.
 
 #include "support/page.h"
+#include "support/solid_file.h"
 
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
-#include <sightline/algorithms/solids/rounding.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/algorithms/verify/solids_json.h>
@@ -12,7 +12,6 @@
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
 #include <sightline/io/read.h>
-#include <sightline/io/write.h>
 #include <sightline/kernel/threads.h>
 
 #include <iostream>
@@ -49,49 +48,6 @@ std::vector<std::string> names_of(const List& list) {
 
 std::string place_text(const Exact_point& p) {
   return fmt::format("({}, {}, {})", to_string(p[0]), to_string(p[1]), to_string(p[2]));
-}
-
-/// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, which is reported.
-std::optional<Rounded_surface> written(const Polygon_soup& soup, const std::string& out, const std::string& round,
-                                       bool snap) {
-  const std::optional<Format> format = format_of_ending(out);
-  if (format == Format::qoff || !format) {
-    write_scene(soup, out);
-    return std::nullopt;
-  }
-  const bool triangles = format == Format::stl;
-  if (round == "double" && !triangles) try {
-      write_scene(soup, out);
-      return std::nullopt;
-    } catch (const Not_representable&) {
-    }
-  const Rounding to = round == "float" ? Rounding::to_float : Rounding::to_double;
-  Rounded_surface near = snap ? snapped(soup, to, triangles) : rounded(soup, to, triangles);
-  write_scene(near.soup, out);
-  return near;
-}
-
-Json rounding_json(const Rounded_surface& near) {
-  Json crossing = Json::array();
-  for (const auto& [one, other] : near.crossing) crossing.push_back({one, other});
-  return {{"moved", near.moved},         {"farthest", near.farthest}, {"not_planar", near.not_planar},
-          {"collapsed", near.collapsed}, {"turned", near.turned},     {"crossing", std::move(crossing)},
-          {"misplaced", near.misplaced}, {"snapped", near.snapped},   {"rounds", near.rounds},
-          {"sound", near.is_sound()}};
-}
-
-std::string rounding_text(const Rounded_surface& near) {
-  std::string text = fmt::format("{} points, by {:.2g} at most; {} faces no longer planar, now triangles", near.moved,
-                                 near.farthest, near.not_planar.size());
-  if (!near.is_sound())
-    text += fmt::format(
-        "; {} without area, {} turned over, {} pairs cross that did not, {} inside out: {}write .qoff",
-        near.collapsed.size(), near.turned.size(), near.crossing.size(), near.misplaced.size(),
-        near.rounds == 0 ? "give --snap, or " : fmt::format("{} rounds of snapping did not help; ", near.rounds));
-  else if (near.rounds > 0)
-    text += fmt::format("; {} points were put elsewhere than nearest, in {} rounds, and nothing is broken",
-                        near.snapped, near.rounds);
-  return text;
 }
 
 /// What does not bound a solid is refused, with its edges.
@@ -177,7 +133,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   // 3. What is written.
   const Hole_free flat = without_holes(result.soup);
   const std::optional<Rounded_surface> rounding =
-      a.out.empty() ? std::nullopt : written(flat.soup, a.out, a.round, a.snap);
+      a.out.empty() ? std::nullopt : write_solid(flat.soup, a.out, a.round == "float", a.snap);
   const auto before = [&](std::size_t written_face) {  // the face of flat.soup
     return rounding ? rounding->face_of[written_face] : static_cast<Face_id>(written_face);
   };

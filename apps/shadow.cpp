@@ -2,11 +2,17 @@
 
 #include "support/drawing.h"
 #include "support/picture.h"
+#include "support/solid_file.h"
 
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/shadow/shadow.h>
+#include <sightline/algorithms/shadow/volume.h>
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/io/format.h>
+#include <sightline/kernel/threads.h>
 
 #include <iostream>
 #include <map>
@@ -19,7 +25,7 @@ struct Shadow_arguments {
   Common common;
   std::vector<std::string> lights, suns;
   bool two_sided = false;
-  std::string eye, svg, obj, mesh;
+  std::string eye, svg, obj, mesh, volume;
   View_arguments view;
 };
 
@@ -223,6 +229,8 @@ static Exit run(const Shadow_arguments& arguments) {
   if (arguments.svg.empty() && !arguments.eye.empty()) throw Usage_error("--eye is the eye of the picture: give --svg");
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
   arguments.view.check_usage();
+  if (!arguments.volume.empty() && lights.size() > 1)
+    throw Usage_error("--volume is of one light: give one --light or --sun for each file");
   const Scene scene(common.read());
   const Stopwatch watch;
   const Piece_boxes boxes(scene);
@@ -239,6 +247,31 @@ static Exit run(const Shadow_arguments& arguments) {
   if (!arguments.svg.empty()) draw(arguments, scene, boxes, all, eye_of(arguments.eye, scene));
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(scene, all));
+
+  // The space behind them.
+  Json volume_json;
+  std::string volume_text;
+  if (!arguments.volume.empty()) {
+    const Stopwatch since;
+    Shadow_volume made;
+    run_with_threads(common.threads, [&] {
+      made = lights[0].is_sun ? shadow_volume(scene, Sun{lights[0].at}) : shadow_volume(scene, lights[0].at);
+    });
+    const Polygon_soup flat = without_holes(made.soup).soup;
+    const auto rounding = write_solid(flat, arguments.volume, false, true);
+    const Rational size = volume(made.soup);
+    volume_json = {{"faces", flat.face_count()},
+                   {"casting", made.casting},
+                   {"volume", to_string(size)},
+                   {"box", {point_json(made.box[0]), point_json(made.box[1])}},
+                   {"seconds", since.seconds()}};
+    if (rounding) volume_json["rounding"] = rounding_json(*rounding);
+    volume_text = fmt::format(
+        "{:.6g} in shadow, of {} pieces, within the scene's box and a quarter of its longest side; "
+        "{} faces, {:.3f} seconds{}{}",
+        nearest_double(size), made.casting, flat.face_count(), since.seconds(), rounding ? "; rounded: " : "",
+        rounding ? rounding_text(*rounding) : "");
+  }
 
   // Faces that some light reaches, and the others.
   std::vector<bool> is_lit(scene.counters().faces_read), kept(is_lit.size());
@@ -259,13 +292,13 @@ static Exit run(const Shadow_arguments& arguments) {
                            {"away", all[k].away}});
       for (const Shadow_part& part : all[k].parts) (part.is_lit() ? lit : dark).push_back(part_json(scene, part, k));
     }
-  if (write_json(common, "shadow", scene,
-                 {{"lights", std::move(of_lights)},
-                  {"lit", std::move(lit)},
-                  {"dark", std::move(dark)},
-                  {"lit_faces", lit_faces},
-                  {"dark_faces", dark_faces}},
-                 counters_json(counters), {{"shadow", seconds}}))
+  Json result{{"lights", std::move(of_lights)},
+              {"lit", std::move(lit)},
+              {"dark", std::move(dark)},
+              {"lit_faces", lit_faces},
+              {"dark_faces", dark_faces}};
+  if (!volume_json.is_null()) result["volume"] = std::move(volume_json);
+  if (write_json(common, "shadow", scene, std::move(result), counters_json(counters), {{"shadow", seconds}}))
     return Exit::done;
   scene_rows(scene);
   for (std::size_t k = 0; k < all.size(); ++k) {
@@ -283,6 +316,7 @@ static Exit run(const Shadow_arguments& arguments) {
   row("lit", fmt::format("{} of {} faces, in part at least{}", lit_faces.size(), scene.counters().faces,
                          arguments.two_sided ? "" : "; --two-sided counts back sides too"));
   row("lit by none", fmt::format("{}{}", dark_faces.size(), some));
+  if (!volume_text.empty()) row("volume", volume_text);
   row("seconds", fmt::format("{:.4f}", seconds));
   return Exit::done;
 }
@@ -305,6 +339,15 @@ void add_shadow(Command program) {
   command.add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
       .check(not_empty());
   a->view.add_to(command);
+  command
+      .add_option(
+          "--volume", a->volume,
+          "write the space in the shadow of one light as a closed surface: .qoff holds it exactly, other formats "
+          "rounded so that nothing breaks, where that can be")
+      .writes_file()
+      .check(none_of([](const std::string& name) {
+        return format_of_ending(name) ? std::string() : name + " ends with no format's name: .qoff .obj .off .ply .stl";
+      }));
   add_mesh_option(command, a->mesh, "the parts lit, in shadow and turned away,");
   command
       .add_option("--obj", a->obj, "the same as OBJ; groups are light-0-lit and so on where there are several lights")

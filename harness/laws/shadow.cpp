@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/rays/ray.h>
+#include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/harness/laws/trace.h>
 #include <sightline/kernel/vectors.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -85,6 +87,43 @@ Exact_point draw_sun(const Polygon_soup& soup, Random& random) {
     for (Rational& x : d) x = static_cast<long>(random.between(-4, 4));
   if (d == Exact_point{0, 0, 0}) d[2] = 1;
   return d;
+}
+
+/// How often a closed surface winds round a point, by a ray; nothing where rays meet edges, or the point is on it.
+std::optional<int> winding_at(const Polygon_soup& surface, const Scene& scene, const Exact_point& p, Random& random) {
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    Exact_ray ray{p, {}};
+    for (Rational& x : ray.direction) x = Rational(static_cast<long>(random.between(-1000, 1000)), 7);
+    if (is_zero(ray.direction)) continue;
+    const std::vector<Face_hit> hits = hits_by_definition(surface, scene, ray, Ray_start::closed);
+    int winding = 0;
+    bool is_clear = true;
+    for (std::size_t k = 0; k < hits.size(); ++k) {
+      if (hits[k].t == 0) return std::nullopt;
+      is_clear = is_clear && hits[k].side != Met_side::along && (k == 0 || hits[k].t != hits[k - 1].t);
+      winding += hits[k].side == Met_side::back ? 1 : -1;
+    }
+    if (is_clear) return winding;
+  }
+  return std::nullopt;
+}
+
+/// What the volume says of random points of its box, against rays to the light.
+Check by_volume() {
+  return {"volume", "a point is in the shadow volume iff a face is between it and the light",
+          [](const Posed_scene& posed, const Answer& answer, Random& random) {
+            constexpr std::size_t most_faces = 12;
+            constexpr int most_bits = 100;
+            if (!answer.planar || posed.soup.face_count() > most_faces || !random.chance(1, 2))
+              return Outcome::not_applicable();
+            const Scene scene(posed.soup);
+            if (scene.points().bits() > most_bits) return Outcome::not_applicable();
+            const bool is_sun = random.chance(1, 2);
+            const Exact_point light = is_sun ? draw_sun(posed.soup, random) : posed.eye;
+            const std::string flaw = flaw_of(is_sun ? shadow_volume(scene, Sun{light}) : shadow_volume(scene, light),
+                                             posed.soup, scene, light, is_sun, 6, random);
+            return flaw.empty() ? Outcome{} : Outcome::failed(flaw);
+          }};
 }
 
 Check by_definition() {
@@ -183,13 +222,35 @@ std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scen
   return {};
 }
 
+std::string flaw_of(const Shadow_volume& volume, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
+                    bool is_sun, std::size_t points, generate::Random& random) {
+  using namespace shadow_subject;
+  const Polygon_soup flat = without_holes(volume.soup).soup;
+  const Scene surface(flat);
+  for (std::size_t k = 0; k < points; ++k) {
+    Exact_point p;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      p[axis] = volume.box[0][axis] +
+                (volume.box[1][axis] - volume.box[0][axis]) * Rational(static_cast<long>(random.between(1, 996)), 997);
+    if (!is_sun && p == light) continue;
+    const std::optional<int> winding = winding_at(flat, surface, p, random);
+    if (!winding) continue;
+    const bool is_dark = !blockers(soup, scene, p, light, is_sun).empty();
+    if (*winding != (is_dark ? 1 : 0))
+      return "the volume winds " + std::to_string(*winding) + " times round " + sightline::to_string(p[0]) + "," +
+             sightline::to_string(p[1]) + "," + sightline::to_string(p[2]) + ", which " +
+             (is_dark ? "some face" : "no face") + " keeps from the light";
+  }
+  return {};
+}
+
 Subject shadow() {
   using namespace shadow_subject;
   Subject subject;
   subject.name = "shadow";
   subject.what = "lit and dark parts of faces by a point and by suns, by rays and by what an eye sees";
   subject.answer = labels;
-  subject.checks = {by_definition(), as_seen()};
+  subject.checks = {by_definition(), as_seen(), by_volume()};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut", "bystander"});
   return subject;
 }

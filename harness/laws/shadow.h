@@ -2,10 +2,13 @@
 // The subject `shadow`: what a light reaches, and what keeps it from the rest.
 
 #include <sightline/algorithms/shadow/shadow.h>
+#include <sightline/algorithms/shadow/volume.h>
+#include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/subject.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -19,6 +22,11 @@ Subject shadow();
 /// Empty: nothing. Pre: faces are planar.
 std::string flaw_of(const Shadows& shadows, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
                     bool is_sun);
+
+/// What is wrong with a shadow volume: at random points of its box, which it winds once round where a face is met on
+/// the way to the light, and else not at all; the surface's own rays count that. Empty: nothing. Pre: faces are planar.
+std::string flaw_of(const Shadow_volume& volume, const Polygon_soup& soup, const Scene& scene, const Exact_point& light,
+                    bool is_sun, std::size_t points, generate::Random& random);
 
 /// Twice the area of a polygon, seen along the axis that the plane of the first three corners is least steep to.
 Rational area_of(const std::vector<Exact_point>& polygon, std::size_t axis);

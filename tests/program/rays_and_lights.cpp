@@ -97,6 +97,14 @@ TEST_F(Rays_and_lights, shadow_names_lit_and_dark_parts) {
   EXPECT_EQ(two["dark"][0]["light"], 1);
   EXPECT_EQ(two["lit_faces"], Json({0, 1}));
   EXPECT_EQ(result({"shadow", scene, "--light", "1,1,-5"})["dark_faces"], Json({0, 1}));
+  // The space behind them, as a solid that is written and read again: 16 below the floor, 2 above it.
+  const std::string dark = path("dark.qoff").string();
+  const Json volume = result({"shadow", scene, "--sun", "0,0,1", "--volume", dark})["volume"];
+  EXPECT_EQ(volume["volume"], "18");
+  EXPECT_EQ(volume["casting"], 2);
+  EXPECT_EQ(result({"boolean", "union", dark, dark})["volume"], "18");
+  EXPECT_EQ(run({"shadow", scene, "--sun", "0,0,1", "--light", "1,1,4", "--volume", dark}).code, usage);
+  EXPECT_EQ(run({"shadow", scene, "--sun", "0,0,1", "--volume", path("dark").string()}).code, usage);
   // In other formats.
   const std::string svg = path("s.svg").string(), obj = path("s.obj").string();
   EXPECT_EQ(run({"shadow", scene, "--sun", "1,0,2", "--svg", svg, "--obj", obj, "--eye", "-3,-2,5"}).code, done);

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/shadow/shadow.h>
+#include <sightline/algorithms/shadow/volume.h>
+#include <sightline/algorithms/solids/measure.h>
 #include <sightline/harness/generate/scenes.h>
 #include <sightline/harness/laws/shadow.h>
 
@@ -153,6 +155,43 @@ TEST(Shadow, is_the_same_for_any_number_of_threads) {
   for (std::size_t i = 0; i < made[0].size(); ++i) {
     EXPECT_EQ(made[0][i].by, made[1][i].by);
     EXPECT_EQ(made[0][i].vertices, made[1][i].vertices);
+  }
+}
+
+// ---- The space in shadow
+
+TEST(Shadow_volume, is_all_that_is_behind_a_face_within_the_box) {
+  Polygon_soup soup;
+  level(soup, 0, 0, 0, 4);
+  level(soup, 1, 1, 1, 1);
+  const Scene scene(soup);
+  const Shadow_volume below = shadow_volume(scene, Sun{{0, 0, 1}});
+  EXPECT_EQ(below.box, (std::array<Exact_point, 2>{Exact_point{-1, -1, -1}, {5, 5, 2}}));
+  EXPECT_EQ(below.casting, 2u);
+  EXPECT_EQ(volume(below.soup), 16 + 1);
+  EXPECT_EQ(volume(shadow_volume(scene, Sun{{0, 0, -3}}).soup), 2 * 16 + 0) << "the small one is in the large one's";
+  EXPECT_EQ(volume(shadow_volume(scene, Sun{{1, 0, 0}}).soup), 0) << "edge-on";
+  // A lamp above the middle of the small one; of the large one's the box cuts a part off.
+  const Rational h(1, 2);
+  const auto cube_of = [](const Rational& x) { return Rational(x * x * x); };
+  const Rational on_top = Rational(7, 3), until_cut = 32 * (cube_of(Rational(7, 5)) - 1) / 3,
+                 cut = 4 * (cube_of(Rational(23, 4)) - cube_of(Rational(28, 5))) / 9;
+  EXPECT_EQ(volume(shadow_volume(scene, {3 * h, 3 * h, 2}).soup), on_top + until_cut + cut);
+  EXPECT_EQ(shadow_volume(Scene(Polygon_soup()), {1, 2, 3}).soup.face_count(), 0u);
+}
+
+TEST(Shadow_volume, is_what_rays_say_and_closed) {
+  generate::Random random(5);
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Polygon_soup soup = generate::make("soup", 8, seed);
+    const Scene scene(soup);
+    for (const Exact_point& light : {Exact_point{0, 0, 0}, Exact_point{3, -2, Rational(1, 3)}}) {
+      const bool is_sun = seed % 2 == 0;
+      const Exact_point at = is_sun && light == Exact_point{0, 0, 0} ? Exact_point{1, 2, -1} : light;
+      const Shadow_volume made = is_sun ? shadow_volume(scene, Sun{at}) : shadow_volume(scene, at);
+      EXPECT_EQ(harness::flaw_of(made, soup, scene, at, is_sun, 20, random), "") << seed;
+      EXPECT_GT(volume(made.soup), 0);
+    }
   }
 }
 

@@ -1,0 +1,52 @@
+#include "solid_file.h"
+
+#include <sightline/io/format.h>
+#include <sightline/io/exact_text.h>
+#include <sightline/io/write.h>
+
+#include <fmt/format.h>
+
+namespace sightline::app {
+
+std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap) {
+  const std::optional<Format> format = format_of_ending(out);
+  if (format == Format::qoff || !format) {
+    write_scene(soup, out);
+    return std::nullopt;
+  }
+  const bool triangles = format == Format::stl;
+  if (!to_float && !triangles) try {
+      write_scene(soup, out);
+      return std::nullopt;
+    } catch (const Not_representable&) {
+    }
+  const Rounding to = to_float ? Rounding::to_float : Rounding::to_double;
+  Rounded_surface near = snap ? snapped(soup, to, triangles) : rounded(soup, to, triangles);
+  write_scene(near.soup, out);
+  return near;
+}
+
+Json rounding_json(const Rounded_surface& near) {
+  Json crossing = Json::array();
+  for (const auto& [one, other] : near.crossing) crossing.push_back({one, other});
+  return {{"moved", near.moved},         {"farthest", near.farthest}, {"not_planar", near.not_planar},
+          {"collapsed", near.collapsed}, {"turned", near.turned},     {"crossing", std::move(crossing)},
+          {"misplaced", near.misplaced}, {"snapped", near.snapped},   {"rounds", near.rounds},
+          {"sound", near.is_sound()}};
+}
+
+std::string rounding_text(const Rounded_surface& near) {
+  std::string text = fmt::format("{} points, by {:.2g} at most; {} faces no longer planar, now triangles", near.moved,
+                                 near.farthest, near.not_planar.size());
+  if (!near.is_sound())
+    text += fmt::format(
+        "; {} without area, {} turned over, {} pairs cross that did not, {} inside out: {}write .qoff",
+        near.collapsed.size(), near.turned.size(), near.crossing.size(), near.misplaced.size(),
+        near.rounds == 0 ? "give --snap, or " : fmt::format("{} rounds of snapping did not help; ", near.rounds));
+  else if (near.rounds > 0)
+    text += fmt::format("; {} points were put elsewhere than nearest, in {} rounds, and nothing is broken",
+                        near.snapped, near.rounds);
+  return text;
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,20 @@
+#pragma once
+// A solid's surface into a file, and what its format breaks.
+
+#include "common.h"
+
+#include <sightline/algorithms/solids/rounding.h>
+
+#include <optional>
+#include <string>
+
+namespace sightline::app {
+
+/// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, or snapped, which is
+/// returned. Pre: no holes. Errors: as write_scene.
+std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap);
+
+Json rounding_json(const Rounded_surface& near);
+std::string rounding_text(const Rounded_surface& near);
+
+}  // namespace sightline::app
