@@ -288,7 +288,31 @@ int Solid_oracle::winding(const Exact_point& p, Random& random) const {
   }
 }
 
+/// A block, and two prisms through it that leave an island between them in a hole, which touches the hole in a corner.
+std::vector<Polygon_soup> block_with_island(Random& random) {
+  const Exact_point by = generate::lattice(random, 5);
+  const Rational half(3, 2);
+  const auto prism = [&](const std::vector<std::array<Rational, 2>>& outline, long low, long high) {
+    generate::Points base;
+    for (const auto& p : outline) base.push_back({p[0] + by[0], p[1] + by[1], low + by[2]});
+    std::reverse(base.begin(), base.end());  // as seen from below
+    Polygon_soup soup;
+    add_prism(soup, base, {0, 0, high - low});
+    return soup;
+  };
+  const long side = random.between(5, 7);
+  std::vector<Polygon_soup> solids{prism({{-1, -1}, {side, -1}, {side, side}, {-1, side}}, 0, 1),
+                                   prism({{0, 0}, {4, 0}, {4, 4}, {half, half}, {2, 1}}, -1, 2),
+                                   prism({{0, 0}, {1, 2}, {half, half}, {4, 4}, {0, 4}}, -1, 2)};
+  const Exact_point turn = generate::lattice(random, 3);
+  for (Polygon_soup& solid : solids)
+    solid = generate::rotated(solid, generate::rotation(4, turn[0].get_num().get_si(), turn[1].get_num().get_si(),
+                                                        turn[2].get_num().get_si()));
+  return solids;
+}
+
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random) {
+  if (random.chance(1, 24)) return block_with_island(random);
   std::vector<generate::Points> bases;
   for (Face_id f = 0; f < scene.soup.face_count(); ++f)
     if (generate::Points base = base_of(scene.soup, f, false); !base.empty()) bases.push_back(std::move(base));

@@ -28,7 +28,8 @@ class Solid_oracle {
   std::vector<Faces> faces_;
 };
 
-/// Solids of faces of a scene: cones over them, prisms on them, or copies of one another; two or three. Faces that
+/// Solids of faces of a scene: cones over them, prisms on them, or copies of one another; two or three; now and then a
+/// block with a hole in which an island touches it. Faces that
 /// cross themselves or have holes are left out. May be empty, and wound round any number of times.
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random);
 
