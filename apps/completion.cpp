@@ -207,7 +207,7 @@ void add_completion(Command program) {
       "          sightline completion zsh > ~/.zfunc/_sightline\n"
       "          sightline completion fish > ~/.config/fish/completions/sightline.fish\n"
       "          sightline completion man > ~/.local/share/man/man1/sightline.1");
-  command.set_action([program, shell] { return run(program, *shell); });
+  command.set_printing_action([program, shell] { return run(program, *shell); });
 }
 
 }  // namespace sightline::app

@@ -236,7 +236,7 @@ void add_schema(Command program) {
       "Keys may be added in later versions; these stay. Of weak it is what is written without --partition and "
       "--along.\n"
       "Example: sightline schema see > see.schema.json");
-  command.set_action([name] { return schema::run(*name); });
+  command.set_printing_action([name] { return schema::run(*name); });
 }
 
 }  // namespace sightline::app

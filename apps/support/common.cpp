@@ -84,7 +84,7 @@ Exact_point eye_of(const std::string& text, const Scene& scene) {
   return eye;
 }
 
-Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(2) != 0) {}
+Progress::Progress(std::string what) : what_(std::move(what)), terminal_(isatty(2) != 0 && !is_quiet()) {}
 Progress::~Progress() { clear(); }
 void Progress::clear() {
   if (shown_.exchange(-1) >= 0) std::cerr << "\r\033[K" << std::flush;

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <sstream>
+#include <streambuf>
 #include <utility>
 
 namespace sightline::app {
@@ -175,7 +177,36 @@ void Command::check_outputs(const std::vector<Named_file>& more) const {
   check_files(files_of(*app_, input_file), files_of(*app_, output_file), more);
 }
 
+static bool quiet = false;
+bool is_quiet() { return quiet; }
+
+/// While it is there, what is written to std::cout goes nowhere.
+class Silence {
+ public:
+  Silence() : before_(std::cout.rdbuf(&nowhere_)) {}
+  ~Silence() { std::cout.rdbuf(before_); }
+  Silence(const Silence&) = delete;
+  Silence& operator=(const Silence&) = delete;
+
+ private:
+  struct Nowhere : std::streambuf {
+    int overflow(int c) override { return traits_type::not_eof(c); }
+    std::streamsize xsputn(const char*, std::streamsize count) override { return count; }
+  };
+  Nowhere nowhere_;
+  std::streambuf* before_;
+};
+
 void Command::set_action(std::function<Exit()> action) const {
+  app_->add_flag("--quiet", quiet, "print nothing but what goes wrong; files and exit codes are as ever");
+  set_printing_action([command = *this, action = std::move(action)] {
+    std::optional<Silence> silence;
+    if (quiet && !command.writes_standard_output()) silence.emplace();
+    return action();
+  });
+}
+
+void Command::set_printing_action(std::function<Exit()> action) const {
   app_->callback([app = app_, action = std::move(action)] {
     check_files(files_of(*app, input_file), files_of(*app, output_file));
     if (const Exit exit = action(); exit != Exit::done) throw CLI::RuntimeError(static_cast<int>(exit));

@@ -106,6 +106,9 @@ struct Command_words {
   std::vector<Option_words> options;  ///< in the order of help
 };
 
+/// Whether the command line has --quiet: bars are not shown.
+bool is_quiet();
+
 /// A command, or the program whose commands are added, as a handle: copies are the same command.
 class Command {
  public:
@@ -129,8 +132,11 @@ class Command {
   void check_outputs(const std::vector<Named_file>& more) const;
 
   /// Lets a command do its work after the whole command line is read; what `action` returns becomes the program's exit
-  /// code. Pre: called once for a command.
+  /// code. With --quiet, which it gets, what it prints is dropped, unless an output is "-". Pre: called once for a
+  /// command.
   void set_action(std::function<Exit()> action) const;
+  /// The same for a command whose answer is what it prints: it gets no --quiet.
+  void set_printing_action(std::function<Exit()> action) const;
 
  private:
   CLI::App* app_;

@@ -84,6 +84,35 @@ TEST_F(Command_line, version_is_a_line) {
     EXPECT_NE(r.out.find(library), std::string::npos) << library << r;
 }
 
+TEST_F(Command_line, quiet_leaves_files_exit_codes_and_errors) {
+  const std::string scene = (corpus / "general" / "two_rooms.off").string(), made = path("made.json").string();
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"info", scene},
+                                                {"order", scene, "--certificate", made},
+                                                {"verify", scene, made},
+                                                {"see", scene, "--eye", "1,1,2"},
+                                                {"compare", scene, "--kernels", "exact,double"},
+                                                {"cells", scene},
+                                                {"fuzz", "see", "--scenes", "2"}}) {
+    const Outcome loud = run(words);
+    std::vector<std::string> quietly = words;
+    quietly.push_back("--quiet");
+    const Outcome r = run(quietly);
+    EXPECT_EQ(r.code, loud.code) << r;
+    EXPECT_EQ(r.code, done) << r;
+    EXPECT_EQ(r.out + r.err, "") << words[0];
+    EXPECT_NE(loud.out, "") << words[0];
+  }
+  EXPECT_TRUE(fs::exists(made));
+  EXPECT_EQ(run({"info", scene, "--json", "-", "--quiet"}).json()["command"], "info") << "an output is no row";
+  const Outcome wrong = run({"verify", (corpus / "general" / "cube.off").string(), made, "--quiet"});
+  EXPECT_EQ(wrong.code, disagreement);
+  EXPECT_EQ(wrong.out, "");
+  const Outcome missing = run({"info", path("none.off").string(), "--quiet"});
+  EXPECT_EQ(missing.code, bad_input);
+  EXPECT_TRUE(missing.one_line_of_error()) << missing;
+  EXPECT_EQ(run({"schema", "info", "--quiet"}).code, usage) << "its answer is what it prints";
+}
+
 TEST_F(Command_line, no_command_or_an_unknown_one_is_a_usage_error) {
   expect_usage_error({});
   expect_usage_error({"watch", cube}, "watch");
