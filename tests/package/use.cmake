@@ -41,7 +41,7 @@ if(WAY STREQUAL "find_package")
 endif()
 
 run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/outside" -B "${WORK}/build" -D WAY=${WAY} ${where}
-    -D "EVERY_HEADER=${every_header}" -D "CMAKE_CXX_COMPILER=${COMPILER}" -D CMAKE_BUILD_TYPE=None)
+    -D "EVERY_HEADER=${every_header}" -D "CMAKE_CXX_COMPILER=${COMPILER}" -D CMAKE_BUILD_TYPE=None -D SIGHTLINE_PCH=OFF)  # for one source
 if(output MATCHES "Warning")
   message(FATAL_ERROR "configuring is not quiet:\n${output}")
 endif()
