@@ -126,6 +126,10 @@ Homogeneous plane_of(const Plane& plane) {
 
 Homogeneous plane_of(const Polygon& polygon) { return plane_of(Plane{newell_normal(polygon), polygon[0]}); }
 
+Integer height(const Homogeneous& plane, const Homogeneous& p) {
+  return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3];
+}
+
 int side(const Homogeneous& plane, const Homogeneous& p) {
   thread_local Integer sum;
   mpz_mul(sum.get_mpz_t(), plane[0].get_mpz_t(), p[0].get_mpz_t());

@@ -62,6 +62,8 @@ Homogeneous plane_of(const Polygon& polygon);
 Homogeneous plane_of(const Plane& plane);
 
 int side(const Homogeneous& plane, const Homogeneous& p);
+/// A number of that sign, linear in both.
+Integer height(const Homogeneous& plane, const Homogeneous& p);
 
 // ---- Convex polygons
 

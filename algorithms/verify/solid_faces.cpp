@@ -66,7 +66,7 @@ Integer_vector normal_of(const std::vector<const Solid_point*>& corners) {
   return {};
 }
 
-std::array<Near, 3> cross(const std::array<Near, 3>& a, const std::array<Near, 3>& b) {
+std::array<Near, 3> near_cross(const std::array<Near, 3>& a, const std::array<Near, 3>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
@@ -103,7 +103,7 @@ Solid_face::Solid_face(std::vector<Number> of, const std::vector<Solid_point>& p
   for (std::size_t k = 1; k < 3; ++k)
     if (mpz_cmpabs(plane[k].get_mpz_t(), plane[axis].get_mpz_t()) > 0) axis = k;
   const std::size_t size = corners.size();
-  normal = cross(difference(*corners[size / 3], *corners[0]), difference(*corners[2 * size / 3], *corners[0]));
+  normal = near_cross(difference(*corners[size / 3], *corners[0]), difference(*corners[2 * size / 3], *corners[0]));
 }
 
 int Solid_face::side(const Solid_point& p) const {
@@ -115,10 +115,6 @@ int Solid_face::side(const Solid_point& p) const {
 namespace {
 
 // ---- What two faces in different planes have in common
-
-Integer height(const Homogeneous& plane, const Homogeneous& p) {
-  return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3];
-}
 
 /// Where the segment from p (at height s) to q (at t, of the other sign) is at height 0.
 Homogeneous crossing(const Homogeneous& p, const Integer& s, const Homogeneous& q, const Integer& t) {

@@ -125,10 +125,6 @@ bool is_rotation(std::span<const Numbered_points::Number> a, std::span<const Num
   return false;
 }
 
-Integer height(const Homogeneous& plane, const Homogeneous& p) {
-  return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3] * p[3];
-}
-
 using Numbers = std::map<std::uint32_t, int>;
 
 class Solid_check {
