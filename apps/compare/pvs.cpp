@@ -20,14 +20,14 @@ namespace {
 /// What a method says: by cell, ascending.
 using Sets = std::vector<std::vector<Face_id>>;
 
-struct Question {
+struct Cells_question {
   const Level_cells& level;
   const Occluders& occluders;
   const Pvs& exact;
   const std::vector<Cell_id>& cells;  // that are asked about
 };
 
-Json judged(const Question& question, const Sets& said, double seconds, const Peak_memory& memory) {
+Json judged(const Cells_question& question, const Sets& said, double seconds, const Peak_memory& memory) {
   std::size_t visible = 0, hidden_wrongly = 0, visible_wrongly = 0, worst = 0;
   for (const Cell_id c : question.cells) {
     const std::vector<Face_id>& truth = question.exact.visible[c];
@@ -74,7 +74,7 @@ class Cell_points {
 };
 
 /// As many rays from random points of each cell in random directions, in doubles.
-Sets by_rays(const Question& question, std::size_t rays, std::uint64_t seed) {
+Sets by_rays(const Cells_question& question, std::size_t rays, std::uint64_t seed) {
   const Scene& scene = question.level.scene();
   Sets sets(question.level.cells().size());
   for (const Cell_id c : question.cells) {
@@ -98,7 +98,7 @@ Sets by_rays(const Question& question, std::size_t rays, std::uint64_t seed) {
 }
 
 /// All faces of a region: what portals lead to at all.
-Sets by_portals(const Question& question) {
+Sets by_portals(const Cells_question& question) {
   std::vector<std::set<Face_id>> of_region(question.level.counters().regions);
   for (const Cell_id c : question.cells) {
     const Level_cell& cell = question.level.cells()[c];
@@ -146,7 +146,7 @@ class Engine {
 };
 
 /// For each cell what the table says of the leaves that some of its points are in; of sky alone it says nothing.
-Sets by_engine(const Question& question, const Engine& engine) {
+Sets by_engine(const Cells_question& question, const Engine& engine) {
   Sets sets(question.level.cells().size());
   for (const Cell_id c : question.cells) {
     std::set<Face_id> seen(question.level.cells()[c].faces.begin(), question.level.cells()[c].faces.end());
@@ -166,7 +166,7 @@ Sets by_engine(const Question& question, const Engine& engine) {
 }
 
 /// Sightlines from a leaf to a face that the leaf's row leaves out: exact, and free of all faces.
-Json refutations(const Question& question, const Engine& engine, const Sets& said, std::size_t& count) {
+Json refutations(const Cells_question& question, const Engine& engine, const Sets& said, std::size_t& count) {
   constexpr std::size_t most = 20;
   Json all = Json::array();
   const Scene& scene = question.level.scene();
@@ -241,7 +241,7 @@ struct Level_trial : Trial {
   Pvs exact;
   double seconds;
   std::vector<Cell_id> cells;
-  Question question;
+  Cells_question question;
   std::optional<Engine> engine;
 
   /// `limited`: the budget is for the truth too, which leaves pairs open then.

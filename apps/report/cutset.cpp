@@ -59,7 +59,7 @@ std::array<Number, 4> plane_in(const Scene& scene, const Piece& piece) {
 
 /// Moves to a viewpoint, and gives what counts the errors there, once the time is taken.
 using Count = std::function<std::size_t()>;
-using Frame = std::function<Count(std::size_t view)>;
+using Frame_counts = std::function<Count(std::size_t view)>;
 
 struct Cut_set_trial : Trial {
   Scene scene;
@@ -120,7 +120,7 @@ struct Cut_set_trial : Trial {
   }
 
   template <class Number>
-  Frame in_numbers() const {
+  Frame_counts in_numbers() const {
     std::vector<std::array<Number, 4>> planes;
     for (std::uint32_t node = 0; node < graph.size(); ++node)
       planes.push_back(plane_in<Number>(scene, scene.pieces()[graph.piece(node)]));
@@ -136,10 +136,10 @@ struct Cut_set_trial : Trial {
     };
   }
 
-  Json judged(const std::function<Frame()>& prepare) const {
+  Json judged(const std::function<Frame_counts()>& prepare) const {
     const Peak_memory memory;
     Stopwatch watch;
-    const Frame frame = prepare();
+    const Frame_counts frame = prepare();
     double seconds = watch.seconds();
     std::size_t wrong_frames = 0;
     for (std::size_t k = 0; k < views.size(); ++k) {

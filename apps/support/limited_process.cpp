@@ -55,7 +55,7 @@ void set_limit(int what, rlim_t most) {
   dup2(output, 2);
   execvp(argv[0], argv.data());
   const int error = errno;
-  [[maybe_unused]] const ssize_t written = write(report, &error, sizeof error);
+  [[maybe_unused]] const ssize_t written = ::write(report, &error, sizeof error);
   _exit(127);
 }
 
