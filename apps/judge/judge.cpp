@@ -1,5 +1,6 @@
 // sightline judge: somebody else's program, asked many cases and graded against the exact truth.
 
+#include "../support/shard.h"
 #include "page.h"
 #include "picture.h"
 #include "table.h"
@@ -15,7 +16,7 @@ namespace {
 using namespace judge;
 
 struct Judge_arguments {
-  std::string program, query, contract, format = "off", json, html, keep;
+  std::string program, query, contract, format = "off", json, html, keep, shard;
   Case_choice choice{{}, {"0", "1", "-1", "far"}, 0, {}, {}};
   std::size_t cases = 5;
   std::uint64_t seed = 1;
@@ -261,6 +262,7 @@ Exit run(const Judge_arguments& arguments) {
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
   const Court court(arguments.court_options());
   const std::uint64_t cases = arguments.choice.ask.empty() ? arguments.cases : 1;
+  const auto [shard, shards] = shard_of(arguments.shard);
   const Stopwatch watch;
   Progress progress("judging");
   Json document{{"command", "judge"},
@@ -268,6 +270,7 @@ Exit run(const Judge_arguments& arguments) {
                 {"query", arguments.query},
                 {"two_sided", arguments.two_sided},
                 {"contract", arguments.contract},
+                {"shard", {shard, shards}},
                 {"limits", {{"seconds", arguments.time}, {"bytes", arguments.memory << 20}}},
                 {"result", Json::object()}};
   Json& result = document["result"];
@@ -280,9 +283,10 @@ Exit run(const Judge_arguments& arguments) {
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Case_group& group = groups[g];
     for (std::uint64_t k = 0; k < cases; ++k) {
+      if ((g * cases + k) % shards != shard) continue;
       const Judge_case asked = group.make(arguments.seed + k);
       const Judged& c = judged[g].emplace_back(court.judge(asked, arguments.seed + k));
-      progress(++done, groups.size() * cases);
+      progress(++done, groups.size() * cases / shards + 1);
       if (!c.not_asked.empty()) reasons[c.not_asked] = reasons.value(c.not_asked, std::size_t{0}) + 1;
       common.add(c.kinds);
       if (c.mark == Mark::wrong) common.add(asked, c, arguments.court_options().truth);
@@ -395,6 +399,9 @@ void add_judge(Command program) {
   command.add_option("--seed", a->seed, "of the first case; the next has the next number")
       .check(whole_number())
       .show_default();
+  command.add_option("--shard", a->shard,
+                     "I/N: of all cases those whose number is I modulo N; by default what SLURM_ARRAY_TASK_ID and "
+                     "SLURM_ARRAY_TASK_COUNT say");
   command.add_option("--time", a->time, "seconds for a case").check(positive() & finite_number()).show_default();
   command.add_option("--memory", a->memory, "MB for a case")
       .check(whole_number())

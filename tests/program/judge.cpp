@@ -68,6 +68,21 @@ TEST_F(Judge, ends_what_a_program_leaves_running) {
   EXPECT_FALSE(runs());
 }
 
+TEST_F(Judge, asks_a_share_of_the_cases_where_others_ask_the_rest) {
+  const std::string nothing = shell("echo abstained all > $3");
+  const auto asked = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> options{"--query",        "see",    "--contract", "exact",   "--families",
+                                     "stacked,hinged", "--ulps", "0,1",        "--cases", "2"};
+    options.insert(options.end(), more.begin(), more.end());
+    return judge(nothing, options, done)["result"]["total"]["asked"].get<int>();
+  };
+  EXPECT_EQ(asked({}), 8);
+  EXPECT_EQ(asked({"--shard", "0/3"}), 3);
+  EXPECT_EQ(asked({"--shard", "1/3"}), 3);
+  EXPECT_EQ(asked({"--shard", "2/3"}), 2);
+  EXPECT_EQ(run({"judge", "--program", nothing, "--query", "see", "--shard", "3/3"}).code, usage);
+}
+
 TEST_F(Judge, grades_orders_of_a_stack) {
   // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
   const std::vector<std::string> options{"--query", "order",  "--contract", "exact",  "--families",
