@@ -54,6 +54,21 @@ Json definitions() {
                             {"grid_bits", count},
                             {"pieces", count},
                             {"flipped?", type("boolean")}})},
+          {"operands",
+           object({{"operands", list_of(object({{"file", type("string")}, {"faces_read", count}}))},
+                   {"set_aside", list_of(object({{"operand", count}, {"face", face}, {"why", type("string")}}))},
+                   {"grid_bits", count},
+                   {"arithmetic", type("string")}})},
+          {"rounding", object({{"moved", count},
+                               {"farthest", type("number")},
+                               {"not_planar", list_of(face)},
+                               {"collapsed", list_of(face)},
+                               {"turned", list_of(face)},
+                               {"crossing", list_of(tuple_of(face, 2))},
+                               {"misplaced", list_of(face)},
+                               {"snapped", count},
+                               {"rounds", count},
+                               {"sound", type("boolean")}})},
           {"hit", object({{"face", face},
                           {"side", one_word_of({"front", "back", "along"})},
                           {"t", named("exact")},
@@ -67,6 +82,14 @@ const std::map<std::string, Json>& results() {
   static const Json count = a_count(), face = a_face();
   static const Json points = list_of(named("point")), faces = named("faces"), piece = named("piece");
   static const Json fragment = object({{"face", face}, {"piece", count}, {"vertices", points}});
+  const auto shadow_part = [&](std::vector<std::pair<std::string, Json>> more) {
+    more.insert(more.end(), {{"face", face},
+                             {"piece", count},
+                             {"light", count},
+                             {"side", one_word_of({"front", "back"})},
+                             {"vertices", points}});
+    return object(more);
+  };
   static const std::map<std::string, Json> all{
       {"info",
        object({{"points_read", count},
@@ -133,6 +156,49 @@ const std::map<std::string, Json>& results() {
                        {"by_events", faces},
                        {"within", faces},
                        {"open", type("array")}})},
+      {"shadow",
+       object({{"lights",
+                list_of(object(
+                    {{"light?", named("point")}, {"sun?", named("point")}, {"lit_faces", faces}, {"away", faces}}))},
+               {"lit", list_of(shadow_part({}))},
+               {"dark", list_of(shadow_part({{"by", face}, {"by_piece", count}}))},
+               {"lit_faces", faces},
+               {"dark_faces", faces},
+               {"volume?", object({{"faces", count},
+                                   {"casting", count},
+                                   {"volume", named("exact")},
+                                   {"box", tuple_of(named("point"), 2)},
+                                   {"seconds", type("number")},
+                                   {"rounding?", named("rounding")}})}})},
+      {"render", object({{"eye", named("point")},
+                         {"method", type("string")},
+                         {"look", tuple_of(type("number"), 3)},
+                         {"right", tuple_of(type("number"), 3)},
+                         {"up", tuple_of(type("number"), 3)},
+                         {"width", count},
+                         {"height", count}})},
+      {"boolean",
+       object({{"operation", type("string")},
+               {"inside", one_word_of({"positive", "nonzero", "odd"})},
+               {"faces", count},
+               {"maximal_faces", count},
+               {"points", count},
+               {"volume", named("exact")},
+               {"area", tuple_of(type("number"), 2)},
+               {"not_manifold", list_of(object({{"from", named("point")}, {"to", named("point")}, {"faces", count}}))},
+               {"provenance", list_of(tuple_of(count, 2))},
+               {"turned", list_of(count)},
+               {"rounding?", named("rounding")}})},
+      {"fuzz", object({{"subject", type("string")},
+                       {"seed", count},
+                       {"shard", tuple_of(count, 2)},
+                       {"finding", any_of({type("null"), object({{"case", type("string")},
+                                                                 {"check", type("string")},
+                                                                 {"what", type("string")},
+                                                                 {"replay", type("string")},
+                                                                 {"reduced", type("string")},
+                                                                 {"faces", count},
+                                                                 {"faces_reduced", count}})})}})},
       {"cells",
        object({{"cells", count},
                {"solid", count},
@@ -213,7 +279,8 @@ Exit run(const std::string& command) {
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "sightline " + command + " --json"},
               {"$defs", definitions()}};
-  std::vector<std::pair<std::string, Json>> members{{"scene", named("scene")}, {"counters", type("object")}};
+  std::vector<std::pair<std::string, Json>> members{{"counters", type("object")}};
+  if (command != "fuzz") members.emplace_back("scene", named(command == "boolean" ? "operands" : "scene"));
   if (command == "report") members = report_members();
   else members.emplace_back("result", results().at(command));
   members.emplace_back("command", Json{{"const", command}});

@@ -89,6 +89,13 @@ TEST_F(Schema, of_each_command_is_what_it_writes) {
       {"trace", cube, "--rays", rays},
       {"trace", cube, "--rays", rays, "--all", "--closed"},
       {"weak", rooms, "--from-face", "0"},
+      {"shadow", rooms, "--light", "1,1,2", "--sun", "1,2,3", "--two-sided"},
+      {"shadow", cube, "--light", "3,4,5", "--volume", path("dark.obj").string()},
+      {"render", rooms, "--eye", "1,1,2", "--size", "16x16", "--png", path("seen.png").string()},
+      {"boolean", "union", cube, cube},
+      {"boolean", "difference", cube, (corpus / "general" / "cube.off").string(), "--round", "float", "--out",
+       path("less.obj").string()},
+      {"fuzz", "order", "--scenes", "3"},
       {"cells", cube},
       {"cells", rooms, "--seal", "1,1,1"},
       {"pvs", rooms},
@@ -123,7 +130,7 @@ TEST_F(Schema, refuses_what_is_not_so) {
   EXPECT_TRUE(wrong([](Json& d) { d["result"]["pieces"][0]["side"] = "left"; }));
   EXPECT_TRUE(wrong([](Json& d) { d["result"].erase("pieces"); }));
   EXPECT_TRUE(wrong([](Json& d) { d["scene"]["faces"] = 1.5; }));
-  EXPECT_EQ(run({"schema", "render"}).code, usage);
+  EXPECT_EQ(run({"schema", "merge"}).code, usage);
 }
 
 }  // namespace program
