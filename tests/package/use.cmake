@@ -22,7 +22,7 @@ if(WAY STREQUAL "find_package")
   set(headers_in "${prefix}/include/sightline")
   set(where "-DCMAKE_PREFIX_PATH=${prefix}")
 else()
-  set(where "-DSIGHTLINE_SOURCE=${SOURCE}")
+  set(where "-DSIGHTLINE_SOURCE=${SOURCE}" -DSIGHTLINE_PCH=OFF)  # one of its sources is compiled
 endif()
 
 # Every header, in a translation unit that the program has twice: what is not inline becomes a duplicate symbol. Once is enough, it takes long.
@@ -41,7 +41,7 @@ if(WAY STREQUAL "find_package")
 endif()
 
 run("${CMAKE_COMMAND}" -G "${GENERATOR}" -S "${CMAKE_CURRENT_LIST_DIR}/outside" -B "${WORK}/build" -D WAY=${WAY} ${where}
-    -D "EVERY_HEADER=${every_header}" -D "CMAKE_CXX_COMPILER=${COMPILER}" -D CMAKE_BUILD_TYPE=None -D SIGHTLINE_PCH=OFF)  # for one source
+    -D "EVERY_HEADER=${every_header}" -D "CMAKE_CXX_COMPILER=${COMPILER}" -D CMAKE_BUILD_TYPE=None)
 if(output MATCHES "Warning")
   message(FATAL_ERROR "configuring is not quiet:\n${output}")
 endif()
