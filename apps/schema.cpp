@@ -227,6 +227,157 @@ const std::map<std::string, Json>& results() {
   return all;
 }
 
+/// What `result` of compare holds, which goes by the question.
+Json compare_result() {
+  const Json count = a_count(), text = type("string"), number = type("number"), point = named("point");
+  using Members = std::vector<std::pair<std::string, Json>>;
+  // A contestant that is done has all of these; another one says in its status what became of it.
+  const auto rows_of = [&](const Members& names, const Members& more) {
+    Members done{{"kernel", text}, {"method", text}};
+    done.insert(done.end(), names.begin(), names.end());
+    Members open = done;
+    done.insert(done.end(), {{"status", {{"const", "done"}}}, {"seconds", number}, {"peak_bytes", count}});
+    done.insert(done.end(), more.begin(), more.end());
+    open.emplace_back("status", Json{{"type", "string"}, {"not", {{"const", "done"}}}});
+    return list_of(any_of({object(done), object(open)}));
+  };
+  const auto question = [](const std::vector<std::string>& names, Members members) {
+    members.emplace_back("question", one_word_of(names));
+    return object(members);
+  };
+  const Json pairs = any_of({count, type("null")});
+  const Json order_rows = rows_of({}, {{"build_seconds", number},
+                                       {"order_seconds", number},
+                                       {"splits", count},
+                                       {"fragments", count},
+                                       {"depth", count},
+                                       {"predicates", type("object")},
+                                       {"errors", object({{"sides_asked?", count},
+                                                          {"sides_wrong?", count},
+                                                          {"sides_opposite?", count},
+                                                          {"sides_false_zero?", count},
+                                                          {"sides_missed_zero?", count},
+                                                          {"fragments_degenerate?", count},
+                                                          {"fragments_not_finite?", count},
+                                                          {"pairs?", count},
+                                                          {"pairs_wrong?", pairs},
+                                                          {"pairs_wrong_beyond_rounding?", pairs},
+                                                          {"area_lost?", number},
+                                                          {"area_overlapping?", number},
+                                                          {"area_outside?", number},
+                                                          {"tiles_exactly?", type("boolean")}})}});
+  const Json see_rows = rows_of({{"size?", count}, {"bits?", count}}, {{"visible?", count},
+                                                                       {"parts?", count},
+                                                                       {"near?", number},
+                                                                       {"far?", number},
+                                                                       {"triangles?", count},
+                                                                       {"clipped?", count},
+                                                                       {"errors", object({{"wrong_area", number},
+                                                                                          {"tied_area", number},
+                                                                                          {"wrongly_visible", count},
+                                                                                          {"wrongly_hidden", count},
+                                                                                          {"missing", count},
+                                                                                          {"largest_missing", number},
+                                                                                          {"gaps", number},
+                                                                                          {"overlaps", number},
+                                                                                          {"not_finite", count}})}});
+  const Json weak_rows = rows_of(
+      {{"rays?", count}},
+      {{"visible", count},
+       {"errors",
+        object({{"wrongly_visible", count}, {"wrongly_hidden", count}, {"undecided", count}, {"unjudged", count}})}});
+  const Json render_rows = rows_of({{"bits?", count}}, {{"errors?", object({{"wrong", count},
+                                                                            {"wrong_share", number},
+                                                                            {"missing?", count},
+                                                                            {"largest_missing?", count},
+                                                                            {"largest?", number},
+                                                                            {"mean?", number}})}});
+  const Json rays = object({{"rays", count}, {"missed", count}, {"invented", count}, {"wrong_face", count}});
+  const Json trace_rows = rows_of(
+      {}, {{"prepare", number}, {"errors", rays}, {"by_kind", {{"type", "object"}, {"additionalProperties", rays}}}});
+  const Json pvs_rows =
+      rows_of({{"rays?", count}},
+              {{"visible", count},
+               {"pairs?", count},
+               {"errors", object({{"wrongly_visible", count}, {"wrongly_hidden", count}, {"worst_cell?", count}})}});
+  const Members line{{"from", point}, {"to", point}};
+  Members of_faces = line, of_leaves = line;
+  of_faces.insert(of_faces.end(), {{"leaf", count}, {"face", a_face()}, {"cell", count}});
+  of_leaves.insert(
+      of_leaves.end(),
+      {{"from_leaf", count}, {"to_leaf", count}, {"through", list_of(count)}, {"checked", type("boolean")}});
+  const Members sums{
+      {"pairs", count}, {"visible", count}, {"undecided", count}, {"refuted", count}, {"rows", pvs_rows}};
+  Members pvs = sums, leaves = sums;
+  leaves.insert(leaves.end(),
+                {{"seconds", number}, {"through_solid", count}, {"sightlines", list_of(object(of_leaves))}});
+  pvs.insert(pvs.end(), {{"cells", count}, {"sightlines", list_of(object(of_faces))}, {"leaves?", object(leaves)}});
+  return any_of({question({"order", "bsp"}, {{"rows", order_rows}}),
+                 question({"see"}, {{"eye", point}, {"visible", count}, {"rows", see_rows}}),
+                 question({"weak"}, {{"visible", count}, {"hidden", count}, {"undecided", count}, {"rows", weak_rows}}),
+                 question({"render"}, {{"eye", point},
+                                       {"width", count},
+                                       {"height", count},
+                                       {"tied", count},
+                                       {"transparent", type("boolean")},
+                                       {"rows", render_rows}}),
+                 question({"trace"}, {{"rays", count}, {"hit", count}, {"tied", count}, {"rows", trace_rows}}),
+                 question({"pvs"}, pvs)});
+}
+
+/// What the members of a judgement are, which is of no one scene.
+std::vector<std::pair<std::string, Json>> judge_members() {
+  const Json count = a_count(), face = a_face(), text = type("string"), number = type("number");
+  const Json faces = named("faces"), texts = list_of(text), seconds = any_of({number, type("null")});
+  using Members = std::vector<std::pair<std::string, Json>>;
+  const auto with = [](Members members, const Members& more) {
+    members.insert(members.end(), more.begin(), more.end());
+    return members;
+  };
+  const std::vector<std::string> marks{"crashed",   "invalid",   "wrong", "out of memory",
+                                       "timed out", "abstained", "right"};
+  Members by_mark;
+  for (const std::string& name : marks) by_mark.emplace_back(name, count);
+  const Members sums{
+      {"distance", text},
+      {"asked", count},
+      {"not_asked", count},
+      {"cases", object(by_mark)},
+      {"breaches", count},
+      {"faces", object({{"judged", count}, {"wrong_visible", count}, {"wrong_hidden", count}, {"abstained", count}})},
+      {"seconds", object({{"p50", seconds}, {"p95", seconds}, {"max", seconds}})},
+      {"bytes", count}};
+  const Json row = object(with(sums, {{"family", text}}));
+  const Json line = object({{"face", face},
+                            {"from", named("point")},
+                            {"to", named("point")},
+                            {"by", any_of({face, type("null")})},
+                            {"words", text}});
+  const Json explained =
+      object({{"share", number}, {"share_words", text}, {"line", any_of({line, type("null")})}, {"picture", text}});
+  const Members broken{
+      {"faces", count}, {"mark", one_word_of(marks)}, {"why", text}, {"again", text}, {"explained?", explained}};
+  const Members failure =
+      with(broken,
+           {{"family", text}, {"distance", text}, {"seed", count}, {"wrong_visible", faces}, {"wrong_hidden", faces}});
+  const Json reduced = object(with(broken, {{"runs", count}, {"finished", type("boolean")}, {"files", texts}}));
+  const Json smallest = object(with(failure, {{"files", texts}, {"guess?", texts}, {"reduced?", reduced}}));
+  return {{"program", text},
+          {"query", one_word_of({"order", "see", "weak"})},
+          {"two_sided", type("boolean")},
+          {"contract", one_word_of({"exact", "conservative", "aggressive"})},
+          {"shard", tuple_of(count, 2)},
+          {"limits", object({{"seconds", number}, {"bytes", count}})},
+          {"result", object({{"holds", type("boolean")},
+                             {"rows", list_of(row)},
+                             {"by_distance", list_of(object(sums))},
+                             {"total", row},
+                             {"guess", texts},
+                             {"not_asked", {{"type", "object"}, {"additionalProperties", count}}},
+                             {"smallest", any_of({smallest, type("null")})},
+                             {"failures", list_of(object(failure))}})}};
+}
+
 /// What the members of a report are, which is of no one scene.
 std::vector<std::pair<std::string, Json>> report_members() {
   const Json count = a_count(), text = type("string"), number = type("number");
@@ -282,6 +433,8 @@ Exit run(const std::string& command) {
   std::vector<std::pair<std::string, Json>> members{{"counters", type("object")}};
   if (command != "fuzz") members.emplace_back("scene", named(command == "boolean" ? "operands" : "scene"));
   if (command == "report") members = report_members();
+  else if (command == "judge") members = judge_members();
+  else if (command == "compare") members.emplace_back("result", compare_result());
   else members.emplace_back("result", results().at(command));
   members.emplace_back("command", Json{{"const", command}});
   members.emplace_back("seconds", Json{{"type", "object"}, {"additionalProperties", type("number")}});
@@ -297,7 +450,7 @@ void add_schema(Command program) {
   auto name = std::make_shared<std::string>();
   std::vector<std::string> names;
   for (const auto& [of, result] : schema::results()) names.push_back(of);
-  names.emplace_back("report");
+  names.insert(names.end(), {"compare", "judge", "report"});
   command.add_option("COMMAND", *name, "the command").required().check(one_of(names));
   command.footer(
       "Keys may be added in later versions; these stay. Of weak it is what is written without --partition and "

@@ -52,6 +52,8 @@ static std::string flaw(const Json& value, const Json& schema, const Json& root,
     } else if (word == "additionalProperties") {
       for (const auto& [key, member] : value.items())
         if (const std::string wrong = flaw(member, what, root, at + '.' + key); !wrong.empty()) return wrong;
+    } else if (word == "not") {
+      if (flaw(value, what, root, at).empty()) return at + " is what it must not be: " + what.dump();
     } else if (word == "anyOf") {
       if (std::none_of(what.begin(), what.end(), [&](const Json& one) { return flaw(value, one, root, at).empty(); }))
         return at + " is nothing of what it may be";
@@ -110,6 +112,58 @@ TEST_F(Schema, of_each_command_is_what_it_writes) {
     EXPECT_EQ(written.code, done) << written;
     EXPECT_EQ(flaw(written.json(), schema.json(), schema.json(), arguments[0]), "") << written.command;
   }
+}
+
+TEST_F(Schema, of_compare_and_judge_is_what_they_write) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string();
+  const std::string cube = (corpus / "general" / "cube.off").string();
+  const auto valid = [&](std::vector<std::string> arguments, int code) {
+    const Json schema = run({"schema", arguments[0]}).json();
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const Outcome written = run(arguments);
+    EXPECT_EQ(written.code, code) << written;
+    const Json document = written.json();
+    EXPECT_EQ(flaw(document, schema, schema, arguments[0]), "") << written.command;
+    return std::pair(document, schema);
+  };
+  valid({"compare", cube, "order", "--eye", "3,4,5"}, done);
+  valid({"compare", rooms, "order", "--eye", "1,1,2", "--max-fragments", "3", "--kernels", "exact,double"}, done);
+  valid({"compare", cube, "bsp", "--kernels", "exact,float"}, done);
+  valid({"compare", rooms, "see", "--eye", "1,1,2", "--sizes", "8", "--kernels", "exact,double"}, done);
+  valid({"compare", cube, "weak", "--from-face", "0", "--rays", "100", "--kernels", "exact"}, done);
+  valid({"compare", cube, "render", "--eye", "3,4,5", "--size", "16x16"}, done);
+  valid({"compare", cube, "trace", "--random", "5"}, done);
+  valid({"compare", (corpus / "general" / "two_rooms.map").string(), "pvs", "--rays", "10"}, done);
+  valid({"compare", (corpus / "robust" / "tiny_level.bsp").string(), "pvs", "--rays", "10"}, done);
+  valid({"compare", rooms, "render", "--eye", "1,1,2", "--size", "16x16", "--alpha", "0.5"}, done);
+  const std::string program = "sh -c 'echo 0 > $3' sh {scene} {query} {answer}", kept = path("kept").string();
+  std::filesystem::create_directory(kept);
+  const std::vector<std::string> judged{"judge",      "--program", program,      "--query", "see",
+                                        "--contract", "exact",     "--families", "hinged",  "--ulps",
+                                        "0,1",        "--cases",   "2"};
+  auto reduced = judged, held = judged;
+  reduced.insert(reduced.end(), {"--keep", kept, "--reduce", "0.5", "--html", path("judged.html").string()});
+  held[2] = "sh -c 'echo abstained all > $3' sh {scene} {query} {answer}";
+  valid(held, done);
+  const auto [right, schema] = valid(reduced, disagreement);
+  ASSERT_TRUE(right["result"]["smallest"].contains("reduced")) << right["result"]["smallest"];
+  EXPECT_TRUE(right["result"]["failures"][0].contains("explained"));
+  const auto wrong = [](Json document, const Json& by, const std::function<void(Json&)>& change) {
+    change(document["result"]);
+    return !flaw(document, by, by, "it").empty();
+  };
+  EXPECT_TRUE(wrong(right, schema, [](Json& r) { r["total"]["cases"].erase("wrong"); }));
+  EXPECT_TRUE(wrong(right, schema, [](Json& r) { r["failures"][0]["mark"] = "odd"; }));
+  EXPECT_TRUE(wrong(right, schema, [](Json& r) { r["smallest"]["reduced"].erase("runs"); }));
+  EXPECT_TRUE(wrong(right, schema, [](Json& r) { r["smallest"]["explained"]["line"]["from"][0] = 1; }));
+  const auto [seen, by] = valid({"compare", cube, "see", "--eye", "3,4,5", "--sizes", "8"}, done);
+  for (const std::string key : {"seconds", "errors"})  // it is done
+    EXPECT_TRUE(wrong(seen, by, [&](Json& r) { r["rows"][0].erase(key); }));
+  EXPECT_FALSE(wrong(seen, by, [](Json& r) {  // it is not
+    r["rows"][0] = {{"kernel", "exact"}, {"method", "partition"}, {"status", "timed out"}};
+  }));
+  EXPECT_TRUE(wrong(seen, by, [](Json& r) { r["question"] = "render"; }));
+  EXPECT_TRUE(wrong(seen, by, [](Json& r) { r["rows"][0]["errors"]["wrong_area"] = "0"; }));
 }
 
 TEST_F(Schema, refuses_what_is_not_so) {
