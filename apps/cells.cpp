@@ -4,7 +4,10 @@
 #include "support/page.h"
 
 #include <sightline/algorithms/levels/cells.h>
+#include <sightline/io/file.h>
+#include <sightline/io/quake_map.h>
 
+#include <algorithm>
 #include <array>
 #include <iostream>
 #include <numeric>
@@ -22,6 +25,31 @@ struct Cells_arguments {
 };
 
 Json ids_json(const std::vector<std::uint32_t>& ids) { return Json(ids); }
+
+/// A point from which there should be no way out.
+struct Seal {
+  std::string text;
+  Exact_point point;
+  bool is_entity;  ///< of the file, not of the command line: it may stand in something solid
+};
+
+/// The points of --seal; for "entities" those of the .map.
+std::vector<Seal> seals_of(const Cells_arguments& arguments) {
+  std::vector<Seal> seals;
+  for (const std::string& text : arguments.seals) {
+    if (text != "entities") {
+      seals.push_back({text, parse_point(text, "--seal"), false});
+      continue;
+    }
+    const std::string& file = arguments.common.scene;
+    if (format_of_ending(file) != Format::map)
+      throw Usage_error("--seal entities: SCENE is no .map; give a point X,Y,Z");
+    const std::string bytes = read_bytes(file);
+    for (Map_place& place : read_map_places({file, bytes}))
+      seals.push_back({place.name + " at " + Page::text(place.origin), std::move(place.origin), true});
+  }
+  return seals;
+}
 
 /// The whole of it: points once, by number.
 Json cells_json(const Level_cells& level) {
@@ -52,7 +80,7 @@ Json cells_json(const Level_cells& level) {
 }
 
 /// The faces, and cells to walk through: rooms first, then what has no end, then solids; ways out of --seal.
-void write_page(const Cells_arguments& arguments, const Level_cells& level,
+void write_page(const std::string& file, const Level_cells& level, const std::vector<Seal>& seals,
                 const std::vector<std::vector<Cell_id>>& ways) {
   const Cell_counters& c = level.counters();
   Page page("cells", level.scene());
@@ -99,19 +127,18 @@ void write_page(const Cells_arguments& arguments, const Level_cells& level,
   for (std::size_t i = 0; i < ways.size(); ++i) {
     if (ways[i].empty() || ways[i][0] == no_cell) continue;
     std::vector<float> way;
-    page.append_place(way, parse_point(arguments.seals[i], "--seal"));
+    page.append_place(way, seals[i].point);
     for (const Cell_id cell : ways[i]) page.append_place(way, level.inside(cell));
-    leaks.push_back({{"from", arguments.seals[i]}, {"cells", packed(ways[i])}, {"way", packed(way)}});
+    leaks.push_back({{"from", seals[i].text}, {"cells", packed(ways[i])}, {"way", packed(way)}});
   }
   page.more()["leaks"] = std::move(leaks);
-  page.write(arguments.html);
+  page.write(file);
 }
 
 Exit run(const Cells_arguments& arguments) {
   const Common& common = arguments.common;
   const Polygon_soup soup = common.read();
-  std::vector<Exact_point> seals;
-  for (const std::string& text : arguments.seals) seals.push_back(parse_point(text, "--seal"));
+  const std::vector<Seal> given = seals_of(arguments);
   Progress progress("dividing");
   Cell_options options;
   options.candidates = arguments.candidates;
@@ -131,11 +158,16 @@ Exit run(const Cells_arguments& arguments) {
   if (!arguments.out.empty()) write_file(arguments.out, to_text(cells_json(level)) + "\n");
 
   Json leaks = Json::array();
+  std::vector<Seal> seals;
   std::vector<std::vector<Cell_id>> ways;
-  for (const Exact_point& p : seals) {
+  for (const Seal& seal : given) {
+    const Exact_point& p = seal.point;
     const Cell_id cell = level.at(p);
-    if (cell != no_cell && level.cells()[cell].is_solid)
+    if (cell != no_cell && level.cells()[cell].is_solid) {
+      if (seal.is_entity) continue;
       throw Usage_error("--seal: the point is in a solid cell; give one of a room");
+    }
+    seals.push_back(seal);
     ways.push_back(cell == no_cell ? std::vector<Cell_id>{no_cell} : level.way_out(p));
     if (ways.back().empty()) continue;
     Json way = Json::array();
@@ -143,13 +175,15 @@ Exit run(const Cells_arguments& arguments) {
       if (on_way != no_cell) way.push_back({{"cell", on_way}, {"point", point_json(level.inside(on_way))}});
     leaks.push_back({{"from", point_json(p)}, {"way", std::move(way)}});
   }
-  if (!arguments.html.empty()) write_page(arguments, level, ways);
+  if (!arguments.html.empty()) write_page(arguments.html, level, seals, ways);
   const Exit exit = leaks.empty() ? Exit::done : Exit::disagreement;
   const Json result{{"cells", c.cells},
                     {"solid", c.solid},
                     {"portals", c.portals},
                     {"regions", c.regions},
                     {"closed", level.is_closed()},
+                    {"sealed", seals.size() - leaks.size()},
+                    {"in_solid", given.size() - seals.size()},
                     {"leaks", leaks}};
   if (write_json(common, "cells", scene, result, counters_json(c), {{"build", seconds}})) return exit;
   scene_rows(scene);
@@ -160,11 +194,18 @@ Exit run(const Cells_arguments& arguments) {
   row("tree", fmt::format("{} nodes, {} splits; {} corners of walls in planes that divide them", c.nodes, c.splits,
                           c.contacts));
   for (std::size_t i = 0; i < ways.size(); ++i)
-    row("seal",
-        arguments.seals[i] + (ways[i].empty() ? ": no way out"
-                              : ways[i][0] == no_cell
-                                  ? ": outside of everything"
-                                  : fmt::format(": a leak through {} cells; --json - lists them", ways[i].size())));
+    if (!seals[i].is_entity || !ways[i].empty())
+      row("seal",
+          seals[i].text + (ways[i].empty() ? ": no way out"
+                           : ways[i][0] == no_cell
+                               ? ": outside of everything"
+                               : fmt::format(": a leak through {} cells; --json - lists them", ways[i].size())));
+  if (std::any_of(given.begin(), given.end(), [](const Seal& seal) { return seal.is_entity; })) {
+    std::size_t sealed = 0;
+    for (std::size_t i = 0; i < ways.size(); ++i) sealed += seals[i].is_entity && ways[i].empty() ? 1 : 0;
+    row("seal", fmt::format("{} entities: no way out; {} stand in solid cells and are passed over", sealed,
+                            given.size() - seals.size()));
+  }
   row("seconds", fmt::format("{:.3f}", seconds));
   return exit;
 }
@@ -181,8 +222,9 @@ void add_cells(Command program) {
       .show_default();
   command.add_option(
       "--seal", a->seals,
-      "a point X,Y,Z of a room from which there should be no way out; may be repeated. Exit code 1 where "
-      "there is one");
+      "a point X,Y,Z of a room from which there should be no way out, or `entities`: all places of a .map where "
+      "something "
+      "stands (players, lamps; not those in solid cells). May be repeated. Exit code 1 where there is a way out");
   command.add_flag("--leaves", a->leaves, "of a compiled level (.bsp): cells within its own leaves, by number");
   command.add_option("--out", a->out, "write points, cells and walls as JSON").writes_file().check(ending(".json"));
   command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")

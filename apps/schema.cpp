@@ -205,6 +205,8 @@ const std::map<std::string, Json>& results() {
                {"portals", count},
                {"regions", count},
                {"closed", type("boolean")},
+               {"sealed", count},
+               {"in_solid", count},
                {"leaks", list_of(object({{"from", named("point")},
                                          {"way", list_of(object({{"cell", count}, {"point", named("point")}}))}}))}})},
       {"pvs", object({{"cells", count},

@@ -98,6 +98,11 @@ class Map_reader {
     }
     return std::move(soup_);
   }
+  std::vector<Map_place> read_places() {
+    are_places_wanted_ = true;
+    read();
+    return std::move(places_);
+  }
 
  private:
   /// The next token that is not in a comment; an empty one at the end of the text.
@@ -120,11 +125,19 @@ class Map_reader {
   void read_entity() {
     bool is_world = false;
     std::vector<Brush> brushes;
+    std::string name;
+    std::optional<Exact_point> origin;
     for (;;) {
       const std::string_view word = next_word("} or a brush");
       if (word == "}") break;
       if (word.starts_with('"')) {
-        if (word == "\"classname\"") is_world = is_part_of_world(text_.next_token());
+        if (word == "\"classname\"") {
+          const std::string_view value = text_.next_token();
+          is_world = is_part_of_world(value);
+          name = without_quotes(value);
+        } else if (word == "\"origin\"" && are_places_wanted_) {
+          origin = read_origin(word);
+        }
         text_.finish_line();
       } else if (word == "{") {
         brushes.push_back(read_brush(word));
@@ -132,13 +145,31 @@ class Map_reader {
         text_.fail(word, "unexpected " + quoted(word) + "; write \"KEY\" \"VALUE\", { or } here");
       }
     }
-    if (!is_world) return;
+    if (origin && brushes.empty()) places_.push_back({std::move(name), *std::move(origin)});
+    if (!is_world || are_places_wanted_) return;
     for (const Brush& brush : brushes) add_faces(brush);
   }
   static bool is_part_of_world(std::string_view value) {
     for (const std::string_view name : {"\"worldspawn\"", "\"func_group\"", "\"func_detail\"", "\"func_detail_wall\""})
       if (value == name) return true;
     return false;
+  }
+
+  static std::string_view without_quotes(std::string_view word) {
+    if (word.starts_with('"')) word.remove_prefix(1);
+    if (word.ends_with('"')) word.remove_suffix(1);
+    return word;
+  }
+  /// The value of `origin`: "X Y Z".
+  Exact_point read_origin(std::string_view key) {
+    Exact_point origin;
+    for (Rational& coordinate : origin) {
+      const std::string_view token = text_.next_token();
+      const std::string_view number = without_quotes(token);
+      if (number.empty()) text_.fail(key, "an origin is \"X Y Z\", three decimals");
+      coordinate = value_of(read_coordinate(text_, number, Number_syntax::decimal, options_));
+    }
+    return origin;
   }
 
   struct Brush {
@@ -237,6 +268,8 @@ class Map_reader {
 
   Text_reader text_;
   const Read_options& options_;
+  bool are_places_wanted_ = false;  // and no faces
+  std::vector<Map_place> places_;
   Polygon_soup soup_;
   std::map<Exact_point, Point_id> ids_;
 };
@@ -244,5 +277,9 @@ class Map_reader {
 }  // namespace
 
 Polygon_soup read_map(const Input& input, const Read_options& options) { return Map_reader(input, options).read(); }
+
+std::vector<Map_place> read_map_places(const Input& input, const Read_options& options) {
+  return Map_reader(input, options).read_places();
+}
 
 }  // namespace sightline

@@ -6,6 +6,8 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 namespace sightline {
 
@@ -21,5 +23,15 @@ inline constexpr std::size_t most_brush_sides = 512;
 /// not their union. Errors: Input_error, also for a side whose points are on a line, and for a brush that has no volume
 /// or no end. Cost: for a brush of n sides O(n^2) cuts of a polygon. Exact: yes.
 Polygon_soup read_map(const Input& input, const Read_options& options = {});
+
+/// Where something stands in a level: a player, a lamp, a monster.
+struct Map_place {
+  std::string name;  ///< its `classname`; empty where it has none
+  Exact_point origin;
+};
+
+/// The entities of a .map that have an `origin` and no brushes, in the order of the file; of a key that comes twice the
+/// last value counts. Errors: Input_error, as `read_map`, and for an origin that is not three decimals. Exact: yes.
+std::vector<Map_place> read_map_places(const Input& input, const Read_options& options = {});
 
 }  // namespace sightline

@@ -103,6 +103,22 @@ TEST(Quake_map, brushes_that_touch_share_their_points) {
   EXPECT_EQ(soup.face_count(), 12u);
 }
 
+TEST(Quake_map, places_are_the_origins_of_what_has_no_brushes) {
+  const std::string text = "{\n\"classname\" \"worldspawn\"\n{\n" + box("1", "1", "1") +
+                           "}\n}\n{\n\"origin\" \"1 -2.5 3e1\" // here\n\"classname\" \"info_player_start\"\n}\n"
+                           "{\n\"classname\" \"func_door\"\n\"origin\" \"7 7 7\"\n{\n" +
+                           box("1", "1", "1") + "}\n}\n{\n\"classname\" \"light\"\n}\n{\n\"origin\" \"0 0 0\"\n}\n";
+  const std::vector<Map_place> places = read_map_places({"scene", text});
+  ASSERT_EQ(places.size(), 2u);
+  EXPECT_EQ(places[0].name, "info_player_start");
+  EXPECT_EQ(places[0].origin, (Exact_point{1, Rational(-5, 2), 30}));
+  EXPECT_EQ(places[1].name, "");
+  EXPECT_EQ(places[1].origin, (Exact_point{0, 0, 0}));
+  EXPECT_NO_THROW(read_scene("{\n\"origin\" \"here\"\n}\n", map, "scene"));  // nothing that faces need
+  EXPECT_THROW(read_map_places({"scene", "{\n\"origin\" \"here\"\n}\n"}), Input_error);
+  EXPECT_THROW(read_map_places({"scene", "{\n\"origin\" \"1 2\"\n}\n"}), Input_error);
+}
+
 TEST(Quake_map, errors_name_the_line) {
   const std::string cube = box("1", "1", "1");
   const std::string open = cube.substr(0, cube.rfind('\n', cube.size() - 2) + 1);

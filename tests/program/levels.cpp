@@ -43,6 +43,29 @@ TEST_F(Levels, a_leak_is_found_and_a_solid_point_refused) {
   EXPECT_NE(solid.err.find("solid cell"), std::string::npos) << solid;
 }
 
+TEST_F(Levels, entities_are_sealed_where_they_do_not_stand_in_something_solid) {
+  const auto with_entities = [&](const std::string& more) {
+    std::ifstream in(rooms, std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    std::ofstream(out("entities.map"), std::ios::binary)
+        << text << "{\n\"classname\" \"light\"\n\"origin\" \"64 64 24\"\n}\n"
+        << "{\n\"classname\" \"light\"\n\"origin\" \"-8 0 0\"\n}\n"
+        << more;
+    return run({"cells", out("entities.map"), "--seal", "entities", "--json", "-"});
+  };
+  const Outcome closed = with_entities("");
+  ASSERT_EQ(closed.code, done) << closed;
+  EXPECT_EQ(closed.json()["result"]["sealed"], 2);  // the scene has one, too
+  EXPECT_EQ(closed.json()["result"]["in_solid"], 1);
+  const Outcome leak = with_entities("{\n\"origin\" \"-20 0.5 0\"\n}\n");
+  ASSERT_EQ(leak.code, disagreement) << leak;
+  EXPECT_EQ(leak.json()["result"]["leaks"][0]["from"], Json::parse(R"(["-20", "1/2", "0"])")) << leak;
+  const Outcome broken = with_entities("{\n\"origin\" \"1 2\"\n}\n");
+  EXPECT_EQ(broken.code, bad_input) << broken;
+  EXPECT_NE(broken.err.find("three decimals"), std::string::npos) << broken;
+  EXPECT_EQ(run({"cells", (corpus / "general" / "two_rooms.off").string(), "--seal", "entities"}).code, usage);
+}
+
 TEST_F(Levels, a_table_is_the_same_however_it_was_divided) {
   ASSERT_EQ(run({"pvs", rooms, "--out", out("whole.pvs"), "--threads", "1"}).code, done);
   ASSERT_EQ(run({"pvs", rooms, "--out", out("threads.pvs"), "--threads", "3"}).code, done);
