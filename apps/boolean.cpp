@@ -12,6 +12,7 @@
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
 #include <sightline/io/read.h>
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/threads.h>
 
 #include <iostream>

@@ -11,6 +11,7 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
+#include <sightline/kernel/prepared_plane.h>
 #include <sightline/kernel/sign.h>
 #include <sightline/kernel/vertex.h>
 
@@ -27,15 +28,6 @@
 #include <utility>
 
 namespace sightline {
-
-/// A plane made ready for many sides: its oriented doubles and the bound below which they decide nothing.
-struct Prepared_plane {
-  Plane plane;
-  bool exact;         ///< integers all through: at exact vertices the double value is the true one
-  double a, b, c, d;  ///< oriented
-  double norm;        ///< >= |a| + |b| + |c| of the true plane
-  double bound;       ///< rounding error of the double value at any vertex, not counting the vertex's own error
-};
 
 /// The predicates over one scene's points and planes, and what is known of incidences. Cheap to copy: three references
 /// and a width.

@@ -7,7 +7,7 @@
 #include <sightline/algorithms/point_visibility/visible_region.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/plane.h>
-#include <sightline/kernel/predicates.h>
+#include <sightline/kernel/prepared_plane.h>
 #include <sightline/kernel/scene/convex_parts.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -31,8 +31,7 @@ struct Hiding {
 template <View V>
 class Cover_search {
  public:
-  explicit Cover_search(const Chunks<V>& chunks)
-      : chunks_(chunks), view_(chunks.view()), predicates_(view_.scene().predicates()) {}
+  explicit Cover_search(const Chunks<V>& chunks) : chunks_(chunks), view_(chunks.view()) {}
 
   // ---- Which of two is nearer
 
@@ -107,7 +106,7 @@ class Cover_search {
     for (const typename V::Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
     const Plane support = view_.scene().pieces()[cover].support;
     return {farthest * (1 + 0x1p-40) + 4 * chunks_.eye().error + 0x1p-900,
-            predicates_.prepare(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite())};
+            view_.scene().prepared(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite())};
   }
 
  private:
@@ -130,7 +129,6 @@ class Cover_search {
 
   const Chunks<V>& chunks_;
   const V& view_;
-  Predicates predicates_;
 };
 
 }  // namespace sightline::visible_detail

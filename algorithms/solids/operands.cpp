@@ -1,6 +1,7 @@
 #include <sightline/algorithms/solids/operands.h>
 
 #include <sightline/kernel/line_table.h>
+#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/face_cutter.h>
 
 #include <algorithm>
@@ -82,6 +83,8 @@ std::pair<std::uint32_t, Face_id> Operands::source_of(Face_id face) const {
   const auto operand = static_cast<std::uint32_t>(after - first_face_.begin() - 1);
   return {operand, face - first_face_[operand]};
 }
+
+Predicates Operands::predicates() const& { return {points(), planes(), incidences_}; }
 
 Vertex Operands::vertex(const Predicates& predicates, std::size_t piece, std::size_t k) const {
   const std::span<const Piece_corner> loop = corners(piece);

@@ -3,10 +3,10 @@
 
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
-#include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/grid.h>
 #include <sightline/kernel/scene/pieces.h>
 #include <sightline/kernel/scene/polygon_soup.h>
+#include <sightline/kernel/vertex.h>
 
 #include <array>
 #include <cstddef>
@@ -17,6 +17,8 @@
 #include <vector>
 
 namespace sightline {
+
+class Predicates;
 
 /// The convex pieces of all operands' faces. Faces are numbered on from one operand to the next, and so are pieces.
 /// What a Scene does not do: a face that is given twice counts twice, for winding numbers do.
@@ -41,7 +43,7 @@ class Operands {
   const std::vector<Set_aside>& set_aside() const { return faces_.set_aside; }
   const std::vector<Face_id>& non_planar() const { return faces_.non_planar; }
   const Scene_counters& counters() const { return faces_.counters; }
-  Predicates predicates() const& { return {points(), planes(), incidences_}; }
+  Predicates predicates() const&;  ///< of `kernel/predicates.h`
   Predicates predicates() const&& = delete;
   /// Corner k of a piece.
   Vertex vertex(const Predicates& predicates, std::size_t piece, std::size_t k) const;

@@ -118,6 +118,8 @@ Scene::Scene(const Polygon_soup& soup) : file_(soup.file) {
 
 Predicates Scene::predicates() const& { return {points(), planes(), incidences_}; }
 
+Prepared_plane Scene::prepared(Plane plane) const { return predicates().prepare(plane); }
+
 std::array<Rational, 4> Scene::file_coefficients(Plane plane) const {
   return file_coefficients(predicates().coefficients(plane));
 }

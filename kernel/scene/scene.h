@@ -18,6 +18,7 @@
 namespace sightline {
 
 class Predicates;
+struct Prepared_plane;
 
 /// An exact polygonal scene (design laws in proofs/semantics.md). Points lie on the coarsest integer grid that holds
 /// them all, centred (Scene_grid). Non-planar faces are triangulated, concave ones and ones with holes cut into convex
@@ -43,6 +44,7 @@ class Scene {
   const Point_planes& incidences() const { return incidences_; }
   Predicates predicates() const&;  ///< of `kernel/predicates.h`
   Predicates predicates() const&& = delete;
+  Prepared_plane prepared(Plane plane) const;  ///< as predicates() make it, for those that need no more of them
 
   /// Bit length of the largest coordinate once the whole scene is scaled to integers, and of that scale.
   int bits() const { return grid_.bits(); }
