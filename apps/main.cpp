@@ -2,9 +2,9 @@
 
 #include "support/command.h"
 #include "support/files.h"
+#include "support/number_memory.h"
 #include "support/versions.h"
 
-#include <gmp.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -29,18 +29,6 @@ using namespace sightline::app;
   remove_unfinished();
   [[maybe_unused]] const auto written = write(STDERR_FILENO, says.data(), says.size());  // or the exit code says it
   _exit(static_cast<int>(Exit::undecided));
-}
-
-// GMP would abort.
-extern "C" {
-static void* allocated(std::size_t size) {
-  void* const memory = std::malloc(size);
-  return memory != nullptr ? memory : (end_without_memory(), nullptr);
-}
-static void* reallocated(void* before, std::size_t, std::size_t size) {
-  void* const memory = std::realloc(before, size);
-  return memory != nullptr ? memory : (end_without_memory(), nullptr);
-}
 }
 
 /// Whether the error says that a container would be longer than any memory; others of its kind have a sentence.
@@ -78,7 +66,7 @@ static Exit run(int argc, char** argv) {
 int main(int argc, char** argv) {
   watch_for_signals();
   std::set_new_handler(end_without_memory);
-  mp_set_memory_functions(allocated, reallocated, nullptr);
+  keep_numbers_in_small_blocks(end_without_memory);
   const Exit exit = run(argc, argv);
   // An answer that is not all there is none, whatever it was.
   errno = 0;

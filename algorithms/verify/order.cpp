@@ -24,13 +24,14 @@ namespace {
 /// nearer somewhere.
 std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones,
                                                                     const Verify_options& options) {
-  const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
-  const Planes_between planes(cones, rounded);
+  const std::vector<Rounded_cone> in_doubles = rounded(cones, options.threads);
+  const Planes_between planes(cones, in_doubles, options.threads);
   std::optional<std::pair<std::size_t, std::size_t>> first;  // (later, earlier)
   std::mutex mutex;
-  Pairs pairs(cones, [&](std::size_t earlier, std::size_t later) {
+  Pairs pairs(cones, in_doubles, [&](std::size_t earlier, std::size_t later) {
     thread_local Pair_check check;
-    if (earlier >= later || planes.in_order(earlier, later) || nowhere_nearer(rounded[earlier], rounded[later])) return;
+    if (earlier >= later || planes.in_order(earlier, later) || nowhere_nearer(in_doubles[earlier], in_doubles[later]))
+      return;
     if (!check.nearer_somewhere(cones[earlier], cones[later])) return;
     const std::lock_guard lock(mutex);
     if (const std::pair here(later, earlier); !first || here < *first) first = here;

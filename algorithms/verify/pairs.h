@@ -1,9 +1,10 @@
 #pragma once
 // Pairs of cones that an eye sees polygons in: which of two is nearer, and which pairs there are to ask that of. To be
-// read after polygons.h.
+// read after polygons.h and rounded_cones.h.
 
 #include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/rounded_cones.h>
 #include <sightline/algorithms/verify/verdict.h>
 
 #include <algorithm>
@@ -63,8 +64,10 @@ class Pairs {
  public:
   using Places = std::vector<std::size_t>;
 
-  /// take(i, j): cones to compare, from any thread. Edge-on ones are left out.
-  Pairs(const std::vector<Cone>& cones, Take take) : cones_(cones), take_(std::move(take)) {}
+  /// take(i, j): cones to compare, from any thread. Edge-on ones are left out. Pre: `rounded` are the cones; both
+  /// outlive it.
+  Pairs(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, Take take)
+      : cones_(cones), rounded_(rounded), take_(std::move(take)) {}
 
   /// progress(share): of all pairs, those that are done with, in [0, 1]; before each cone of a part, from any thread,
   /// but never from two at once.
@@ -154,11 +157,14 @@ class Pairs {
   }
   Halves cut_cones(const Part& part, const Integer_vector& plane) const {
     Halves halves;
+    const Rounded_vector in_doubles = rounded(plane);
     const auto share = [&](const Windows& from, Windows& front, Windows& behind) {
       for (const Window& w : from) {
         bool in_front = false, at_back = false;
-        for (const Integer_vector& ray : cones_[w.cone].rays) {
-          const int side = sign_of_dot(plane, ray);
+        const std::vector<Integer_vector>& rays = cones_[w.cone].rays;
+        for (std::size_t k = 0; k < rays.size(); ++k) {
+          const std::optional<int> known = sign_in_doubles(in_doubles, rounded_[w.cone].rays[k]);
+          const int side = known ? *known : sign_of_dot(plane, rays[k]);
           in_front = in_front || side > 0;
           at_back = at_back || side < 0;
           if (in_front && at_back) break;
@@ -230,6 +236,7 @@ class Pairs {
   }
 
   const std::vector<Cone>& cones_;
+  const std::vector<Rounded_cone>& rounded_;
   Take take_;
   std::function<void(double)> progress_;
   double done_ = 0;

@@ -1,6 +1,9 @@
 #include <sightline/algorithms/verify/planes_between.h>
 
+#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/kernel/number.h>
+
+#include <algorithm>
 
 namespace sightline::order_check {
 
@@ -21,9 +24,18 @@ int exact_side_to_plane(const Cone& a, std::size_t ray, const Cone& b) {
 
 }  // namespace
 
-Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded)
+Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, int threads)
     : cones_(cones), rounded_(rounded), paths_(cones.size()) {
-  cut(0, cones.size(), 0);
+  constexpr std::size_t large = 4096;  // threads share its polygons; of smaller parts each has its own
+  std::vector<Part> parts{{0, cones.size(), 0}}, small;
+  while (!parts.empty()) {
+    const Part part = parts.back();
+    parts.pop_back();
+    if (part.size() < large) small.push_back(part);
+    else
+      for (const Part& half : cut(part, threads)) parts.push_back(half);
+  }
+  for_each_below(small.size(), 1, threads, [&](std::size_t i) { cut_to_the_end(small[i]); });
 }
 
 bool Planes_between::is_apart(std::size_t i, std::size_t at) const {
@@ -37,10 +49,11 @@ bool Planes_between::is_apart(std::size_t i, std::size_t at) const {
   return true;
 }
 
-void Planes_between::cut(std::size_t begin, std::size_t end, int depth) {
-  constexpr std::size_t candidates = 5, samples = 24;
-  const std::size_t size = end - begin;
-  if (size < 2 || depth == deepest) return;
+std::vector<Planes_between::Part> Planes_between::cut(const Part& part, int threads) {
+  constexpr std::size_t candidates = 5, samples = 24, block = 512;
+  const auto [begin, end, depth] = part;
+  const std::size_t size = part.size();
+  if (size < 2 || depth == deepest) return {};
   // 1. Of a few polygons about the middle the one whose plane has most of a few others on their sides.
   std::size_t at = begin + size / 2, most = 0;
   for (std::size_t c = 0; c < candidates && size > candidates * samples; ++c) {
@@ -51,12 +64,17 @@ void Planes_between::cut(std::size_t begin, std::size_t end, int depth) {
   }
   // 2. Who is on its side. That polygon itself is in its plane, and begins the part behind the cut.
   const std::uint64_t bit = first >> depth;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (i >= at) paths_[i].turns |= bit;
-    if (is_apart(i, at)) paths_[i].apart |= bit;
-  }
-  cut(begin, at, depth + 1);
-  cut(at, end, depth + 1);
+  for_each_below((size + block - 1) / block, 1, threads, [&](std::size_t k) {
+    for (std::size_t i = begin + k * block; i < std::min(end, begin + (k + 1) * block); ++i) {
+      if (i >= at) paths_[i].turns |= bit;
+      if (is_apart(i, at)) paths_[i].apart |= bit;
+    }
+  });
+  return {{begin, at, depth + 1}, {at, end, depth + 1}};
+}
+
+void Planes_between::cut_to_the_end(const Part& part) {
+  for (const Part& half : cut(part, 1)) cut_to_the_end(half);
 }
 
 }  // namespace sightline::order_check

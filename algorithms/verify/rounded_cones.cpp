@@ -1,5 +1,6 @@
 #include <sightline/algorithms/verify/rounded_cones.h>
 
+#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
@@ -10,12 +11,15 @@ namespace sightline::order_check {
 
 namespace {
 
+/// Of a product of two rounded vectors, and of a side by such products, but for distances: more than there may be.
+constexpr double error = 0x1p-45;
+
 /// Post: vector = (rounded + errors of less than 2^-52) x 2^exponent.
-struct Rounded_vector {
-  std::array<double, 3> rounded;
+struct Scaled_vector {
+  Rounded_vector rounded;
   long exponent = 0;
 
-  explicit Rounded_vector(const Integer_vector& vector) {
+  explicit Scaled_vector(const Integer_vector& vector) {
     std::array<long, 3> exponents;
     for (std::size_t k = 0; k < 3; ++k) rounded[k] = mpz_get_d_2exp(&exponents[k], vector[k].get_mpz_t());
     exponent = *std::max_element(exponents.begin(), exponents.end());
@@ -24,12 +28,23 @@ struct Rounded_vector {
   }
 };
 
+double dot(const Rounded_vector& a, const Rounded_vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
 }  // namespace
+
+Rounded_vector rounded(const Integer_vector& vector) { return Scaled_vector(vector).rounded; }
+
+std::optional<int> sign_in_doubles(const Rounded_vector& a, const Rounded_vector& b) {
+  const double value = dot(a, b);
+  if (value > error) return 1;
+  if (value < -error) return -1;
+  return std::nullopt;
+}
 
 Rounded_cone::Rounded_cone(const Cone& cone) {
   constexpr long range = 900;
-  for (const Integer_vector& ray : cone.rays) rays.push_back(Rounded_vector(ray).rounded);
-  const Rounded_vector form(cone.nearness);
+  for (const Integer_vector& ray : cone.rays) rays.push_back(rounded(ray));
+  const Scaled_vector form(cone.nearness);
   long exponent = 0;
   distance = mpz_get_d_2exp(&exponent, cone.distance.get_mpz_t());
   nearness = form.rounded;
@@ -39,13 +54,18 @@ Rounded_cone::Rounded_cone(const Cone& cone) {
 }
 
 std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const Rounded_cone& b) {
-  constexpr double error = 0x1p-45;
-  const std::array<double, 3>& d = a.rays[ray];
-  const auto along = [&](const std::array<double, 3>& u) { return u[0] * d[0] + u[1] * d[1] + u[2] * d[2]; };
-  const double height = a.distance * along(b.nearness) - b.distance * along(a.nearness);
+  const Rounded_vector& d = a.rays[ray];
+  const double height = a.distance * dot(b.nearness, d) - b.distance * dot(a.nearness, d);
   if (height > error * std::max(a.distance, b.distance)) return 1;
   if (height < -error * std::max(a.distance, b.distance)) return -1;
   return std::nullopt;
+}
+
+std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, int threads) {
+  constexpr std::size_t worth_a_thread = 1000;
+  std::vector<Rounded_cone> result(cones.size());
+  for_each_below(cones.size(), worth_a_thread, threads, [&](std::size_t i) { result[i] = Rounded_cone(cones[i]); });
+  return result;
 }
 
 bool nowhere_nearer(const Rounded_cone& a, const Rounded_cone& b) {

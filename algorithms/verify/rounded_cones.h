@@ -11,19 +11,30 @@ namespace sightline::order_check {
 
 using namespace certificate_check;
 
-/// A cone in doubles; an edge-on one has no rays. Vectors are scaled by a power of two, so that their longest
-/// coordinate is in [1/2, 1). Proof: P-20
+/// A vector in doubles, scaled by a power of two so that its longest coordinate is in [1/2, 1); zero for zero.
+using Rounded_vector = std::array<double, 3>;
+
+Rounded_vector rounded(const Integer_vector& vector);
+
+/// The sign of the product of two vectors; nothing where doubles cannot tell. Proof: P-20
+std::optional<int> sign_in_doubles(const Rounded_vector& a, const Rounded_vector& b);
+
+/// A cone in doubles; an edge-on one has no rays. Proof: P-20
 struct Rounded_cone {
-  std::vector<std::array<double, 3>> rays;
-  std::array<double, 3> nearness{};
+  std::vector<Rounded_vector> rays;
+  Rounded_vector nearness{};
   double distance = 0;  ///< by the same scale as nearness; not a number where that is beyond the range of doubles
 
+  Rounded_cone() = default;
   explicit Rounded_cone(const Cone& cone);
 };
 
 /// The side of the plane of b on which ray `ray` of a meets the polygon of a: 1 beyond it as seen from the eye, -1
 /// before it; nothing where doubles cannot tell. Proof: P-20
 std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const Rounded_cone& b);
+
+/// All of them, on that many threads.
+std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, int threads);
 
 /// Whether doubles tell that a is nowhere nearer than b: all of one of them is on its side of the other's plane.
 bool nowhere_nearer(const Rounded_cone& a, const Rounded_cone& b);

@@ -257,7 +257,8 @@ void Check::compare_all() {
   std::vector<std::size_t> places(cones_.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
   const auto middle = places.begin() + static_cast<std::ptrdiff_t>(pieces_);
-  Pairs(cones_, [&](std::size_t tile, std::size_t i) {
+  const std::vector<Rounded_cone> in_doubles = rounded(cones_, options_.threads);
+  Pairs(cones_, in_doubles, [&](std::size_t tile, std::size_t i) {
     compare(tile - pieces_, i);
   }).each({middle, places.end()}, {places.begin(), middle}, options_.threads, share_of(options_, tiles_));
   if (first_) refuse(*first_);

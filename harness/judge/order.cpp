@@ -70,7 +70,8 @@ template <class Take>
 void Order_truth::each_pair(const std::vector<order_check::Cone>& cones, Take take) {
   std::vector<std::size_t> all(cones.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  order_check::Pairs pairs(cones, std::move(take));
+  const std::vector<order_check::Rounded_cone> rounded = order_check::rounded(cones, 1);
+  order_check::Pairs pairs(cones, rounded, std::move(take));
   pairs.each(all, all, 1);
 }
 

@@ -211,7 +211,8 @@ inline void pairs(std::string_view bytes) {
   std::set<std::pair<std::size_t, std::size_t>> taken;
   double last = 0;
   const auto take = [&](std::size_t i, std::size_t j) { taken.insert({i, j}); };
-  order_check::Pairs(cones, take).each(all, others, 1, [&](double share) {
+  const std::vector<order_check::Rounded_cone> rounded = order_check::rounded(cones, 1);
+  order_check::Pairs(cones, rounded, take).each(all, others, 1, [&](double share) {
     require(last <= share && share <= 1, "progress goes on, up to 1");
     last = share;
   });
@@ -259,8 +260,8 @@ inline void pairs(std::string_view bytes) {
            b.distance * abs(a.nearness[0] + a.nearness[1] + a.nearness[2]);
   };
   if (scene.below(4) != 0) std::sort(cones.begin(), cones.end(), farther);
-  const std::vector<order_check::Rounded_cone> rounded(cones.begin(), cones.end());
-  const order_check::Planes_between planes(cones, rounded);
+  const std::vector<order_check::Rounded_cone> of_sequence(cones.begin(), cones.end());
+  const order_check::Planes_between planes(cones, of_sequence);
   for (std::size_t later = 0; later < cones.size(); ++later)
     for (std::size_t earlier = 0; earlier < later; ++earlier) {
       require(!planes.in_order(earlier, later) || !check.nearer_somewhere(cones[earlier], cones[later]),

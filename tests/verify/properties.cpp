@@ -211,7 +211,8 @@ TEST(Pairs, hand_on_all_that_overlap_and_few_others) {
     if (i % 4 != 0) some.push_back(i);
   }
   double last = 0;
-  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) {
+  const std::vector<order_check::Rounded_cone> rounded = order_check::rounded(cones, 1);
+  order_check::Pairs(cones, rounded, [&](std::size_t i, std::size_t j) {
     taken.insert({i, j});
   }).each(all, some, 1, [&](double share) {
     EXPECT_GE(share, last);
@@ -242,7 +243,8 @@ TEST(Pairs, of_needles_across_are_told_apart_by_planes_where_windows_overlap) {
   std::set<std::pair<std::size_t, std::size_t>> taken;
   std::vector<std::size_t> all(cones.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
-  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) { taken.insert({i, j}); }).each(all, all, 1);
+  const std::vector<order_check::Rounded_cone> rounded = order_check::rounded(cones, 1);
+  order_check::Pairs(cones, rounded, [&](std::size_t i, std::size_t j) { taken.insert({i, j}); }).each(all, all, 1);
   for (std::size_t i = 0; i < cones.size(); ++i)
     for (std::size_t j = i >= 4 ? i - 4 : 0; j < std::min(i + 5, cones.size()); ++j)
       ASSERT_TRUE(taken.contains({i, j}) || !has_area(clipped(polygons[i], polygons[j]))) << i << ' ' << j;
@@ -259,7 +261,10 @@ TEST(Pairs, of_squares_side_by_side_are_few) {
   std::vector<std::size_t> all(cones.size());
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
   std::size_t taken = 0, with_itself = 0;
-  order_check::Pairs(cones, [&](std::size_t i, std::size_t j) { ++taken, with_itself += i == j; }).each(all, all, 1);
+  const std::vector<order_check::Rounded_cone> rounded = order_check::rounded(cones, 1);
+  order_check::Pairs(cones, rounded, [&](std::size_t i, std::size_t j) {
+    ++taken, with_itself += i == j;
+  }).each(all, all, 1);
   EXPECT_GE(with_itself, cones.size());
   EXPECT_LT(taken, 20 * cones.size());  // of 901 x 901
 }
