@@ -7,8 +7,39 @@
 
 namespace sightline::certificate_check {
 
+namespace {
+
+/// a - b over a positive denominator, not in lowest terms: what signs need no more of.
+struct Difference {
+  Integer over, under;
+
+  void set(const Rational& a, const Rational& b) {
+    mpz_mul(over.get_mpz_t(), a.get_num_mpz_t(), b.get_den_mpz_t());
+    mpz_submul(over.get_mpz_t(), b.get_num_mpz_t(), a.get_den_mpz_t());
+    mpz_mul(under.get_mpz_t(), a.get_den_mpz_t(), b.get_den_mpz_t());
+  }
+};
+
+/// a b times all four denominators: of two such products the difference has the sign of a b - c d.
+void set_product(Integer& result, const Difference& a, const Difference& b, const Difference& c, const Difference& d) {
+  mpz_mul(result.get_mpz_t(), a.over.get_mpz_t(), b.over.get_mpz_t());
+  mpz_mul(result.get_mpz_t(), result.get_mpz_t(), c.under.get_mpz_t());
+  mpz_mul(result.get_mpz_t(), result.get_mpz_t(), d.under.get_mpz_t());
+}
+
+}  // namespace
+
 int side(const Contour::Edge& e, const Contour::Point& p) {
-  return sgn(Rational((e.to[0] - e.from[0]) * (p[1] - e.from[1]) - (e.to[1] - e.from[1]) * (p[0] - e.from[0])));
+  thread_local Difference along[2], apart[2];
+  thread_local Integer left, right;
+  for (std::size_t k = 0; k < 2; ++k) {
+    along[k].set(e.to[k], e.from[k]);
+    apart[k].set(p[k], e.from[k]);
+  }
+  set_product(left, along[0], apart[1], along[1], apart[0]);
+  set_product(right, along[1], apart[0], along[0], apart[1]);
+  const int order = cmp(left, right);
+  return (order > 0) - (order < 0);
 }
 
 bool cross_inside(const Contour::Edge& e, const Contour::Edge& f) {
