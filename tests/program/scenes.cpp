@@ -68,10 +68,18 @@ class Scenes : public Program, public testing::WithParamInterface<Scene_file> {
         run({"order", scene, "--eye", eye, "--json", "-", "--certificate", certificate(), "--threads", "2"}, limits);
     EXPECT_EQ(r.code, done) << r;
     if (r.code != done) return std::nullopt;
-    const Json d = r.json();
+    Json d = r.json();
     EXPECT_EQ(d["result"]["fragments"].size(), d["counters"]["fragments"].get<std::size_t>());
     EXPECT_EQ(d["counters"]["degenerate"], 0);
-    return d["result"]["fragments"];
+    return std::move(d["result"]["fragments"]);
+  }
+  /// Orders it without reading more of the answer than how many fragments there are; nothing where it failed.
+  std::optional<std::size_t> count_of_order(const std::string& eye) {
+    const Outcome r = run({"order", scene, "--eye", eye, "--certificate", certificate(), "--threads", "2"}, limits);
+    EXPECT_EQ(r.code, done) << r;
+    const std::size_t row = r.out.find("\norder ");
+    if (r.code != done || row == std::string::npos) return std::nullopt;
+    return std::stoul(r.out.substr(row + 7));
   }
 
   /// Orders from three eyes: one in general position, one in a face's plane but outside the face, one at a vertex.
@@ -85,7 +93,7 @@ class Scenes : public Program, public testing::WithParamInterface<Scene_file> {
     Point eye;
     const std::array<Rational, 3> at{Rational(37, 101), Rational(-61, 103), Rational(53, 107)};
     for (std::size_t k = 0; k < 3; ++k) eye[k] = low[k] + at[k] * (high[k] - low[k]) + Rational(1, 1009);
-    std::optional<Json> fragments = order(text_of(eye));
+    const std::optional<Json> fragments = order(text_of(eye));
     ASSERT_TRUE(fragments);
     verify("a general eye", fragments->size(), verified);
 
@@ -95,9 +103,9 @@ class Scenes : public Program, public testing::WithParamInterface<Scene_file> {
     const std::string in_plane = text_of(eye), at_vertex = text_of(a);
     for (const auto& [what, where] :
          {std::pair{"an eye in a face's plane", in_plane}, {"an eye at a vertex", at_vertex}}) {
-      fragments = order(where);
-      ASSERT_TRUE(fragments) << what;
-      verify(what, fragments->size(), verified);
+      const std::optional<std::size_t> count = count_of_order(where);
+      ASSERT_TRUE(count) << what;
+      verify(what, *count, verified);
     }
   }
 
