@@ -21,9 +21,9 @@ using levels_detail::Wall_cutter;
 using levels_detail::Wall_halves;
 using levels_detail::Wall_polygon;
 
-using Box_planes = std::array<std::array<Plane, 2>, 3>;
+namespace levels_detail {
 
-namespace {
+using Box_planes = std::array<std::array<Plane, 2>, 3>;
 
 /// A given tree without nodes whose planes miss the inside of what the nodes above leave; and what is a leaf in it.
 class Given_tree {
@@ -111,7 +111,10 @@ class Given_tree {
   std::vector<Plane> planes_;
 };
 
-}  // namespace
+}  // namespace levels_detail
+
+using levels_detail::Box_planes;
+using levels_detail::Given_tree;
 
 struct Level_cells::Space {
   Scene scene;

@@ -268,7 +268,7 @@ inline void pairs(std::string_view bytes) {
               "what a plane is between is in order");
       const order_check::Cone &a = cones[earlier], &b = cones[later];
       for (std::size_t ray = 0; ray < a.rays.size(); ++ray) {
-        const std::optional<int> side = side_to_plane(rounded[earlier], ray, rounded[later]);
+        const std::optional<int> side = side_to_plane(of_sequence[earlier], ray, of_sequence[later]);
         const Integer height = a.distance * order_check::dot(b.nearness, a.rays[ray]) -
                                b.distance * order_check::dot(a.nearness, a.rays[ray]);
         require(!side || *side == sgn(height), "doubles that tell a side are right");
