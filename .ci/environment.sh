@@ -89,13 +89,13 @@ compile_jobs() {
   echo "$processors"
 }
 
-# build FOLDER "TARGETS" [CMAKE OPTIONS]: configures and builds, from nothing in the least time: ten sources of the libraries and the
+# build FOLDER "TARGETS" [CMAKE OPTIONS]: configures and builds, from nothing in the least time: twenty sources of the libraries and the
 # program at once. Who changes them builds by a preset.
 build() {
   local folder=$1 targets
   read -ra targets <<<"$2"
   shift 2
-  if ! cmake -S . -B "$folder" -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=10 "$@" >"$folder.log" 2>&1; then
+  if ! cmake -S . -B "$folder" -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_UNITY_BUILD_BATCH_SIZE=20 "$@" >"$folder.log" 2>&1; then
     cat "$folder.log"
     return 1
   fi

@@ -1,5 +1,7 @@
 #include <sightline/algorithms/priority/explicit_graph.h>
 
+#include <boost/graph/strong_components.hpp>
+
 namespace sightline {
 
 Priority_components components(const Arc_graph& graph) {

@@ -6,7 +6,6 @@
 #include <sightline/algorithms/priority/relation.h>
 
 #include <boost/graph/compressed_sparse_row_graph.hpp>
-#include <boost/graph/strong_components.hpp>
 
 #include <algorithm>
 #include <cstddef>

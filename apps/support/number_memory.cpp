@@ -30,12 +30,12 @@ constexpr bool has_small_blocks = false;
 
 // Blocks of 24, 40, 56, ... bytes: as much as glibc's malloc gives at least for what is asked for. So numbers that were
 // made before the lists may come to them too.
-constexpr std::size_t least_block = 24, step = 16, sizes = 16, at_once = std::size_t{1} << 16;
+constexpr std::size_t least_block = 24, step_size = 16, sizes = 16, at_once = std::size_t{1} << 16;
 
 constexpr std::size_t place_of(std::size_t size) {
-  return size <= least_block ? 0 : (size - least_block + step - 1) / step;
+  return size <= least_block ? 0 : (size - least_block + step_size - 1) / step_size;
 }
-constexpr std::size_t block_size(std::size_t place) { return least_block + place * step; }
+constexpr std::size_t block_size(std::size_t place) { return least_block + place * step_size; }
 
 struct Block {
   Block* next;

@@ -40,7 +40,7 @@ TEST_P(Bsp2d_surface, is_what_is_seen) { surface_test::expect_as_seen(GetParam()
 INSTANTIATE_TEST_SUITE_P(All, Bsp2d_surface, testing::ValuesIn(view_scenes::families),
                          [](const auto& family) { return view_scenes::name(family.param); });
 
-void expect_as_seen(const Polygon_soup& soup, const Exact_point& eye) {
+void expect_trees_see(const Polygon_soup& soup, const Exact_point& eye) {
   std::size_t compared = 0;
   surface_test::expect_as_seen({soup.file, soup, eye}, by_two_trees, compared);
 }
@@ -59,12 +59,12 @@ TEST(Bsp2d_surfaces, of_scenes_cut_by_planes_of_no_face) {
   }
   Exact_point at_corner = outside;  // an axis plane through a corner holds it
   at_corner[0] = scene.position(0)[0];
-  for (const Exact_point& eye : {inside, outside, at_corner}) expect_as_seen(soup, eye);
+  for (const Exact_point& eye : {inside, outside, at_corner}) expect_trees_see(soup, eye);
 }
 TEST(Bsp2d_surfaces, of_larger_scenes) {
-  expect_as_seen(generate::city(test_scenes::is_sanitized() ? 3 : 12, 2), {3, 4, 2});
-  expect_as_seen(generate::slivers(test_scenes::is_sanitized() ? 15 : 60, 3), {-1, -2, 3});
-  expect_as_seen(generate::soup(test_scenes::is_sanitized() ? 20 : 80, 0.5, 4),
+  expect_trees_see(generate::city(test_scenes::is_sanitized() ? 3 : 12, 2), {3, 4, 2});
+  expect_trees_see(generate::slivers(test_scenes::is_sanitized() ? 15 : 60, 3), {-1, -2, 3});
+  expect_trees_see(generate::soup(test_scenes::is_sanitized() ? 20 : 80, 0.5, 4),
                  {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
 }
 TEST(Bsp2d_surfaces, are_the_cones_where_there_is_no_scene) {
