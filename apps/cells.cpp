@@ -21,7 +21,7 @@ struct Cells_arguments {
   unsigned candidates = 5;
   std::vector<std::string> seals;
   std::string out, html;
-  bool leaves = false;
+  Division_arguments division;
 };
 
 Json ids_json(const std::vector<std::uint32_t>& ids) { return Json(ids); }
@@ -144,10 +144,7 @@ Exit run(const Cells_arguments& arguments) {
   options.candidates = arguments.candidates;
   options.seed = common.seed;
   options.threads = common.threads;
-  if (arguments.leaves) {
-    const std::string bytes = compiled_level(common, "--leaves");
-    options.tree = space_tree(read_quake_level({common.scene, bytes}), common.scene);
-  }
+  options.tree = arguments.division.tree(common, soup);
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Stopwatch watch;
   const Level_cells level(soup, options);
@@ -225,7 +222,7 @@ void add_cells(Command program) {
       "a point X,Y,Z of a room from which there should be no way out, or `entities`: all places of a .map where "
       "something "
       "stands (players, lamps; not those in solid cells). May be repeated. Exit code 1 where there is a way out");
-  command.add_flag("--leaves", a->leaves, "of a compiled level (.bsp): cells within its own leaves, by number");
+  a->division.add_to(command);
   command.add_option("--out", a->out, "write points, cells and walls as JSON").writes_file().check(ending(".json"));
   command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")
       .writes_file()

@@ -17,8 +17,11 @@
 #include <sightline/io/file.h>
 #include <sightline/io/visibility_table.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <set>
 
 namespace sightline::app {
@@ -36,9 +39,53 @@ struct Pvs_arguments {
   View_arguments view;
   unsigned candidates = 5;
   std::string out, shard, svg, html, eye, obj, mesh, certificates;
-  bool outside = false, resume = false, cells_too = false, leaves = false;
+  bool outside = false, resume = false, cells_too = false;
+  Division_arguments division;
   std::vector<std::uint32_t> show;
 };
+
+/// What the cells of a box of --grid see, together.
+struct Box_row {
+  std::uint32_t box;
+  std::vector<Cell_id> cells;
+  std::vector<Face_id> visible, undecided;  // ascending; what one cell sees is undecided of no box
+};
+
+/// Of boxes that have cells which are asked about, by number.
+std::vector<Box_row> rows_of_boxes(const Level_cells& level, const Visibility_table& table) {
+  std::map<std::uint32_t, Box_row> rows;
+  for (Cell_id cell = 0; cell < level.cells().size(); ++cell) {
+    const Row* const seen = table.row_of(cell);
+    if (seen == nullptr) continue;
+    const std::uint32_t box = level.cells()[cell].leaf;
+    Box_row& row = rows.try_emplace(box, Box_row{box, {}, {}, {}}).first->second;
+    row.cells.push_back(cell);
+    row.visible.insert(row.visible.end(), seen->visible.begin(), seen->visible.end());
+    row.undecided.insert(row.undecided.end(), seen->undecided.begin(), seen->undecided.end());
+  }
+  std::vector<Box_row> list;
+  for (auto& [box, row] : rows) {
+    for (std::vector<Face_id>* faces : {&row.visible, &row.undecided}) {
+      std::sort(faces->begin(), faces->end());
+      faces->erase(std::unique(faces->begin(), faces->end()), faces->end());
+    }
+    std::erase_if(row.undecided,
+                  [&](Face_id f) { return std::binary_search(row.visible.begin(), row.visible.end(), f); });
+    list.push_back(std::move(row));
+  }
+  return list;
+}
+
+Json boxes_json(const std::vector<Box_row>& rows, const std::array<std::uint32_t, 3>& counts) {
+  Json list = Json::array();
+  for (const Box_row& row : rows)
+    list.push_back(
+        {{"box", Json::array({row.box % counts[0], row.box / counts[0] % counts[1], row.box / counts[0] / counts[1]})},
+         {"cells", row.cells},
+         {"visible", row.visible},
+         {"undecided", row.undecided}});
+  return list;
+}
 
 /// The table of a level that a command line asks for, and its parts.
 class Table_maker {
@@ -46,8 +93,8 @@ class Table_maker {
   Table_maker(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_cells& level)
       : arguments_(arguments), level_(level), faces_(soup.face_count()), search_(level, options()) {
     question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), arguments.candidates,
-                            arguments.common.seed, arguments.outside ? ", outside" : "",
-                            arguments.leaves ? ", leaves" : "", arguments.cells_too ? ", cells too" : "");
+                            arguments.common.seed, arguments.outside ? ", outside" : "", arguments.division.question(),
+                            arguments.cells_too ? ", cells too" : "");
     if (arguments.cells_too) cell_search_.emplace(level, options());
   }
 
@@ -371,6 +418,8 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.shard.empty() || arguments.resume || !arguments.show.empty() || !arguments.certificates.empty())
     throw Usage_error("--out FILE.bsp is about leaves alone: leave out --shard, --resume, --show and --certificates");
+  if (!arguments.division.grid.empty())
+    throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --grid");
   const std::string bytes = compiled_level(common, "--out FILE.bsp");
   const Quake_level file = read_quake_level({common.scene, bytes});
   Cell_options cell_options;
@@ -436,10 +485,7 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   cell_options.candidates = arguments.candidates;
   cell_options.seed = common.seed;
   cell_options.threads = common.threads;
-  if (arguments.leaves) {
-    const std::string bytes = compiled_level(common, "--leaves");
-    cell_options.tree = space_tree(read_quake_level({common.scene, bytes}), common.scene);
-  }
+  cell_options.tree = arguments.division.tree(common, soup);
   const Stopwatch watch;
   const Level_cells level(soup, cell_options);
   const double cells_seconds = watch.seconds();
@@ -481,6 +527,9 @@ Exit run_pvs(const Pvs_arguments& arguments) {
     if (arguments.cells_too) shown.back().update({{"cells", seen.cells}, {"cells_undecided", seen.cells_undecided}});
   }
   if (!shown.empty()) result["shown"] = shown;
+  const std::vector<Box_row> boxes =
+      arguments.division.grid.empty() ? std::vector<Box_row>{} : rows_of_boxes(level, table);
+  if (!arguments.division.grid.empty()) result["boxes"] = boxes_json(boxes, arguments.division.counts());
   Json counters = counters_json(c);
   counters["cells"] = counters_json(level.counters());
   if (arguments.cells_too) counters["pairs_of_cells"] = counters_json(of_cells);
@@ -495,6 +544,13 @@ Exit run_pvs(const Pvs_arguments& arguments) {
                           "{} left to events; {} pairs were not reached",
                           c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
   if (arguments.cells_too) row_of_cells(of_cells, cells_visible, cells_undecided);
+  if (!boxes.empty()) {
+    std::size_t pairs = 0;
+    for (const Box_row& box : boxes) pairs += box.visible.size();
+    row("boxes", fmt::format("{} have cells that are asked about; {} pairs of a box and a face are visible; --json - "
+                             "lists them",
+                             boxes.size(), pairs));
+  }
   if (arguments.resume) row("resumed", fmt::format("{} of {} blocks were there", maker.blocks_kept(), blocks));
   for (const Cell_id cell : arguments.show) {
     row(fmt::format("cell {}", cell), fmt::format("sees {}", fmt::join(table.row_of(cell)->visible, " ")));
@@ -551,7 +607,7 @@ void add_pvs(Command program) {
   command.add_flag("--outside", a->outside, "ask about cells too from which there is a way out of the level");
   command.add_flag("--cells-too", a->cells_too,
                    "find the pairs of cells of which some point of the one sees some point of the other, too");
-  command.add_flag("--leaves", a->leaves, "of a compiled level (.bsp): cells within its own leaves");
+  a->division.add_to(command);
   command.add_option("--show", a->show, "print what this cell sees; may be repeated");
   add_mesh_option(command, a->mesh, "faces visible, hidden, undecided from --show, and the cells,");
   command.add_option("--obj", a->obj, "the same as OBJ").writes_file().check(ending(".obj"));
@@ -577,7 +633,8 @@ void add_pvs(Command program) {
       "         for i in 0 1 2 3; do sightline pvs level.map --shard $i/4 --out part$i.pvs --resume & done; wait\n"
       "         sightline merge part?.pvs --out level.pvs\n"
       "         sightline pvs level.bsp --out better.bsp\n"
-      "Cells are those of `sightline cells` with the same --candidates, --seed and --leaves. Exit code 4: pairs are "
+      "Cells are those of `sightline cells` with the same --candidates, --seed, --leaves and --grid. Exit code 4: "
+      "pairs are "
       "undecided; in a .bsp their leaves see each other.");
   command.set_action([a] { return run_pvs(*a); });
 }

@@ -1,6 +1,7 @@
 #include <sightline/harness/laws/levels.h>
 
 #include <sightline/algorithms/levels/cell_pvs.h>
+#include <sightline/algorithms/levels/grid.h>
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/verify/weak.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
@@ -13,6 +14,7 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -219,10 +221,52 @@ Outcome leaves(const Level_cells& level, const Space_tree& tree) {
   return {};
 }
 
+/// The box about all corners of faces.
+std::array<Exact_point, 2> box_of(const Polygon_soup& soup) {
+  std::array<Exact_point, 2> box{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<Rational> at;
+    for (Face_id f = 0; f < soup.face_count(); ++f)
+      for (std::size_t l = 0; l < soup.loop_count(f); ++l)
+        for (const Point_id p : soup.loop(f, l)) at.push_back(soup.point(p)[k]);
+    if (at.empty()) continue;
+    box[0][k] = *std::min_element(at.begin(), at.end());
+    box[1][k] = *std::max_element(at.begin(), at.end());
+  }
+  return box;
+}
+
+/// Each cell names the box that its middle is in, by division; one beyond the rim names the box at the rim.
+Outcome in_boxes(const Level_cells& level, const std::array<Exact_point, 2>& box,
+                 const std::array<std::uint32_t, 3>& counts) {
+  for (Cell_id c = 0; c < level.cells().size(); ++c) {
+    const Exact_point p = level.inside(c);
+    std::uint32_t number = 0;
+    for (std::size_t k = 3; k-- > 0;) {
+      std::uint32_t place = 0;
+      while (place + 1 < counts[k] && (p[k] - box[0][k]) * counts[k] > (place + 1) * (box[1][k] - box[0][k])) ++place;
+      number = number * counts[k] + place;
+    }
+    if (level.cells()[c].leaf != number)
+      return Outcome::failed("cell " + std::to_string(c) + " is in another box than it names");
+  }
+  return {};
+}
+
 Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
   Cell_options options;
+  std::array<std::uint32_t, 3> boxes{};  // of a grid
   if (random.chance(1, 2)) options.tree = any_tree(posed.soup, random);
+  else if (random.chance(1, 2)) {
+    const std::array<Exact_point, 2> box = box_of(posed.soup);
+    for (std::size_t k = 0; k < 3; ++k)
+      boxes[k] = box[0][k] == box[1][k] ? 1 : static_cast<std::uint32_t>(random.between(1, 3));
+    options.tree = even_boxes(posed.soup, boxes);
+  }
   const Level_cells level(posed.soup, options);
+  if (boxes[0] > 0)
+    if (const Outcome outcome = in_boxes(level, box_of(posed.soup), boxes); outcome.state != Outcome::State::passed)
+      return outcome;
   const std::vector<Flat_face> flats = flat_faces_of(level.scene());
   if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
   if (const Outcome outcome = leaves(level, options.tree); outcome.state != Outcome::State::passed) return outcome;

@@ -65,7 +65,7 @@ TEST(Bsp2d_surfaces, of_larger_scenes) {
   expect_trees_see(generate::city(test_scenes::is_sanitized() ? 3 : 12, 2), {3, 4, 2});
   expect_trees_see(generate::slivers(test_scenes::is_sanitized() ? 15 : 60, 3), {-1, -2, 3});
   expect_trees_see(generate::soup(test_scenes::is_sanitized() ? 20 : 80, 0.5, 4),
-                 {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
+                   {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
 }
 TEST(Bsp2d_surfaces, are_the_cones_where_there_is_no_scene) {
   const Scene scene{Polygon_soup()};

@@ -34,7 +34,7 @@ TEST(Weiler_atherton_surfaces, of_larger_scenes) {
   expect_clipping_sees(generate::city(test_scenes::is_sanitized() ? 3 : 12, 2), {3, 4, 2});
   expect_clipping_sees(generate::slivers(test_scenes::is_sanitized() ? 15 : 60, 3), {-1, -2, 3});
   expect_clipping_sees(generate::soup(test_scenes::is_sanitized() ? 20 : 80, 0.5, 4),
-                 {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
+                       {Rational(1, 2), Rational(1, 2), Rational(1, 3)});
 }
 TEST(Weiler_atherton_surfaces, are_the_cones_where_there_is_no_scene) {
   const Scene scene{Polygon_soup()};

@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <sightline/algorithms/levels/cells.h>
+#include <sightline/algorithms/levels/grid.h>
 
 #include <algorithm>
 
@@ -29,6 +30,27 @@ TEST(Level_cells, of_no_face_are_one) {
   EXPECT_TRUE(level.cells()[0].is_outside);
   EXPECT_FALSE(level.cells()[0].is_solid);
   EXPECT_EQ(level.at({0, 0, 0}), 0u);
+}
+
+TEST(Level_cells, are_within_even_boxes) {
+  const Polygon_soup soup = corpus_scene("general/cube.off");  // from 0 to 1
+  Cell_options options;
+  options.tree = even_boxes(soup, {3, 2, 4});
+  const Level_cells level(soup, options);
+  const auto leaf_at = [&](const Exact_point& p) { return level.cells()[level.at(p)].leaf; };
+  for (std::uint32_t x = 0; x < 3; ++x)
+    for (std::uint32_t y = 0; y < 2; ++y)
+      for (std::uint32_t z = 0; z < 4; ++z) {
+        const Exact_point middle{Rational(2 * x + 1, 6), Rational(2 * y + 1, 4), Rational(2 * z + 1, 8)};
+        EXPECT_EQ(leaf_at(middle), x + 3 * (y + 2 * z));
+        EXPECT_TRUE(level.cells()[level.at(middle)].is_solid);
+      }
+  EXPECT_EQ(leaf_at({Rational(-1, 4), Rational(1, 4), Rational(5, 4)}), 0u + 3 * (0 + 2 * 3));  // beyond the rim
+  const auto beside = [](long k) { return Rational(k, 3); };
+  EXPECT_EQ(leaf_at({beside(1) - Rational(1, 1000000), 0, 0}) % 3, 0u);
+  EXPECT_EQ(leaf_at({beside(1) + Rational(1, 1000000), 0, 0}) % 3, 1u);
+  EXPECT_EQ(even_boxes(soup, {1, 1, 1}).root, -1);
+  EXPECT_EQ(even_boxes(soup, {3, 2, 4}).nodes.size(), 23u);
 }
 
 TEST(Level_cells, of_a_level_are_rooms_and_a_hull) {

@@ -27,7 +27,7 @@ class Command_line : public Program {
   }
 };
 
-static const std::map<std::string, std::vector<std::string>> commands{
+static const std::map<std::string, std::vector<std::string>> options_of_commands{
     {"info", {"SCENE"}},
     {"bsp", {"SCENE", "--kernel", "--candidates"}},
     {"order",
@@ -51,13 +51,13 @@ TEST_F(Command_line, help_names_every_command) {
     const Outcome r = run({option});
     EXPECT_EQ(r.code, done) << r;
     EXPECT_EQ(r.err, "") << r;
-    for (const auto& [command, options] : commands)
+    for (const auto& [command, options] : options_of_commands)
       EXPECT_NE(r.out.find("  " + command + " "), std::string::npos) << command << r;
   }
 }
 
 TEST_F(Command_line, help_of_each_command_names_each_of_its_options) {
-  for (const auto& [command, options] : commands) {
+  for (const auto& [command, options] : options_of_commands) {
     const Outcome r = run({command, "--help"});
     EXPECT_EQ(r.code, done) << r;
     EXPECT_EQ(r.err, "") << r;
@@ -120,12 +120,12 @@ TEST_F(Command_line, no_command_or_an_unknown_one_is_a_usage_error) {
 }
 
 TEST_F(Command_line, unknown_options_are_usage_errors) {
-  for (const auto& [command, options] : commands) expect_usage_error({command, "--no-such-option"});
+  for (const auto& [command, options] : options_of_commands) expect_usage_error({command, "--no-such-option"});
   expect_usage_error({"info", cube, "--eye", "0,0,0"}, "eye");
 }
 
 TEST_F(Command_line, missing_and_surplus_arguments_are_usage_errors) {
-  for (const auto& [command, options] : commands) expect_usage_error({command});
+  for (const auto& [command, options] : options_of_commands) expect_usage_error({command});
   expect_usage_error({"info", cube, cube});
   expect_usage_error({"verify", cube}, "CERTIFICATE");
   expect_usage_error({"generate", "rooms"}, "--out");

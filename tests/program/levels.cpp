@@ -162,6 +162,45 @@ TEST_F(Levels, tables_are_text_too_and_show_cells) {
   EXPECT_EQ(run({"pvs", rooms, "--show", "100000"}).code, usage);
 }
 
+TEST_F(Levels, boxes_of_a_grid_see_what_their_cells_see) {
+  ASSERT_EQ(run({"cells", rooms, "--grid", "3,2,1", "--out", out("cells.json")}).code, done);
+  const Outcome r = run({"pvs", rooms, "--grid", "3,2,1", "--out", out("t.json"), "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json cells = Json::parse(bytes_of("cells.json"))["cells"], table = Json::parse(bytes_of("t.json"));
+  std::map<std::uint32_t, std::set<std::uint32_t>> seen, asked;
+  for (const Json& cell : table["cells"]) {
+    const std::uint32_t number = cell["cell"], box = cells[number]["leaf"];
+    asked[box].insert(number);
+    for (const std::uint32_t face : cell["visible"]) seen[box].insert(face);
+  }
+  EXPECT_EQ(seen.size(), 6u);
+  std::map<std::uint32_t, std::set<std::uint32_t>> said, said_cells;
+  const Json boxes = r.json()["result"]["boxes"];
+  for (const Json& box : boxes) {
+    const std::uint32_t x = box["box"][0], y = box["box"][1], z = box["box"][2], number = x + 3 * (y + 2 * z);
+    said[number] = box["visible"].get<std::set<std::uint32_t>>();
+    said_cells[number] = box["cells"].get<std::set<std::uint32_t>>();
+    EXPECT_EQ(box["undecided"].size(), 0u);
+  }
+  EXPECT_EQ(said, seen);
+  EXPECT_EQ(said_cells, asked);
+
+  // A table of other boxes is another table.
+  ASSERT_EQ(run({"pvs", rooms, "--grid", "3,2,1", "--shard", "0/2", "--out", out("0.pvs")}).code, done);
+  ASSERT_EQ(run({"pvs", rooms, "--grid", "3,1,2", "--shard", "1/2", "--out", out("1.pvs")}).code, done);
+  EXPECT_NE(run({"merge", out("0.pvs"), out("1.pvs"), "--out", out("all.pvs")}).code, done);
+}
+
+TEST_F(Levels, grids_that_are_none_are_refused) {
+  for (const char* grid : {"0,1,1", "1,1", "1,1,1,1", "x", "2,2,2 ", "-1,1,1", "1000000,2,1", "1,1,99999999999"})
+    EXPECT_EQ(run({"cells", rooms, "--grid", grid}).code, usage) << grid;
+  std::ofstream(path("flat.off")) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  EXPECT_EQ(run({"cells", out("flat.off"), "--grid", "2,2,1"}).code, done);
+  const Outcome flat = run({"cells", out("flat.off"), "--grid", "1,1,2"});
+  EXPECT_EQ(flat.code, usage) << flat;
+  EXPECT_EQ(run({"cells", rooms, "--grid", "2,2,2", "--leaves"}).code, usage);
+}
+
 TEST_F(Levels, certificates_of_all_cells_are_accepted_and_agree_with_the_table) {
   ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs"), "--out", out("t.json")}).code, done);
   const Outcome all = run({"verify", rooms, out("proofs"), "--json", "-"});

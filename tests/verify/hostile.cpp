@@ -11,12 +11,12 @@ using test_scenes::sample;
 
 using namespace verify_test;
 
-const Points square = rectangle(0, 4, 0, 4, 0), small_roof = rectangle(1, 2, 1, 2, 3);
+const Points floor_of_four = rectangle(0, 4, 0, 4, 0), small_roof = rectangle(1, 2, 1, 2, 3);
 
 Scene good() {
   Scene scene;
-  scene.seen_from(at(1, 1, 10)).face(square);
-  scene.face(small_roof), scene.face({at(0, 0, 9), at(1, 0, 9), at(2, 0, 9)}), scene.face(square);
+  scene.seen_from(at(1, 1, 10)).face(floor_of_four);
+  scene.face(small_roof), scene.face({at(0, 0, 9), at(1, 0, 9), at(2, 0, 9)}), scene.face(floor_of_four);
   const Points skew = {at(10, 0, 0), at(14, 0, 1), at(14, 4, 0), at(10, 4, 1)};
   scene.face(skew);
   scene.leave_out(2, "zero area").leave_out(3, "duplicate of 0");
@@ -45,7 +45,7 @@ TEST(Hostile, indices_out_of_range) {
   const Verdict nothing = verify_order(Polygon_soup{}, Order_certificate{});
   EXPECT_TRUE(nothing.accepted) << nothing.why;
   Scene empty;
-  expect_rejected(empty.draw(0, square), "names face 0");
+  expect_rejected(empty.draw(0, floor_of_four), "names face 0");
 }
 
 TEST(Hostile, numbers_that_are_not_canonical) {

@@ -20,7 +20,7 @@ using order_check::Rounded_cone;
 using test_scenes::least;
 using test_scenes::sample;
 
-const Exact_point eye = at(0, 0, 0);
+const Exact_point at_origin = at(0, 0, 0);
 
 Rational power_of_two(long exponent) {
   Rational result = 1;
@@ -45,7 +45,7 @@ int side_beyond(const Points& a, std::size_t k, const Points& b) {
   const auto height = [&](const Exact_point& p) -> Rational {
     return normal[0] * (p[0] - b[0][0]) + normal[1] * (p[1] - b[0][1]) + normal[2] * (p[2] - b[0][2]);
   };
-  return -sgn(height(a[k])) * sgn(height(eye));
+  return -sgn(height(a[k])) * sgn(height(at_origin));
 }
 
 TEST(Rounded_cones, know_sides_or_say_nothing) {
@@ -60,7 +60,7 @@ TEST(Rounded_cones, know_sides_or_say_nothing) {
     if (certificate_check::is_zero(order_check::newell_normal(a)) ||
         certificate_check::is_zero(order_check::newell_normal(b)))
       continue;
-    const Cone cone_a(a, eye), cone_b(b, eye);
+    const Cone cone_a(a, at_origin), cone_b(b, at_origin);
     if (cone_a.edge_on || cone_b.edge_on) continue;
     const Rounded_cone rounded_a(cone_a), rounded_b(cone_b);
     for (std::size_t ray = 0; ray < 3; ++ray) {
@@ -84,7 +84,8 @@ TEST(Rounded_cones, know_sides_or_say_nothing) {
 }
 
 TEST(Rounded_cones, of_squares_over_one_another_tell_which_is_nearer) {
-  const Rounded_cone near(Cone(rectangle(-1, 1, -1, 1, 1), eye)), far(Cone(rectangle(-1, 1, -1, 1, 2), eye));
+  const Rounded_cone near(Cone(rectangle(-1, 1, -1, 1, 1), at_origin)),
+      far(Cone(rectangle(-1, 1, -1, 1, 2), at_origin));
   EXPECT_TRUE(nowhere_nearer(far, near));
   EXPECT_FALSE(nowhere_nearer(near, far));
   EXPECT_FALSE(nowhere_nearer(near, near));  // as near: doubles cannot tell
@@ -95,8 +96,8 @@ TEST(Planes_between, tell_all_pairs_of_a_stack_and_none_of_one_upside_down) {
     std::vector<Cone> right, wrong;
     for (std::size_t k = 0; k < count; ++k) {
       const auto height = static_cast<long>(k) + 1;
-      wrong.emplace_back(rectangle(-1, 1, -1, 1, height), eye);
-      right.emplace_back(rectangle(-1, 1, -1, 1, static_cast<long>(count) - height + 1), eye);
+      wrong.emplace_back(rectangle(-1, 1, -1, 1, height), at_origin);
+      right.emplace_back(rectangle(-1, 1, -1, 1, static_cast<long>(count) - height + 1), at_origin);
     }
     const std::vector<Rounded_cone> rounded_right(right.begin(), right.end()),
         rounded_wrong(wrong.begin(), wrong.end());
@@ -123,7 +124,7 @@ TEST(Planes_between, are_right_of_sequences_that_are_nearly_in_order) {
       polygons.push_back(p);
     }
     std::vector<Cone> cones;
-    for (const Points& p : polygons) cones.emplace_back(p, eye);
+    for (const Points& p : polygons) cones.emplace_back(p, at_origin);
     const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
     const Planes_between planes(cones, rounded);
     order_check::Pair_check check;
