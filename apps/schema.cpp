@@ -77,6 +77,77 @@ Json definitions() {
                           {"faces?", named("faces")}})}};
 }
 
+/// Of `weak --partition`: the first face, and all where there are several.
+Json partition_result() {
+  const Json count = a_count(), bounds = tuple_of(type("number"), 2), cell = any_of({count, type("null")});
+  const auto border = [&](const Json& kind, std::vector<std::pair<std::string, Json>> more) {
+    more.insert(more.end(), {{"piece", count}, {"kind", kind}, {"y", tuple_of(bounds, 2)}});
+    return object(more);
+  };
+  const Json a_border = any_of({border(one_word_of({"line", "conic"}), {{"curve", tuple_of(named("exact"), 6)},
+                                                                        {"upper", type("boolean")},
+                                                                        {"below", cell},
+                                                                        {"above", cell},
+                                                                        {"x", tuple_of(bounds, 2)}}),
+                                border({{"const", "upright"}}, {{"left", cell}, {"right", cell}, {"x", bounds}})});
+  const Json of_face = object(
+      {{"face", a_face()},
+       {"lit", bounds},
+       {"penumbra", bounds},
+       {"umbra", bounds},
+       {"undecided", bounds},
+       {"cells", list_of(object({{"piece", count},
+                                 {"light", one_word_of({"lit", "penumbra", "umbra", "undecided"})},
+                                 {"point", named("point")},
+                                 {"area", bounds},
+                                 {"edges?", list_of(list_of(tuple_of(named("point"), 2)))}}))},
+       {"borders", list_of(a_border)},
+       {"charts",
+        list_of(object({{"piece", count}, {"origin", named("point")}, {"x", named("point")}, {"y", named("point")}}))},
+       {"sampled?",
+        object({{"rays", count}, {"lit", type("number")}, {"penumbra", type("number")}, {"umbra", type("number")}})}});
+  return object({{"partition", of_face}, {"partitions?", list_of(of_face)}});
+}
+
+/// Of `weak --along`.
+Json along_result() {
+  const Json faces = named("faces"), number = type("number");
+  const Json kinds = one_word_of({"horizon", "contact", "edge and vertex", "triple"});
+  const Json change =
+      object({{"face", a_face()},
+              {"kind", kinds},
+              {"visible", tuple_of(type("boolean"), 3)},
+              {"edges", list_of(object({{"face", a_face()}, {"piece", a_count()}, {"corner", a_count()}}))}});
+  const Json moment =
+      any_of({object({{"root", named("exact")}, {"near", number}}), object({{"quadratic", tuple_of(named("exact"), 3)},
+                                                                            {"low", named("exact")},
+                                                                            {"high", named("exact")},
+                                                                            {"near", number}})});
+  return object({{"from", named("point")},
+                 {"to", named("point")},
+                 {"events", list_of(object({{"t", moment},
+                                            {"kind", any_of({kinds, {{"const", "several"}}})},
+                                            {"appear", faces},
+                                            {"disappear", faces},
+                                            {"momentary", object({{"visible", faces}, {"hidden", faces}})},
+                                            {"changes", list_of(change)}}))},
+                 {"visible_at_start", faces},
+                 {"visible_at_end", faces},
+                 {"visible", faces}});
+}
+
+/// Of `cutset --decision-tree`.
+Json decision_tree() {
+  const Json child = any_of({object({{"view", a_count()}}), object({{"step", a_count()}})});
+  return object({{"expected", named("exact")},
+                 {"bound", named("exact")},
+                 {"cells", a_count()},
+                 {"open_cells", a_count()},
+                 {"states", a_count()},
+                 {"steps", list_of(object({{"face", a_face()}, {"on", child}, {"off", child}}))},
+                 {"views", list_of(named("faces"))}});
+}
+
 /// What `result` holds, by command.
 const std::map<std::string, Json>& results() {
   static const Json count = a_count(), face = a_face();
@@ -117,16 +188,17 @@ const std::map<std::string, Json>& results() {
                         {"splits?", count},
                         {"pieces?", count},
                         {"images?", Json::object()}})},
-      {"cutset", object({{"frames", list_of(object({{"eye?", named("point")},
-                                                    {"direction?", named("point")},
-                                                    {"on_view", any_of({count, faces})},
-                                                    {"cut_edges", count},
-                                                    {"tests", count},
-                                                    {"tests_away", count},
-                                                    {"births", count},
-                                                    {"changed", count},
-                                                    {"wrong?", count}}))},
-                         {"wrong_frames?", count}})},
+      {"cutset", any_of({object({{"frames", list_of(object({{"eye?", named("point")},
+                                                            {"direction?", named("point")},
+                                                            {"on_view", any_of({count, faces})},
+                                                            {"cut_edges", count},
+                                                            {"tests", count},
+                                                            {"tests_away", count},
+                                                            {"births", count},
+                                                            {"changed", count},
+                                                            {"wrong?", count}}))},
+                                 {"wrong_frames?", count}}),
+                         object({{"decision_tree", decision_tree()}})})},
       {"see",
        object(
            {{"eye", named("point")},
@@ -148,14 +220,15 @@ const std::map<std::string, Json>& results() {
                         {"rays", count},
                         {"hit", count},
                         {"hits", list_of(any_of({type("null"), named("hit"), list_of(named("hit"))}))}})},
-      {"weak", object({{"visible", faces},
-                       {"hidden", faces},
-                       {"undecided", faces},
-                       {"certificate", type("string")},
-                       {"unproved", faces},
-                       {"by_events", faces},
-                       {"within", faces},
-                       {"open", type("array")}})},
+      {"weak", any_of({object({{"visible", faces},
+                               {"hidden", faces},
+                               {"undecided", faces},
+                               {"certificate", type("string")},
+                               {"unproved", faces},
+                               {"by_events", faces},
+                               {"within", faces},
+                               {"open", type("array")}}),
+                       partition_result(), object({{"along", along_result()}})})},
       {"shadow",
        object({{"lights",
                 list_of(object(
@@ -459,8 +532,7 @@ void add_schema(Command program) {
   names.insert(names.end(), {"compare", "judge", "report"});
   command.add_option("COMMAND", *name, "the command").required().check(one_of(names));
   command.footer(
-      "Keys may be added in later versions; these stay. Of weak it is what is written without --partition and "
-      "--along.\n"
+      "Keys may be added in later versions; these stay.\n"
       "Example: sightline schema see > see.schema.json");
   command.set_printing_action([name] { return schema::run(*name); });
 }

@@ -69,6 +69,7 @@ class Schema : public Program {};
 TEST_F(Schema, of_each_command_is_what_it_writes) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string();
   const std::string cube = (corpus / "general" / "cube.off").string();
+  const std::string bars = (corpus / "general" / "bars_over_floor.off").string();
   const std::string flat = file("flat.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 2\nf 3 1 2\n");
   const std::string none = file("none.off", "OFF\n0 0 0\n");
   const std::string rays = file("rays.csv", "0,0,5,0,0,-1\n9,9,9,0,0,1\n-5,1,1,1,0,0\n");
@@ -90,7 +91,12 @@ TEST_F(Schema, of_each_command_is_what_it_writes) {
       {"see", none, "--eye", "3,4,5"},
       {"trace", cube, "--rays", rays},
       {"trace", cube, "--rays", rays, "--all", "--closed"},
+      {"cutset", cube, "--decision-tree"},
+      {"cutset", cube, "--decision-tree", "--inside"},
       {"weak", rooms, "--from-face", "0"},
+      {"weak", rooms, "--from-face", "0", "--partition", "3"},
+      {"weak", bars, "--from-face", "0", "--partition", "2,3", "--all-borders", "--beside-rays", "64"},
+      {"weak", rooms, "--along", "1,1,1 7,3,2", "--two-sided"},
       {"shadow", rooms, "--light", "1,1,2", "--sun", "1,2,3", "--two-sided"},
       {"shadow", cube, "--light", "3,4,5", "--volume", path("dark.obj").string()},
       {"render", rooms, "--eye", "1,1,2", "--size", "16x16", "--png", path("seen.png").string()},
