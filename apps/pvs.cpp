@@ -137,9 +137,12 @@ class Table_maker {
       parts.push_back(std::move(*part));
       names.push_back(path.string());
     }
-    Visibility_table table = joined(parts, names);
-    fs::remove_all(folder, error);
-    return table;
+    return joined(parts, names);
+  }
+  /// To be called when the table is written: an end before that would lose what is kept.
+  void remove_kept() const {
+    std::error_code error;
+    fs::remove_all(arguments_.out + ".parts", error);
   }
   void clear() { progress_.clear(); }
   const Pvs_counters& counters() const { return counters_; }
@@ -499,6 +502,7 @@ Exit run_pvs(const Pvs_arguments& arguments) {
       throw Usage_error(
           fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
   if (!arguments.out.empty()) write_table(arguments.out, table);
+  if (arguments.resume) maker.remove_kept();
   if (!arguments.svg.empty()) draw(arguments, soup, level, table);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));

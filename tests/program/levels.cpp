@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <map>
+#include <random>
 #include <set>
 
 namespace program {
@@ -144,6 +145,36 @@ TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {
   EXPECT_EQ(again.json()["result"]["blocks_kept"], 1);
   EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
   EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
+}
+
+/// SIGHTLINE_LONG: so many times as often.
+TEST_F(Levels, a_worker_that_is_killed_at_any_moment_goes_on_to_the_same_table) {
+  const char* const more = std::getenv("SIGHTLINE_LONG");
+  const int kills = (sanitized ? 2 : 6) * std::max(1, more == nullptr ? 1 : std::atoi(more));
+  const std::string house = path("house.off").string();
+  ASSERT_EQ(run({"generate", "rooms", "--size", sanitized ? "1" : "2", "--seed", "3", "--out", house}).code, done);
+  ASSERT_EQ(run({"pvs", house, "--out", out("whole.pvs")}).code, done);
+  std::mt19937 random(5);
+  int killed = 0, ended = 0;
+  while (killed < kills) {
+    const double seconds = 0.02 + static_cast<double>(random() % 1000) / (sanitized ? 10000 : 3000);
+    const Outcome r = run({"pvs", house, "--resume", "--out", out("again.pvs")}, {.seconds = seconds});
+    if (r.code == done) {  // and begins anew
+      ++ended;
+      ASSERT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
+      ASSERT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
+      std::filesystem::remove(path("again.pvs"));
+      continue;
+    }
+    ASSERT_EQ(r.code, -1) << r;
+    ++killed;
+  }
+  const Outcome last = run({"pvs", house, "--resume", "--out", out("again.pvs"), "--json", "-"});
+  ASSERT_EQ(last.code, done) << last;
+  EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
+  EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
+  RecordProperty("killed", killed);
+  RecordProperty("ended", ended);
 }
 
 TEST_F(Levels, tables_are_text_too_and_show_cells) {
