@@ -1,6 +1,7 @@
 // sightline reduce: the smallest scene for which somebody's program still fails.
 
 #include "../support/limited_process.h"
+#include "../support/page.h"
 #include "../support/query.h"
 
 #include <sightline/harness/laws/reduce.h>
@@ -17,7 +18,7 @@ namespace sightline::app {
 namespace {
 
 struct Reduce_arguments {
-  std::string scene, query, out;
+  std::string scene, query, out, html;
   std::vector<std::string> program;
   int code = -1;  ///< any but 0
   double limit = 10, seconds = 600;
@@ -32,6 +33,27 @@ int exit_code_of(const std::vector<std::string>& words, double limit) {
   return end.kind == Process_end::timed_out ? timed_out
          : end.kind == Process_end::exited  ? end.number
                                             : 128 + end.number;
+}
+
+/// What is left, with the eye and the source of its query.
+void write_page(const Reduce_arguments& arguments, const generate::Posed_scene& left, std::size_t faces, bool asked) {
+  const Scene scene(left.soup);
+  Page page("reduce", scene);
+  page.add_fact("faces", fmt::format("{} of {}", left.soup.face_count(), faces));
+  page.add_fact("points", fmt::format("{}", left.soup.point_count()));
+  page.add_fact("fails", fmt::format("{}", fmt::join(arguments.program, " ")));
+  for (const Set_aside& entry : scene.set_aside())
+    page.add_note(fmt::format("face {} is not drawn: {}", entry.face, entry.why));
+  page.add_group("faces", "one a face");
+  page.add_group("source", "source");
+  page.add_pieces(scene);
+  page.more()["base"] = page.polygons();
+  if (asked) {
+    page.set_eye(left.eye);
+    page.add_fact("eye", Page::text(left.eye));
+    if (!left.source.empty()) page.add_polygon(Page::no_face, left.source, 1);
+  }
+  page.write(arguments.html);
 }
 
 Exit run(const Reduce_arguments& arguments) {
@@ -97,6 +119,7 @@ Exit run(const Reduce_arguments& arguments) {
   write_scene(reduced.scene.soup, arguments.out, *format);
   if (!arguments.query.empty())
     write_file(reduced_query, to_text(harness::query_json(reduced.scene, query.seed), 1) + "\n");
+  if (!arguments.html.empty()) write_page(arguments, reduced.scene, scene.soup.face_count(), !arguments.query.empty());
   row("faces", fmt::format("{} of {}", reduced.scene.soup.face_count(), scene.soup.face_count()));
   row("points", fmt::format("{} of {}", reduced.scene.soup.point_count(), scene.soup.point_count()));
   row("runs", fmt::format("{}, {} steps kept, {:.1f} seconds{}", reduced.tests, reduced.kept, time.seconds(),
@@ -130,6 +153,9 @@ void add_reduce(Command program) {
                   "the exit code that counts as failing; 128 + S for signal S, 124 for no end in time. By default any "
                   "but 0 and 124")
       .check(range(0, 255));
+  command.add_option("--html", a->html, "write a page to look at: the scene that is left, its eye and its source")
+      .writes_file()
+      .check(ending(".html"));
   command.add_option("--limit", a->limit, "seconds for a run of the program")
       .check(positive() & finite_number())
       .show_default();

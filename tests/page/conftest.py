@@ -115,9 +115,9 @@ def open_page(browser, tmp_path):
     """open_page(command, scene, ...) runs the program and opens what it wrote; no page may have said anything on the console."""
     opened = []
 
-    def opener(*words, code=0, name="page.html"):
+    def opener(*words, code=0, name="page.html", after=()):
         path = tmp_path / name
-        run(*words, "--html", path, code=code)
+        run(*words, "--html", path, *after, code=code)
         opened.append(Page(browser, path))
         return opened[-1]
 

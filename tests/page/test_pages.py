@@ -3,7 +3,7 @@
 import json
 from fractions import Fraction
 
-from conftest import block_of, corpus, run
+from conftest import block_of, corpus, program, run
 
 eye = "--eye=-3.5,-5,5"
 
@@ -196,6 +196,20 @@ def test_a_result_is_in_its_solids_colours(open_page, tmp_path):
     k = first_seen(page, "cube.off")
     page.click_on(k)
     assert page.text("#selected-name").startswith("face ") and "cube.off" in page.text("#selected-name")
+
+
+def test_what_is_left_of_a_scene_is_shown_with_its_query(open_page, tmp_path):
+    scene, query, small = tmp_path / "scene.qoff", tmp_path / "query.json", tmp_path / "small.qoff"
+    run("generate", "hinged", "--seed", 3, "--out", scene, "--query", query)
+    fails_where_a_face_is_kept = ["sh", "-c", f"{program} info {{}} | grep -q ', 0 kept'  # {{query}}"]
+    page = open_page("reduce", scene, "--query", query, "--out", small, "--seconds", 30, after=["--", *fails_where_a_face_is_kept])
+    assert page.is_drawn()
+    assert ["faces", "1 of 2"] in page.data["facts"] and small.read_text().split()[2] == "1"
+    k = first_seen(page, "faces")
+    page.click_on(k)
+    assert page.text("#selected-name").startswith("face 0")
+    eye = json.loads((tmp_path / "small.json").read_text())["eye"]
+    assert ["eye", ", ".join(eye)] in page.data["facts"]
 
 
 def test_clicks_on_nothing_select_nothing_and_groups_can_be_left_out(open_page):

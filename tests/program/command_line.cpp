@@ -43,7 +43,7 @@ static const std::map<std::string, std::vector<std::string>> options_of_commands
     {"fuzz",
      {"COMMAND", "--seconds", "--scenes", "--seed", "--family", "--max-faces", "--case", "--scene", "--query",
       "--check", "--out", "--json"}},
-    {"reduce", {"SCENE", "PROGRAM", "--out", "--query", "--code", "--limit", "--seconds"}},
+    {"reduce", {"SCENE", "PROGRAM", "--out", "--query", "--code", "--html", "--limit", "--seconds"}},
 };
 
 TEST_F(Command_line, help_names_every_command) {
