@@ -45,13 +45,14 @@ void write_page(const Reduce_arguments& arguments, const generate::Posed_scene& 
   for (const Set_aside& entry : scene.set_aside())
     page.add_note(fmt::format("face {} is not drawn: {}", entry.face, entry.why));
   page.add_group("faces", "one a face");
-  page.add_group("source", "source");
+  const bool has_source = asked && !left.source.empty();
+  if (has_source) page.add_group("source", "source");
   page.add_pieces(scene);
   page.more()["base"] = page.polygons();
   if (asked) {
     page.set_eye(left.eye);
     page.add_fact("eye", Page::text(left.eye));
-    if (!left.source.empty()) page.add_polygon(Page::no_face, left.source, 1);
+    if (has_source) page.add_polygon(Page::no_face, left.source, 1);
   }
   page.write(arguments.html);
 }
