@@ -16,6 +16,7 @@ std::optional<Format> format_of_ending(const std::filesystem::path& path) {
   if (ending == ".stl") return Format::stl;
   if (ending == ".map") return Format::map;
   if (ending == ".bsp") return Format::bsp;
+  if (ending == ".glb") return Format::glb;
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include <sightline/io/read.h>
 
 #include <sightline/io/file.h>
+#include <sightline/io/gltf.h>
 #include <sightline/io/obj.h>
 #include <sightline/io/off.h>
 #include <sightline/io/ply.h>
@@ -17,6 +18,7 @@ namespace detail {
 std::optional<Format> format_of_content(const Input& input) {
   if (has_binary_stl_size(input.bytes) || looks_like_stl_text(input)) return Format::stl;
   if (looks_like_quake_level(input.bytes)) return Format::bsp;
+  if (looks_like_glb(input.bytes)) return Format::glb;
   Text_reader text(input, Text_reader::Comments::hash);
   const std::string_view word = text.next_token_of_any_line();
   if (word == "ply") return Format::ply;
@@ -42,6 +44,7 @@ Polygon_soup read_scene(std::string_view bytes, Format format, const std::string
       case Format::stl: return read_stl(input, options);
       case Format::map: return read_map(input, options);
       case Format::bsp: return read_quake_bsp(input);
+      case Format::glb: return read_glb(input, options);
       default: return read_ply(input, options);
     }
   }();

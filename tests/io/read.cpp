@@ -65,7 +65,7 @@ TEST_F(Read_scene, goes_by_the_content_where_the_ending_is_unknown) {
   EXPECT_EQ(read_scene(file("a.txt", ply_text)).point_count(), 1u);
   EXPECT_EQ(read_scene(file("a.txt", stl_text)).point_count(), 1u);
   EXPECT_EQ(read_scene(file("a.bin", binary_stl)).point_count(), 0u);
-  const std::string unknown = message(file("a.glb", "glTF...."));
+  const std::string unknown = message(file("a.dat", "glTX...."));
   for (const char* ending : {".obj", ".off", ".qoff", ".ply", ".stl"})
     EXPECT_NE(unknown.find(ending), std::string::npos) << unknown;
   EXPECT_NE(message(file("a.txt", "")).find("known format"), std::string::npos);
