@@ -11,6 +11,7 @@ from ._errors import InputError, OutOfBudget
 from ._judging import Failure, FuzzReport, Generated, Report, families, fuzz, generate, judge
 from ._rays import Hit, Rays
 from ._scene import Scene, read, verify
+from ._shadows import Shadow
 from ._sightline import version as __version__
 from ._solids import Solid, boolean
 
@@ -30,6 +31,7 @@ __all__ = [
     "Rays",
     "Report",
     "Scene",
+    "Shadow",
     "Solid",
     "Tracker",
     "Verdict",

@@ -12,6 +12,7 @@ from . import _arrays, _sightline
 from ._answers import Certificate, Graph, Order, Parts, Tracker, Verdict, View, WeakView
 from ._progress import Progress, followed
 from ._rays import Rays, as_doubles, pairs
+from ._shadows import Shadow
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -192,6 +193,34 @@ class Scene:
             return WeakView(
                 self, *_sightline.weakly_visible(self._model, source, _question(threads, told, budget, two_sided))
             )
+
+    def shadow(
+        self,
+        light: Any = None,
+        *,
+        sun: Any = None,
+        two_sided: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> Shadow:
+        """Which parts of faces a light reaches, and which faces shadow the others.
+
+        light: the point where it is; or sun: the direction to it, from anywhere. two_sided: backs that it is behind are
+        parted too.
+
+        >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> shadow = lid.shadow((0, 0, 2))
+        >>> shadow.lit_areas, shadow.dark_areas
+        (array([6. , 0.5]), array([2., 0.]))
+        >>> lid.shadow(sun=(0, 0, 1)).dark_areas
+        array([0.5, 0. ])
+        """
+        if (light is None) == (sun is None):
+            raise ValueError("give a light, a point, or a sun, the direction to it; for several, ask several times")
+        with followed(progress, "shadow") as told:
+            at, question = (light if sun is None else sun), _question(threads, told, budget, two_sided)
+            return Shadow(self, *_sightline.shadow(self._model, at, sun is not None, question))
 
     def trace(
         self,
