@@ -9,6 +9,7 @@ array([0])
 from ._answers import Answer, Certificate, Graph, Order, Part, Parts, Tracker, Verdict, View, WeakView
 from ._errors import InputError, OutOfBudget
 from ._judging import Failure, FuzzReport, Generated, Report, families, fuzz, generate, judge
+from ._levels import Cell, Cells, PotentiallyVisible, Wall
 from ._rays import Hit, Rays
 from ._scene import Scene, read, verify
 from ._shadows import Shadow
@@ -17,6 +18,8 @@ from ._solids import Solid, boolean
 
 __all__ = [
     "Answer",
+    "Cell",
+    "Cells",
     "Certificate",
     "Failure",
     "FuzzReport",
@@ -28,6 +31,7 @@ __all__ = [
     "OutOfBudget",
     "Part",
     "Parts",
+    "PotentiallyVisible",
     "Rays",
     "Report",
     "Scene",
@@ -36,6 +40,7 @@ __all__ = [
     "Tracker",
     "Verdict",
     "View",
+    "Wall",
     "WeakView",
     "boolean",
     "families",
