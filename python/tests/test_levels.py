@@ -62,7 +62,12 @@ def test_volumes_and_walls_add_up(family, grid):
         assert cells.at(cell.inside).id == cell.id
         assert (cell.box is None) == (grid is None)
     if grid is not None:
-        assert {cell.box for cell in cells} <= {(i, 0, k) for i in range(2) for k in range(3)}
+        assert {cell.box for cell in cells} == {(i, 0, k) for i in range(2) for k in range(3)}
+        low, high = scene.info()["box"]
+        for cell in cells:
+            for k in range(3):
+                share = (cell.inside[k] - low[k]) / (high[k] - low[k]) * grid[k]
+                assert cell.box[k] == min(max(share // 1, 0), grid[k] - 1)  # those at the rim go on without end
 
 
 def test_covered_parts_of_walls_are_the_faces():
@@ -83,6 +88,25 @@ def test_covered_parts_of_walls_are_the_faces():
     assert solid.faces.tolist() == [] and solid.winding == 1 and not solid.is_outside
     assert cells.is_closed and cells.way_out(cells[[i for i in range(len(cells)) if i != solid.id][0]].inside)
     assert cells.at((1000, 0, 0)) is None and cells.way_out(solid.inside) == []
+
+
+def test_a_room_is_asked_about_and_the_outside_if_one_asks():
+    cube = sightline.read(corpus / "cube.off")
+    points, corners = cube.points(exact=True), np.array(cube.faces())
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2
+    V = np.concatenate([points, middle + 3 * (points - middle)])
+    shell = sightline.Scene(V, np.concatenate([corners[:, ::-1], corners + len(points)]))  # thick, about a room
+    cells, eye, last = shell.cells(), list(middle), len(shell.faces()) // 2
+    room = cells.at(eye)
+    assert not room.is_solid and not room.is_outside and cells.way_out(eye) == []
+    assert room.volume == 1 and sum(cell.volume for cell in cells if cell.is_solid) == 26
+    pvs, all_of_them = cells.pvs(), shell.pvs(outside=True)
+    assert {cell: seen.tolist() for cell, seen in pvs.visible.items()} == {room.id: list(range(last))}
+    assert set(all_of_them.visible) == {cell.id for cell in cells if not cell.is_solid} > {room.id}
+    for cell, seen in all_of_them.visible.items():
+        assert len(seen) > 0 and (seen < last).all() == (cell == room.id)
+    out = [cell for cell in cells if cell.is_outside][0]
+    assert cells.way_out(out.inside)[-1].is_outside and pvs.at(out.inside) is None
 
 
 def test_the_program_says_the_same_of_cells_and_pvs(tmp_path):
