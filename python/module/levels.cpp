@@ -2,12 +2,14 @@
 
 #include "bindings.h"
 
+#include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/cells.h>
 #include <sightline/algorithms/levels/grid.h>
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/kernel/vectors.h>
 
 #include <memory>
+#include <utility>
 
 namespace sightline::python {
 
@@ -67,22 +69,37 @@ Rational volume_of(const Level& level, Cell_id cell) {
   return six / 6;
 }
 
-/// What each cell that is asked about sees: its number, faces, and faces that are undecided.
-py::list seen_by_cells(const Level& level, std::uint64_t seed, bool outside, const Question& question) {
-  const Pvs found = answer_to(question, [&](const Asking& asking) {
-    Pvs_options options;
-    options.outside = outside;
-    options.threads = asking.threads;
-    options.progress = asking.progress;
-    options.search.seed = seed;
-    options.search.out_of_time = end_of_budget(asking);
-    return potentially_visible(*level.cells, options);
-  });
+/// How the cells of a level are asked what they see.
+Pvs_options looking(std::uint64_t seed, bool outside, const Asking& asking) {
+  Pvs_options options;
+  options.outside = outside;
+  options.threads = asking.threads;
+  options.progress = asking.progress;
+  options.search.seed = seed;
+  options.search.out_of_time = end_of_budget(asking);
+  return options;
+}
+
+/// Of each cell that is asked about its number, what it sees, and what is undecided.
+template <class Found>
+py::list rows_of(const Found& found) {
   py::list rows;
   for (Cell_id cell = 0; cell < found.is_asked.size(); ++cell)
     if (found.is_asked[cell] != 0)
       rows.append(py::make_tuple(cell, ids(found.visible[cell]), ids(found.undecided[cell])));
   return rows;
+}
+
+py::list faces_seen(const Level& level, std::uint64_t seed, bool outside, const Question& question) {
+  return rows_of(answer_to(question, [&](const Asking& asking) {
+    return potentially_visible(*level.cells, looking(seed, outside, asking));
+  }));
+}
+
+py::list cells_seen(const Level& level, std::uint64_t seed, bool outside, const Question& question) {
+  return rows_of(answer_to(question, [&](const Asking& asking) {
+    return mutually_visible_cells(*level.cells, looking(seed, outside, asking));
+  }));
 }
 
 /// A number of each cell.
@@ -137,7 +154,8 @@ void add_levels(py::module_& module) {
           py::arg("point"));
   module.def("cells", &level_of, py::arg("model"), py::arg("candidates"), py::arg("seed"), py::arg("grid"),
              py::arg("question"));
-  module.def("pvs", &seen_by_cells, py::arg("level"), py::arg("seed"), py::arg("outside"), py::arg("question"));
+  for (const auto& [name, ask] : {std::pair("faces_seen", &faces_seen), {"cells_seen", &cells_seen}})
+    module.def(name, ask, py::arg("level"), py::arg("seed"), py::arg("outside"), py::arg("question"));
 }
 
 }  // namespace sightline::python

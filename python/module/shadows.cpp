@@ -5,9 +5,13 @@
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/shadow/shadow.h>
+#include <sightline/algorithms/shadow/volume.h>
+#include <sightline/algorithms/solids/measure.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/threads.h>
 
 #include <memory>
+#include <tuple>
 #include <utility>
 
 namespace sightline::python {
@@ -49,10 +53,25 @@ py::tuple shadow_of(const Model& model, const py::object& at, bool is_sun, const
   return py::make_tuple(ids(found->lit), ids(found->away), ids(found->by), parts);
 }
 
+/// The space behind faces, as a scene; how much it holds; the box that it is cut at.
+py::tuple dark_space_of(const Model& model, const py::object& at, bool is_sun, const Question& question) {
+  const Exact_point place = point_of(at, is_sun ? "sun" : "light");
+  const auto [space, holds, box] = answer_to(question, [&](const Asking& asking) {
+    const Scene scene(model.soup());
+    Shadow_volume made;
+    run_with_threads(asking.threads,
+                     [&] { made = is_sun ? shadow_volume(scene, Sun{place}) : shadow_volume(scene, place); });
+    Rational size = volume(made.soup);
+    return std::tuple(Model(std::move(made.soup)), std::move(size), std::move(made.box));
+  });
+  return py::make_tuple(space, fraction(holds), py::make_tuple(fractions(box[0]), fractions(box[1])));
+}
+
 }  // namespace
 
 void add_shadows(py::module_& module) {
   module.def("shadow", &shadow_of, py::arg("model"), py::arg("at"), py::arg("is_sun"), py::arg("question"));
+  module.def("dark_space", &dark_space_of, py::arg("model"), py::arg("at"), py::arg("is_sun"), py::arg("question"));
 }
 
 }  // namespace sightline::python

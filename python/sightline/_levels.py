@@ -152,9 +152,18 @@ class Cells(Sequence[Cell]):
         from ._scene import _question
 
         with followed(progress, "pvs") as told:
-            return PotentiallyVisible(
-                self, _sightline.pvs(self._level, self._seed, outside, _question(threads, told, budget))
-            )
+            question = _question(threads, told, budget)
+            return PotentiallyVisible(self, _sightline.faces_seen(self._level, self._seed, outside, question))
+
+    def pairs(
+        self, *, outside: bool = False, threads: int = 0, progress: Progress = None, budget: float = 0
+    ) -> "CellPairs":
+        """Which cells see each other: `sightline pvs --cells-too`. Arguments are those of pvs()."""
+        from ._scene import _question
+
+        with followed(progress, "pairs of cells") as told:
+            question = _question(threads, told, budget)
+            return CellPairs(self, _sightline.cells_seen(self._level, self._seed, outside, question))
 
     def __repr__(self) -> str:
         solid, outside = np.count_nonzero(self.solid), np.count_nonzero(self.outside)
@@ -184,6 +193,19 @@ class PotentiallyVisible:
     def __repr__(self) -> str:
         visible, undecided = (sum(map(len, of.values())) for of in (self.visible, self.undecided))
         return f"<PotentiallyVisible: {len(self.visible)} cells, {visible} pairs visible, {undecided} undecided>"
+
+
+class CellPairs:
+    """Of each cell that is asked about the other cells some point of which is seen from some point of its inside."""
+
+    def __init__(self, cells: Cells, rows: List[Tuple[int, Ids, Ids]]) -> None:
+        self.cells = cells
+        self.visible: Dict[int, Ids] = {cell: seen for cell, seen, _ in rows}  #: by cell: cells, sorted; symmetric
+        self.undecided: Dict[int, Ids] = {cell: left for cell, _, left in rows}  #: empty, unless the budget ran out
+
+    def __repr__(self) -> str:
+        visible, undecided = (sum(map(len, of.values())) // 2 for of in (self.visible, self.undecided))
+        return f"<CellPairs: {len(self.visible)} cells, {visible} pairs visible, {undecided} undecided>"
 
 
 def counts_of(grid: Any) -> Optional[Tuple[int, int, int]]:

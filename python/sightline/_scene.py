@@ -221,7 +221,8 @@ class Scene:
             raise ValueError("give a light, a point, or a sun, the direction to it; for several, ask several times")
         with followed(progress, "shadow") as told:
             at, question = (light if sun is None else sun), _question(threads, told, budget, two_sided)
-            return Shadow(self, *_sightline.shadow(self._model, at, sun is not None, question))
+            found = _sightline.shadow(self._model, at, sun is not None, question)
+        return Shadow(self, at, sun is not None, *found)
 
     def cells(
         self,

@@ -127,13 +127,17 @@ def test_the_program_says_the_same_of_cells_and_pvs(tmp_path):
         assert [list(part) for part in wall.open] == [[points[i] for i in part] for part in of["open"]]
         assert [wall.faces_front.tolist(), wall.faces_behind.tolist()] == of["faces"]
 
-    subprocess.run([program, "pvs", file, "--out", table, "--json", out], check=True, capture_output=True)
+    command = [program, "pvs", file, "--cells-too", "--out", table, "--json", out]
+    subprocess.run(command, check=True, capture_output=True)
     said, result, pvs = json.loads(table.read_text()), json.loads(out.read_text())["result"], two_rooms().pvs()
     assert [(cell, seen.tolist()) for cell, seen in pvs.visible.items()] == [
         (row["cell"], row["visible"]) for row in said["cells"]
     ]
     assert len(pvs.visible) == result["cells"] and pvs.table().sum() == result["visible"]
     assert sum(map(len, pvs.undecided.values())) == result["undecided"] == 0
+    pairs = cells.pairs()
+    assert [seen.tolist() for seen in pairs.visible.values()] == [row["cells"] for row in said["cells"]]
+    assert sum(map(len, pairs.visible.values())) == 2 * result["pairs_of_cells"]["visible"] > 0
 
 
 @pytest.mark.parametrize("grid", [None, (2, 2, 1)])
@@ -151,6 +155,13 @@ def test_a_cell_sees_what_eyes_in_it_see(grid):
             eye = [(1 - share) * a + share * b for a, b in zip(cell.inside, corner)]
             assert table[cell.id, scene.see(eye).visible].all()
     assert pvs.at((1000, 1000, 1000)) is None
+    pairs = pvs.cells.pairs()
+    assert pairs.visible.keys() == pvs.visible.keys() and not any(map(len, pairs.undecided.values()))
+    for wall in pvs.cells.walls:
+        if wall.open and {wall.front, wall.behind} <= pairs.visible.keys():
+            assert wall.behind in pairs.visible[wall.front] and wall.front in pairs.visible[wall.behind]
+    for cell, seen in pairs.visible.items():
+        assert all(cell in pairs.visible[other] for other in seen) and cell not in seen
     for cell in pvs.cells[:3]:
         assert pvs.cells[cell.id - len(pvs.cells)].id == cell.id
 

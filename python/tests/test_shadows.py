@@ -83,6 +83,33 @@ def test_the_program_says_the_same_of_shadows(tmp_path):
         assert {part.from_front for part in shadow.parts} == {True}
 
 
+def test_the_space_in_shadow_by_hand():
+    # The box is [-6, 6]^2 x [-2, 5]. At h from the light, the lid's shadow is 2 h wide, and so is that of the lamp,
+    # above it; the floor's, from h = 2 on, is 4 h wide, up to the box, and holds what the lid's has below it.
+    space = lamp_and_lid().shadow((0, 0, 2)).space()
+    assert space.box == ((-6, -6, -2), (6, 6, 5)) and space.scene.info()["closed"]
+    assert space.volume == Fraction(4, 3) * (8 - 1) + Fraction(4, 3) * (27 - 1) + Fraction(16, 3) * (27 - 8) + 144
+    # From above, to the box's end: the floor's 8 x 8 x 2, and the lamp's 2 x 2 x 3 above it, which holds the lid's.
+    assert lamp_and_lid().shadow(sun=(0, 0, 1)).space(threads=1).volume == 128 + 12
+
+
+def test_points_of_the_space_in_shadow_see_no_light():
+    scene = sightline.generate("city_rotated", size=6, seed=4).scene
+    light = (3, "1/3", 7)
+    cells = scene.shadow(light).space().scene.cells()
+    dark = [cell.inside for cell in cells if cell.is_solid]
+    bright = [cell.inside for cell in cells if not cell.is_solid and not cell.is_outside]
+    assert cells.is_closed and len(dark) > 5 < len(bright)
+    low, high = scene.shadow(light).space().box
+    for points, are_dark in ((dark, True), (bright, False)):
+        for point in points:
+            if not all(low[k] < point[k] < high[k] for k in range(3)):
+                continue
+            to_light = [Fraction(x) - p for x, p in zip(light, point)]
+            (hits,) = scene.trace([point], [to_light])
+            assert (len(hits) > 0 and hits[0].t < 1) == are_dark
+
+
 def test_what_is_no_light_is_refused():
     scene = lamp_and_lid()
     for asked in ({}, {"light": (0, 0, 1), "sun": (0, 0, 1)}):
