@@ -49,6 +49,8 @@ py::tuple faces_of(const Polygon_soup& soup);
 void add_scene(py::module_& module);
 void add_answers(py::module_& module);
 void add_solids_and_rays(py::module_& module);
+void add_shadows(py::module_& module);
+void add_levels(py::module_& module);
 void add_harness(py::module_& module);
 
 }  // namespace sightline::python

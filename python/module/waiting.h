@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 
@@ -24,6 +25,11 @@ struct Question {
 /// there are signals, and calls progress(done, all); what they raise (KeyboardInterrupt) ends the work, by its own
 /// progress, and comes out of here. Errors: what the work throws. Pre: the GIL is held; the work touches no Python.
 void wait_for(const Question& question, const std::function<void(const Asking&)>& work);
+
+/// Whether the seconds of a question are over, from now on; empty where there is no limit.
+std::function<bool()> end_of_budget(const Asking& asking);
+/// The question's progress, which ends it by Out_of_budget once its seconds are over.
+std::function<void(std::size_t, std::size_t)> progress_within_budget(const Asking& asking);
 
 template <class Work>
 auto answer_to(const Question& question, Work work) {

@@ -9,14 +9,20 @@ array([0])
 from ._answers import Answer, Certificate, Graph, Order, Part, Parts, Tracker, Verdict, View, WeakView
 from ._errors import InputError, OutOfBudget
 from ._judging import Failure, FuzzReport, Generated, Report, families, fuzz, generate, judge
+from ._levels import Cell, CellPairs, Cells, PotentiallyVisible, Wall
 from ._rays import Hit, Rays
 from ._scene import Scene, read, verify
+from ._shadows import DarkSpace, Shadow
 from ._sightline import version as __version__
 from ._solids import Solid, boolean
 
 __all__ = [
     "Answer",
+    "Cell",
+    "CellPairs",
+    "Cells",
     "Certificate",
+    "DarkSpace",
     "Failure",
     "FuzzReport",
     "Generated",
@@ -27,13 +33,16 @@ __all__ = [
     "OutOfBudget",
     "Part",
     "Parts",
+    "PotentiallyVisible",
     "Rays",
     "Report",
     "Scene",
+    "Shadow",
     "Solid",
     "Tracker",
     "Verdict",
     "View",
+    "Wall",
     "WeakView",
     "boolean",
     "families",

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from . import _arrays, _sightline
 from ._answers import Certificate, Graph, Order, Parts, Tracker, Verdict, View, WeakView
+from ._levels import Cells, PotentiallyVisible, counts_of
 from ._progress import Progress, followed
 from ._rays import Rays, as_doubles, pairs
+from ._shadows import Shadow
 
 Path = Union[str, "os.PathLike[str]"]
 
@@ -192,6 +194,83 @@ class Scene:
             return WeakView(
                 self, *_sightline.weakly_visible(self._model, source, _question(threads, told, budget, two_sided))
             )
+
+    def shadow(
+        self,
+        light: Any = None,
+        *,
+        sun: Any = None,
+        two_sided: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> Shadow:
+        """Which parts of faces a light reaches, and which faces shadow the others.
+
+        light: the point where it is; or sun: the direction to it, from anywhere. two_sided: backs that it is behind are
+        parted too.
+
+        >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> shadow = lid.shadow((0, 0, 2))
+        >>> shadow.lit_areas, shadow.dark_areas
+        (array([6. , 0.5]), array([2., 0.]))
+        >>> lid.shadow(sun=(0, 0, 1)).dark_areas
+        array([0.5, 0. ])
+        """
+        if (light is None) == (sun is None):
+            raise ValueError("give a light, a point, or a sun, the direction to it; for several, ask several times")
+        with followed(progress, "shadow") as told:
+            at, question = (light if sun is None else sun), _question(threads, told, budget, two_sided)
+            found = _sightline.shadow(self._model, at, sun is not None, question)
+        return Shadow(self, at, sun is not None, *found)
+
+    def cells(
+        self,
+        *,
+        grid: Any = None,
+        candidates: int = 5,
+        seed: int = 1,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> Cells:
+        """The convex cells that the faces' planes divide space into, the walls between them, what is solid, and leaks.
+
+        grid: (nx, ny, nz), even boxes that cells lie within, along each axis of the box about the scene. candidates:
+        planes tried for each node of the tree, by the seed's choice.
+
+        >>> cells = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]]).cells()
+        >>> cells.at((1, 1, "1/9")).faces, cells.at((1, 1, "-1/9")).faces
+        (array([0]), array([], dtype=int64))
+        """
+        if not 1 <= operator.index(candidates) <= 1000:
+            raise ValueError(f"candidates is {candidates}; give 1 to 1000")
+        if not 0 <= operator.index(seed) < 2**64:
+            raise ValueError(f"seed is {seed}; give 0 to 2**64 - 1")
+        counts = counts_of(grid)
+        with followed(progress, "cells") as told:
+            question = _question(threads, told, budget)
+            return Cells(
+                self, _sightline.cells(self._model, candidates, seed, list(counts or ()), question), counts, seed
+            )
+
+    def pvs(
+        self,
+        *,
+        grid: Any = None,
+        candidates: int = 5,
+        seed: int = 1,
+        outside: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> PotentiallyVisible:
+        """Which faces each cell sees: those of which some point is seen from some point of its inside, exactly.
+
+        What `budget`, which is of looking, leaves open is undecided. Other arguments: as of cells(), and Cells.pvs().
+        """
+        cells = self.cells(grid=grid, candidates=candidates, seed=seed, threads=threads, progress=progress)
+        return cells.pvs(outside=outside, threads=threads, progress=progress, budget=budget)
 
     def trace(
         self,

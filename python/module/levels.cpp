@@ -1,0 +1,161 @@
+// The cells of levels, and what these see.
+
+#include "bindings.h"
+
+#include <sightline/algorithms/levels/cell_pvs.h>
+#include <sightline/algorithms/levels/cells.h>
+#include <sightline/algorithms/levels/grid.h>
+#include <sightline/algorithms/levels/pvs.h>
+#include <sightline/kernel/vectors.h>
+
+#include <memory>
+#include <utility>
+
+namespace sightline::python {
+
+namespace {
+
+struct Level {
+  std::shared_ptr<const Level_cells> cells;
+};
+
+/// The cells of a scene, within even boxes where `grid` has three counts.
+Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, const py::list& grid,
+               const Question& question) {
+  std::vector<std::uint32_t> counts;
+  for (const py::handle count : grid) counts.push_back(py::cast<std::uint32_t>(count));
+  return answer_to(question, [&](const Asking& asking) {
+    Cell_options options;
+    options.candidates = candidates;
+    options.seed = seed;
+    options.threads = asking.threads;
+    options.progress = progress_within_budget(asking);
+    if (!counts.empty()) options.tree = even_boxes(model.soup(), {counts.at(0), counts.at(1), counts.at(2)});
+    return Level{std::make_shared<const Level_cells>(model.soup(), options)};
+  });
+}
+
+const Level_cell& cell_of(const Level& level, Cell_id cell) { return level.cells->cells().at(cell); }
+
+py::tuple corners_of(const Level& level, const std::vector<std::uint32_t>& corners) {
+  py::tuple all(corners.size());
+  for (std::size_t k = 0; k < corners.size(); ++k) all[k] = fractions(level.cells->points()[corners[k]]);
+  return all;
+}
+
+/// A wall's two cells, the second None at the end of the world; its corners; its open parts; faces in front, behind.
+py::tuple wall_of(const Level& level, std::size_t i) {
+  const Cell_wall& wall = level.cells->walls().at(i);
+  py::tuple open(wall.open.size());
+  for (std::size_t k = 0; k < open.size(); ++k) open[k] = corners_of(level, wall.open[k]);
+  const py::object behind = wall.behind == no_cell ? py::object(py::none()) : py::object(py::int_(wall.behind));
+  return py::make_tuple(wall.front, behind, corners_of(level, wall.corners), open, ids(wall.faces_front),
+                        ids(wall.faces_behind));
+}
+
+/// Pyramids from a point of its inside to its walls.
+Rational volume_of(const Level& level, Cell_id cell) {
+  const Exact_point apex = level.cells->inside(cell);
+  Rational six = 0;
+  for (const std::uint32_t w : cell_of(level, cell).walls) {
+    const Cell_wall& wall = level.cells->walls()[w];
+    const std::vector<Exact_point> corners = level.cells->polygon(wall.corners);
+    Rational part = 0;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+      part += dot(minus(corners[0], apex), cross(minus(corners[k], apex), minus(corners[k + 1], apex)));
+    if (wall.front == cell) six -= part;  // counterclockwise as seen from within
+    else six += part;
+  }
+  return six / 6;
+}
+
+/// How the cells of a level are asked what they see.
+Pvs_options looking(std::uint64_t seed, bool outside, const Asking& asking) {
+  Pvs_options options;
+  options.outside = outside;
+  options.threads = asking.threads;
+  options.progress = asking.progress;
+  options.search.seed = seed;
+  options.search.out_of_time = end_of_budget(asking);
+  return options;
+}
+
+/// Of each cell that is asked about its number, what it sees, and what is undecided.
+template <class Found>
+py::list rows_of(const Found& found) {
+  py::list rows;
+  for (Cell_id cell = 0; cell < found.is_asked.size(); ++cell)
+    if (found.is_asked[cell] != 0)
+      rows.append(py::make_tuple(cell, ids(found.visible[cell]), ids(found.undecided[cell])));
+  return rows;
+}
+
+py::list faces_seen(const Level& level, std::uint64_t seed, bool outside, const Question& question) {
+  return rows_of(answer_to(question, [&](const Asking& asking) {
+    return potentially_visible(*level.cells, looking(seed, outside, asking));
+  }));
+}
+
+py::list cells_seen(const Level& level, std::uint64_t seed, bool outside, const Question& question) {
+  return rows_of(answer_to(question, [&](const Asking& asking) {
+    return mutually_visible_cells(*level.cells, looking(seed, outside, asking));
+  }));
+}
+
+/// A number of each cell.
+template <class Of>
+auto of_cells(Of of) {
+  return [of](const Level& level) {
+    std::vector<std::int64_t> all;
+    for (const Level_cell& cell : level.cells->cells()) all.push_back(of(cell));
+    return ids(all);
+  };
+}
+
+}  // namespace
+
+void add_levels(py::module_& module) {
+  py::class_<Level>(module, "Level")
+      .def("__len__", [](const Level& level) { return level.cells->cells().size(); })
+      .def_property_readonly("is_closed", [](const Level& level) { return level.cells->is_closed(); })
+      .def_property_readonly("portals", [](const Level& level) { return level.cells->counters().portals; })
+      .def_property_readonly("wall_count", [](const Level& level) { return level.cells->walls().size(); })
+      .def("solid", of_cells([](const Level_cell& cell) { return cell.is_solid ? 1 : 0; }))
+      .def("outside", of_cells([](const Level_cell& cell) { return cell.is_outside ? 1 : 0; }))
+      .def("windings", of_cells([](const Level_cell& cell) { return cell.winding; }))
+      .def("regions", of_cells([](const Level_cell& cell) { return cell.region; }))
+      .def("boxes", of_cells([](const Level_cell& cell) { return cell.leaf; }))
+      .def(
+          "faces", [](const Level& level, Cell_id cell) { return ids(cell_of(level, cell).faces); }, py::arg("cell"))
+      .def(
+          "walls", [](const Level& level, Cell_id cell) { return ids(cell_of(level, cell).walls); }, py::arg("cell"))
+      .def("wall", &wall_of, py::arg("i"))
+      .def(
+          "inside",
+          [](const Level& level, Cell_id cell) {
+            cell_of(level, cell);
+            return fractions(level.cells->inside(cell));
+          },
+          py::arg("cell"))
+      .def(
+          "volume", [](const Level& level, Cell_id cell) { return fraction(volume_of(level, cell)); }, py::arg("cell"))
+      .def(
+          "at",
+          [](const Level& level, const py::object& point) {
+            const Cell_id cell = level.cells->at(point_of(point, "point"));
+            return cell == no_cell ? py::object(py::none()) : py::object(py::int_(cell));
+          },
+          py::arg("point"))
+      .def(
+          "way_out",
+          [](const Level& level, const py::object& point) {
+            return ids(level.cells->way_out(point_of(point, "point")));
+          },
+          py::arg("point"));
+  module.def("cells", &level_of, py::arg("model"), py::arg("candidates"), py::arg("seed"), py::arg("grid"),
+             py::arg("question"));
+  for (const auto& [name, ask] : {std::pair("faces_seen", &faces_seen), {"cells_seen", &cells_seen}})
+    module.def(name, ask, py::arg("level"), py::arg("seed"), py::arg("outside"), py::arg("question"));
+}
+
+}  // namespace sightline::python
