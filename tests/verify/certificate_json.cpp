@@ -183,6 +183,12 @@ TEST(Certificate_json, what_belongs_to_another_kind_is_passed_over) {
   EXPECT_NE(
       fault_of(head + R"("format":"sightline graph 2","sizes":[],"fragments":[]})").find("arcs: expected an array"),
       std::string::npos);
+  // So is what would be right in its own kind, but for what it refers to.
+  const std::string refers = R"({"arcs":[[9,0,9,0]],"parts":[{"fragment":9,"rays":[]}],"lines":[[9,0]],)";
+  EXPECT_EQ(fault_of(refers + R"("format":"sightline order 2","eye":["0","0","1/2"],"fragments":[]})"), "nothing");
+  EXPECT_NE(fault_of(refers + R"("format":"sightline graph 2","sizes":[],"fragments":[]})")
+                .find("arcs[0]: expected a number below 0"),
+            std::string::npos);
 }
 
 TEST(Certificate_json, takes_a_quarter_of_the_text_where_faces_share_points) {

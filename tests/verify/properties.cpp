@@ -153,6 +153,24 @@ Points random_polygon(Dice& dice, long size, bool flat) {
   }
 }
 
+TEST(Cone, of_a_polygon_with_the_eye_in_its_plane_is_empty) {
+  const Points plot = {at(0, 0, 0), at(2, 0, 0), at(4, 0, 0), at(4, 4, 0), at(0, 4, 0)};  // with a straight corner
+  for (const Points& polygon : {plot, reversed(plot)})
+    for (const Exact_point& foot : {at(1, 1, 0), at(4, 1, 0), at(4, 4, 0), at(9, 1, 0), at(9, 4, 0)}) {
+      const order_check::Cone flat(polygon, foot);
+      EXPECT_TRUE(flat.edge_on);
+      EXPECT_TRUE(flat.rays.empty() && flat.edge_planes.empty());
+      EXPECT_EQ(flat.nearness, order_check::Integer_vector{});
+      EXPECT_EQ(flat.distance, 0);
+      for (const int side : {-1, 1}) {
+        const order_check::Cone thin(polygon, at(foot[0], foot[1], Rational(side * tiny(90))));
+        EXPECT_FALSE(thin.edge_on);
+        EXPECT_EQ(thin.rays.size(), 4u);
+        EXPECT_GT(thin.distance, 0);
+      }
+    }
+}
+
 TEST(Pair_check, agrees_with_clipping_in_space) {
   std::size_t trials = 0, nearer = 0, overlapping = 0;
   for (unsigned seed = 0; seed < 100; ++seed) {  // fixed: what is counted below must not depend on luck

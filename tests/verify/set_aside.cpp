@@ -246,6 +246,21 @@ TEST(Set_aside, as_a_duplicate) {
     expect_rejected(pair(plot, plot, bad), "not of an earlier face");
   for (const std::string bad : {"", "zero", "duplicate", "because", " zero area", "Zero area"})
     expect_rejected(pair(plot, plot, bad), "no reason that can be checked");
+  // Holes are the same cycles too, each in either sense, and in the same order.
+  const Points hole = rectangle(1, 2, 1, 2, 0), other = rectangle(3, 4, 3, 4, 0);
+  const auto holed = [&](const std::vector<Points>& holes) {
+    Scene scene;
+    scene.seen_from(at(0, 0, 10)).face(plot, {hole});
+    scene.face(plot, holes);
+    scene.draw(0, rectangle(0, 4, 0, 1, 0)).draw(0, rectangle(0, 4, 2, 4, 0));
+    return scene.draw(0, rectangle(0, 1, 1, 2, 0)).draw(0, rectangle(2, 4, 1, 2, 0)).leave_out(1, why);
+  };
+  expect_accepted(holed({hole}));
+  expect_accepted(holed({reversed(hole)}));
+  expect_accepted(holed({{hole[2], hole[3], hole[0], hole[1]}}));
+  expect_rejected(holed({other}), "but differs");
+  expect_rejected(holed({{hole[0], hole[2], hole[1], hole[3]}}), "but differs");
+  expect_rejected(pair(plot, plot, why, {hole, other}, {other, hole}), "but differs");
   // The original must be kept, and be the earlier one.
   Scene chain = pair(plot, plot, why);
   chain.face(plot);
