@@ -156,6 +156,8 @@ TEST_F(Judge, asks_what_rays_meet_first) {
   judged("1\\nnone\\nnone\\n", "exact", done, {"--excuse-touching"});
   // The farther face.
   const Json farther = judged("0\\n0\\nnone\\n", "aggressive", disagreement);
+  EXPECT_EQ(farther["total"]["faces"]["wrong_visible"], 2);
+  EXPECT_EQ(farther["total"]["faces"]["wrong_hidden"], 2);
   EXPECT_EQ(farther["smallest"]["why"], "ray 0 first meets face 1, not face 0, ray 1 first meets face 1, not face 0");
   EXPECT_EQ(
       farther["guess"].dump(),
