@@ -442,7 +442,7 @@ std::vector<std::pair<std::string, Json>> judge_members() {
   const Json reduced = object(with(broken, {{"runs", count}, {"finished", type("boolean")}, {"files", texts}}));
   const Json smallest = object(with(failure, {{"files", texts}, {"guess?", texts}, {"reduced?", reduced}}));
   return {{"program", text},
-          {"query", one_word_of({"order", "see", "weak"})},
+          {"query", one_word_of({"order", "see", "weak", "trace"})},
           {"two_sided", type("boolean")},
           {"contract", one_word_of({"exact", "conservative", "aggressive"})},
           {"shard", tuple_of(count, 2)},

@@ -32,6 +32,7 @@ void move(const Polygon_soup& scene, judge::Query& query, std::int64_t ulps) {
     const Rational by = ulp * static_cast<long>(ulps) * askew[k];
     query.eye[k] += by;
     for (Exact_point& p : query.source) p[k] += by;
+    for (Exact_ray& ray : query.rays) ray.origin[k] += by;
   }
 }
 

@@ -17,9 +17,13 @@ namespace fs = std::filesystem;
 
 static std::string in_words(const judge::Grade& grade) {
   std::vector<std::string> all;
+  for (const judge::Wrong_ray& wrong : grade.wrong_rays)
+    all.push_back(fmt::format("ray {} first meets {}, not {}", wrong.ray,
+                              wrong.nothing ? std::string("nothing") : fmt::format("face {}", wrong.right.front()),
+                              wrong.said ? fmt::format("face {}", *wrong.said) : std::string("nothing")));
   for (const auto& [earlier, later] : grade.wrong_pairs)
     all.push_back(fmt::format("face {} is drawn before face {} but is nearer somewhere", earlier, later));
-  if (grade.wrong_pairs.empty()) {
+  if (grade.wrong_pairs.empty() && grade.wrong_rays.empty()) {
     for (const Face_id face : grade.wrong_visible) all.push_back(fmt::format("face {} is shown but hidden", face));
     for (const Face_id face : grade.wrong_hidden) all.push_back(fmt::format("face {} is missing but visible", face));
   }
@@ -126,7 +130,8 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
     if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
-    judged.answer = judge::read_answer(read_bytes(answer()), asked.query.question, asked.soup.face_count());
+    judged.answer = judge::read_answer(read_bytes(answer()), asked.query.question, asked.soup.face_count(),
+                                       asked.query.rays.size());
     judged.grade = judge::grade(truth, judged.answer);
   } catch (const std::runtime_error& error) {  // no file that can be read
     judged.mark = judge::Mark::invalid;

@@ -23,7 +23,8 @@ struct Judge_arguments {
   double time = 10, budget = 20, reduce = 0;
   std::uint64_t memory = 1024;
   int threads = 0;
-  bool two_sided = false, cycles = false, quiet = false;  // quiet: an output takes standard output
+  bool two_sided = false, cycles = false, excuse_touching = false,
+       quiet = false;  // quiet: an output takes standard output
 
   Case_options case_options() const {
     return {static_cast<Question>(place_of(query, question_names)), two_sided, format != "qoff"};
@@ -33,7 +34,7 @@ struct Judge_arguments {
             format,
             static_cast<Contract>(place_of(contract, contract_names)),
             {time, memory << 20},
-            {threads, budget, cycles}};
+            {threads, budget, cycles, excuse_touching}};
   }
   template <std::size_t n>
   static std::size_t place_of(const std::string& name, const std::array<std::string_view, n>& names) {
@@ -43,10 +44,11 @@ struct Judge_arguments {
 
 /// The command that asks one case again, which `which` names.
 std::string command_again(const Judge_arguments& arguments, const std::string& which) {
-  return fmt::format("sightline judge --program {} --query {} --contract {} {}{}{}{}", shell_word(arguments.program),
+  return fmt::format("sightline judge --program {} --query {} --contract {} {}{}{}{}{}", shell_word(arguments.program),
                      arguments.query, arguments.contract, which,
                      arguments.format == "off" ? "" : " --format " + arguments.format,
-                     arguments.two_sided ? " --two-sided" : "", arguments.cycles ? " --cycles" : "");
+                     arguments.two_sided ? " --two-sided" : "", arguments.cycles ? " --cycles" : "",
+                     arguments.excuse_touching ? " --excuse-touching" : "");
 }
 
 /// Whether a face has a corner twice.
@@ -96,9 +98,12 @@ void keep_picture(const Judge_arguments& arguments, Json& explained_case, const 
 /// A case made smaller as long as the program breaks the contract in the same way: how far, and the files that are
 /// kept. Faces stay planar, their corners apart, and coordinates doubles where these are wanted.
 Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
+  // Of rays the first that is wrong is kept, as an eye and a direction, if it is wrong when asked alone, too.
+  bool one_ray = !broken.grade.wrong_rays.empty();
   const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
-    return case_of(smaller.soup, {asked.query.question, smaller.eye, smaller.source, asked.query.two_sided},
-                   arguments.case_options());
+    Query query{asked.query.question, smaller.eye, smaller.source, asked.query.two_sided, asked.query.rays};
+    if (one_ray) query = {query.question, {}, {}, false, {{smaller.eye, smaller.source.at(0)}}};
+    return case_of(smaller.soup, query, arguments.case_options());
   };
   const bool repeats = repeats_a_corner(asked.soup);
   const auto fails = [&](const generate::Posed_scene& smaller) {
@@ -114,6 +119,13 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
   scene.soup = asked.soup;
   scene.eye = asked.query.eye;
   scene.source = asked.query.source;
+  if (one_ray) {
+    const Exact_ray& ray = asked.query.rays[broken.grade.wrong_rays.front().ray];
+    generate::Posed_scene alone{scene};
+    alone.eye = ray.origin, alone.source = {ray.direction};
+    one_ray = fails(alone);
+    if (one_ray) scene = alone;
+  }
   const harness::Reduced reduced = harness::reduce(scene, fails, options);
   const Judge_case left = case_of_smaller(reduced.scene);
   const Judged last = court.judge(left, broken.seed);
@@ -134,7 +146,10 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
 }
 
 /// An answer that lists nothing supports no reading, though it be right under some.
-bool lists_faces(const Answer& answer) { return !answer.visible.empty() || !answer.order.empty(); }
+bool lists_faces(const Answer& answer) {
+  return !answer.visible.empty() || !answer.order.empty() ||
+         std::any_of(answer.first.begin(), answer.first.end(), [](const auto& face) { return face.has_value(); });
+}
 
 /// What a wrong case looks like once it is moved, and under other readings of the question.
 std::vector<std::string> guesses(const Judge_arguments& arguments, const Court& court, const Case_group& group,
@@ -258,6 +273,10 @@ Exit run(const Judge_arguments& arguments) {
     throw Usage_error("--ask wants --scenes: which scene is asked about");
   if (arguments.reduce > 0 && arguments.keep.empty())
     throw Usage_error("--reduce wants --keep: the folder for the scene");
+  const bool of_rays = arguments.query == "trace";
+  if (of_rays && arguments.two_sided)
+    throw Usage_error("--two-sided is not of --query trace: rays meet faces from both sides; leave it out");
+  if (!of_rays && arguments.excuse_touching) throw Usage_error("--excuse-touching is of --query trace only");
   check_kept(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
   const Court court(arguments.court_options());
@@ -363,7 +382,9 @@ void add_judge(Command program) {
                   "its command, with {scene} {query} {answer} where the names of these files belong; quotes hold a "
                   "word together")
       .required();
-  command.add_option("--query", a->query, "what it is asked: order, see (from a point), weak (from a polygon)")
+  command
+      .add_option("--query", a->query,
+                  "what it is asked: order, see (from a point), weak (from a polygon), trace (what rays meet first)")
       .required()
       .check(one_of(
           std::vector<std::string>(sightline::judge::question_names.begin(), sightline::judge::question_names.end())));
@@ -415,6 +436,8 @@ void add_judge(Command program) {
   command.add_flag("--two-sided", a->two_sided, "faces seen from behind count too");
   command.add_flag("--cycles", a->cycles,
                    "order: ask also where faces overlap in a cycle, so that some must be drawn in parts");
+  command.add_flag("--excuse-touching", a->excuse_touching,
+                   "trace: a face that a ray meets on its border or along itself may be named or passed over");
   command
       .add_option("--budget", a->budget, "seconds for the truth of a weak query; what is undecided then is not judged")
       .check(positive() & finite_number())
@@ -438,6 +461,8 @@ void add_judge(Command program) {
       "{\"query\": \"weak\", \"source\": [[0, 0, 1], ...], ...}, and writes the answer:\n"
       "the visible faces, one number a line, faces counted from 0; for order all faces, farthest first. `abstained 7` "
       "leaves face 7 open.\n"
+      "For trace, {\"query\": \"trace\", \"rays\": [{\"origin\": [0, 0, 1], \"direction\": [0, 0, -1]}, ...]}, a line "
+      "for each ray: the face that it meets first, `none` or `abstained`.\n"
       "Example: sightline judge --program \"python3 mine.py {scene} {query} {answer}\" --query see --contract exact "
       "--html report.html\n"
       "A wrong face, an answer outside of the protocol and a crash break the contract; to abstain, and to run out of "

@@ -177,20 +177,23 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
     }
     dot_at(svg, p, 4.5, "#202020");
     dot_at(svg, q, 4, red);
-    name_at(svg, p, weak ? "source" : far ? "eye, farther" : "eye");
+    const std::string looker = query.question == judge::Question::trace ? "origin" : "eye";
+    name_at(svg, p, weak ? "source" : far ? looker + ", farther" : looker);
     name_at(svg, q, fmt::format("face {}", why.refutation->face));
   } else if (!weak) {
     dot_at(svg, projected(view, from), 4.5, "#202020");
   }
-  const bool order = query.question == judge::Question::order;
+  const bool order = query.question == judge::Question::order, trace = query.question == judge::Question::trace;
   double x = 8;
   const auto key = [&](std::string_view colour, std::string_view words) {
     svg.rectangle(x, 344, 10, 10, colour);
     svg.label(x + 14, 353, 11, words);
     x += 26 + 5.8 * static_cast<double>(words.size());
   };
-  if (!grade.wrong_hidden.empty()) key("hsl(20,90%,58%)", order ? "nearer, or missing" : "missing but visible");
-  if (!grade.wrong_visible.empty()) key("hsl(285,60%,62%)", order ? "drawn over it" : "shown but hidden");
+  if (!grade.wrong_hidden.empty())
+    key("hsl(20,90%,58%)", order ? "nearer, or missing" : trace ? "met, but not named" : "missing but visible");
+  if (!grade.wrong_visible.empty())
+    key("hsl(285,60%,62%)", order ? "drawn over it" : trace ? "named, but not met first" : "shown but hidden");
   if (why.refutation && why.refutation->by) key("hsl(205,55%,58%)", "in the way");
   if (weak) key("hsl(50,85%,60%)", "source");
   if (grade.wrong()) key("hsl(140,12%,72%)", "right");

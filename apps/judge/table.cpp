@@ -20,8 +20,11 @@ Json sums_of(const std::vector<const Judged*>& cases) {
     ++marks[static_cast<std::size_t>(c->mark)];
     breaches += c->breaks;
     judged += c->grade.judged;
-    wrong_visible += c->grade.wrong_visible.size();
-    wrong_hidden += c->grade.wrong_hidden.size();
+    const std::vector<judge::Wrong_ray>& rays = c->grade.wrong_rays;  // of rays these are counted, not faces
+    const auto named = std::count_if(rays.begin(), rays.end(), [](const auto& ray) { return ray.said.has_value(); });
+    const auto missed = std::count_if(rays.begin(), rays.end(), [](const auto& ray) { return !ray.nothing; });
+    wrong_visible += rays.empty() ? c->grade.wrong_visible.size() : static_cast<std::size_t>(named);
+    wrong_hidden += rays.empty() ? c->grade.wrong_hidden.size() : static_cast<std::size_t>(missed);
     abstained += c->grade.abstained.size();
     seconds.push_back(c->seconds);
     bytes = std::max(bytes, c->bytes);

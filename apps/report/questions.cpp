@@ -237,7 +237,7 @@ Report_program report_program(const std::string& text, const Report_limits& limi
   const std::size_t equals = text.find('=');
   const std::string question = text.substr(0, equals);
   const auto place = std::find(judge::question_names.begin(), judge::question_names.end(), question);
-  if (equals == std::string::npos || place == judge::question_names.end())
+  if (equals == std::string::npos || place == judge::question_names.end() || question == "trace")
     throw Usage_error("--program " + text +
                       ": write QUESTION=COMMAND, the question one of order, see, weak, as in see=\"python3 mine.py "
                       "{scene} {query} {answer}\"");

@@ -1,6 +1,7 @@
 #include <sightline/harness/judge/case.h>
 
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/judge/rays.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -51,6 +52,19 @@ Polygon_soup in_triangles(const Polygon_soup& soup) {
   return triangles;
 }
 
+bool same_rays(const std::vector<Exact_ray>& a, const std::vector<Exact_ray>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Exact_ray& r, const Exact_ray& s) {
+    return r.origin == s.origin && r.direction == s.direction;
+  });
+}
+
+/// The rays of a case whose scene stands, as programs get them; one whose direction is rounded to nothing is left out.
+void add_rays(Case& made, std::uint64_t seed, const Case_options& options) {
+  made.query.rays = rays_about(made.soup, made.query.eye, seed);
+  if (options.doubles) made.query = rounded_to_doubles(std::move(made.query));
+  std::erase_if(made.query.rays, [](const Exact_ray& ray) { return ray.direction == Exact_point{0, 0, 0}; });
+}
+
 /// As programs get it: rounded where that is wanted, and with planar faces.
 void prepare(Case& made, const Case_options& options) {
   const Polygon_soup given = made.soup;
@@ -63,7 +77,8 @@ void prepare(Case& made, const Case_options& options) {
   if (options.triangles) made.soup = in_triangles(made.soup);
   made.as_given =
       same_coordinates(made.soup, given) &&
-      (options.question == Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye);
+      (options.question == Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye) &&
+      same_rays(made.query.rays, wanted.rays);
 }
 
 /// Runs `make`; what cannot be made, or is beyond the range of doubles, is not asked.
@@ -89,6 +104,7 @@ Case case_of(const generate::Family& family, const generate::Family_parameters& 
     made.soup = posed.soup;
     made.query = {options.question, posed.eye, posed.source, options.two_sided};
     prepare(made, options);
+    if (options.question == Question::trace) add_rays(made, parameters.seed, options);
     if (options.question != Question::weak) return;
     if (posed.source.empty()) made.query.source = a_piece(Scene(made.soup), parameters.seed);
     else if (!options.two_sided && made.as_given) {
@@ -129,6 +145,7 @@ Case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_options& 
       made.query.source.push_back(corner);
     }
     prepare(made, options);
+    if (options.question == Question::trace) add_rays(made, seed, options);
   });
 }
 

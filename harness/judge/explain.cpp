@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/algorithms/rays/tracer.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
@@ -340,6 +341,53 @@ Explanation explain_weak(const Polygon_soup& soup, const Query& query, const Gra
   return why;
 }
 
+/// A point of the ray beyond all of the scene.
+Exact_point beyond(const Polygon_soup& soup, const Exact_ray& ray) {
+  Rational t = 1;
+  for (Point_id p = 0; p < soup.point_count(); ++p)
+    t = std::max(t, Rational(dot(minus(soup.point(p), ray.origin), ray.direction) / dot(ray.direction, ray.direction)));
+  return point_at(ray, t);
+}
+
+Explanation explain_traced(const Polygon_soup& soup, const Query& query, const Grade& grade, bool missing_first) {
+  Explanation why;
+  why.share = static_cast<double>(grade.wrong_rays.size()) / static_cast<double>(grade.judged - grade.abstained.size());
+  why.share_words = percent(why.share) + " of the rays that are answered for are answered wrongly";
+  const auto forbidden = [&](const Wrong_ray& wrong) {
+    return missing_first ? !wrong.nothing : wrong.said.has_value();
+  };
+  auto worst = std::find_if(grade.wrong_rays.begin(), grade.wrong_rays.end(), forbidden);
+  if (worst == grade.wrong_rays.end()) worst = grade.wrong_rays.begin();
+  const Exact_ray& ray = query.rays[worst->ray];
+  const Scene scene(soup);
+  Ray_counters counters;
+  const std::vector<Face_hit> hits = Ray_tracer(scene).all(ray, Ray_start::open, counters);
+  const std::string begin = "ray " + std::to_string(worst->ray) + ", from " + words_of(ray.origin) + " towards " +
+                            words_of(ray.direction) + ", ";
+  const auto met = [](const Face_hit& hit) {
+    return hit.side == Met_side::along ? " along itself" : hit.side == Met_side::back ? " from behind" : "";
+  };
+  if (hits.empty()) {
+    why.refutation = {*worst->said, ray.origin, beyond(soup, ray), {}, {}, begin + "meets nothing"};
+    return why;
+  }
+  const Face_hit& first = hits.front();
+  const Exact_point at = point_at(ray, first.t);
+  std::string words = begin + "first meets " + face_words(first.face) + met(first) + " at " + words_of(at);
+  if (touches(soup, ray, first) && first.side != Met_side::along) words += ", on its border";
+  if (!worst->said) {
+    why.refutation = {first.face, ray.origin, at, {}, {}, words};
+    return why;
+  }
+  const auto said =
+      std::find_if(hits.begin(), hits.end(), [&](const Face_hit& hit) { return hit.face == *worst->said; });
+  const Exact_point to = said == hits.end() ? beyond(soup, ray) : point_at(ray, said->t);
+  words += said == hits.end() ? ", and not " + face_words(*worst->said)
+                              : ", and " + face_words(*worst->said) + " only at " + words_of(to);
+  why.refutation = {*worst->said, ray.origin, to, first.face, at, words};
+  return why;
+}
+
 }  // namespace
 
 Explanation explain(const Polygon_soup& soup, const Query& query, const Answer& answer, const Grade& grade,
@@ -349,6 +397,7 @@ Explanation explain(const Polygon_soup& soup, const Query& query, const Answer& 
     case Question::order: return explain_order(soup, query, answer, grade);
     case Question::see: return explain_seen(soup, query, grade, missing_first);
     case Question::weak: return explain_weak(soup, query, grade, answer, missing_first, seconds);
+    case Question::trace: return explain_traced(soup, query, grade, missing_first);
   }
   return {};
 }

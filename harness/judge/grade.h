@@ -5,22 +5,32 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
 namespace sightline::judge {
 
+/// A ray about which an answer is wrong: the face that is named, or none, and what would be right.
+struct Wrong_ray {
+  std::size_t ray = 0;
+  std::optional<Face_id> said;
+  std::vector<Face_id> right;
+  bool nothing = false;  ///< that it meets nothing would be right
+};
+
 /// What is wrong with an answer. Lists are sorted. Faces that nothing is known about, or that are no faces (of zero
 /// area, doubles of others), are in none of them.
 struct Grade {
   std::vector<Face_id> wrong_visible;  ///< shown although hidden; in an order: painted over a face that is nearer
-                                       ///< there, or outside of itself
+                                       ///< there, or outside of itself; of rays: named although not met first
   std::vector<Face_id> wrong_hidden;   ///< hidden although visible; in an order: painted over by a face that is farther
-                                       ///< there, or missing, or in part
-  std::vector<Face_id> abstained;      ///< no answer
+                                       ///< there, or missing, or in part; of rays: met first but not named
+  std::vector<Face_id> abstained;      ///< no answer; of rays: their numbers
   std::vector<std::array<Face_id, 2>>
-      wrong_pairs;         ///< of an order: drawn earlier but nearer somewhere, and what is drawn over it
-  std::size_t judged = 0;  ///< faces about which something is known
+      wrong_pairs;                    ///< of an order: drawn earlier but nearer somewhere, and what is drawn over it
+  std::vector<Wrong_ray> wrong_rays;  ///< of rays
+  std::size_t judged = 0;             ///< faces about which something is known, or rays
 
   bool wrong() const { return !wrong_visible.empty() || !wrong_hidden.empty(); }
 };

@@ -1,7 +1,9 @@
 #include <sightline/harness/judge/guess.h>
 
 #include <sightline/algorithms/verify/polygons.h>
+#include <sightline/harness/judge/rays.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
 
 #include <algorithm>
 #include <bit>
@@ -24,6 +26,10 @@ Polygon_soup turned_round(const Polygon_soup& soup) {
 bool graded_right(const Polygon_soup& soup, const Query& query, const Answer& answer, const Truth_options& options) {
   const Truth truth = truth_of(soup, query, options);
   return truth.not_asked.empty() && !grade(truth, answer).wrong();
+}
+
+bool traced_right(const Polygon_soup& soup, const Query& query, const Answer& answer, const Ray_rule& rule) {
+  return !grade_rays(ray_truths(soup, Scene(soup), query.rays, rule), answer).wrong();
 }
 
 /// The truth if faces hid nothing.
@@ -59,6 +65,8 @@ std::vector<Reading> readings_of(Question question) {
       return {Reading::turned, Reading::other_sides, Reading::nothing_hides, Reading::complement, Reading::from_one};
     case Question::weak:
       return {Reading::turned, Reading::other_sides, Reading::source_turned, Reading::complement, Reading::from_one};
+    case Question::trace:
+      return {Reading::to_points, Reading::closed_start, Reading::fronts_only, Reading::farthest, Reading::from_one};
   }
   return {};
 }
@@ -67,6 +75,8 @@ bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, con
               const Truth_options& options) {
   Query other = query;
   Answer read = answer;
+  Ray_rule rule;
+  rule.excuse_touching = options.excuse_touching;
   switch (reading) {
     case Reading::turned: return graded_right(turned_round(soup), query, answer, options);
     case Reading::other_sides: other.two_sided = !query.two_sided; break;
@@ -85,9 +95,19 @@ bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, con
         if (face == 0) return false;
       for (const Drawn_face& drawn : answer.order)
         if (drawn.face == 0) return false;
+      for (const std::optional<Face_id>& face : answer.first)
+        if (face == Face_id{0}) return false;
       for (Face_id& face : read.visible) --face;
       for (Drawn_face& drawn : read.order) --drawn.face;
+      for (std::optional<Face_id>& face : read.first)
+        if (face) --*face;
     } break;
+    case Reading::to_points:
+      for (Exact_ray& ray : other.rays) ray.direction = minus(ray.direction, ray.origin);
+      break;
+    case Reading::closed_start: rule.start = Ray_start::closed; return traced_right(soup, query, answer, rule);
+    case Reading::fronts_only: rule.fronts_only = true; return traced_right(soup, query, answer, rule);
+    case Reading::farthest: rule.farthest = true; return traced_right(soup, query, answer, rule);
   }
   return graded_right(soup, other, read, options);
 }
@@ -102,6 +122,10 @@ std::string words_of(Reading reading, bool two_sided) {
     case Reading::complement: return "as if hidden faces were to be listed, not visible ones";
     case Reading::reversed: return "as if the nearest face came first";
     case Reading::from_one: return "as if faces were counted from 1";
+    case Reading::to_points: return "as if a direction were the point that the ray goes to";
+    case Reading::closed_start: return "as if faces that hold the origin were met there";
+    case Reading::fronts_only: return "as if faces were met from the front only";
+    case Reading::farthest: return "as if the last face were asked for, not the first";
   }
   return {};
 }

@@ -21,6 +21,10 @@ enum class Reading {
   complement,     ///< hidden faces are listed, not visible ones
   reversed,       ///< order: nearest first
   from_one,       ///< faces are counted from 1
+  to_points,      ///< trace: a direction is the point that the ray goes to
+  closed_start,   ///< trace: faces that hold the origin are met there
+  fronts_only,    ///< trace: faces are met from the front only
+  farthest,       ///< trace: the last face is named, not the first
 };
 
 /// Those that make sense for a question.

@@ -25,7 +25,8 @@ inline Json point_json(const Exact_point& p) { return {number_json(p[0]), number
 /// Collects an answer and says what is wrong with it.
 class Answer_reader {
  public:
-  Answer_reader(Question question, std::size_t faces) : question_(question), faces_(faces) {}
+  Answer_reader(Question question, std::size_t faces, std::size_t rays)
+      : question_(question), faces_(faces), rays_(rays) {}
 
   Answer from_json(const std::string& text);
 
@@ -37,10 +38,13 @@ class Answer_reader {
   Face_id face(const nlohmann::json& value, const std::string& at) const;
   void take(const nlohmann::json& value, const std::string& at);
   void take_whole(Face_id id);
+  void take_ray(const nlohmann::json& value, const std::string& at);
+  void leave_open();
   Answer finished();
+  Answer finished_rays();
 
   Question question_;
-  std::size_t faces_;
+  std::size_t faces_, rays_;
   Answer answer_;
   bool abstains_from_all_ = false;
   std::set<Face_id> whole_, in_parts_;
@@ -83,17 +87,19 @@ namespace protocol_detail {
 Answer Answer_reader::from_json(const std::string& text) {
   const nlohmann::json value = nlohmann::json::parse(text, nullptr, false);
   if (value.is_discarded()) fail("begins with { but is not JSON");
-  const std::string key = question_ == Question::order ? "order" : "visible";
+  const std::string key = question_ == Question::order ? "order" : question_ == Question::trace ? "first" : "visible";
   const auto abstained = value.find("abstained");
   const bool from_all = abstained != value.end() && *abstained == "all";
   abstains_from_all_ = from_all;
   if (abstained != value.end() && !from_all) {
+    if (question_ == Question::trace) fail("\"abstained\" is not \"all\"; write \"abstained\" in the place of a ray");
     if (!abstained->is_array()) fail("\"abstained\" is neither a list of faces nor \"all\"");
     for (std::size_t i = 0; i < abstained->size(); ++i)
       answer_.abstained.push_back(face((*abstained)[i], "abstained[" + std::to_string(i) + ']'));
   }
   if (const auto list = value.find(key); list != value.end()) {
     if (!list->is_array()) fail('"' + key + "\" is no list");
+    if (from_all && question_ == Question::trace) fail("all rays are abstained from, and some are answered");
     for (std::size_t i = 0; i < list->size(); ++i) take((*list)[i], key + '[' + std::to_string(i) + ']');
   } else if (!from_all) {
     fail("has no \"" + key + "\": write {\"" + key + "\": [0, 4, 7]}");
@@ -114,17 +120,27 @@ Answer Answer_reader::from_lines(std::string_view text) {
     };
     std::string_view word = next_word();
     if (word.empty()) continue;
-    const bool abstains = word == "abstained";
+    const bool abstains = word == "abstained", of_rays = question_ == Question::trace;
     if (abstains) word = next_word();
     if (!next_word().empty()) fail(at + " holds more than one face; write one a line");
+    if (abstains && of_rays && word.empty()) {
+      leave_open();
+      continue;
+    }
+    if (abstains && of_rays && word != "all")
+      fail(at + ": " + quoted(word) + " after `abstained`; write `abstained` in the line of a ray, or `abstained all`");
     if (abstains && word == "all") {
       abstains_from_all_ = true;
+      continue;
+    }
+    if (of_rays && word == "none") {
+      answer_.first.emplace_back();
       continue;
     }
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size())
-      fail(at + ": " + quoted(word) + " is no face; write its number, from 0");
+      fail(at + ": " + quoted(word) + " is no face; write its number, from 0" + (of_rays ? ", or none" : ""));
     const Face_id id = face(number, at);
     if (abstains) answer_.abstained.push_back(id);
     else take_whole(id);
@@ -145,6 +161,7 @@ Face_id Answer_reader::face(const nlohmann::json& value, const std::string& at) 
 }
 
 void Answer_reader::take(const nlohmann::json& value, const std::string& at) {
+  if (question_ == Question::trace) return take_ray(value, at);
   if (question_ != Question::order || !value.is_object()) return take_whole(face(value, at));
   if (!value.contains("face") || !value.contains("vertices"))
     fail(at + " is neither a face nor a part {\"face\": 0, \"vertices\": [[x, y, z], ...]}");
@@ -154,7 +171,35 @@ void Answer_reader::take(const nlohmann::json& value, const std::string& at) {
   answer_.order.push_back(std::move(part));
 }
 
+void Answer_reader::leave_open() {
+  answer_.abstained.push_back(static_cast<Face_id>(answer_.first.size()));
+  answer_.first.emplace_back();
+}
+
+void Answer_reader::take_ray(const nlohmann::json& value, const std::string& at) {
+  if (value == "abstained") return leave_open();
+  if (value.is_null()) answer_.first.emplace_back();
+  else if (value.is_number_unsigned()) answer_.first.emplace_back(face(value, at));
+  else fail(at + " is no face; write its number, from 0, or null, or \"abstained\"");
+}
+
+Answer Answer_reader::finished_rays() {
+  const std::size_t said = answer_.first.size();
+  if (abstains_from_all_) {
+    if (said > 0) fail("all rays are abstained from, and some are answered");
+    for (std::size_t ray = 0; ray < rays_; ++ray) leave_open();
+  } else if (said != rays_) {
+    fail("it is of " + std::to_string(said) + " rays, and " + std::to_string(rays_) +
+         " are asked about; write a line for each: a face, none or abstained");
+  }
+  return std::move(answer_);
+}
+
 void Answer_reader::take_whole(Face_id id) {
+  if (question_ == Question::trace) {
+    answer_.first.emplace_back(id);
+    return;
+  }
   if (question_ != Question::order) {
     answer_.visible.push_back(id);
     return;
@@ -164,6 +209,7 @@ void Answer_reader::take_whole(Face_id id) {
 }
 
 Answer Answer_reader::finished() {
+  if (question_ == Question::trace) return finished_rays();
   if (abstains_from_all_) {
     answer_.abstained.resize(faces_);
     std::iota(answer_.abstained.begin(), answer_.abstained.end(), Face_id{0});
@@ -187,6 +233,13 @@ Answer Answer_reader::finished() {
 
 Json to_json(const Query& query) {
   Json value{{"query", question_names[static_cast<std::size_t>(query.question)]}};
+  if (query.question == Question::trace) {
+    value["rays"] = Json::array();
+    for (const Exact_ray& ray : query.rays)
+      value["rays"].push_back({{"origin", protocol_detail::point_json(ray.origin)},
+                               {"direction", protocol_detail::point_json(ray.direction)}});
+    return value;
+  }
   if (query.question == Question::weak) {
     value["source"] = Json::array();
     for (const Exact_point& p : query.source) value["source"].push_back(protocol_detail::point_json(p));
@@ -208,8 +261,20 @@ Query query_from_json(const nlohmann::json& value) {
   const auto known = std::find_if(question_names.begin(), question_names.end(),
                                   [&](std::string_view question) { return name == question; });
   if (known == question_names.end())
-    protocol_detail::fail("query: \"query\" is neither \"order\" nor \"see\" nor \"weak\"");
+    protocol_detail::fail("query: \"query\" is neither \"order\" nor \"see\" nor \"weak\" nor \"trace\"");
   query.question = static_cast<Question>(known - question_names.begin());
+  if (query.question == Question::trace) {
+    const nlohmann::json& rays = member("rays");
+    if (!rays.is_array()) protocol_detail::fail("rays is no list of rays");
+    for (const nlohmann::json& ray : rays) {
+      const std::string at = "rays[" + std::to_string(query.rays.size()) + ']';
+      if (!ray.is_object() || !ray.contains("origin") || !ray.contains("direction"))
+        protocol_detail::fail(at + " is no ray; write {\"origin\": [x, y, z], \"direction\": [x, y, z]}");
+      query.rays.push_back(
+          {point_from_json(ray["origin"], at + ".origin"), point_from_json(ray["direction"], at + ".direction")});
+    }
+    return query;
+  }
   if (query.question == Question::weak) query.source = points_from_json(member("source"), "source");
   else query.eye = point_from_json(member("eye"), "eye");
   if (!member("two_sided").is_boolean()) protocol_detail::fail("query: \"two_sided\" is neither true nor false");
@@ -217,8 +282,8 @@ Query query_from_json(const nlohmann::json& value) {
   return query;
 }
 
-Answer read_answer(const std::string& text, Question question, std::size_t faces) {
-  protocol_detail::Answer_reader reader(question, faces);
+Answer read_answer(const std::string& text, Question question, std::size_t faces, std::size_t rays) {
+  protocol_detail::Answer_reader reader(question, faces, rays);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && text[first] == '{' ? reader.from_json(text) : reader.from_lines(text);
 }

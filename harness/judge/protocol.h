@@ -2,6 +2,7 @@
 // How a program that is judged is asked, and how it answers: the query is JSON, the answer JSON or plain lines. The
 // format is described on the page of this folder.
 
+#include <sightline/algorithms/rays/ray.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
@@ -9,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,15 +19,16 @@ namespace sightline::judge {
 
 using Json = nlohmann::ordered_json;
 
-enum class Question { order, see, weak };
-inline constexpr std::array<std::string_view, 3> question_names{"order", "see", "weak"};
+enum class Question { order, see, weak, trace };
+inline constexpr std::array<std::string_view, 4> question_names{"order", "see", "weak", "trace"};
 
 /// What a program is asked about a scene.
 struct Query {
   Question question = Question::see;
-  Exact_point eye;                  ///< of order and see
-  std::vector<Exact_point> source;  ///< of weak: a convex polygon, counterclockwise as seen from the side it looks to
-  bool two_sided = false;           ///< faces seen from behind count too
+  Exact_point eye;                   ///< of order and see
+  std::vector<Exact_point> source;   ///< of weak: a convex polygon, counterclockwise as seen from the side it looks to
+  bool two_sided = false;            ///< faces seen from behind count too; not of trace
+  std::vector<Exact_ray> rays = {};  ///< of trace
 };
 
 /// A face in an order: the whole of it, or the convex hull of some points on it.
@@ -36,9 +39,10 @@ struct Drawn_face {
 
 /// What a program answered. A face that is neither visible nor abstained from is hidden.
 struct Answer {
-  std::vector<Face_id> visible;    ///< of see and weak; sorted
-  std::vector<Drawn_face> order;   ///< of order: farthest first
-  std::vector<Face_id> abstained;  ///< sorted
+  std::vector<Face_id> visible;               ///< of see and weak; sorted
+  std::vector<Drawn_face> order;              ///< of order: farthest first
+  std::vector<std::optional<Face_id>> first;  ///< of trace: what each ray meets first, if anything
+  std::vector<Face_id> abstained;             ///< sorted; of trace: numbers of rays
 };
 
 /// A number of JSON, as the double that it reads as, or a string "p/q". Errors of this and the next two:
@@ -52,16 +56,17 @@ Exact_point point_from_json(const nlohmann::json& value, const std::string& at);
 std::vector<Exact_point> points_from_json(const nlohmann::json& value, const std::string& at);
 
 /// The query as a program gets it: {"query": "see", "eye": [0.5, 2, 1], "two_sided": false}, or "source" with a list of
-/// points for weak. Coordinates are JSON numbers where they are doubles, in which case they read as those doubles, else
-/// strings "p/q". Exact: yes.
+/// points for weak; {"query": "trace", "rays": [{"origin": [0, 0, 1], "direction": [0, 0, -1]}]}. Coordinates are JSON
+/// numbers where they are doubles, in which case they read as those doubles, else strings "p/q". Exact: yes.
 Json to_json(const Query& query);
 
 /// A query as to_json() writes it. Errors: std::invalid_argument that says what is wrong. Exact: yes.
 Query query_from_json(const nlohmann::json& value);
 
-/// What a program wrote, about a scene of so many faces. Text that begins with { is JSON, all other text has a face a
-/// line; an empty one sees nothing. Errors: std::invalid_argument that says in one line what is wrong: unknown faces, a
-/// face twice in an order, one both answered and abstained from. Exact: yes.
-Answer read_answer(const std::string& text, Question question, std::size_t faces);
+/// What a program wrote, about a scene of so many faces and so many rays. Text that begins with { is JSON, all other
+/// text has a face a line; an empty one sees nothing. Of trace each line is of a ray: a face, `none` or `abstained`.
+/// Errors: std::invalid_argument that says in one line what is wrong: unknown faces, a face twice in an order, one both
+/// answered and abstained from. Exact: yes.
+Answer read_answer(const std::string& text, Question question, std::size_t faces, std::size_t rays = 0);
 
 }  // namespace sightline::judge

@@ -70,6 +70,7 @@ Polygon_soup rounded_to_doubles(const Polygon_soup& soup) {
 Query rounded_to_doubles(Query query) {
   query.eye = rounded_to_doubles(query.eye);
   for (Exact_point& p : query.source) p = rounded_to_doubles(p);
+  for (Exact_ray& ray : query.rays) ray = {rounded_to_doubles(ray.origin), rounded_to_doubles(ray.direction)};
   const certificate_check::Integer_vector normal = certificate_check::newell_normal(query.source);
   if (query.source.empty() || certificate_check::is_zero(normal)) return query;
   const certificate_check::Plane plane{normal, query.source[0]};
@@ -127,6 +128,17 @@ void find_lit(const Polygon_soup& soup, const Scene& scene, const Query& query, 
   truth.hidden = std::move(found.hidden);
 }
 
+void find_traced(const Polygon_soup& soup, const Scene& scene, const Query& query, const Truth_options& options,
+                 Truth& truth) {
+  if (query.rays.empty()) truth.not_asked = "there is no ray";
+  for (const Exact_ray& ray : query.rays)
+    if (ray.direction == Exact_point{0, 0, 0}) truth.not_asked = "a ray has no direction";
+  if (!truth.not_asked.empty()) return;
+  Ray_rule rule;
+  rule.excuse_touching = options.excuse_touching;
+  truth.rays = ray_truths(soup, scene, query.rays, rule);
+}
+
 }  // namespace truth_detail
 
 Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options& options) {
@@ -146,6 +158,7 @@ Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options
       break;
     case Question::see: truth_detail::find_seen(scene, query, options, truth); break;
     case Question::weak: truth_detail::find_lit(soup, scene, query, options, truth); break;
+    case Question::trace: truth_detail::find_traced(soup, scene, query, options, truth); break;
   }
   if (query.question == Question::see)
     for (const Piece& piece : scene.pieces())
@@ -156,6 +169,7 @@ Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options
 
 Grade grade(const Truth& truth, const Answer& answer) {
   if (truth.order) return truth.order->grade(answer);
+  if (!truth.rays.empty()) return grade_rays(truth.rays, answer);
   Grade grade;
   grade.judged = truth.visible.size() + truth.hidden.size();
   const auto judge = [&](const std::vector<Face_id>& faces, bool visible, std::vector<Face_id>& wrong) {

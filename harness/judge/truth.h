@@ -4,6 +4,7 @@
 #include <sightline/harness/judge/grade.h>
 #include <sightline/harness/judge/order.h>
 #include <sightline/harness/judge/protocol.h>
+#include <sightline/harness/judge/rays.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <memory>
@@ -18,12 +19,14 @@ struct Truth {
   std::vector<Face_id> visible;  ///< of see and weak; sorted
   std::vector<Face_id> hidden;
   std::shared_ptr<const Order_truth> order;
+  std::vector<Ray_truth> rays;  ///< of trace
 };
 
 struct Truth_options {
   int threads = 0;      ///< 0: as many as there are processors; the same truth at any number, unless time runs out
   double seconds = 20;  ///< for weak; what is undecided then is not judged
   bool cycles = false;  ///< orders are asked for also where no order of whole faces is right
+  bool excuse_touching = false;  ///< of trace: Ray_rule
 };
 
 /// A scene that programs can be asked about: faces that are not planar, or have holes, are replaced by the planar
@@ -40,9 +43,9 @@ Query rounded_to_doubles(Query query);
 
 /// What is true of a query. Faces that are set aside (zero area, duplicates of earlier ones), and those that a search
 /// leaves undecided, are neither visible nor hidden. Weak visibility is certified, and the certificate checked by
-/// verify_weak(). Pre: faces are planar, with_planar_faces(). Degenerate: what visible_surface(), weakly_visible() and
-/// Order_truth say. Cost: that of these, and of the check. Errors: std::logic_error where the checker does not accept
-/// the library's own certificate. Exact: yes.
+/// verify_weak(). Pre: faces are planar, with_planar_faces(). Degenerate: what visible_surface(), weakly_visible(),
+/// Order_truth and ray_truths() say. Cost: that of these, and of the check. Errors: std::logic_error where the checker
+/// does not accept the library's own certificate. Exact: yes.
 Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options& options = {});
 
 /// What is wrong with an answer. Pre: the query could be asked, and the answer is about its scene. Exact: yes.

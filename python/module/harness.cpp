@@ -35,6 +35,7 @@ std::size_t place_of(const std::string& name, const std::array<std::string_view,
   throw py::value_error(what + " is one of " + all + ", not " + sightline::quoted(name));
 }
 Question question_of(const std::string& name) {
+  if (name == "trace") throw py::value_error("query is one of order, see, weak; `sightline judge` asks about rays");
   return static_cast<Question>(place_of(name, judge::question_names, "query"));
 }
 Contract contract_of(const std::string& name) {

@@ -165,18 +165,21 @@ inline void query(std::string_view bytes) {
 
 /// Answers of somebody's program about a scene of twelve faces, to each question.
 inline void answer(std::string_view bytes) {
-  constexpr std::size_t faces = 12;
+  constexpr std::size_t faces = 12, rays = 3;
   const auto ascends = [](const std::vector<Face_id>& list) {
     return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end() &&
            (list.empty() || list.back() < faces);
   };
-  for (const judge::Question question : {judge::Question::order, judge::Question::see, judge::Question::weak}) {
-    const auto taken_answer = taken("", [&] { return judge::read_answer(std::string(bytes), question, faces); });
+  for (const judge::Question question :
+       {judge::Question::order, judge::Question::see, judge::Question::weak, judge::Question::trace}) {
+    const auto taken_answer = taken("", [&] { return judge::read_answer(std::string(bytes), question, faces, rays); });
     if (!taken_answer) continue;
     require(ascends(taken_answer->visible) && ascends(taken_answer->abstained),
             "faces are sorted, once, and of the scene");
     require(question == judge::Question::order ? taken_answer->visible.empty() : taken_answer->order.empty(),
             "an answer is to what was asked");
+    require(taken_answer->first.size() == (question == judge::Question::trace ? rays : 0), "each ray is answered");
+    for (const auto& first : taken_answer->first) require(!first || *first < faces, "a ray meets a face of the scene");
     std::set<Face_id> whole, in_parts;
     for (const judge::Drawn_face& drawn : taken_answer->order) {
       require(drawn.face < faces && (drawn.part.empty() || drawn.part.size() >= 3),

@@ -9,6 +9,7 @@
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/judge/explain.h>
 #include <sightline/harness/judge/guess.h>
+#include <sightline/harness/judge/rays.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
@@ -530,6 +531,205 @@ TEST(Guess, of_concave_faces_wants_both_kinds) {
   EXPECT_EQ(words_of(Kinds{1, 2, 5, 1}), "");
   EXPECT_EQ(words_of(Kinds{1, 2, 0, 0}), "");
   EXPECT_EQ(words_of(Kinds{1, 0, 5, 2}), "");
+}
+
+// ---- Rays
+
+Query rays(std::vector<Exact_ray> all) {
+  Query query;
+  query.question = Question::trace, query.rays = std::move(all);
+  return query;
+}
+Grade graded_rays(const Polygon_soup& soup, const Query& query, const std::string& text, bool excuse = false) {
+  Truth_options options;
+  options.excuse_touching = excuse;
+  const Truth truth = truth_of(soup, query, options);
+  EXPECT_EQ(truth.not_asked, "");
+  return grade(truth, read_answer(text, query.question, soup.face_count(), query.rays.size()));
+}
+
+TEST(Rays, are_written_and_read) {
+  const Query query = rays({{{Rational(1, 2), Rational(1, 3), -3}, {0, 0, -1}}});
+  const std::string text = to_json(query).dump();
+  EXPECT_EQ(text, R"({"query":"trace","rays":[{"origin":[0.5,"1/3",-3.0],"direction":[0.0,0.0,-1.0]}]})");
+  EXPECT_EQ(to_json(query_from_json(nlohmann::json::parse(text))).dump(), text);
+  for (const char* bad : {R"({"query":"trace"})", R"({"query":"trace","rays":1})", R"({"query":"trace","rays":[1]})",
+                          R"({"query":"trace","rays":[{"origin":[0,0,0]}]})",
+                          R"({"query":"trace","rays":[{"origin":[0,0,0],"direction":[0,0]}]})"})
+    EXPECT_THROW(query_from_json(nlohmann::json::parse(bad)), std::invalid_argument) << bad;
+  EXPECT_NE(truth_of(tower({0}), rays({})).not_asked, "");
+  EXPECT_NE(truth_of(tower({0}), rays({{{0, 0, 1}, {0, 0, 0}}})).not_asked, "");
+}
+
+TEST(Rays, are_answered_a_line_each) {
+  const auto read = [](const std::string& text) { return read_answer(text, Question::trace, 3, 4); };
+  for (const char* text : {"2\nnone\n\n abstained \r\n0", R"({"first": [2, null, "abstained", 0]})"}) {
+    const Answer answer = read(text);
+    EXPECT_EQ(answer.first, (std::vector<std::optional<Face_id>>{2, std::nullopt, std::nullopt, 0})) << text;
+    EXPECT_EQ(answer.abstained, (Faces{2})) << text;
+  }
+  for (const char* text : {"abstained all\n", R"({"abstained": "all"})"})
+    EXPECT_EQ(read(text).abstained, (Faces{0, 1, 2, 3})) << text;
+  const auto what = [&](const std::string& text) {
+    try {
+      read(text);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  const std::string count = "it is of 1 rays, and 4 are asked about; write a line for each: a face, none or abstained";
+  EXPECT_EQ(what("1\n"), count);
+  EXPECT_EQ(what(R"({"first": [1]})"), count);
+  EXPECT_NE(what(""), "nothing");
+  EXPECT_EQ(what("0\n3\n"), "line 2 names face 3; the scene has faces 0 to 2");
+  EXPECT_EQ(what("-1\n"), "line 1: \"-1\" is no face; write its number, from 0, or none");
+  EXPECT_EQ(what("0\nabstained 1\n"),
+            "line 2: \"1\" after `abstained`; write `abstained` in the line of a ray, or `abstained all`");
+  EXPECT_EQ(what("0\nabstained all\n"), "all rays are abstained from, and some are answered");
+  EXPECT_EQ(what(R"({"first": [-1]})"), "first[0] is no face; write its number, from 0, or null, or \"abstained\"");
+  EXPECT_EQ(what(R"({"abstained": [1], "first": [0]})"),
+            "\"abstained\" is not \"all\"; write \"abstained\" in the place of a ray");
+  EXPECT_EQ(what(R"({"visible": [1]})"), "has no \"first\": write {\"first\": [0, 4, 7]}");
+}
+
+TEST(Rays, meet_the_upper_of_two_squares) {
+  const Polygon_soup soup = tower({0, 1});
+  const Query down = rays({{{0, 0, 5}, {0, 0, -1}}, {{0, 0, 5}, {0, 0, 1}}});
+  EXPECT_FALSE(graded_rays(soup, down, "1\nnone\n").wrong());
+  EXPECT_EQ(graded_rays(soup, down, "1\nnone\n").judged, 2u);
+  const Grade farther = graded_rays(soup, down, "0\nnone\n");
+  EXPECT_EQ(farther.wrong_visible, (Faces{0}));
+  EXPECT_EQ(farther.wrong_hidden, (Faces{1}));
+  ASSERT_EQ(farther.wrong_rays.size(), 1u);
+  EXPECT_EQ(farther.wrong_rays[0].ray, 0u);
+  const Grade missed = graded_rays(soup, down, "none\nnone\n");
+  EXPECT_EQ(missed.wrong_hidden, (Faces{1}));
+  EXPECT_TRUE(missed.wrong_visible.empty());
+  const Grade invented = graded_rays(soup, down, "1\n0\n");
+  EXPECT_TRUE(invented.wrong_hidden.empty());
+  EXPECT_EQ(invented.wrong_visible, (Faces{0}));
+  const Grade open = graded_rays(soup, down, "abstained\n0\n");
+  EXPECT_EQ(open.abstained, (Faces{0}));
+  EXPECT_EQ(open.wrong_rays.size(), 1u);
+}
+
+TEST(Rays, that_touch_follow_the_law_or_are_excused) {
+  Polygon_soup soup;  // two squares with an edge in common, one below, and the first once more
+  add_square(soup, 0, 1), add_square(soup, 2, 1), add_square(soup, 1, 0, 3);
+  soup.add_face({2, 3, 0, 1});
+  const Exact_ray edge{{1, 0, 5}, {0, 0, -1}}, corner{{-1, -1, 5}, {0, 0, -1}}, along{{-4, 0, 1}, {1, 0, 0}},
+      on{{0, 0, 1}, {0, 0, -1}};
+  const Query query = rays({edge, corner, along, on});
+  const auto wrong = [&](const std::string& text, bool excuse) {
+    std::vector<std::size_t> all;
+    for (const Wrong_ray& ray : graded_rays(soup, query, text, excuse).wrong_rays) all.push_back(ray.ray);
+    return all;
+  };
+  using Rays = std::vector<std::size_t>;
+  for (const char* right : {"0\n0\n0\n2\n", "1\n3\n3\n2\n"}) {
+    EXPECT_EQ(wrong(right, false), Rays()) << right;
+    EXPECT_EQ(wrong(right, true), Rays()) << right;
+  }
+  // What is touched is passed over: wrong by the law.
+  EXPECT_EQ(wrong("2\nnone\nnone\n2\n", false), (Rays{0, 1, 2}));
+  EXPECT_EQ(wrong("2\nnone\nnone\n2\n", true), (Rays{1}));  // below the corner is the border of nothing: face 2 is met
+  EXPECT_EQ(wrong("2\n2\n1\n2\n", true), Rays());
+  EXPECT_EQ(wrong("none\n1\n2\n0\n", true), (Rays{0, 1, 2, 3}));
+}
+
+/// The first faces by rationals and the law alone: where the line meets the plane, and whether that is in the convex
+/// face; nothing is asked of a ray in a plane.
+std::optional<Faces> first_by_force(const Polygon_soup& soup, const Exact_ray& ray) {
+  Faces first;
+  Rational nearest = 0;
+  const auto times = [](const Exact_point& a, const Exact_point& b) {
+    return Exact_point{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  };
+  const auto less = [](const Exact_point& a, const Exact_point& b) {
+    return Exact_point{a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+  };
+  const auto with = [](const Exact_point& a, const Exact_point& b) {
+    return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
+  };
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const auto loop = soup.loop(f);
+    const Exact_point a = soup.point(loop[0]),
+                      normal = times(less(soup.point(loop[1]), a), less(soup.point(loop[2]), a));
+    const Rational rise = with(normal, ray.direction), height = with(normal, less(a, ray.origin));
+    if (rise == 0 && height == 0) return std::nullopt;
+    if (rise == 0) continue;
+    const Rational t = height / rise;
+    if (t <= 0 || (!first.empty() && t > nearest)) continue;
+    const Exact_point at = point_at(ray, t);
+    bool inside = true;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Exact_point p = soup.point(loop[i]), q = soup.point(loop[(i + 1) % loop.size()]);
+      inside = inside && with(normal, times(less(q, p), less(at, p))) >= 0;
+    }
+    if (!inside) continue;
+    if (t < nearest || first.empty()) first.clear();
+    nearest = t, first.push_back(f);
+  }
+  return first;
+}
+
+TEST(Rays, about_heaps_are_judged_as_by_force) {
+  std::size_t met = 0, missed = 0, several = 0;
+  for (std::uint64_t seed = 0; seed < rounds; ++seed) {
+    Heap made = heap(seed, 6);
+    made.soup.add_face({0, 1, 3});  // shares an edge with one, and a corner with another
+    const Query query = rays(rays_about(made.soup, made.eye, seed));
+    const Truth truth = truth_of(made.soup, query);
+    ASSERT_EQ(truth.rays.size(), query.rays.size());
+    for (std::size_t r = 0; r < query.rays.size(); ++r) {
+      const auto first = first_by_force(made.soup, query.rays[r]);
+      if (!first) continue;
+      EXPECT_EQ(truth.rays[r].right, *first) << "seed " << seed << ", ray " << r;
+      EXPECT_EQ(truth.rays[r].nothing, first->empty()) << "seed " << seed << ", ray " << r;
+      ++(first->empty() ? missed : met), several += first->size() > 1;
+    }
+  }
+  EXPECT_GT(met, 8 * rounds);
+  EXPECT_GT(missed, rounds / 4);
+  EXPECT_GT(several, 0u);
+}
+
+TEST(Rays, that_are_answered_wrongly_are_explained_and_guessed_about) {
+  const Polygon_soup soup = tower({0, 1});
+  const Query query = rays({{{0, 0, 5}, {0, 0, -1}}, {{0, 0, Rational(1, 2)}, {0, 0, 1}}, {{0, 0, 1}, {0, 0, 1}}});
+  const auto why = [&](const std::string& text, Contract contract = Contract::exact) {
+    const Answer answer = read_answer(text, Question::trace, 2, 3);
+    return explain(soup, query, answer, grade(truth_of(soup, query), answer), contract);
+  };
+  const Explanation farther = why("0\n1\nnone\n");
+  ASSERT_TRUE(farther.refutation);
+  EXPECT_EQ(farther.refutation->words,
+            "ray 0, from (0, 0, 5) towards (0, 0, -1), first meets face 1 at (0, 0, 1), and face 0 only at (0, 0, 0)");
+  EXPECT_EQ(farther.refutation->by, Face_id{1});
+  EXPECT_NEAR(farther.share, 1.0 / 3, 1e-12);
+  const Explanation missed = why("1\nnone\nnone\n");
+  EXPECT_EQ(missed.refutation->words,
+            "ray 1, from (0, 0, 0.5) towards (0, 0, 1), first meets face 1 from behind at (0, 0, 1)");
+  EXPECT_EQ(missed.refutation->face, 1u);
+  EXPECT_EQ(why("none\n1\n0\n").refutation->face, 1u);
+  EXPECT_EQ(why("none\n1\n0\n", Contract::aggressive).refutation->words,
+            "ray 2, from (0, 0, 1) towards (0, 0, 1), meets nothing");
+
+  const auto fits = [&](const std::string& text) {
+    std::vector<Reading> found;
+    for (const Reading reading : readings_of(Question::trace))
+      if (is_right(reading, soup, query, read_answer(text, Question::trace, 2, 3), {})) found.push_back(reading);
+    return found;
+  };
+  using Readings = std::vector<Reading>;
+  EXPECT_EQ(fits("0\n1\nnone\n"), (Readings{Reading::farthest}));
+  EXPECT_EQ(fits("1\n1\n1\n"), (Readings{Reading::closed_start}));
+  EXPECT_EQ(fits("1\nnone\nnone\n"), (Readings{Reading::fronts_only}));
+  const Query one = rays({{{0, 0, 5}, {0, 0, -1}}});
+  EXPECT_TRUE(is_right(Reading::from_one, tower({1, 0}), one, read_answer("1\n", Question::trace, 2, 1), {}));
+  EXPECT_TRUE(is_right(Reading::to_points, tower({6}), rays({{{0, 0, 5}, {0, 0, 6}}}),
+                       read_answer("0\n", Question::trace, 1, 1), {}));
 }
 
 TEST(Example, of_the_page_grades_a_text) {

@@ -136,6 +136,51 @@ TEST_F(Judge, asks_about_scenes_and_keeps_what_went_wrong) {
       << s;
 }
 
+TEST_F(Judge, asks_what_rays_meet_first) {
+  const std::string query = file("rays.json", R"({"query": "trace", "rays": [
+    {"origin": [0, 0, 5], "direction": [0, 0, -1]}, {"origin": [1, 0, 5], "direction": [0, 0, -1]},
+    {"origin": [0, 0, 1], "direction": [0, 0, 1]}]})");
+  const auto judged = [&](const std::string& said, const std::string& contract, int code,
+                          std::vector<std::string> more = {}) {
+    std::vector<std::string> options{"--query", "trace", "--contract", contract, "--scenes", tower(), "--ask", query};
+    options.insert(options.end(), more.begin(), more.end());
+    return judge(shell("printf \"" + said + "\" > $3"), options, code)["result"];
+  };
+  EXPECT_EQ(judged("1\\n1\\nnone\\n", "exact", done)["total"]["faces"]["judged"], 3);
+  EXPECT_EQ(judged("abstained all", "exact", done)["total"]["cases"]["abstained"], 1);
+  EXPECT_EQ(judged("1\\n1\\n", "conservative", disagreement)["total"]["cases"]["invalid"], 1);
+  // A face is missed: through its border, too, unless that is excused.
+  EXPECT_EQ(judged("1\\nnone\\nnone\\n", "conservative", disagreement)["smallest"]["why"],
+            "ray 1 first meets face 1, not nothing");
+  judged("1\\nnone\\nnone\\n", "aggressive", done);
+  judged("1\\nnone\\nnone\\n", "exact", done, {"--excuse-touching"});
+  // The farther face.
+  const Json farther = judged("0\\n0\\nnone\\n", "aggressive", disagreement);
+  EXPECT_EQ(farther["total"]["faces"]["wrong_visible"], 2);
+  EXPECT_EQ(farther["total"]["faces"]["wrong_hidden"], 2);
+  EXPECT_EQ(farther["smallest"]["why"], "ray 0 first meets face 1, not face 0, ray 1 first meets face 1, not face 0");
+  EXPECT_EQ(
+      farther["guess"].dump(),
+      R"(["in the one wrong case the answer is right read otherwise, as if the last face were asked for, not the first"])");
+  const Json reduced = judge(shell("for ray in $(grep -o origin $2); do echo 0; done > $3"),
+                             {"--query", "trace", "--contract", "exact", "--scenes", tower(), "--ask", query, "--keep",
+                              path("kept").string(), "--reduce", "60"},
+                             disagreement)["result"]["smallest"]["reduced"];
+  EXPECT_EQ(reduced["finished"], true);
+  EXPECT_EQ(Json::parse(read_file(path("kept") / "reduced.json"))["rays"].size(), 1u);
+  // Rays of the judge's own, about a family.
+  const Json own =
+      judge(shell("for ray in $(grep -o origin $2); do echo none; done > $3"),
+            {"--query", "trace", "--contract", "aggressive", "--families", "hinged", "--cases", "2"}, done);
+  EXPECT_GT(own["result"]["total"]["faces"]["judged"], 100);
+  EXPECT_EQ(own["result"]["total"]["cases"]["wrong"], own["result"]["total"]["asked"]);
+  EXPECT_EQ(run({"judge", "--program", shell("true"), "--query", "trace", "--contract", "exact", "--two-sided"}).code,
+            usage);
+  EXPECT_EQ(
+      run({"judge", "--program", shell("true"), "--query", "see", "--contract", "exact", "--excuse-touching"}).code,
+      usage);
+}
+
 TEST_F(Judge, makes_the_smallest_smaller_and_asks_it_again) {
   // Face 0 is shown always: what is left is one triangle that looks away.
   const std::string program = shell("echo 0 > $3");
