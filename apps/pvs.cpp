@@ -11,6 +11,7 @@
 
 #include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/pvs.h>
+#include <sightline/algorithms/levels/ways.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/harness/generate/transform.h>
@@ -358,7 +359,24 @@ void write_page(const Pvs_arguments& arguments, const Level_cells& level, const 
   page.write(arguments.html);
 }
 
-/// A certificate for each cell that is asked about, of what its portals see outwards; and an index of them.
+/// A cell as what bounds it, for the index: its corners, and its walls as places of these, as seen from outside.
+void state_cell(Json& entry, const Level_cells& level, Cell_id cell) {
+  std::map<Exact_point, std::size_t> places;
+  Json corners = Json::array(), walls = Json::array();
+  for (const std::uint32_t w : level.cells()[cell].walls) {
+    Json& wall = walls.emplace_back(Json::array());
+    for (const Exact_point& p : levels_detail::looking_from(level, level.walls()[w], level.walls()[w].corners, cell)) {
+      const auto [at, is_new] = places.try_emplace(p, places.size());
+      if (is_new) corners.push_back(point_json(p));
+      wall.push_back(at->second);
+    }
+  }
+  entry["corners"] = std::move(corners);
+  entry["walls"] = std::move(walls);
+}
+
+/// A certificate for each cell that is asked about, of what its portals see outwards; and an index that states the
+/// cells.
 void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
   const fs::path folder = arguments.certificates;
   std::error_code error;
@@ -377,24 +395,25 @@ void write_certificates(const Pvs_arguments& arguments, const Level_cells& level
       sources.points.push_back(portal);
     }
     const std::string name = fmt::format("cell-{}.json", cell);
-    Json entry{{"cell", cell}, {"within", level.cells()[cell].faces}, {"certificate", nullptr}};
+    Weakly_visible found;
     if (!sources.polygons.empty()) {
       Weak_task task;
       task.threads = arguments.common.threads;
       task.seed = arguments.common.seed;
-      const Weak_outcome outcome = run_weak_method("lines", occluders, sources, task);
-      write_file((folder / name).string(), [&](std::ostream& out) {
-        write_certificate(out, weak_certificate(level.scene(), sources.points, false, outcome.found));
-      });
-      entry["certificate"] = name;
-      entry["unproved"] = outcome.found.unproved;
+      found = run_weak_method("lines", occluders, sources, task).found;
     }
+    write_file((folder / name).string(), [&](std::ostream& out) {
+      write_certificate(out, weak_certificate(level.scene(), sources.points, false, found));
+    });
+    Json entry{
+        {"cell", cell}, {"within", level.cells()[cell].faces}, {"certificate", name}, {"unproved", found.unproved}};
+    state_cell(entry, level, cell);
     index.push_back(std::move(entry));
   }
   progress.clear();
   write_file(
       (folder / "index.json").string(),
-      to_text({{"format", "sightline pvs certificates 1"}, {"question", table.question}, {"cells", index}}) + "\n");
+      to_text({{"format", "sightline pvs certificates 2"}, {"question", table.question}, {"cells", index}}) + "\n");
 }
 
 std::size_t count_of(const Visibility_table& table, std::vector<std::uint32_t> Row::*numbers) {
@@ -625,7 +644,8 @@ void add_pvs(Command program) {
   command.add_option("--eye", a->eye, "with --svg: X,Y,Z; by default a place outside the scene").check(not_empty());
   a->view.add_to(command);
   command
-      .add_option("--certificates", a->certificates, "write a certificate for each cell, and an index, to this folder")
+      .add_option("--certificates", a->certificates,
+                  "write a certificate for each cell, and an index that states the cells, to this folder")
       .check(not_empty());
   command.add_option(
       "--shard", a->shard,

@@ -3,6 +3,7 @@
 #include "support/common.h"
 
 #include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/level_cell.h>
 #include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/io/file.h>
 #include <sightline/io/format.h>
@@ -45,59 +46,101 @@ static Certificate certificate_of(const std::string& file) {
   }
 }
 
-/// The certificates that the index of a folder names, in its order.
-static std::vector<std::string> certificates_in(const std::filesystem::path& folder) {
+/// A cell of a folder: what its index says of it, and its certificate.
+struct Cell_entry {
+  std::uint64_t cell = 0;
+  std::string file;
+  Cell_statement statement;
+};
+
+static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::path& folder) {
+  Cell_entry entry;
+  entry.cell = json.at("cell").get<std::uint64_t>();
+  entry.file = (folder / json.at("certificate").get<std::string>()).string();
+  entry.statement.within = json.at("within").get<std::vector<Face_id>>();
+  std::vector<Exact_point> corners;
+  for (const nlohmann::json& corner : json.at("corners")) {
+    if (!corner.is_array() || corner.size() != 3) throw std::invalid_argument("a corner has not three coordinates");
+    Exact_point& p = corners.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) p[k] = rational_from_string(corner[k].get<std::string>());
+  }
+  for (const nlohmann::json& wall : json.at("walls")) {
+    std::vector<Exact_point>& polygon = entry.statement.walls.emplace_back();
+    for (const nlohmann::json& place : wall) {
+      if (!place.is_number_unsigned() || place.get<std::uint64_t>() >= corners.size())
+        throw std::invalid_argument("a wall names a corner that there is not");
+      polygon.push_back(corners[place.get<std::size_t>()]);
+    }
+  }
+  return entry;
+}
+
+/// The cells that the index of a folder states, in its order.
+static std::vector<Cell_entry> cells_in(const std::filesystem::path& folder) {
+  constexpr const char* format = "sightline pvs certificates 2";
   const std::string index = (folder / "index.json").string();
   if (!std::filesystem::exists(index))
     throw Input_error::of_file(
         folder.string(), "is a directory; name a file in it, or a folder that `sightline pvs --certificates` wrote");
   const nlohmann::json json = parse_json(read_bytes(index), index);
-  std::vector<std::string> files;
-  if (json.is_object() && json.contains("cells") && json["cells"].is_array())
-    for (const nlohmann::json& cell : json["cells"])
-      if (cell.is_object() && cell.contains("certificate") && cell["certificate"].is_string())
-        files.push_back((folder / cell["certificate"].get<std::string>()).string());
-  if (files.empty())
-    throw Input_error::of_file(index,
-                               "names no certificates; `sightline pvs --certificates FOLDER` writes such an index");
-  return files;
+  const auto refuse = [&](const std::string& what) {
+    throw Input_error::of_file(index, what + "; write the folder again with `sightline pvs --certificates FOLDER`");
+  };
+  if (!json.is_object() || !json.contains("format") || json["format"] != format)
+    refuse(fmt::format("its \"format\" is not \"{}\"", format));
+  std::vector<Cell_entry> cells;
+  if (json.contains("cells") && json["cells"].is_array())
+    for (std::size_t i = 0; i < json["cells"].size(); ++i) try {
+        cells.push_back(cell_entry(json["cells"][i], folder));
+      } catch (const nlohmann::json::exception&) {
+        refuse(fmt::format("entry {} of \"cells\" has not the parts of a cell", i));
+      } catch (const std::invalid_argument& error) {
+        refuse(fmt::format("entry {} of \"cells\": {}", i, error.what()));
+      }
+  if (cells.empty()) refuse("names no cells");
+  return cells;
 }
 
-/// All certificates of a folder, or so many of them, drawn at random.
+/// All cells of a folder with their certificates, or so many of them, drawn at random.
 static Exit run_folder(const Common& common, const std::string& folder, std::size_t sample) {
   const Polygon_soup soup = common.read();
-  std::vector<std::string> files = certificates_in(folder);
-  const std::size_t all = files.size();
+  std::vector<Cell_entry> cells = cells_in(folder);
+  const std::size_t all = cells.size();
   if (sample > 0 && sample < all) {
     std::mt19937_64 random(common.seed);
-    std::shuffle(files.begin(), files.end(), random);
-    files.resize(sample);
+    std::shuffle(cells.begin(), cells.end(), random);
+    cells.resize(sample);
   }
   const Stopwatch watch;
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
   Json rejected = Json::array();
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    progress(i, files.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    progress(i, cells.size());
     if (common.budget > 0 && watch.seconds() > common.budget)
-      throw Out_of_budget(fmt::format("the budget ran out after {} of {} certificates", i, files.size()));
-    const Certificate certificate = certificate_of(files[i]);
-    const Verdict verdict =
-        std::visit([&](const auto& claim) { return verdict_on(soup, claim, options); }, certificate);
-    if (!verdict.accepted) rejected.push_back({{"file", files[i]}, {"why", verdict.why}});
+      throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, cells.size()));
+    const Certificate certificate = certificate_of(cells[i].file);
+    const Weak_certificate* const claim = std::get_if<Weak_certificate>(&certificate);
+    if (claim == nullptr)
+      throw Input_error::of_file(cells[i].file, "is no certificate of weak visibility; write the folder again");
+    const Verdict verdict = verify_level_cell(soup, cells[i].statement, *claim, options);
+    if (!verdict.accepted) rejected.push_back({{"cell", cells[i].cell}, {"file", cells[i].file}, {"why", verdict.why}});
   }
   const double seconds = watch.seconds();
   progress.clear();
   const Exit exit = rejected.empty() ? Exit::done : Exit::disagreement;
-  const std::string what = fmt::format("{} of {} certificates, {} rejected", files.size(), all, rejected.size());
+  const std::string what =
+      fmt::format("{} of {} cells and their certificates, {} rejected", cells.size(), all, rejected.size());
   if (!common.json.empty()) {
     const Json result{{"accepted", rejected.empty()}, {"why", what}, {"rejected", rejected}};
-    if (write_json(common, "verify", Scene(soup), result, {{"certificates", files.size()}}, {{"verify", seconds}}))
+    if (write_json(common, "verify", Scene(soup), result, {{"certificates", cells.size()}}, {{"verify", seconds}}))
       return exit;
   }
   row(rejected.empty() ? "accepted" : "REJECTED", what);
-  for (const Json& one : rejected) row("", one["file"].get<std::string>() + ": " + one["why"].get<std::string>());
+  for (const Json& one : rejected)
+    row("", fmt::format("cell {} ({}): {}", one["cell"].dump(), one["file"].get<std::string>(),
+                        one["why"].get<std::string>()));
   row("seconds", fmt::format("{:.3f}", seconds));
   return exit;
 }
@@ -165,7 +208,7 @@ void add_verify(Command program) {
                   "a file that --certificate wrote, or a folder that `pvs --certificates` wrote")
       .required()
       .reads_file();
-  command.add_option("--sample", *sample, "of a folder, so many certificates, drawn by --seed").check(whole_number());
+  command.add_option("--sample", *sample, "of a folder, so many cells, drawn by --seed").check(whole_number());
   auto solids = std::make_shared<Solid_files>();
   command
       .add_option(

@@ -2,6 +2,8 @@
 
 #include "program.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <random>
@@ -243,6 +245,128 @@ TEST_F(Levels, certificates_of_all_cells_are_accepted_and_agree_with_the_table) 
   // Of another scene none is.
   EXPECT_EQ(run({"verify", (corpus / "general" / "cube.off").string(), out("proofs")}).code, disagreement);
   EXPECT_EQ(run({"verify", rooms, rooms, "--sample", "2"}).code, usage);
+}
+
+/// A folder of one cell, of which the index or the certificate says something else than `pvs` did; what `verify` says.
+/// Nothing is claimed of what the cell sees, so that what is wrong is what is said of the cell.
+TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
+  ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs")}).code, done);
+  const Json index = Json::parse(bytes_of("proofs/index.json"));
+  const auto certificate_of = [&](const Json& cell) {
+    Json certificate = Json::parse(bytes_of("proofs/" + cell["certificate"].get<std::string>()));
+    std::set<std::uint32_t> faces;
+    for (const Json& fragment : certificate["fragments"]) faces.insert(fragment["face"].get<std::uint32_t>());
+    for (const char* list : {"visible", "lines", "hidden"}) certificate[list] = Json::array();
+    certificate["undecided"] = faces;
+    return certificate;
+  };
+  const auto verified = [&](const Json& cell, const Json& certificate) {
+    std::filesystem::create_directories(path("forged"));
+    Json one = index;
+    one["cells"] = Json::array({cell});
+    std::ofstream(path("forged/index.json")) << one;
+    std::ofstream(path("forged/" + cell["certificate"].get<std::string>())) << certificate;
+    return run({"verify", rooms, out("forged")});
+  };
+  // The cell with the most portals, and a portal of another one that is not between the two.
+  const Json* most = nullptr;
+  std::size_t portals = 0;
+  for (const Json& cell : index["cells"])
+    if (const std::size_t count = certificate_of(cell)["sources"].size(); count > portals)
+      most = &cell, portals = count;
+  ASSERT_GE(portals, 2u);
+  const Json cell = *most, certificate = certificate_of(cell);
+  const auto corners_of = [](const Json& source) { return std::set<Json>(source.begin(), source.end()); };
+  Json elsewhere;
+  for (const Json& other : index["cells"]) {
+    const Json sources = certificate_of(other)["sources"];
+    for (const Json& source : sources)
+      if (std::none_of(certificate["sources"].begin(), certificate["sources"].end(),
+                       [&](const Json& own) { return corners_of(own) == corners_of(source); }))
+        elsewhere = source;
+  }
+  ASSERT_FALSE(elsewhere.is_null());
+  const Outcome as_it_is = verified(cell, certificate);
+  ASSERT_EQ(as_it_is.code, done) << as_it_is;
+
+  const std::string number = "cell " + cell["cell"].dump() + " ";
+  const auto expect_refused = [&](const std::string& why, auto change) {
+    Json said = cell, claim = certificate;
+    change(said, claim);
+    const Outcome r = verified(said, claim);
+    EXPECT_EQ(r.code, disagreement) << why << r;
+    EXPECT_NE(r.out.find(number), std::string::npos) << why << r;
+    EXPECT_NE(r.out.find(why), std::string::npos) << why << r;
+  };
+  const auto turn = [](Json& polygon) { std::reverse(polygon.begin(), polygon.end()); };
+  // Walls.
+  expect_refused("do not close up", [&](Json& said, Json&) { said["walls"].erase(0); });
+  expect_refused("do not close up", [&](Json& said, Json&) {
+    for (Json& place : said["walls"][0]) {  // moved along all axes
+      Json corner = said["corners"][place.get<std::size_t>()];
+      for (Json& x : corner) x = "1" + x.get<std::string>().substr(x.get<std::string>()[0] == '-' ? 1 : 0);
+      place = said["corners"].size();
+      said["corners"].push_back(corner);
+    }
+  });
+  expect_refused("it is not convex", [&](Json& said, Json&) {
+    for (Json& wall : said["walls"]) turn(wall);
+  });
+  expect_refused("it has no inside", [&](Json& said, Json&) {
+    said["walls"] = Json::array({said["walls"][0], said["walls"][0]});
+    turn(said["walls"][1]);
+  });
+  expect_refused("has zero area", [&](Json& said, Json&) { said["walls"].push_back({0, 1}); });
+  expect_refused("passes through its inside", [&](Json& said, Json& claim) {  // all of the level and more
+    said["corners"] = Json::array();
+    for (const char* x : {"-1000", "1000"})
+      for (const char* y : {"-1000", "1000"})
+        for (const char* z : {"-1000", "1000"}) said["corners"].push_back({x, y, z});
+    said["walls"] = Json::parse("[[0,1,3,2],[4,6,7,5],[0,4,5,1],[2,3,7,6],[0,2,6,4],[1,5,7,3]]");
+    said["within"] = Json::array();
+    claim["sources"] = Json::array();
+    for (const Json& wall : said["walls"]) {
+      Json& source = claim["sources"].emplace_back(Json::array());
+      for (const Json& place : wall) source.push_back(said["corners"][place.get<std::size_t>()]);
+    }
+  });
+  // Portals.
+  for (std::size_t k = 0; k < portals; ++k) {
+    expect_refused("is covered by no source and no face", [&](Json&, Json& claim) { claim["sources"].erase(k); });
+    expect_refused("looks into the cell", [&](Json&, Json& claim) { turn(claim["sources"][k]); });
+  }
+  expect_refused("is in none of its walls", [&](Json&, Json& claim) { claim["sources"].push_back(elsewhere); });
+  std::size_t covered = 0;
+  for (const Json& wall : cell["walls"]) {  // all of a wall, be it a face
+    Json source = Json::array();
+    for (const Json& place : wall) source.push_back(cell["corners"][place.get<std::size_t>()]);
+    Json claim = certificate;
+    claim["sources"].push_back(source);
+    const Outcome r = verified(cell, claim);
+    covered += r.code == disagreement && r.out.find("covers some of source") != std::string::npos;
+  }
+  EXPECT_GE(covered, 1u);
+  // Faces that look into it.
+  ASSERT_FALSE(cell["within"].empty());
+  expect_refused("looks into it, and is not said to", [&](Json& said, Json&) { said["within"].erase(0); });
+  expect_refused("does not look into it, but is said to", [&](Json& said, Json&) { said["within"].push_back(100000); });
+  // No folder of this kind.
+  for (const char* key : {"walls", "corners", "within"}) {
+    Json said = cell;
+    said[key] = "x";
+    const Outcome r = verified(said, certificate);
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_NE(r.err.find("sightline pvs --certificates"), std::string::npos) << r;
+  }
+}
+
+TEST_F(Levels, rooms_of_the_corpus_have_cells_that_are_checked) {
+  for (const char* scene : {"two_rooms.off", "cube.off", "cornell.obj", "l_room.off"}) {
+    const std::string file = (corpus / "general" / scene).string();
+    ASSERT_EQ(run({"pvs", file, "--outside", "--certificates", out(scene)}).code, done) << scene;
+    const Outcome r = run({"verify", file, out(scene)});
+    EXPECT_EQ(r.code, done) << scene << r;
+  }
 }
 
 TEST_F(Levels, methods_are_compared) {

@@ -1,0 +1,201 @@
+#include <sightline/algorithms/verify/level_cell.h>
+
+#include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/faces.h>
+#include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/weak_lines.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sightline::level_check {
+
+using namespace certificate_check;
+using weak_check::Corners;
+using weak_check::cut;
+using weak_check::Outline;
+using weak_check::reaches;
+
+namespace {
+
+Homogeneous turned(const Homogeneous& plane) {
+  return {Integer(-plane[0]), Integer(-plane[1]), Integer(-plane[2]), Integer(-plane[3])};
+}
+
+/// The planes that stand on a convex polygon's edges, its inside in front of them.
+std::vector<Homogeneous> edge_planes(const Outline& polygon) {
+  const Integer_vector normal{polygon.plane[0], polygon.plane[1], polygon.plane[2]};
+  std::vector<Homogeneous> planes;
+  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
+    const Homogeneous& a = polygon.corners[i];
+    const Integer_vector inward = primitive(cross(normal, minus(polygon.corners[(i + 1) % polygon.corners.size()], a)));
+    planes.push_back({Integer(inward[0] * a[3]), Integer(inward[1] * a[3]), Integer(inward[2] * a[3]),
+                      Integer(-dot(inward, Integer_vector{a[0], a[1], a[2]}))});
+  }
+  return planes;
+}
+
+/// What is in front of all planes; no corners where that has no area.
+Corners within(Corners corners, const std::vector<Homogeneous>& planes) {
+  for (const Homogeneous& plane : planes) {
+    if (corners.empty()) break;
+    corners = cut(corners, plane);
+  }
+  return corners;
+}
+
+/// A polygon without another one of its plane, in convex parts that have area.
+void take_away(std::vector<Corners>& parts, const Outline& cover) {
+  std::vector<Corners> left;
+  const std::vector<Homogeneous> edges = edge_planes(cover);
+  for (Corners& part : parts) {
+    if (within(part, edges).empty()) {
+      left.push_back(std::move(part));
+      continue;
+    }
+    for (const Homogeneous& edge : edges) {
+      if (Corners outside = cut(part, turned(edge)); !outside.empty()) left.push_back(std::move(outside));
+      part = cut(part, edge);
+    }
+  }
+  parts = std::move(left);
+}
+
+/// Whether two planes look to the same side. Pre: they are the same plane.
+bool alike(const Homogeneous& a, const Homogeneous& b) {
+  return sign_of_dot(Integer_vector{a[0], a[1], a[2]}, Integer_vector{b[0], b[1], b[2]}) > 0;
+}
+
+/// (1) Rejects unless the polygons bound a convex polyhedron that has an inside.
+std::vector<Outline> outlines_of_walls(const std::vector<Polygon>& walls) {
+  if (walls.empty()) reject("it has no walls");
+  std::vector<Outline> outlines;
+  Boundary_chain boundary;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    if (!canonical(walls[w])) reject(name("wall", w) + " has a number that is not in lowest terms");
+    const Plane plane{newell_normal(walls[w]), walls[w].empty() ? Exact_point{} : walls[w][0]};
+    if (is_zero(plane.normal)) reject(name("wall", w) + " has zero area");
+    if (const std::string why = not_convex(walls[w], plane); !why.empty()) reject(name("wall", w) + ' ' + why);
+    outlines.emplace_back(walls[w]);
+    boundary.add(walls[w], 1);
+  }
+  if (const std::optional<Exact_point> open = boundary.nonzero())
+    reject("its walls do not close up at " + exact_name(*open));
+  for (std::size_t w = 0; w < outlines.size(); ++w) {
+    bool has_inside = false;
+    for (const Outline& other : outlines) {
+      if (reaches(outlines[w].plane, other.corners, 1))
+        reject("it is not convex: a corner is outside of " + name("wall", w));
+      has_inside = has_inside || reaches(outlines[w].plane, other.corners, -1);
+    }
+    if (!has_inside) reject("it has no inside: all corners are in the plane of " + name("wall", w));
+  }
+  return outlines;
+}
+
+/// (2) Rejects where a fragment passes through the inside.
+void check_inside(const std::vector<Outline>& walls, const std::vector<Order_fragment>& fragments,
+                  const std::vector<Outline>& outlines) {
+  std::vector<Homogeneous> planes;
+  for (const Outline& wall : walls) planes.push_back(turned(wall.plane));
+  for (std::size_t i = 0; i < outlines.size(); ++i) {
+    // In front of a wall's plane in part, or nowhere inside: a fragment in that plane has no part.
+    if (!within(outlines[i].corners, planes).empty())
+      reject(name("face", fragments[i].face) + " passes through its inside", {i});
+  }
+}
+
+/// (3) Rejects unless the sources lie in walls, looking out, and no fragment covers some of one.
+void check_sources(const std::vector<Outline>& walls, const std::vector<Outline>& sources,
+                   const std::vector<Order_fragment>& fragments, const std::vector<Outline>& outlines) {
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    bool in_wall = false, looks_in = false;
+    for (const Outline& wall : walls) {
+      if (!wall.in_plane(sources[s].plane)) continue;
+      const std::vector<Homogeneous> edges = edge_planes(wall);
+      if (std::any_of(edges.begin(), edges.end(),
+                      [&](const Homogeneous& edge) { return reaches(edge, sources[s].corners, -1); }))
+        continue;
+      (alike(wall.plane, sources[s].plane) ? in_wall : looks_in) = true;
+    }
+    if (!in_wall) reject(name("source", s) + (looks_in ? " looks into the cell" : " is in none of its walls"));
+    const std::vector<Homogeneous> edges = edge_planes(sources[s]);
+    for (std::size_t i = 0; i < outlines.size(); ++i)
+      if (outlines[i].in_plane(sources[s].plane) && !within(outlines[i].corners, edges).empty())
+        reject(name("face", fragments[i].face) + " covers some of " + name("source", s), {i});
+  }
+}
+
+/// (4), (5) Rejects unless sources and fragments cover all walls, but for those beyond which there is nothing to see.
+/// Returns the faces that look into the cell.
+std::set<Face_id> check_walls(const std::vector<Outline>& walls, const std::vector<Outline>& sources,
+                              const std::vector<Order_fragment>& fragments, const std::vector<Outline>& outlines) {
+  std::set<Face_id> looking_in;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const std::vector<Homogeneous> edges = edge_planes(walls[w]);
+    std::vector<Corners> open{walls[w].corners};
+    for (const Outline& source : sources)
+      if (source.in_plane(walls[w].plane)) take_away(open, source);
+    for (std::size_t i = 0; i < outlines.size(); ++i) {
+      if (!outlines[i].in_plane(walls[w].plane) || within(outlines[i].corners, edges).empty()) continue;
+      if (!alike(outlines[i].plane, walls[w].plane)) looking_in.insert(fragments[i].face);
+      take_away(open, outlines[i]);
+    }
+    const bool ends_scene = std::none_of(outlines.begin(), outlines.end(), [&](const Outline& outline) {
+      return reaches(walls[w].plane, outline.corners, 1);
+    });
+    if (open.empty() || ends_scene) continue;
+    Exact_point corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corner[k] = Rational(open[0][0][k], open[0][0][3]);
+      corner[k].canonicalize();
+    }
+    reject("some of " + name("wall", w) + " is covered by no source and no face, at " + exact_name(corner));
+  }
+  return looking_in;
+}
+
+std::string check_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
+                       const Verify_options& options) {
+  // 0. The certificate is right, so its fragments are the scene.
+  if (certificate.sources.empty()) {
+    check_covering(soup, certificate, options.threads);
+  } else if (Verdict verdict = verify_weak(soup, certificate, options); !verdict.accepted) {
+    throw Rejection{std::move(verdict)};
+  }
+  std::vector<Outline> fragments, sources;
+  for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
+  for (const Polygon& source : certificate.sources) sources.emplace_back(source);
+
+  // 1. to 4. The cell is one, and its portals are the sources.
+  const std::vector<Outline> walls = outlines_of_walls(cell.walls);
+  check_inside(walls, certificate.fragments, fragments);
+  check_sources(walls, sources, certificate.fragments, fragments);
+  const std::set<Face_id> looking_in = check_walls(walls, sources, certificate.fragments, fragments);
+
+  // 5. What looks into it is what is said to.
+  const std::set<Face_id> said(cell.within.begin(), cell.within.end());
+  for (const Face_id f : said)
+    if (!looking_in.contains(f)) reject(name("face", f) + " does not look into it, but is said to");
+  for (const Face_id f : looking_in)
+    if (!said.contains(f)) reject(name("face", f) + " looks into it, and is not said to");
+  return std::to_string(walls.size()) + " walls, " + std::to_string(sources.size()) + " portals, " +
+         std::to_string(looking_in.size()) + " faces that look into it";
+}
+
+}  // namespace
+}  // namespace sightline::level_check
+
+namespace sightline {
+
+Verdict verify_level_cell(const Polygon_soup& soup, const Cell_statement& cell, const Weak_certificate& certificate,
+                          const Verify_options& options) {
+  return certificate_check::verdict_of([&] { return level_check::check_cell(soup, cell, certificate, options); });
+}
+
+}  // namespace sightline
