@@ -98,8 +98,7 @@ void keep_picture(const Judge_arguments& arguments, Json& explained_case, const 
 /// A case made smaller as long as the program breaks the contract in the same way: how far, and the files that are
 /// kept. Faces stay planar, their corners apart, and coordinates doubles where these are wanted.
 Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
-  // Of rays the first that is wrong is kept, as an eye and a direction, if it is wrong when asked alone, too.
-  bool one_ray = !broken.grade.wrong_rays.empty();
+  bool one_ray = false;  // as an eye and a direction
   const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
     Query query{asked.query.question, smaller.eye, smaller.source, asked.query.two_sided, asked.query.rays};
     if (one_ray) query = {query.question, {}, {}, false, {{smaller.eye, smaller.source.at(0)}}};
@@ -119,12 +118,15 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
   scene.soup = asked.soup;
   scene.eye = asked.query.eye;
   scene.source = asked.query.source;
-  if (one_ray) {
-    const Exact_ray& ray = asked.query.rays[broken.grade.wrong_rays.front().ray];
+  // Of rays the first is kept that breaks the contract when asked alone.
+  for (const Wrong_ray& wrong : broken.grade.wrong_rays) {
     generate::Posed_scene alone{scene};
-    alone.eye = ray.origin, alone.source = {ray.direction};
+    alone.eye = asked.query.rays[wrong.ray].origin, alone.source = {asked.query.rays[wrong.ray].direction};
+    one_ray = true;
     one_ray = fails(alone);
-    if (one_ray) scene = alone;
+    if (!one_ray) continue;
+    scene = alone;
+    break;
   }
   const harness::Reduced reduced = harness::reduce(scene, fails, options);
   const Judge_case left = case_of_smaller(reduced.scene);

@@ -636,6 +636,12 @@ TEST(Rays, that_touch_follow_the_law_or_are_excused) {
   EXPECT_EQ(wrong("2\nnone\nnone\n2\n", true), (Rays{1}));  // below the corner is the border of nothing: face 2 is met
   EXPECT_EQ(wrong("2\n2\n1\n2\n", true), Rays());
   EXPECT_EQ(wrong("none\n1\n2\n0\n", true), (Rays{0, 1, 2, 3}));
+  // A hit is contact at a corner, on an edge and along a face; in its interior, from a side, it is more.
+  const auto contact = [&](const Exact_ray& ray, Met_side side, int t) { return touches(soup, ray, {0, side, t, t}); };
+  EXPECT_TRUE(contact(edge, Met_side::front, 4));
+  EXPECT_TRUE(contact(corner, Met_side::front, 4));
+  EXPECT_TRUE(contact(along, Met_side::along, 4));
+  EXPECT_FALSE(contact({{0, 0, 5}, {0, 0, -1}}, Met_side::front, 4));
 }
 
 /// The first faces by rationals and the law alone: where the line meets the plane, and whether that is in the convex
@@ -726,6 +732,7 @@ TEST(Rays, that_are_answered_wrongly_are_explained_and_guessed_about) {
   EXPECT_EQ(fits("0\n1\nnone\n"), (Readings{Reading::farthest}));
   EXPECT_EQ(fits("1\n1\n1\n"), (Readings{Reading::closed_start}));
   EXPECT_EQ(fits("1\nnone\nnone\n"), (Readings{Reading::fronts_only}));
+  EXPECT_EQ(fits("1\n1\nnone\n"), Readings());  // the nearest is not the farthest
   const Query one = rays({{{0, 0, 5}, {0, 0, -1}}});
   EXPECT_TRUE(is_right(Reading::from_one, tower({1, 0}), one, read_answer("1\n", Question::trace, 2, 1), {}));
   EXPECT_TRUE(is_right(Reading::to_points, tower({6}), rays({{{0, 0, 5}, {0, 0, 6}}}),

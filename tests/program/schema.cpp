@@ -151,6 +151,8 @@ TEST_F(Schema, of_compare_and_judge_is_what_they_write) {
   reduced.insert(reduced.end(), {"--keep", kept, "--reduce", "0.5", "--html", path("judged.html").string()});
   held[2] = "sh -c 'echo abstained all > $3' sh {scene} {query} {answer}";
   valid(held, done);
+  held[4] = "trace";
+  valid(held, done);
   const auto [right, schema] = valid(reduced, disagreement);
   ASSERT_TRUE(right["result"]["smallest"].contains("reduced")) << right["result"]["smallest"];
   EXPECT_TRUE(right["result"]["failures"][0].contains("explained"));
