@@ -18,9 +18,9 @@ bool looks_like_glb(std::string_view bytes);
 /// rotation is about its quaternion's axis whatever the quaternion's length. y stays y. Passed over: points and lines,
 /// materials, textures, skins, morph targets, animations, cameras, lights; primitives without POSITION. Errors:
 /// Input_error, which names the byte, or the place in the JSON: for buffers in other files, sparse accessors,
-/// extensions that the file requires, nodes in a circle or with two parents, numbers of nodes beyond 2^4096, and where nodes make more than the file's
-/// own size of one mesh (a million points more, eight million triangles). Cost: linear in what is made. Exact: yes.
-/// Source: Khronos, glTF 2.0 specification.
+/// extensions that the file requires, nodes in a circle or with two parents, numbers of nodes beyond 2^4096, and where
+/// nodes make more than the file's own size of one mesh (a million points more, eight million triangles). Cost: linear
+/// in what is made. Exact: yes. Source: Khronos, glTF 2.0 specification.
 Polygon_soup read_glb(const Input& input, const Read_options& options = {});
 
 }  // namespace sightline
