@@ -273,6 +273,7 @@ class Cell_pvs_search::Maker {
   /// Whether there is a free line between two portals, in front of both. What is undecided is asked the other way
   /// round, and then of events.
   Weak_answer decide(std::size_t from, std::size_t to, Cell_pvs_counters& counters) const {
+    if (options_.search.out_of_time && options_.search.out_of_time()) return nothing_known();
     Weak_answer answer = search(from, to, counters);
     if (answer.status == Weak_status::undecided) {
       answer = search(to, from, counters);

@@ -129,6 +129,7 @@ class Pvs_maker {
       }
 
     // 2. A search.
+    if (options_.search.out_of_time && options_.search.out_of_time()) return Weak_status::undecided;
     ++counters.searched;
     Weak_status status = Weak_status::hidden;
     for (const std::uint32_t piece : target.pieces) {

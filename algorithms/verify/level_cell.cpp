@@ -78,7 +78,7 @@ std::vector<Outline> outlines_of_walls(const std::vector<Polygon>& walls) {
   Boundary_chain boundary;
   for (std::size_t w = 0; w < walls.size(); ++w) {
     if (!canonical(walls[w])) reject(name("wall", w) + " has a number that is not in lowest terms");
-    const Plane plane{newell_normal(walls[w]), walls[w].empty() ? Exact_point{} : walls[w][0]};
+    const certificate_check::Plane plane{newell_normal(walls[w]), walls[w].empty() ? Exact_point{} : walls[w][0]};
     if (is_zero(plane.normal)) reject(name("wall", w) + " has zero area");
     if (const std::string why = not_convex(walls[w], plane); !why.empty()) reject(name("wall", w) + ' ' + why);
     outlines.emplace_back(walls[w]);

@@ -232,6 +232,18 @@ TEST_F(Budget, that_runs_out_is_exit_4_and_one_line) {
   }
 }
 
+TEST_F(Budget, that_runs_out_in_pvs_leaves_the_rest_undecided_at_once) {
+  const std::string house = path("house.off").string();
+  ASSERT_EQ(run({"generate", "rooms", "--size", "3", "--out", house}).code, done);
+  for (const char* more : {"--outside", "--cells-too"}) {  // what it takes without a budget: some five seconds
+    const Outcome r = run({"pvs", house, more, "--budget", "0.05", "--json", "-"}, {.seconds = 30});
+    ASSERT_EQ(r.code, undecided) << r;
+    const Json written = r.json();
+    EXPECT_GT(written["result"]["undecided"], 0);
+    EXPECT_LT(written["seconds"]["pvs"], sanitized ? 20 : 1.5) << more;
+  }
+}
+
 TEST_F(Budget, that_runs_out_in_verify_is_exit_4) {
   const std::string scene = path("soup.off").string(), certificate = path("c.json").string();
   ASSERT_EQ(run({"generate", "soup", "--size", "300", "--out", scene}).code, done);
