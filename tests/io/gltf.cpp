@@ -35,12 +35,12 @@ std::string file_of(const std::string& json, const std::string& binary) {
 }
 
 /// A mesh of one primitive of these points, shown once by a node, which a test changes.
-struct Gltf {
+struct Glb {
   Tree tree;
   std::string binary;
 
   template <class Index = std::uint16_t>
-  explicit Gltf(const std::vector<float>& points, const std::vector<Index>& indices = {}) {
+  explicit Glb(const std::vector<float>& points, const std::vector<Index>& indices = {}) {
     for (const float x : points) store(binary, x);
     const std::size_t split = binary.size();
     for (const Index i : indices) store(binary, i);
@@ -86,14 +86,14 @@ std::string why(const std::string& bytes) {
   }
   return "accepted";
 }
-std::string why(const Gltf& gltf) { return why(gltf.bytes()); }
+std::string why(const Glb& gltf) { return why(gltf.bytes()); }
 
 TEST(Read_glb, of_triangles_strips_and_fans_with_indices_of_each_size) {
-  EXPECT_EQ(faces_of(Gltf(triangle).read()), "012 ");
-  EXPECT_EQ(faces_of(Gltf(five, std::vector<std::uint8_t>{4, 3, 2, 0, 1, 2}).read()), "432 012 ");
-  EXPECT_EQ(faces_of(Gltf(five, std::vector<std::uint16_t>{4, 3, 2}).read()), "432 ");
-  EXPECT_EQ(faces_of(Gltf(five, std::vector<std::uint32_t>{4, 3, 2}).read()), "432 ");
-  Gltf strip(five), fan(five);
+  EXPECT_EQ(faces_of(Glb(triangle).read()), "012 ");
+  EXPECT_EQ(faces_of(Glb(five, std::vector<std::uint8_t>{4, 3, 2, 0, 1, 2}).read()), "432 012 ");
+  EXPECT_EQ(faces_of(Glb(five, std::vector<std::uint16_t>{4, 3, 2}).read()), "432 ");
+  EXPECT_EQ(faces_of(Glb(five, std::vector<std::uint32_t>{4, 3, 2}).read()), "432 ");
+  Glb strip(five), fan(five);
   strip.primitive()["mode"] = 5;
   EXPECT_EQ(faces_of(strip.read()), "012 132 234 ");
   fan.primitive()["mode"] = 6;
@@ -105,7 +105,7 @@ TEST(Read_glb, of_triangles_strips_and_fans_with_indices_of_each_size) {
 }
 
 TEST(Read_glb, of_points_between_other_things) {
-  Gltf gltf({0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9});
+  Glb gltf({0, 0, 0, 9, 1, 0, 0, 9, 0, 1, 0, 9});
   gltf.tree["accessors"][0]["count"] = 3;
   gltf.tree["bufferViews"][0]["byteStride"] = 16;
   const Polygon_soup soup = gltf.read();
@@ -114,7 +114,7 @@ TEST(Read_glb, of_points_between_other_things) {
 }
 
 TEST(Read_glb, where_nodes_put_it_exactly) {
-  Gltf gltf(triangle);
+  Glb gltf(triangle);
   gltf.node()["translation"] = {0.1, -2, 1e-3};
   gltf.node()["scale"] = {2, 3, 0.5};
   gltf.node()["rotation"] = {0, 0, 3, 1};  // of another length than 1: by twice the angle whose tangent is 3
@@ -130,7 +130,7 @@ TEST(Read_glb, where_nodes_put_it_exactly) {
 
 TEST(Read_glb, rotated_about_each_axis_and_by_matrices) {
   const auto at = [](const Tree& rotation) {
-    Gltf gltf({1, 2, 3, 0, 0, 0, 1, 1, 1});
+    Glb gltf({1, 2, 3, 0, 0, 0, 1, 1, 1});
     gltf.node()["rotation"] = rotation;
     return gltf.read().point(0);
   };
@@ -138,13 +138,13 @@ TEST(Read_glb, rotated_about_each_axis_and_by_matrices) {
   EXPECT_EQ(at({0, 1, 0, 1}), (Exact_point{3, 2, -1}));
   EXPECT_EQ(at({0, 0, 1, 1}), (Exact_point{-2, 1, 3}));
   EXPECT_EQ(at({1, 1, 1, 1}), (Exact_point{3, 1, 2}));
-  Gltf gltf({1, 2, 3, 0, 0, 0, 1, 1, 1});
+  Glb gltf({1, 2, 3, 0, 0, 0, 1, 1, 1});
   gltf.node()["matrix"] = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 7, 8, 9, 1};  // by column
   EXPECT_EQ(gltf.read().point(0), (Exact_point{8, 5, 11}));
 }
 
 TEST(Read_glb, fronts_stay_fronts_where_a_node_mirrors) {
-  Gltf gltf(triangle);
+  Glb gltf(triangle);
   gltf.node()["scale"] = {-1, 1, 1};
   EXPECT_EQ(faces_of(gltf.read()), "021 ");
   gltf.node()["scale"] = {-1, -1, 1};
@@ -152,7 +152,7 @@ TEST(Read_glb, fronts_stay_fronts_where_a_node_mirrors) {
 }
 
 TEST(Read_glb, nodes_below_nodes_and_meshes_that_come_twice) {
-  Gltf gltf(triangle);
+  Glb gltf(triangle);
   gltf.tree["nodes"] = Tree::parse(R"([{"children": [1, 2], "scale": [2, 2, 2]}, {"mesh": 0, "translation": [1, 0, 0]},
                                       {"mesh": 0}, {"mesh": 0}])");
   const Polygon_soup soup = gltf.read();
@@ -168,7 +168,7 @@ TEST(Read_glb, nodes_below_nodes_and_meshes_that_come_twice) {
 }
 
 TEST(Read_glb, points_that_primitives_share_come_once) {
-  Gltf gltf(five, std::vector<std::uint16_t>{0, 1, 2});
+  Glb gltf(five, std::vector<std::uint16_t>{0, 1, 2});
   gltf.tree["meshes"][0]["primitives"].push_back(gltf.primitive());
   gltf.tree["meshes"][0]["primitives"].push_back({{"attributes", {{"NORMAL", 0}}}});
   const Polygon_soup soup = gltf.read();
@@ -188,7 +188,7 @@ TEST(Read_glb, of_what_was_drawn) {
 }
 
 TEST(Read_glb, what_is_no_such_file_is_refused_with_its_byte) {
-  const std::string whole = Gltf(triangle).bytes();
+  const std::string whole = Glb(triangle).bytes();
   for (std::size_t length = 1; length < whole.size(); ++length)
     EXPECT_TRUE(why(whole.substr(0, length)).starts_with("it: byte ")) << length;
   EXPECT_NE(why(whole + "more").find("data behind"), std::string::npos);
@@ -198,13 +198,13 @@ TEST(Read_glb, what_is_no_such_file_is_refused_with_its_byte) {
   EXPECT_NE(why(file_of(std::string(100000, '['), "")).find("too deep"), std::string::npos);
   EXPECT_NE(why(file_of("{}", "")).find("version: it is missing"), std::string::npos);
   EXPECT_NE(why(file_of("[1]", "")).find("it is missing"), std::string::npos);
-  Gltf odd({0, 0, 0, 1, std::numeric_limits<float>::infinity(), 0, 0, 1, 0});
+  Glb odd({0, 0, 0, 1, std::numeric_limits<float>::infinity(), 0, 0, 1, 0});
   EXPECT_NE(why(odd).find("not a finite number"), std::string::npos);
 }
 
 TEST(Read_glb, what_is_not_read_is_refused_with_its_place) {
   const auto refused = [](const std::string& pointer, const Tree& value, const std::string& message) {
-    Gltf gltf(five, std::vector<std::uint16_t>{0, 1, 2});
+    Glb gltf(five, std::vector<std::uint16_t>{0, 1, 2});
     gltf.tree[Tree::json_pointer(pointer)] = value;
     const std::string said = why(gltf);
     EXPECT_NE(said.find(message), std::string::npos) << pointer << ": " << said;
@@ -243,7 +243,7 @@ TEST(Read_glb, what_is_not_read_is_refused_with_its_place) {
 }
 
 TEST(Read_glb, numbers_out_of_proportion_are_refused) {
-  Gltf gltf(triangle);
+  Glb gltf(triangle);
   gltf.tree["nodes"] = Tree::array();
   for (int k = 0; k < 8; ++k) gltf.tree["nodes"].push_back({{"scale", {1e300, 1e-300, 1}}, {"children", {k + 1}}});
   gltf.tree["nodes"].push_back({{"mesh", 0}});
@@ -254,7 +254,7 @@ TEST(Read_glb, numbers_out_of_proportion_are_refused) {
 
 TEST(Read_glb, copies_out_of_proportion_are_refused) {
   std::vector<float> many(3 * 3000);
-  Gltf gltf(many);
+  Glb gltf(many);
   Tree copies = Tree::array(), numbers = Tree::array();
   for (int k = 0; k < 2000; ++k) {
     copies.push_back({{"mesh", 0}});
