@@ -73,9 +73,10 @@ void require_index(std::uint32_t index, std::size_t count) {
     throw std::out_of_range("corner " + std::to_string(index) + " is no point: there are " + std::to_string(count));
 }
 
+}  // namespace
+
 // ---- Budgets
 
-/// Whether the seconds of a question are over, from now on.
 std::function<bool()> end_of_budget(const Asking& asking) {
   if (!(asking.budget > 0)) return {};
   const auto start = std::chrono::steady_clock::now();
@@ -84,7 +85,6 @@ std::function<bool()> end_of_budget(const Asking& asking) {
   };
 }
 
-/// The question's progress, which ends it by Out_of_budget once its seconds are over.
 std::function<void(std::size_t, std::size_t)> progress_within_budget(const Asking& asking) {
   const std::function<bool()> is_over = end_of_budget(asking);
   if (!is_over) return asking.progress;
@@ -94,7 +94,7 @@ std::function<void(std::size_t, std::size_t)> progress_within_budget(const Askin
   };
 }
 
-}  // namespace
+// ---- Parts
 
 double Part::area() const {
   Exact_point twice{0, 0, 0};

@@ -37,6 +37,11 @@ struct Out_of_budget : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whether the seconds of a question are over, from now on; empty where it has no budget.
+std::function<bool()> end_of_budget(const Asking& asking);
+/// The question's progress, which ends it by Out_of_budget once its seconds are over, from now on.
+std::function<void(std::size_t done, std::size_t all)> progress_within_budget(const Asking& asking);
+
 /// A face that is not modelled, and why.
 struct Left_out {
   Face_id face;

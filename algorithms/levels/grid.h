@@ -12,7 +12,7 @@ namespace sightline {
 /// (x, y, z), counted from the least coordinates. Boxes at the rim go on without end. Pre: counts are positive, and
 /// their product is below 2^31. Degenerate: boxes are open, and what lies between two is in walls. Errors:
 /// std::invalid_argument, which names the axis, where a scene that has no extent along it is to be divided there. Cost:
-/// a node for each box but one, as deep as their number's logarithm. Exact: yes. Proof: P-88
+/// a node for each box but one, as deep as their number's logarithm. Exact: yes.
 Space_tree even_boxes(const Polygon_soup& soup, const std::array<std::uint32_t, 3>& counts);
 
 }  // namespace sightline

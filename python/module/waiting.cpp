@@ -61,20 +61,4 @@ void wait_for(const Question& question, const std::function<void(const Asking&)>
   if (!question.progress.is_none()) question.progress(all.load(), all.load());
 }
 
-std::function<bool()> end_of_budget(const Asking& asking) {
-  if (!(asking.budget > 0)) return {};
-  const auto start = std::chrono::steady_clock::now();
-  return [start, seconds = asking.budget] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds;
-  };
-}
-
-std::function<void(std::size_t, std::size_t)> progress_within_budget(const Asking& asking) {
-  return [is_over = end_of_budget(asking), progress = asking.progress](std::size_t done, std::size_t all) {
-    if (is_over && is_over())
-      throw Out_of_budget("undecided: the budget ran out; give it more seconds, or a smaller scene");
-    if (progress) progress(done, all);
-  };
-}
-
 }  // namespace sightline::python

@@ -26,11 +26,6 @@ struct Question {
 /// progress, and comes out of here. Errors: what the work throws. Pre: the GIL is held; the work touches no Python.
 void wait_for(const Question& question, const std::function<void(const Asking&)>& work);
 
-/// Whether the seconds of a question are over, from now on; empty where there is no limit.
-std::function<bool()> end_of_budget(const Asking& asking);
-/// The question's progress, which ends it by Out_of_budget once its seconds are over.
-std::function<void(std::size_t, std::size_t)> progress_within_budget(const Asking& asking);
-
 template <class Work>
 auto answer_to(const Question& question, Work work) {
   std::optional<decltype(work(Asking()))> answer;

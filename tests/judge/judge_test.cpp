@@ -59,12 +59,15 @@ Query question(Question kind, const Exact_point& eye, bool two_sided = false) {
   query.question = kind, query.eye = eye, query.two_sided = two_sided;
   return query;
 }
+Grade graded_by(const Truth_options& options, const Polygon_soup& soup, const Query& query, const std::string& text) {
+  const Truth truth = truth_of(soup, query, options);
+  EXPECT_EQ(truth.not_asked, "");
+  return grade(truth, read_answer(text, query.question, soup.face_count(), query.rays.size()));
+}
 Grade graded(const Polygon_soup& soup, const Query& query, const std::string& text, bool cycles = false) {
   Truth_options options;
   options.cycles = cycles;
-  const Truth truth = truth_of(soup, query, options);
-  EXPECT_EQ(truth.not_asked, "");
-  return grade(truth, read_answer(text, query.question, soup.face_count()));
+  return graded_by(options, soup, query, text);
 }
 using Faces = std::vector<Face_id>;
 
@@ -543,9 +546,7 @@ Query rays(std::vector<Exact_ray> all) {
 Grade graded_rays(const Polygon_soup& soup, const Query& query, const std::string& text, bool excuse = false) {
   Truth_options options;
   options.excuse_touching = excuse;
-  const Truth truth = truth_of(soup, query, options);
-  EXPECT_EQ(truth.not_asked, "");
-  return grade(truth, read_answer(text, query.question, soup.face_count(), query.rays.size()));
+  return graded_by(options, soup, query, text);
 }
 
 TEST(Rays, are_written_and_read) {
