@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <regex>
+#include <sstream>
 
 namespace program {
 
@@ -175,6 +176,20 @@ TEST_F(Schema, of_compare_and_judge_is_what_they_write) {
               status == "done");
   EXPECT_TRUE(wrong(seen, by, [](Json& r) { r["question"] = "render"; }));
   EXPECT_TRUE(wrong(seen, by, [](Json& r) { r["rows"][0]["errors"]["wrong_area"] = "0"; }));
+}
+
+TEST_F(Schema, is_there_for_each_command_that_writes_json) {
+  std::istringstream lines(run({"--help"}).out);
+  std::size_t some = 0;
+  bool listed = false;
+  for (std::string line, command; std::getline(lines, line); listed |= line == "Subcommands:") {
+    if (!listed || line.rfind("  ", 0) != 0) continue;
+    std::istringstream(line) >> command;
+    const bool writes = run({command, "--help"}).out.find("--json OUTPUT") != std::string::npos;
+    EXPECT_EQ(run({"schema", command}).code, writes ? done : usage) << command;
+    some += writes;
+  }
+  EXPECT_GE(some, 18u);
 }
 
 TEST_F(Schema, refuses_what_is_not_so) {
