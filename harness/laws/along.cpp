@@ -3,7 +3,9 @@
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/verify/along.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/along_edges.h>
@@ -97,6 +99,53 @@ Faces after_events(const Visible_along& along, const Quadratic_root& t) {
   return seen;
 }
 
+/// What is wrong with the certificate of a path: it is refused, or accepted with a claim that is not true.
+std::string flaw_of_certificate(const Posed_scene& posed, const Scene& scene, const Along_certificate& certificate,
+                                Random& random) {
+  Verify_options serial;
+  serial.threads = 1;
+  if (const Verdict verdict = verify_along(posed.soup, certificate, serial); !verdict.accepted)
+    return "its certificate is rejected: " + verdict.why;
+  // One moment or what is between two, of one face, is said to be otherwise.
+  const Face_id face = scene.pieces()[random.below(scene.pieces().size())].face;
+  const std::size_t low = random.below(certificate.moments.size());
+  const std::size_t high = low + 1 < certificate.moments.size() ? low + random.below(2) : low;
+  Along_certificate lie = certificate;
+  auto claims = std::find_if(lie.faces.begin(), lie.faces.end(), [&](const auto& of) { return of.face == face; });
+  if (claims == lie.faces.end()) claims = lie.faces.insert(claims, {face, {}});
+  std::vector<Along_certificate::Range> seen;
+  bool was_seen = false;
+  for (const auto& [from, to] : claims->seen) {
+    const bool holds = from == to    ? low == high && low == from
+                       : low == high ? from < low && low < to
+                                     : from <= low && high <= to;
+    was_seen |= holds;
+    if (!holds || from == to) {
+      if (!holds) seen.push_back({from, to});
+      continue;
+    }
+    // What is left of it: before, and after, and the two moments of a range.
+    for (const auto& [a, b] : {std::pair(from, low), std::pair(high, to)})
+      if (a < b) seen.push_back({a, b});
+    if (low != high)
+      for (const std::size_t k : {low, high})
+        if (from < k && k < to) seen.push_back({k, k});
+  }
+  if (!was_seen) seen.push_back({low, high});
+  claims->seen = std::move(seen);
+  // And proofs beside it are said to go on there.
+  const std::size_t begin = low < high || low == 0 ? low : low - 1,
+                    end = low < high ? high : std::min(high + 1, certificate.moments.size() - 1);
+  for (Along_certificate::Proof& proof : lie.proofs)
+    if (lie.fragments[proof.fragment].face == face && proof.cone.empty() == was_seen && proof.range.low <= high &&
+        proof.range.high >= low)
+      proof.range = {std::min(proof.range.low, begin), std::max(proof.range.high, end)};
+  if (verify_along(posed.soup, lie, serial).accepted)
+    return "a certificate is accepted that says of " + face_name(face) + " that it is " +
+           (was_seen ? "not seen" : "seen") + " at moments " + std::to_string(low) + " to " + std::to_string(high);
+  return "";
+}
+
 Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
   constexpr std::size_t most_pieces = 40;
   const Scene scene(posed.soup);
@@ -153,13 +202,24 @@ Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
     }
   }
   if (!same) return Outcome::failed(path + " other events are met than on the way back");
+  // 4. The certificate.
+  options.with_proofs = true;
+  const Visible_along proved = visible_along(occluders, from, to, options);
+  const Along_certificate certificate = along_certificate(scene, proved, from, to, options.two_sided);
+  if (const std::string flaw = flaw_of_certificate(posed, scene, certificate, random); !flaw.empty())
+    return Outcome::failed(path + " " + flaw);
+  same = proved.events.size() == found.events.size();
+  for (std::size_t k = 0; k < found.events.size() && same; ++k)
+    same = proved.events[k].t == found.events[k].t && proved.events[k].changes.size() == found.events[k].changes.size();
+  if (!same) return Outcome::failed(path + " other events are met where proofs are kept");
   return {};
 }
 
 }  // namespace moving_eye
 
 Check moving_eye_check() {
-  return {"moving", "the same faces from points of a path as along it, and on the way back", moving_eye::moved};
+  return {"moving", "the same faces from points of a path as along it, and on the way back; certified",
+          moving_eye::moved};
 }
 
 }  // namespace sightline::harness
