@@ -99,6 +99,73 @@ Faces after_events(const Visible_along& along, const Quadratic_root& t) {
   return seen;
 }
 
+// ---- The certificate
+
+using Range = Along_certificate::Range;
+using Proof = Along_certificate::Proof;
+
+/// A moment, or what is between it and the next one.
+bool holds(const Range& seen, const Range& place) {
+  if (place.low != place.high) return seen.low <= place.low && place.high <= seen.high;
+  return seen.low == seen.high ? seen.low == place.low : seen.low < place.low && place.low < seen.high;
+}
+
+/// What is left of a range without a place in it.
+void append_rest(const Range& range, const Range& place, std::vector<Range>& rest) {
+  if (range.low == range.high) return;
+  for (const Range& part : {Range{range.low, place.low}, Range{place.high, range.high}})
+    if (part.low < part.high) rest.push_back(part);
+  if (place.low == place.high) return;
+  for (const std::size_t k : {place.low, place.high})
+    if (range.low < k && k < range.high) rest.push_back({k, k});
+}
+
+/// The certificate that says the contrary of a face at one place. Returns whether it is seen there.
+bool turn(Along_certificate& certificate, Face_id face, const Range& place) {
+  auto claims =
+      std::find_if(certificate.faces.begin(), certificate.faces.end(), [&](const auto& of) { return of.face == face; });
+  if (claims == certificate.faces.end()) claims = certificate.faces.insert(claims, {face, {}});
+  std::vector<Range> seen;
+  bool was_seen = false;
+  for (const Range& range : claims->seen)
+    if (holds(range, place)) {
+      was_seen = true;
+      append_rest(range, place, seen);
+    } else {
+      seen.push_back(range);
+    }
+  if (!was_seen) seen.push_back(place);
+  claims->seen = std::move(seen);
+  return was_seen;
+}
+
+/// Proofs beside the place go on there, and beyond a moment.
+void prolong(Along_certificate& lie, Face_id face, const Range& place, bool was_seen) {
+  const std::size_t last = lie.moments.size() - 1;
+  const bool is_moment = place.low == place.high;
+  const Range until{is_moment && place.low > 0 ? place.low - 1 : place.low,
+                    is_moment ? std::min(place.high + 1, last) : place.high};
+  for (Proof& proof : lie.proofs)
+    if (lie.fragments[proof.fragment].face == face && proof.cone.empty() == was_seen && proof.range.low <= place.high &&
+        proof.range.high >= place.low)
+      proof.range = {std::min(proof.range.low, until.low), std::max(proof.range.high, until.high)};
+}
+
+/// Proofs are made up: each part is hidden by one other, or seen in a cone that is none, or in all of it.
+void make_up(Along_certificate& lie, Face_id face, const Range& place, bool was_seen, Random& random) {
+  const std::size_t by = random.below(lie.fragments.size());
+  const bool flat = random.below(2) == 0;
+  for (std::size_t k = 0; k < lie.fragments.size(); ++k) {
+    if (lie.fragments[k].face != face) continue;
+    Proof proof{k, false, place, {}, {}};
+    if (was_seen) proof.tree.push_back({false, {}, by});
+    else
+      for (std::size_t corner = lie.fragments[k].vertices.size(); corner-- > 0;)
+        proof.cone.push_back({Along_certificate::Side::Kind::edge, k, flat ? 0 : corner, 1});
+    lie.proofs.push_back(std::move(proof));
+  }
+}
+
 /// What is wrong with the certificate of a path: it is refused, or accepted with a claim that is not true.
 std::string flaw_of_certificate(const Posed_scene& posed, const Scene& scene, const Along_certificate& certificate,
                                 Random& random) {
@@ -106,43 +173,26 @@ std::string flaw_of_certificate(const Posed_scene& posed, const Scene& scene, co
   serial.threads = 1;
   if (const Verdict verdict = verify_along(posed.soup, certificate, serial); !verdict.accepted)
     return "its certificate is rejected: " + verdict.why;
-  // One moment or what is between two, of one face, is said to be otherwise.
-  const Face_id face = scene.pieces()[random.below(scene.pieces().size())].face;
-  const std::size_t low = random.below(certificate.moments.size());
-  const std::size_t high = low + 1 < certificate.moments.size() ? low + random.below(2) : low;
-  Along_certificate lie = certificate;
-  auto claims = std::find_if(lie.faces.begin(), lie.faces.end(), [&](const auto& of) { return of.face == face; });
-  if (claims == lie.faces.end()) claims = lie.faces.insert(claims, {face, {}});
-  std::vector<Along_certificate::Range> seen;
-  bool was_seen = false;
-  for (const auto& [from, to] : claims->seen) {
-    const bool holds = from == to    ? low == high && low == from
-                       : low == high ? from < low && low < to
-                                     : from <= low && high <= to;
-    was_seen |= holds;
-    if (!holds || from == to) {
-      if (!holds) seen.push_back({from, to});
-      continue;
+  constexpr int lies = 4;
+  for (int k = 0; k < lies; ++k) {
+    // Anywhere, or where a claim begins.
+    Face_id face = scene.pieces()[random.below(scene.pieces().size())].face;
+    std::size_t low = random.below(certificate.moments.size()), high = low;
+    if (k % 2 == 0 && low + 1 < certificate.moments.size()) ++high;
+    if (k == 1 && !certificate.faces.empty()) {
+      const Along_certificate::Face& claims = certificate.faces[random.below(certificate.faces.size())];
+      face = claims.face;
+      if (!claims.seen.empty()) low = high = claims.seen[random.below(claims.seen.size())].low;
     }
-    // What is left of it: before, and after, and the two moments of a range.
-    for (const auto& [a, b] : {std::pair(from, low), std::pair(high, to)})
-      if (a < b) seen.push_back({a, b});
-    if (low != high)
-      for (const std::size_t k : {low, high})
-        if (from < k && k < to) seen.push_back({k, k});
+    const Range place{low, high};
+    Along_certificate lie = certificate;
+    const bool was_seen = turn(lie, face, place);
+    if (k < 2) prolong(lie, face, place, was_seen);
+    else make_up(lie, face, place, was_seen, random);
+    if (verify_along(posed.soup, lie, serial).accepted)
+      return "a certificate is accepted that says of " + face_name(face) + " that it is " +
+             (was_seen ? "not seen" : "seen") + " at moments " + std::to_string(low) + " to " + std::to_string(high);
   }
-  if (!was_seen) seen.push_back({low, high});
-  claims->seen = std::move(seen);
-  // And proofs beside it are said to go on there.
-  const std::size_t begin = low < high || low == 0 ? low : low - 1,
-                    end = low < high ? high : std::min(high + 1, certificate.moments.size() - 1);
-  for (Along_certificate::Proof& proof : lie.proofs)
-    if (lie.fragments[proof.fragment].face == face && proof.cone.empty() == was_seen && proof.range.low <= high &&
-        proof.range.high >= low)
-      proof.range = {std::min(proof.range.low, begin), std::max(proof.range.high, end)};
-  if (verify_along(posed.soup, lie, serial).accepted)
-    return "a certificate is accepted that says of " + face_name(face) + " that it is " +
-           (was_seen ? "not seen" : "seen") + " at moments " + std::to_string(low) + " to " + std::to_string(high);
   return "";
 }
 

@@ -118,6 +118,46 @@ TEST(Verify_along, a_tree_is_of_cuts_with_both_parts_hidden) {
   expect("does not cover", {turned, by_screen, by_wall});
 }
 
+TEST(Verify_along, a_cut_passes_no_ray_of_its_cone_within_the_range) {
+  // A wall in front hides all of it. Past the screen's edge an eye at y = 3 sees the edge y = -1 of the second wall.
+  const auto why = [](long until) {
+    Screened walls;
+    Along_certificate& certificate = walls.certificate;
+    certificate.to = at(0, until, 0);
+    walls.add(1, 99);
+    std::swap(certificate.fragments[0], certificate.fragments[3]);
+    certificate.faces[0].face = 3;
+    certificate.proofs.insert(certificate.proofs.begin(), {3, false, {0, 2}, {}, {{false, {}, 0}}});
+    return walls.why({{true, {edge, 2, 0, 1}, 0}, {false, {}, 0}, {false, {}, 0}});
+  };
+  const std::string passes = "proof 3 has a cut that passes a ray of its cone within the range";
+  EXPECT_NE(why(3).find("face 2 is neither said to be seen"), std::string::npos) << why(3);
+  EXPECT_NE(why(4).find(passes), std::string::npos) << why(4);
+}
+
+TEST(Verify_along, a_leaf_is_before_the_fragment_also_where_planes_cross) {
+  // A slanted wall, through the plane of the one at x = 4, covers it as the eye sees it: from behind, or from before
+  // it.
+  const auto why = [](long end) {
+    Walls walls;
+    walls.soup = {};
+    walls.certificate = {};
+    walls.add(4, 1);
+    const Points slanted{at(1, -9, -99), at(1, -9, 99), at(9, end, 99), at(9, end, -99)};
+    std::vector<Point_id> ids;
+    for (const Exact_point& p : slanted) ids.push_back(walls.soup.add_point(p[0], p[1], p[2]));
+    walls.certificate.fragments.push_back({walls.soup.add_face(ids), 0, slanted});
+    walls.certificate.from = at(0, 0, 0);
+    walls.certificate.to = at(0, -40, 0);  // later it passes the slanted plane
+    walls.certificate.moments = {Walls::rational(0), Walls::rational(ratio(1, 40)), Walls::rational(1)};
+    walls.certificate.proofs.push_back({0, false, {0, 1}, {}, {{false, {}, 1}}});
+    return verify_along(walls.soup, walls.certificate).why;
+  };
+  EXPECT_NE(why(9).find("proof 0 has a leaf that fragment 1 is not in front of"), std::string::npos) << why(9);
+  EXPECT_NE(why(99).find("face 0 is neither said to be seen nor shown not to be after moment 1"), std::string::npos)
+      << why(99);
+}
+
 TEST(Verify_along, what_is_not_so_is_refused) {
   const auto claim_more = [](Walls& w) { w.certificate.faces[1].seen[0].low = 0; };
   refused("face 1 is not shown to be seen after moment 0", claim_more);
@@ -220,9 +260,9 @@ TEST(Verify_along_moments, signs_at_roots_and_between_them) {
     }
     const std::optional<int> between = moments.sign(1, 2, f);
     EXPECT_EQ(moments.never_negative(1, 2, f) && negative, false);
-    if (between) EXPECT_EQ(*between, positive ? 1 : negative ? -1 : 0);
-    else ++changes;
-    if (negative && positive) EXPECT_FALSE(between);
+    changes += !between;
+    EXPECT_EQ(between.value_or(0), !between ? 0 : positive ? 1 : negative ? -1 : 0);
+    EXPECT_FALSE(negative && positive && between);
   }
   EXPECT_GT(zeros, 500U);
   EXPECT_GT(changes, 200U);
