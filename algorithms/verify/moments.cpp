@@ -8,10 +8,19 @@ using namespace certificate_check;
 
 namespace {
 
-template <class Number>
-Rational value(const std::array<Number, 3>& f, const Rational& t) {
-  return Rational(f[0] + t * (f[1] + t * f[2]));
+Rational value(const std::array<Rational, 3>& f, const Rational& t) { return Rational(f[0] + t * (f[1] + t * f[2])); }
+
+/// The sign of f at t, in integers.
+int sign_at_fraction(const Polynomial& f, const Rational& t) {
+  const Integer &n = t.get_num(), &d = t.get_den();
+  Integer sum = f[0] * d;
+  mpz_addmul(sum.get_mpz_t(), f[1].get_mpz_t(), n.get_mpz_t());
+  if (sgn(f[2]) != 0) sum = sum * d + f[2] * n * n;
+  return sgn(sum);
 }
+
+/// The sign of f where it is least or greatest. Pre: it is of degree two.
+int sign_at_extreme(const Polynomial& f) { return sgn(f[2]) * sgn(Integer(4 * f[0] * f[2] - f[1] * f[1])); }
 
 }  // namespace
 
@@ -40,7 +49,7 @@ int Moments::compare(std::size_t k, const Rational& t) const {
 
 int Moments::sign_at(std::size_t k, const Polynomial& f) const {
   const auto& [g, low, high] = moments_[k];
-  if (low == high) return sgn(value(f, low));
+  if (low == high) return sign_at_fraction(f, low);
   // What is left of f by the moment's quadratic is linear.
   const Rational constant = f[0] * g[2] - f[2] * g[0], linear = f[1] * g[2] - f[2] * g[1];
   const int sense = sgn(g[2]);
@@ -48,25 +57,23 @@ int Moments::sign_at(std::size_t k, const Polynomial& f) const {
   return sense * sgn(linear) * compare(k, Rational(-constant / linear));
 }
 
-std::optional<Rational> Moments::extreme(std::size_t i, std::size_t j, const Polynomial& f) const {
-  if (i == j || sgn(f[2]) == 0) return std::nullopt;
+bool Moments::has_extreme(std::size_t i, std::size_t j, const Polynomial& f) const {
+  if (i == j || sgn(f[2]) == 0) return false;
   Rational t(Integer(-f[1]), Integer(2 * f[2]));
   t.canonicalize();
-  return compare(i, t) < 0 && compare(j, t) > 0 ? std::optional(t) : std::nullopt;
+  return compare(i, t) < 0 && compare(j, t) > 0;
 }
 
 bool Moments::never_negative(std::size_t i, std::size_t j, const Polynomial& f) const {
   if (is_zero(f)) return true;
   if (sign_at(i, f) < 0 || (i != j && sign_at(j, f) < 0)) return false;
-  const std::optional<Rational> t = extreme(i, j, f);
-  return !t || sgn(value(f, *t)) >= 0;
+  return sgn(f[2]) <= 0 || sign_at_extreme(f) >= 0 || !has_extreme(i, j, f);
 }
 
 bool Moments::positive(std::size_t i, std::size_t j, const Polynomial& f) const {
   if (i == j) return sign_at(i, f) > 0;
   if (is_zero(f) || !never_negative(i, j, f)) return false;
-  const std::optional<Rational> t = extreme(i, j, f);
-  return !t || sgn(value(f, *t)) > 0;
+  return sgn(f[2]) <= 0 || sign_at_extreme(f) > 0 || !has_extreme(i, j, f);
 }
 
 std::optional<int> Moments::sign(std::size_t i, std::size_t j, const Polynomial& f) const {

@@ -43,8 +43,8 @@ class Moments {
   std::optional<int> sign(std::size_t i, std::size_t j, const Polynomial& f) const;
 
  private:
-  /// Where f is least or greatest, if that is between two moments.
-  std::optional<Rational> extreme(std::size_t i, std::size_t j, const Polynomial& f) const;
+  /// Whether f is least or greatest between two moments.
+  bool has_extreme(std::size_t i, std::size_t j, const Polynomial& f) const;
 
   const std::vector<Path_moment>& moments_;
 };
