@@ -29,6 +29,9 @@ static Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& c
 static Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim, const Verify_options& options) {
   return verify_weak(soup, claim, options);
 }
+static Verdict verdict_on(const Polygon_soup& soup, const Along_certificate& claim, const Verify_options& options) {
+  return verify_along(soup, claim, options);
+}
 
 static Certificate certificate_of(const std::string& file) {
   std::ifstream in = open_bytes(input_path(file));

@@ -430,17 +430,18 @@ Exit run_weak(const Weak_arguments& arguments) {
   const bool is_partition = arguments.partition.asked_for();
   if (is_partition || !arguments.along.empty()) {
     const std::string name = is_partition ? "--partition" : "--along";
-    for (const auto& [other, value] : {std::pair("--certificate", arguments.certificate),
-                                       {"--obj", arguments.obj},
+    for (const auto& [other, value] : {std::pair("--obj", arguments.obj),
                                        {"--mesh", arguments.mesh},
                                        {"--eye", arguments.eye},
                                        {"--html", arguments.html},
                                        {"--surfaces", arguments.surfaces}})
       if (!value.empty())
         throw Usage_error(std::string(other) + " is for faces that are visible or hidden: leave it out with " + name);
+    if (is_partition && !arguments.certificate.empty())
+      throw Usage_error("--certificate is not written of a partition: leave it out with --partition");
     if (is_partition) return run_partition(arguments.partition, common, arguments.sources, arguments.svg);
     if (!arguments.sources.empty()) throw Usage_error("--along is a path of its own: leave out --from and its like");
-    return run_along(common, {arguments.along, arguments.sources.two_sided, arguments.svg});
+    return run_along(common, {arguments.along, arguments.sources.two_sided, arguments.certificate, arguments.svg});
   }
   if ((method == "sample" || method == "doubles") && !arguments.certificate.empty())
     throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
@@ -603,7 +604,7 @@ void add_weak(Command program) {
   command
       .add_option("--certificate", a->certificate,
                   "write what `sightline verify` reads: of lines all answers, of events what is visible, with "
-                  "--conservative what is hidden")
+                  "--conservative what is hidden; with --along when each face is visible")
       .writes_file();
   command
       .add_option("--surfaces", a->surfaces,

@@ -508,6 +508,7 @@ Checked verify(const Model& model, const std::string& certificate, const Asking&
     Verdict operator()(const Graph_certificate& c) const { return verify_graph(soup, c, options); }
     Verdict operator()(const Visible_certificate& c) const { return verify_visible(soup, c, options); }
     Verdict operator()(const Weak_certificate& c) const { return verify_weak(soup, c, options); }
+    Verdict operator()(const Along_certificate& c) const { return verify_along(soup, c, options); }
   };
   const Verdict verdict = std::visit(Check{soup, options}, claim);
   return {verdict.accepted, verdict.why};

@@ -106,6 +106,49 @@ Weak_certificate::Node node(const Json& value, const std::string& at) {
   return result;
 }
 
+/// {"root": t}, or {"quadratic": [a, b, c], "low", "high"}.
+Path_moment moment(const Json& value, const std::string& at) {
+  if (value.is_object() && value.contains("root")) {
+    const Rational root = exact_number(value["root"], at + ".root");
+    return {{}, root, root};
+  }
+  const auto [a, b, c] = exact_numbers<3>(member(value, "quadratic", at), at + ".quadratic");
+  return {{c, b, a},
+          exact_number(member(value, "low", at), at + ".low"),
+          exact_number(member(value, "high", at), at + ".high")};
+}
+
+/// [low, high]
+Along_certificate::Range range(const Json& value, const std::string& at) {
+  if (array(value, at).size() != 2) fail(at, "expected two moments");
+  return {number32(value[0], at + "[0]"), number32(value[1], at + "[1]")};
+}
+
+/// ["edge", fragment, corner, sign] or ["meet", fragment, sign].
+Along_certificate::Side side(const Json& value, const std::string& at) {
+  using Kind = Along_certificate::Side::Kind;
+  if (array(value, at).empty() || (value[0] != "edge" && value[0] != "meet"))
+    fail(at, "expected an array that begins with \"edge\" or \"meet\"");
+  Along_certificate::Side result;
+  result.kind = value[0] == "edge" ? Kind::edge : Kind::meet;
+  const std::size_t size = result.kind == Kind::edge ? 4 : 3;
+  if (value.size() != size) fail(at, "expected " + std::to_string(size) + " entries");
+  result.fragment = number32(value[1], at + "[1]");
+  if (result.kind == Kind::edge) result.corner = number32(value[2], at + "[2]");
+  if (value.back() != 1 && value.back() != -1) fail(at, "expected a sign, 1 or -1, at its end");
+  result.sign = value.back().get<int>();
+  return result;
+}
+
+/// ["blocked", fragment], or a cut.
+Along_certificate::Node along_node(const Json& value, const std::string& at) {
+  if (!array(value, at).empty() && value[0] == "blocked") {
+    if (value.size() != 2) fail(at, "expected 2 entries");
+    return {false, {}, number32(value[1], at + "[1]")};
+  }
+  return {true, side(value, at), 0};
+}
+
 // ---- Tables
 
 std::string name_of(const Place& place) {
@@ -127,10 +170,11 @@ void Table::check(std::uint32_t number, const std::string& at) const {
 
 /// Whether the value of a key is taken entry by entry, as a list; nothing where the key means nothing.
 std::optional<bool> is_list(std::string_view key) {
-  for (const std::string_view known : {"format", "eye", "on_view", "field", "two_sided"})
+  for (const std::string_view known : {"format", "eye", "on_view", "field", "two_sided", "path"})
     if (key == known) return false;
-  for (const std::string_view known : {"points", "fragments", "pieces", "set_aside", "sizes", "arcs", "rays", "parts",
-                                       "empty", "sources", "visible", "lines", "hidden", "undecided"})
+  for (const std::string_view known :
+       {"points", "fragments", "pieces", "set_aside", "sizes", "arcs", "rays", "parts", "empty", "sources", "visible",
+        "lines", "hidden", "undecided", "moments", "faces", "proofs"})
     if (key == known) return true;
   return std::nullopt;
 }
@@ -219,6 +263,22 @@ void Contents::take_hidden(const Json& entry, const std::string& at) {
   weak_.hidden.push_back(std::move(hidden));
 }
 
+/// {fragment, from_behind, moments, cone or tree}.
+void Contents::take_proof(const Json& entry, const std::string& at) {
+  Along_certificate::Proof proof;
+  proof.fragment = number32(member(entry, "fragment", at), at + ".fragment");
+  if (entry.contains("from_behind")) proof.from_behind = truth(entry["from_behind"], at + ".from_behind");
+  proof.range = range(member(entry, "moments", at), at + ".moments");
+  if (entry.contains("cone") == entry.contains("tree")) fail(at, "expected either \"cone\" or \"tree\"");
+  const bool is_cone = entry.contains("cone");
+  const std::string place = at + (is_cone ? ".cone" : ".tree");
+  for (const Json& step : array(entry[is_cone ? "cone" : "tree"], place))
+    if (is_cone) proof.cone.push_back(side(step, entry_name(place, proof.cone.size())));
+    else proof.tree.push_back(along_node(step, entry_name(place, proof.tree.size())));
+  if (proof.cone.empty() && proof.tree.empty()) fail(place, "is empty");
+  along_.proofs.push_back(std::move(proof));
+}
+
 void Contents::take(const std::string& key, std::size_t number, const Json& entry) {
   const std::string at = entry_name(key, number);
   const auto numbers = [&](std::size_t count, const char* wanted) {
@@ -251,15 +311,26 @@ void Contents::take(const std::string& key, std::size_t number, const Json& entr
     const auto line = numbers(2, "expected [fragment, corner]");
     weak_.lines.push_back({line[0], line[1]});
   } else if (key == "hidden") take_hidden(entry, at);
-  else weak_.undecided.push_back(number32(entry, at));
+  else if (key == "moments") along_.moments.push_back(moment(entry, at));
+  else if (key == "proofs") take_proof(entry, at);
+  else if (key == "faces") {
+    Along_certificate::Face face{number32(member(entry, "face", at), at + ".face"), {}};
+    for (const Json& seen : array(member(entry, "seen", at), at + ".seen"))
+      face.seen.push_back(range(seen, entry_name(at + ".seen", face.seen.size())));
+    along_.faces.push_back(std::move(face));
+  } else weak_.undecided.push_back(number32(entry, at));
 }
 
 void Contents::take(const std::string& key, const Json& value) {
   if (key == "format") format_ = value.is_string() ? value.get<std::string>() : "";
   else if (key == "eye") eye_ = point(value, key);
   else if (key == "on_view") on_view_ = truth(value, key);
-  else if (key == "two_sided") weak_.two_sided = truth(value, key);
-  else visible_.field = points(value, key, rays_, Place::field, 0);
+  else if (key == "two_sided") two_sided_ = truth(value, key);
+  else if (key == "path") {
+    if (array(value, key).size() != 2) fail(key, "expected two points");
+    along_.from = point(value[0], "path[0]");
+    along_.to = point(value[1], "path[1]");
+  } else visible_.field = points(value, key, rays_, Place::field, 0);
 }
 
 // ---- What refers to what
@@ -318,17 +389,42 @@ void Contents::check_weak() const {
   }
 }
 
+void Contents::check_along() const {
+  const std::vector<Order_fragment>& fragments = covering_.fragments;
+  const auto check_range = [&](const Along_certificate::Range& of, const std::string& at) {
+    check_below(of.low, along_.moments.size(), at), check_below(of.high, along_.moments.size(), at);
+  };
+  const auto check_side = [&](const Along_certificate::Side& of, const std::string& at) {
+    check_below(of.fragment, fragments.size(), at);
+    if (of.kind == Along_certificate::Side::Kind::edge)
+      check_below(of.corner, fragments[of.fragment].vertices.size(), at);
+  };
+  for (std::size_t k = 0; k < along_.faces.size(); ++k)
+    for (const Along_certificate::Range& seen : along_.faces[k].seen)
+      check_range(seen, entry_name("faces", k) + ".seen");
+  for (std::size_t k = 0; k < along_.proofs.size(); ++k) {
+    const Along_certificate::Proof& proof = along_.proofs[k];
+    const std::string at = entry_name("proofs", k);
+    check_below(proof.fragment, fragments.size(), at + ".fragment");
+    check_range(proof.range, at + ".moments");
+    for (const Along_certificate::Side& of : proof.cone) check_side(of, at + ".cone");
+    for (const Along_certificate::Node& node : proof.tree)
+      if (node.is_cut) check_side(node.cut, at + ".tree");
+      else check_below(node.blocked, fragments.size(), at + ".tree");
+  }
+}
+
 namespace {
 struct Kind {
   std::string_view name;
   std::vector<std::string_view> needed, optional;
 };
-const std::array<Kind, 4>& kinds() {
-  static const std::array<Kind, 4> all{
-      {{"order", {"eye"}, {"on_view"}},
-       {"graph", {"sizes", "arcs"}, {}},
-       {"see", {"eye", "parts", "empty"}, {"field", "rays"}},
-       {"weak", {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}}}};
+const std::array<Kind, 5>& kinds() {
+  static const std::array<Kind, 5> all{{{"order", {"eye"}, {"on_view"}},
+                                        {"graph", {"sizes", "arcs"}, {}},
+                                        {"see", {"eye", "parts", "empty"}, {"field", "rays"}},
+                                        {"weak", {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}},
+                                        {"along", {"path", "moments", "faces", "proofs"}, {"two_sided"}}}};
   return all;
 }
 
@@ -345,7 +441,7 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
     return format_ == begin + '1' || format_ == begin + '2';
   });
   if (kind == kinds().end())
-    fail("format", "expected \"sightline order 2\", or graph, see or weak in its place, or 1 in that of 2");
+    fail("format", "expected \"sightline order 2\", or graph, see, weak or along in its place, or 1 in that of 2");
 
   // 2. Nothing is wrong below the keys that it has, and none is missing.
   std::vector<std::string_view> needed = {"fragments"}, known = {"points", "pieces", "set_aside"};
@@ -369,6 +465,7 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
   if (kind->name == "graph") check_graph();
   if (kind->name == "see") check_parts();
   if (kind->name == "weak") check_weak();
+  if (kind->name == "along") check_along();
 
   // 4. The certificate.
   const auto with_covering = [&](auto&& certificate) -> Certificate {
@@ -376,7 +473,9 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
     return std::move(certificate);
   };
   if (kind->name == "graph") return with_covering(std::move(graph_));
+  weak_.two_sided = along_.two_sided = two_sided_;
   if (kind->name == "weak") return with_covering(std::move(weak_));
+  if (kind->name == "along") return with_covering(std::move(along_));
   if (kind->name == "see") {
     visible_.eye = std::move(eye_);
     visible_.rays = std::move(rays_.points);

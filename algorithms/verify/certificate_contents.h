@@ -72,12 +72,14 @@ class Contents {
   Part part(const nlohmann::json& entry, const std::string& at, Place::List list, std::size_t number);
   void take_part(const nlohmann::json& entry, const std::string& at);
   void take_hidden(const nlohmann::json& entry, const std::string& at);
+  void take_proof(const nlohmann::json& entry, const std::string& at);
   Exact_point& at(const Place& place);
   void put(const Table& table, std::uint32_t number, Exact_point& there, const Place& place);
   void put_late(Table& table);
   void check_graph() const;
   void check_parts() const;
   void check_weak() const;
+  void check_along() const;
 
   const std::size_t& read_;
   std::size_t written_out_ = 0;
@@ -89,6 +91,8 @@ class Contents {
   Graph_certificate graph_;
   Visible_certificate visible_;
   Weak_certificate weak_;
+  Along_certificate along_;
+  bool two_sided_ = false;
 };
 
 }  // namespace sightline::certificate_json

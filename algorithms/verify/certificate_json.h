@@ -2,6 +2,7 @@
 // Certificates from JSON text, read as a stream: neither the text nor a JSON value of all of it is held.
 // certificate_writer.h writes it.
 
+#include <sightline/algorithms/verify/along.h>
 #include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/graph.h>
 #include <sightline/algorithms/verify/order.h>
@@ -26,7 +27,8 @@ class Certificate_error : public std::invalid_argument {
   bool is_no_json;
 };
 
-using Certificate = std::variant<Order_certificate, Graph_certificate, Visible_certificate, Weak_certificate>;
+using Certificate =
+    std::variant<Order_certificate, Graph_certificate, Visible_certificate, Weak_certificate, Along_certificate>;
 
 /// Reads a certificate of whatever kind its "format" says, keys in any order. "on_view" (false), "points", "pieces",
 /// "set_aside", "field", "rays", "two_sided" (false) and "undecided" may be left out where there are none; further keys

@@ -183,6 +183,30 @@ void write(std::ostream& out, const Weak_certificate::Node& node) {
   out << ']';
 }
 
+void write_side(std::ostream& out, const Along_certificate::Side& side) {
+  const bool is_edge = side.kind == Along_certificate::Side::Kind::edge;
+  out << (is_edge ? R"(["edge",)" : R"(["meet",)") << side.fragment;
+  if (is_edge) out << ',' << side.corner;
+  out << ',' << side.sign << ']';
+}
+
+void write(std::ostream& out, const Along_certificate::Proof& proof) {
+  out << R"({"fragment":)" << proof.fragment;
+  if (proof.from_behind) out << R"(,"from_behind":true)";
+  out << R"(,"moments":[)" << proof.range.low << ',' << proof.range.high << ']';
+  if (!proof.cone.empty()) {
+    out << R"(,"cone":)";
+    write_list(out, proof.cone, [&](const Along_certificate::Side& side) { write_side(out, side); });
+  } else {
+    out << R"(,"tree":)";
+    write_list(out, proof.tree, [&](const Along_certificate::Node& node) {
+      if (node.is_cut) write_side(out, node.cut);
+      else out << R"(["blocked",)" << node.blocked << ']';
+    });
+  }
+  out << '}';
+}
+
 }  // namespace
 }  // namespace certificate_text_detail
 
@@ -249,6 +273,44 @@ void write_certificate(std::ostream& out, const Weak_certificate& certificate) {
   out << "}\n";
 }
 
+void write_certificate(std::ostream& out, const Along_certificate& certificate) {
+  write_begin(out, "sightline along 2");
+  out << R"(,"path":[)";
+  write(out, certificate.from);
+  out << ',';
+  write(out, certificate.to);
+  out << ']';
+  write_covering(out, certificate);
+  if (certificate.two_sided) out << R"(,"two_sided":true)";
+  out << R"(,"moments":)";
+  write_list(out, certificate.moments, [&](const Path_moment& moment) {
+    if (moment.low == moment.high) {
+      out << R"({"root":)";
+      write(out, moment.low);
+    } else {
+      out << R"({"quadratic":)";
+      write(out, std::array{moment.polynomial[2], moment.polynomial[1], moment.polynomial[0]});
+      out << R"(,"low":)";
+      write(out, moment.low);
+      out << R"(,"high":)";
+      write(out, moment.high);
+    }
+    out << '}';
+  });
+  const auto write_range = [&](const Along_certificate::Range& range) {
+    out << '[' << range.low << ',' << range.high << ']';
+  };
+  out << R"(,"faces":)";
+  write_list(out, certificate.faces, [&](const Along_certificate::Face& face) {
+    out << R"({"face":)" << face.face << R"(,"seen":)";
+    write_list(out, face.seen, write_range);
+    out << '}';
+  });
+  out << R"(,"proofs":)";
+  write_list(out, certificate.proofs, [&](const Along_certificate::Proof& proof) { write(out, proof); });
+  out << "}\n";
+}
+
 template <class Any>
 std::string certificate_text(const Any& certificate) {
   std::ostringstream out;
@@ -259,6 +321,7 @@ template std::string certificate_text(const Order_certificate&);
 template std::string certificate_text(const Graph_certificate&);
 template std::string certificate_text(const Visible_certificate&);
 template std::string certificate_text(const Weak_certificate&);
+template std::string certificate_text(const Along_certificate&);
 
 // ---- Piece by piece
 

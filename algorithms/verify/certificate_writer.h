@@ -1,6 +1,7 @@
 #pragma once
 // Certificates as JSON text, written as a stream. certificate_json.h reads it.
 
+#include <sightline/algorithms/verify/along.h>
 #include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/graph.h>
 #include <sightline/algorithms/verify/order.h>
@@ -31,6 +32,9 @@ void write_certificate(std::ostream& out, const Visible_certificate& certificate
 /// The same for weak visibility. Pre: each node is of a kind that there is.
 void write_certificate(std::ostream& out, const Weak_certificate& certificate);
 
+/// The same for what an eye sees on its way.
+void write_certificate(std::ostream& out, const Along_certificate& certificate);
+
 /// The text that write_certificate() writes.
 template <class Any>
 std::string certificate_text(const Any& certificate);
@@ -38,6 +42,7 @@ extern template std::string certificate_text(const Order_certificate&);
 extern template std::string certificate_text(const Graph_certificate&);
 extern template std::string certificate_text(const Visible_certificate&);
 extern template std::string certificate_text(const Weak_certificate&);
+extern template std::string certificate_text(const Along_certificate&);
 
 /// Writes a certificate of what an eye sees piece by piece, for who does not want to hold it: everything that comes
 /// before its rays; each ray, which gets the next number from 0; each part; each empty cone; finish(). Pre: in this

@@ -1,6 +1,8 @@
 #include "along.h"
 
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <sstream>
@@ -141,12 +143,17 @@ Exit run_along(const Common& common, const Along_arguments& arguments) {
   Progress progress("along the path");
   Along_options options;
   options.two_sided = arguments.two_sided;
+  options.with_proofs = !arguments.certificate.empty();
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Visible_along found = visible_along(occluders, path[0], path[1], options);
   const double seconds = watch.seconds();
   progress.clear();
 
+  if (options.with_proofs)
+    write_file(arguments.certificate, [&](std::ostream& out) {
+      write_certificate(out, along_certificate(scene, found, path[0], path[1], options.two_sided));
+    });
   if (!arguments.svg.empty()) write_file(arguments.svg, timeline(found));
   Json events = Json::array();
   for (const Along_event& event : found.events) events.push_back(event_json(scene, event));

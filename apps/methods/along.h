@@ -8,7 +8,8 @@ namespace sightline::app {
 struct Along_arguments {
   std::string path;  ///< "X,Y,Z X,Y,Z"
   bool two_sided = false;
-  std::string svg;  ///< the file for a picture of when each face is seen, or none
+  std::string certificate;  ///< the file to write it to, or none
+  std::string svg;          ///< the file for a picture of when each face is seen, or none
 };
 
 /// Errors: Usage_error where the path is none.

@@ -3,7 +3,9 @@
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/verify/along.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/along_edges.h>
@@ -97,6 +99,103 @@ Faces after_events(const Visible_along& along, const Quadratic_root& t) {
   return seen;
 }
 
+// ---- The certificate
+
+using Range = Along_certificate::Range;
+using Proof = Along_certificate::Proof;
+
+/// A moment, or what is between it and the next one.
+bool holds(const Range& seen, const Range& place) {
+  if (place.low != place.high) return seen.low <= place.low && place.high <= seen.high;
+  return seen.low == seen.high ? seen.low == place.low : seen.low < place.low && place.low < seen.high;
+}
+
+/// What is left of a range without a place in it.
+void append_rest(const Range& range, const Range& place, std::vector<Range>& rest) {
+  if (range.low == range.high) return;
+  for (const Range& part : {Range{range.low, place.low}, Range{place.high, range.high}})
+    if (part.low < part.high) rest.push_back(part);
+  if (place.low == place.high) return;
+  for (const std::size_t k : {place.low, place.high})
+    if (range.low < k && k < range.high) rest.push_back({k, k});
+}
+
+/// The certificate that says the contrary of a face at one place. Returns whether it is seen there.
+bool turn(Along_certificate& certificate, Face_id face, const Range& place) {
+  auto claims =
+      std::find_if(certificate.faces.begin(), certificate.faces.end(), [&](const auto& of) { return of.face == face; });
+  if (claims == certificate.faces.end()) claims = certificate.faces.insert(claims, {face, {}});
+  std::vector<Range> seen;
+  bool was_seen = false;
+  for (const Range& range : claims->seen)
+    if (holds(range, place)) {
+      was_seen = true;
+      append_rest(range, place, seen);
+    } else {
+      seen.push_back(range);
+    }
+  if (!was_seen) seen.push_back(place);
+  claims->seen = std::move(seen);
+  return was_seen;
+}
+
+/// Proofs beside the place go on there, and beyond a moment.
+void prolong(Along_certificate& lie, Face_id face, const Range& place, bool was_seen) {
+  const std::size_t last = lie.moments.size() - 1;
+  const bool is_moment = place.low == place.high;
+  const Range until{is_moment && place.low > 0 ? place.low - 1 : place.low,
+                    is_moment ? std::min(place.high + 1, last) : place.high};
+  for (Proof& proof : lie.proofs)
+    if (lie.fragments[proof.fragment].face == face && proof.cone.empty() == was_seen && proof.range.low <= place.high &&
+        proof.range.high >= place.low)
+      proof.range = {std::min(proof.range.low, until.low), std::max(proof.range.high, until.high)};
+}
+
+/// Proofs are made up: each part is hidden by one other, or seen in a cone that is none, or in all of it.
+void make_up(Along_certificate& lie, Face_id face, const Range& place, bool was_seen, Random& random) {
+  const std::size_t by = random.below(lie.fragments.size());
+  const bool flat = random.below(2) == 0;
+  for (std::size_t k = 0; k < lie.fragments.size(); ++k) {
+    if (lie.fragments[k].face != face) continue;
+    Proof proof{k, false, place, {}, {}};
+    if (was_seen) proof.tree.push_back({false, {}, by});
+    else
+      for (std::size_t corner = lie.fragments[k].vertices.size(); corner-- > 0;)
+        proof.cone.push_back({Along_certificate::Side::Kind::edge, k, flat ? 0 : corner, 1});
+    lie.proofs.push_back(std::move(proof));
+  }
+}
+
+/// What is wrong with the certificate of a path: it is refused, or accepted with a claim that is not true.
+std::string flaw_of_certificate(const Posed_scene& posed, const Scene& scene, const Along_certificate& certificate,
+                                Random& random) {
+  Verify_options serial;
+  serial.threads = 1;
+  if (const Verdict verdict = verify_along(posed.soup, certificate, serial); !verdict.accepted)
+    return "its certificate is rejected: " + verdict.why;
+  constexpr int lies = 4;
+  for (int k = 0; k < lies; ++k) {
+    // Anywhere, or where a claim begins.
+    Face_id face = scene.pieces()[random.below(scene.pieces().size())].face;
+    std::size_t low = random.below(certificate.moments.size()), high = low;
+    if (k % 2 == 0 && low + 1 < certificate.moments.size()) ++high;
+    if (k == 1 && !certificate.faces.empty()) {
+      const Along_certificate::Face& claims = certificate.faces[random.below(certificate.faces.size())];
+      face = claims.face;
+      if (!claims.seen.empty()) low = high = claims.seen[random.below(claims.seen.size())].low;
+    }
+    const Range place{low, high};
+    Along_certificate lie = certificate;
+    const bool was_seen = turn(lie, face, place);
+    if (k < 2) prolong(lie, face, place, was_seen);
+    else make_up(lie, face, place, was_seen, random);
+    if (verify_along(posed.soup, lie, serial).accepted)
+      return "a certificate is accepted that says of " + face_name(face) + " that it is " +
+             (was_seen ? "not seen" : "seen") + " at moments " + std::to_string(low) + " to " + std::to_string(high);
+  }
+  return "";
+}
+
 Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
   constexpr std::size_t most_pieces = 40;
   const Scene scene(posed.soup);
@@ -153,13 +252,24 @@ Outcome moved(const Posed_scene& posed, const Answer&, Random& random) {
     }
   }
   if (!same) return Outcome::failed(path + " other events are met than on the way back");
+  // 4. The certificate.
+  options.with_proofs = true;
+  const Visible_along proved = visible_along(occluders, from, to, options);
+  const Along_certificate certificate = along_certificate(scene, proved, from, to, options.two_sided);
+  if (const std::string flaw = flaw_of_certificate(posed, scene, certificate, random); !flaw.empty())
+    return Outcome::failed(path + " " + flaw);
+  same = proved.events.size() == found.events.size();
+  for (std::size_t k = 0; k < found.events.size() && same; ++k)
+    same = proved.events[k].t == found.events[k].t && proved.events[k].changes.size() == found.events[k].changes.size();
+  if (!same) return Outcome::failed(path + " other events are met where proofs are kept");
   return {};
 }
 
 }  // namespace moving_eye
 
 Check moving_eye_check() {
-  return {"moving", "the same faces from points of a path as along it, and on the way back", moving_eye::moved};
+  return {"moving", "the same faces from points of a path as along it, and on the way back; certified",
+          moving_eye::moved};
 }
 
 }  // namespace sightline::harness

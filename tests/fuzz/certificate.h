@@ -45,6 +45,11 @@ inline Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& c
   return verify_visible(soup, claim);
 }
 inline Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim) { return verify_weak(soup, claim); }
+inline Verdict verdict_on(const Polygon_soup& soup, const Along_certificate& claim) {
+  Verify_options serial;
+  serial.threads = 1;
+  return verify_along(soup, claim, serial);
+}
 
 inline std::optional<Certificate> certificate_in(std::string_view bytes) {
   std::istringstream in{std::string(bytes)};

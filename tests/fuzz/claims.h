@@ -4,6 +4,7 @@
 
 #include "support.h"
 
+#include <sightline/algorithms/verify/along.h>
 #include <sightline/algorithms/verify/graph.h>
 #include <sightline/algorithms/verify/order.h>
 #include <sightline/algorithms/verify/visible.h>
@@ -355,6 +356,56 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
       require(std::any_of(tiles.begin(), tiles.end(), [&](const Tile& tile) { return tile.location(d) >= 0; }),
               "a direction of the field is in a cone");
     }
+}
+
+/// Fractions at which a path may be asked: moments that are fractions, and some between each two.
+inline std::vector<std::pair<Rational, Along_certificate::Range>> times_of(const Along_certificate& claim) {
+  std::vector<std::pair<Rational, Along_certificate::Range>> times;
+  for (std::size_t k = 0; k < claim.moments.size(); ++k) {
+    if (claim.moments[k].low == claim.moments[k].high) times.push_back({claim.moments[k].low, {k, k}});
+    if (k + 1 < claim.moments.size())
+      times.push_back({Rational((claim.moments[k].high + claim.moments[k + 1].low) / 2), {k, k + 1}});
+  }
+  return times;
+}
+inline Exact_point eye_at(const Along_certificate& claim, const Rational& t) {
+  Exact_point eye;
+  for (std::size_t k = 0; k < 3; ++k) eye[k] = claim.from[k] + t * (claim.to[k] - claim.from[k]);
+  return eye;
+}
+/// The faces that a path is said to see then.
+inline std::set<Face_id> said_to_be_seen(const Along_certificate& claim, const Along_certificate::Range& then) {
+  std::set<Face_id> faces;
+  for (const Along_certificate::Face& face : claim.faces)
+    for (const auto& [low, high] : face.seen)
+      if (then.low == then.high ? (low == high && low == then.low) || (low < then.low && then.low < high)
+                                : low <= then.low && then.high <= high)
+        faces.insert(face.face);
+  return faces;
+}
+
+inline void try_claims(const Known_scene& scene, const Along_certificate& claim) {
+  const std::vector<Flat> fragments = flats(claim);
+  try_covering(scene, claim, fragments);
+  std::size_t tried = 0;
+  for (const auto& [t, then] : times_of(claim)) {
+    if (++tried > 16) break;
+    const Place eye = place(eye_at(claim, t));
+    const std::set<Face_id> seen = said_to_be_seen(claim, then);
+    for (std::size_t i = 0; i < fragments.size(); ++i) {
+      const Flat& target = fragments[i];
+      if (seen.contains(claim.fragments[i].face) || (claim.two_sided ? target.side(eye) == 0 : target.side(eye) <= 0))
+        continue;
+      for (const Place& q : mixtures(target.corners)) {
+        const bool is_free = std::none_of(fragments.begin(), fragments.end(), [&](const Flat& other) {
+          if (other.side(eye) == 0 && other.side(q) == 0) return true;  // it may touch the segment: nothing is known
+          const auto hit = other.hit(eye, q);
+          return hit && (hit->at == Flat::At::between || (hit->at == Flat::At::q && !other.is_in_plane_of(target)));
+        });
+        require(!is_free, "what is said not to be seen on the way is not seen");
+      }
+    }
+  }
 }
 
 inline void try_claims(const Known_scene& scene, const Weak_certificate& claim) {

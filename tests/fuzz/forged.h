@@ -8,6 +8,8 @@
 #include "mutate.h"
 #include "retold.h"
 
+#include <sightline/algorithms/weak_visibility/along/certificate.h>
+#include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/laws.h>
@@ -22,7 +24,7 @@ namespace fuzz {
 
 using generate::Posed_scene;
 
-enum class Kind { order, graph, see, weak };
+enum class Kind { order, graph, see, weak, along };
 
 /// What the forger asks the engines, and which face of the true scene each face there is, or is a part of.
 struct Pretence {
@@ -145,6 +147,15 @@ inline Pretence pretence_of(const Posed_scene& truth, Bytes& bytes) {
 
 // ---- Their certificates
 
+/// Where a path from the eye goes: past a point, or past the source's middle.
+inline Exact_point path_end(const Posed_scene& scene) {
+  const Points corners = scene.source.size() > 1 ? scene.source : Points{scene.soup.point(0), scene.soup.point(0)};
+  const Exact_point middle_of_two = middle(corners[0], corners[1]);
+  Exact_point end;
+  for (std::size_t k = 0; k < 3; ++k) end[k] = (3 * middle_of_two[k] - scene.eye[k]) / 2;
+  return end;
+}
+
 /// What an engine says, as a certificate; nothing where it is asked what cannot be.
 inline std::optional<Certificate> answered(Kind kind, const Posed_scene& scene) {
   const Model model(scene.soup);
@@ -157,6 +168,17 @@ inline std::optional<Certificate> answered(Kind kind, const Posed_scene& scene) 
       } catch (const std::invalid_argument&) {  // moved, the source is no convex polygon
         return std::nullopt;
       }
+      break;
+    case Kind::along: {
+      const Scene own(scene.soup);
+      const Exact_point to = path_end(scene);
+      if (scene.eye == to) return std::nullopt;
+      const Occluders occluders(own);
+      Along_options options;
+      options.threads = 1;
+      options.with_proofs = true;
+      return along_certificate(own, visible_along(occluders, scene.eye, to, options), scene.eye, to, false);
+    }
   }
   return certificate_in(text);
 }
@@ -211,6 +233,15 @@ inline void add_beside(Graph_certificate& claim, std::size_t, const Order_fragme
   claim.sizes.push_back(1);
 }
 inline void add_beside(Visible_certificate& claim, std::size_t, const Order_fragment& fragment) {
+  claim.fragments.push_back(fragment);
+}
+inline void add_beside(Along_certificate& claim, std::size_t k, const Order_fragment& fragment) {
+  for (std::size_t i = 0, entries = claim.proofs.size(); i < entries; ++i)
+    if (claim.proofs[i].fragment == k) {
+      Along_certificate::Proof entry = claim.proofs[i];
+      entry.fragment = claim.fragments.size();
+      claim.proofs.push_back(std::move(entry));
+    }
   claim.fragments.push_back(fragment);
 }
 inline void add_beside(Weak_certificate& claim, std::size_t k, const Order_fragment& fragment) {
@@ -437,6 +468,60 @@ inline void lie(Weak_certificate& claim, const Posed_scene& truth, Bytes& bytes)
   }
 }
 
+/// One face is said to be seen, or not to be, at a moment or between two; its proofs beside that go on there, or one
+/// more is made of another's.
+inline void lie_about_a_while(Along_certificate& claim, Bytes& bytes) {
+  using Range = Along_certificate::Range;
+  if (claim.fragments.empty() || claim.proofs.empty()) return;
+  const std::size_t fragment = any_of_first(claim.fragments, bytes), last = claim.moments.size() - 1;
+  const Face_id face = claim.fragments[fragment].face;
+  const std::size_t low = bytes.below(std::min<std::size_t>(256, last)), high = low + bytes.below(2);
+  const bool is_seen = said_to_be_seen(claim, {low, high}).contains(face);
+  std::vector<Range> seen;  // by places
+  for (std::size_t k = 0; k <= last; ++k)
+    for (const Range& place : {Range{k, k}, Range{k, k + 1}})
+      if (place.high <= last &&
+          said_to_be_seen(claim, place).contains(face) != (place.low == low && place.high == high))
+        seen.push_back(place);
+  std::erase_if(claim.faces, [&](const auto& of) { return of.face == face; });
+  claim.faces.push_back({face, std::move(seen)});
+  const std::size_t way = bytes.below(3);
+  for (Along_certificate::Proof& proof : claim.proofs)
+    if (way > 0 && proof.cone.empty() == is_seen && claim.fragments[proof.fragment].face == face &&
+        proof.range.low <= high && low <= proof.range.high) {
+      proof.range = {std::min(proof.range.low, low), std::max(proof.range.high, high)};
+      if (way == 2) proof.range = {std::max<std::size_t>(proof.range.low, 1) - 1, std::min(proof.range.high + 1, last)};
+    }
+  if (bytes.below(3) == 0) {
+    Along_certificate::Proof proof = claim.proofs[any_of_first(claim.proofs, bytes)];
+    proof.fragment = fragment;
+    proof.range = {low, high};
+    claim.proofs.push_back(std::move(proof));
+  }
+}
+
+inline void lie(Along_certificate& claim, const Posed_scene& truth, Bytes& bytes) {
+  using Proof = Along_certificate::Proof;
+  switch (bytes.below(12)) {
+    case 0: claim.from = truth.eye; break;
+    case 1: claim.two_sided = !claim.two_sided; break;
+    case 2: exchange(claim.proofs, bytes, &Proof::cone); break;
+    case 3: exchange(claim.proofs, bytes, &Proof::tree); break;
+    case 4: exchange(claim.proofs, bytes, &Proof::range); break;
+    case 5: exchange(claim.faces, bytes, &Along_certificate::Face::seen); break;
+    case 6:
+    case 7:
+      if (!claim.proofs.empty()) {  // a side, or what blocks, exchanged with another of the proof
+        Proof& proof = claim.proofs[any_of_first(claim.proofs, bytes)];
+        if (bytes.below(2) == 0) exchange(proof.tree, bytes, &Along_certificate::Node::blocked);
+        else exchange(proof.tree, bytes, &Along_certificate::Node::cut);
+        if (!proof.cone.empty()) proof.cone[any_of_first(proof.cone, bytes)].sign *= -1;
+      }
+      break;
+    default: lie_about_a_while(claim, bytes);
+  }
+}
+
 // ---- What is true
 
 inline Known_scene known(const Polygon_soup& soup) {
@@ -492,6 +577,15 @@ inline void compare_with_engine(const Polygon_soup& soup, const Visible_certific
   for (const Seen::Visible_part& part : found.parts) (part.from_front ? found_front : found_back).insert(part.face);
   require(front == found_front && back == found_back, "accepted parts are of the faces that the engine sees");
 }
+inline void compare_with_engine(const Polygon_soup& soup, const Along_certificate& claim) {
+  const Model model(soup);
+  for (const auto& [t, then] : times_of(claim)) {
+    const Seen found = see(model, eye_at(claim, t), in_one_thread());
+    Face_set faces(found.visible.begin(), found.visible.end());
+    if (claim.two_sided) faces.insert(found.from_behind.begin(), found.from_behind.end());
+    require(faces == said_to_be_seen(claim, then), "what is accepted of a moment is what the eye sees then");
+  }
+}
 inline void compare_with_engine(const Polygon_soup& soup, const Weak_certificate& claim) {
   if (claim.two_sided) return;
   Face_set visible, undecided(claim.undecided.begin(), claim.undecided.end());
@@ -534,7 +628,7 @@ inline Judged judged_forgeries(std::string_view text) {
   }
   if (truth.soup.face_count() == 0 || truth.soup.face_count() > 16) return {};
   const std::size_t drawn = bytes.below(8);  // where there is a source, often from it: much of that is proofs
-  const Kind kind = drawn < 4              ? static_cast<Kind>(drawn)
+  const Kind kind = drawn < 5              ? static_cast<Kind>(drawn)
                     : truth.source.empty() ? static_cast<Kind>(drawn % 3)
                                            : Kind::weak;
   if (kind == Kind::weak && truth.source.empty()) return {};
@@ -551,6 +645,8 @@ inline Judged judged_forgeries(std::string_view text) {
         translate(right, pretence, silent);
         if constexpr (std::is_same_v<std::decay_t<decltype(right)>, Weak_certificate>)
           for (Face_id& face : right.undecided) face = pretence.face_of[face];
+        if constexpr (std::is_same_v<std::decay_t<decltype(right)>, Along_certificate>)
+          for (Along_certificate::Face& of : right.faces) of.face = pretence.face_of[of.face];
         Judged judged;
         for (std::size_t k = 0; k < forgeries; ++k) {
           // 3. What is shown: the right one first.

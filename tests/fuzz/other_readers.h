@@ -66,6 +66,26 @@ inline void require_named(const Weak_certificate& claim) {
   }
 }
 
+inline void require_named(const Along_certificate& claim) {
+  const std::size_t fragments = claim.fragments.size(), moments = claim.moments.size();
+  const auto require_side = [&](const Along_certificate::Side& side) {
+    require(side.fragment < fragments, "a side is of a fragment that there is");
+    require(side.kind == Along_certificate::Side::Kind::meet ||
+                side.corner < claim.fragments[side.fragment].vertices.size(),
+            "a side is of an edge");
+  };
+  for (const auto& face : claim.faces)
+    for (const auto& [low, high] : face.seen) require(low < moments && high < moments, "a face is seen at moments");
+  for (const auto& proof : claim.proofs) {
+    require(proof.fragment < fragments && proof.range.low < moments && proof.range.high < moments,
+            "a proof is of a fragment, at moments");
+    for (const auto& side : proof.cone) require_side(side);
+    for (const auto& node : proof.tree)
+      if (node.is_cut) require_side(node.cut);
+      else require(node.blocked < fragments, "a leaf is behind a fragment that there is");
+  }
+}
+
 /// The certificate with one thing that it names one beyond those that there are, for each such thing: none may be
 /// taken.
 template <class Claim>
@@ -85,6 +105,23 @@ inline std::vector<Weak_certificate> naming_too_much(const Weak_certificate& cla
       else continue;
       all.push_back(std::move(lie));
     }
+  return all;
+}
+
+inline std::vector<Along_certificate> naming_too_much(const Along_certificate& claim) {
+  std::vector<Along_certificate> all;
+  for (std::size_t k = 0; k < claim.proofs.size() && all.size() < 12; ++k) {
+    const auto add = [&](auto&& change) {
+      change(all.emplace_back(claim).proofs[k]);
+    };
+    add([&](auto& proof) { proof.range.high = claim.moments.size(); });
+    add([&](auto& proof) { proof.fragment = claim.fragments.size(); });
+    add([&](auto& proof) {
+      if (!proof.cone.empty()) proof.cone.back().fragment = claim.fragments.size();
+      else if (proof.tree.back().is_cut) proof.tree.back().cut.fragment = claim.fragments.size();
+      else proof.tree.back().blocked = claim.fragments.size();
+    });
+  }
   return all;
 }
 

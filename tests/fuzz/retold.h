@@ -209,6 +209,22 @@ inline void weaken(Weak_certificate& claim, Weak_certificate::Hidden& entry, Mut
   entry.proof = std::move(proof);
 }
 
+inline void retell(Along_certificate& claim, Mutator& random) {
+  if (claim.fragments.empty()) return;
+  if (random.below(2) == 0) {
+    shuffle(claim.proofs, random);
+    shuffle(claim.faces, random);
+    return;
+  }
+  const std::vector<std::size_t> becomes = reorder(claim, any_order(claim.fragments.size(), random));
+  const auto rename = [&](std::size_t& fragment) { fragment = becomes[fragment]; };
+  for (auto& proof : claim.proofs) {
+    rename(proof.fragment);
+    for (auto& side : proof.cone) rename(side.fragment);
+    for (auto& node : proof.tree) rename(node.is_cut ? node.cut.fragment : node.blocked);
+  }
+}
+
 inline void retell(Weak_certificate& claim, Mutator& random) {
   using Node = Weak_certificate::Node;
   if (claim.fragments.empty()) return;

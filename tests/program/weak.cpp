@@ -50,6 +50,26 @@ TEST_F(Weak, says_where_the_source_may_be_the_wrong_way_round) {
   EXPECT_EQ(towards.out.find(note), std::string::npos) << towards;
 }
 
+TEST_F(Weak, proves_when_each_face_is_visible_along_a_path) {
+  const std::string lamp = (corpus / "general" / "lamp_and_screens.off").string(), to = path("along.json").string();
+  weak({lamp, "--along", "1/2,-1,3/2 7,5,4", "--two-sided", "--certificate", to});
+  const auto verdict = [&](const Json& certificate) {
+    return run({"verify", lamp, file("changed.json", certificate.dump()), "--json", "-"});
+  };
+  const Json made = Json::parse(read_file(to));
+  EXPECT_EQ(made["format"], "sightline along 2");
+  EXPECT_EQ(verdict(made).code, done) << verdict(made);
+  ASSERT_GT(made["faces"].size(), 3u);
+  for (std::size_t k = 0; k < made["faces"].size(); ++k) {
+    Json lie = made;
+    lie["faces"][k]["seen"].erase(0);
+    EXPECT_EQ(verdict(lie).code, disagreement) << k;
+  }
+  Json other = made;
+  other["path"][1][2] = "401/100";
+  EXPECT_EQ(verdict(other).code, disagreement);
+}
+
 TEST_F(Weak, walks_through_a_door_along_a_path) {
   const std::string rooms = (corpus / "general" / "two_rooms.off").string(), picture = path("walk.svg").string();
   const Json along = weak({rooms, "--along", "1,3/2,3/2 7,3/2,3/2", "--svg", picture})["result"]["along"];
@@ -70,7 +90,6 @@ TEST_F(Weak, walks_through_a_door_along_a_path) {
   for (const char* wrong : {"1,2,3", "1,2,3 1,2,3", "1,2,3 4,5", "1,2,3 4,5,6 7,8,9"})
     EXPECT_EQ(run({"weak", rooms, "--along", wrong}).code, usage) << wrong;
   EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--from-face", "0"}).code, usage);
-  EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--certificate", path("c.json").string()}).code, usage);
   EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--method", "events"}).code, usage);
   EXPECT_EQ(run({"weak", rooms, "--along", "1,2,3 4,5,6", "--partition", "0"}).code, usage);
 }

@@ -319,7 +319,7 @@ TEST(Certificate_json, faults_in_what_polygons_can_see_are_named_with_their_plac
   EXPECT_EQ(fault("/more", "1"), "nothing");
   for (const char* optional : {"/undecided", "/pieces", "/set_aside"}) EXPECT_EQ(fault(optional, ""), "nothing");
   const std::vector<std::array<std::string, 3>> cases = {
-      {"/format", "\"sightline weak 3\"", "format: expected \"sightline order 2\", or graph, see or weak"},
+      {"/format", "\"sightline weak 3\"", "format: expected \"sightline order 2\", or graph, see, weak or along"},
       {"/sources", "", "top level: no \"sources\""},
       {"/sources", "7", "sources: expected an array"},
       {"/sources/1", "7", "sources[1]: expected an array"},

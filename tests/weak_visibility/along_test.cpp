@@ -6,7 +6,10 @@
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/verify/certificate_json.h>
+#include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/laws/along_edges.h>
@@ -17,6 +20,7 @@
 
 #include <algorithm>
 #include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -131,6 +135,20 @@ struct Met {
   std::size_t scenes = 0, events = 0, irrational = 0, momentary = 0, contacts = 0, triples = 0;
 };
 
+/// The certificate is accepted, as text.
+void expect_certified(const Scene& scene, const Polygon_soup& soup, const Exact_point& from, const Exact_point& to,
+                      bool two_sided) {
+  Along_options options;
+  options.two_sided = two_sided;
+  options.with_proofs = true;
+  const Occluders occluders(scene);
+  const std::string text =
+      certificate_text(along_certificate(scene, visible_along(occluders, from, to, options), from, to, two_sided));
+  std::istringstream in(text);
+  const Verdict verdict = verify_along(soup, std::get<Along_certificate>(read_certificate(in)));
+  EXPECT_TRUE(verdict.accepted) << verdict.why << '\n' << text;
+}
+
 void expect_events_among_candidates(const Polygon_soup& soup, const Exact_point& from, const Exact_point& to,
                                     bool two_sided, Met& met) {
   constexpr std::size_t most_lines = 26;  // they have 2,600 triples
@@ -142,6 +160,7 @@ void expect_events_among_candidates(const Polygon_soup& soup, const Exact_point&
   options.threads = 1;
   options.two_sided = two_sided;
   const Visible_along along = visible_along(occluders, from, to, options);
+  expect_certified(scene, soup, from, to, two_sided);
   const Piece_boxes boxes(scene);
   const std::vector<Quadratic_root> all = candidates(scene, from, to);
   for (const Along_event& event : along.events) {

@@ -117,6 +117,7 @@ Visible_along visible_along(const Occluders& occluders, const Exact_point& from,
     Face face;
     std::vector<Timed_change> changes;
     Along_counters counters;
+    std::vector<Along_proof> proofs;
   };
   const Along_scene scene(occluders, from, to);
   const std::vector<Piece>& pieces = occluders.scene().pieces();
@@ -127,13 +128,16 @@ Visible_along visible_along(const Occluders& occluders, const Exact_point& from,
     for (std::uint32_t piece = begin; piece < end; ++piece) {
       if (scene.polygons()[piece].corners.empty()) continue;
       for (const int side : {1, -1})
-        if (side == 1 || options.two_sided) searches.emplace_back(scene, piece, side);
+        if (side == 1 || options.two_sided) searches.emplace_back(scene, piece, side, options.with_proofs);
     }
     Result& result = results[f];
     std::vector<Seen_piece> seen;
     result.face = seen_of(scene, searches, pieces[first[f]].face, seen);
     result.changes = changes_of(scene, result.face, seen);
-    for (const Piece_along& search : searches) result.counters += search.counters();
+    for (const Piece_along& search : searches) {
+      result.counters += search.counters();
+      result.proofs.insert(result.proofs.end(), search.proofs().begin(), search.proofs().end());
+    }
   };
   for_each_face(pieces, first, options.threads, options.progress, decide);
 
@@ -145,6 +149,7 @@ Visible_along visible_along(const Occluders& occluders, const Exact_point& from,
     if (is_moment(result.face, Quadratic_root(1))) all.at_end.push_back(id);
     if (is_seen_on_the_way(result.face)) all.visible.push_back(id);
     all.counters += result.counters;
+    std::move(result.proofs.begin(), result.proofs.end(), std::back_inserter(all.proofs));
     std::move(result.changes.begin(), result.changes.end(), std::back_inserter(changes));
     all.faces.push_back(std::move(result.face));
   }

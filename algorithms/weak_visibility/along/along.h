@@ -16,7 +16,8 @@ namespace sightline {
 
 struct Along_options {
   bool two_sided = false;
-  int threads = 0;  ///< 0: as many as there are processors; the result is the same for any number
+  bool with_proofs = false;  ///< what a certificate needs is kept
+  int threads = 0;           ///< 0: as many as there are processors; the result is the same for any number
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< by any thread
 };
 
@@ -44,6 +45,7 @@ struct Visible_along {
   std::vector<Along_event> events;                 ///< in order
   std::vector<Face_id> at_start, at_end, visible;  ///< at 0, at 1, at some moment between them
   Along_counters counters;
+  std::vector<Along_proof> proofs;  ///< if asked for
 };
 
 /// The faces that an eye sees on its way from one point to another, by the law of what is visible from a point

@@ -36,15 +36,30 @@ std::vector<Parameter_range> rest_of(const Parameter_range& range, std::vector<P
 
 }  // namespace
 
-Piece_along::Piece_along(const Along_scene& scene, std::uint32_t piece, int side)
-    : view_(std::make_unique<const Piece_view>(scene, piece, side)), run_(std::make_unique<Piece_run>(*view_)) {
+Piece_along::Piece_along(const Along_scene& scene, std::uint32_t piece, int side, bool with_proofs)
+    : with_proofs_(with_proofs),
+      view_(std::make_unique<const Piece_view>(scene, piece, side)),
+      run_(std::make_unique<Piece_run>(*view_)) {
   ++run_->counters().pieces;
 }
 
 bool Piece_along::is_seen_at(const Quadratic_root& t) {
   if (view_->side_of_eye(t) <= 0) return false;
   const Parameter_range range{t, t};
-  return run_->run(t, range, view_->left_in(range, view_->all_blockers())).seen;
+  const Piece_run::Answer answer = run_->run(t, range, view_->left_in(range, view_->all_blockers()));
+  if (with_proofs_) keep(answer);
+  return answer.seen;
+}
+
+void Piece_along::keep(const Piece_run::Answer& answer) {
+  Along_certificate::Proof proof;
+  proof.fragment = view_->target().piece;
+  proof.from_behind = view_->side() < 0;
+  for (const Line_side& side : answer.part) proof.cone.push_back(view_->named(side));
+  for (const Along_step& step : answer.steps)
+    if (step.is_cut) proof.tree.push_back({true, view_->named(step.cut), 0});
+    else proof.tree.push_back({false, {}, view_->blocker(step.blocker).piece});
+  proofs_.push_back({answer.range, std::move(proof)});
 }
 
 std::vector<Parameter_range> Piece_along::seen_within(const Parameter_range& whole) {
@@ -69,10 +84,12 @@ std::vector<Parameter_range> Piece_along::seen_within(const Parameter_range& who
       const Rational t = inner_rational(part.range, attempt);
       const Piece_run::Answer answer = run_->run(moment(t), part.range, left);
       if (!answer.sure) continue;
+      if (with_proofs_) keep(answer);
       std::vector<Parameter_range> known{answer.range};
       if (answer.seen) {
-        for (Parameter_range& range : seen_from_within(answer.part, t, part.range, left))
-          known.push_back(std::move(range));
+        if (!with_proofs_)
+          for (Parameter_range& range : seen_from_within(answer.part, t, part.range, left))
+            known.push_back(std::move(range));
         seen.insert(seen.end(), known.begin(), known.end());
       }
       for (const Parameter_range& rest : rest_of(part.range, std::move(known))) work.push_back({rest, left});

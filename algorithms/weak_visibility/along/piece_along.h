@@ -12,12 +12,19 @@
 
 namespace sightline {
 
+/// What proves for a while whether a piece is seen; the moments of the proof are this range.
+struct Along_proof {
+  Parameter_range range;
+  Along_certificate::Proof proof;
+};
+
 /// When an eye sees one piece from one side. Runs, and what single points of the piece see for a while, leave less and
 /// less of a range. Exact: yes. Proof: P-87
 class Piece_along {
  public:
-  /// `side`: 1 from the front, -1 from behind.
-  Piece_along(const Along_scene& scene, std::uint32_t piece, int side);
+  /// `side`: 1 from the front, -1 from behind. `with_proofs`: what is_seen_at() and seen_within() say is kept as
+  /// proofs.
+  Piece_along(const Along_scene& scene, std::uint32_t piece, int side, bool with_proofs);
 
   /// Whether it is seen at a moment, by the law, also where the eye is on other faces.
   bool is_seen_at(const Quadratic_root& t);
@@ -28,6 +35,7 @@ class Piece_along {
   /// Why a range of seen_within() ends there, of its two ends. Pre: the eye is on no face then.
   Along_cause cause(const Quadratic_root& end, const Parameter_range& seen);
   const Along_counters& counters() const { return run_->counters(); }
+  const std::vector<Along_proof>& proofs() const { return proofs_; }
 
  private:
   using Blockers = Piece_view::Blockers;
@@ -37,6 +45,10 @@ class Piece_along {
   std::vector<Parameter_range> seen_from_within(const Eye_cone& part, const Rational& t, const Parameter_range& range,
                                                 const Blockers& blockers);
 
+  void keep(const Piece_run::Answer& answer);
+
+  bool with_proofs_;
+  std::vector<Along_proof> proofs_;
   std::unique_ptr<const Piece_view> view_;
   std::unique_ptr<Piece_run> run_;
 };

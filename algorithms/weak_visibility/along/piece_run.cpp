@@ -77,6 +77,7 @@ Piece_run::Answer Piece_run::run(const Quadratic_root& t, const Parameter_range&
   high_ = view_->eye().near(range.high);
   middle_ = view_->eye().near(t);
   facts_.clear();
+  steps_.clear();
   linear_.clear();
   front_.assign(view_->blocker_count(), 0);
   all_.clear();
@@ -89,8 +90,9 @@ Piece_run::Answer Piece_run::run(const Quadratic_root& t, const Parameter_range&
     const double one = view_->blocker(a).size, other = view_->blocker(b).size;
     return one != other ? one > other : a < b;
   });
-  Answer answer{false, true, range, {}};
+  Answer answer{false, true, range, {}, {}};
   answer.seen = find(view_->whole(), all_, answer.part);
+  if (!answer.seen) answer.steps = std::move(steps_);
   if (unlucky_) {
     answer.sure = false;
     return answer;
@@ -270,7 +272,10 @@ bool Piece_run::find(const Cone& cone, const Blockers& left, Cone& found) {
   Blockers near;
   for (const std::uint32_t blocker : left) {
     const Guess its = guess(blocker, cone, near_rays);
-    if (its.kind == Guess::covers && covers(blocker, cone)) return false;
+    if (its.kind == Guess::covers && covers(blocker, cone)) {
+      steps_.push_back({false, {}, blocker});
+      return false;
+    }
     if (its.kind == Guess::covers || its.kind == Guess::across) near.push_back(blocker);
   }
   for (Blockers beside;;) {
@@ -298,6 +303,7 @@ bool Piece_run::find(const Cone& cone, const Blockers& left, Cone& found) {
       if (!is_covered || std::none_of(at.begin(), at.end(), [](int s) { return s < 0; })) continue;
       const Cone inner = clip(cone, at, side);
       for (int& s : at) s = -s;
+      steps_.push_back({true, {side.line, -side.sign}, 0});
       const std::size_t before = facts_.size();
       if (find(clip(cone, at, {side.line, -side.sign}), near, found)) return true;
       const std::size_t between = facts_.size();
@@ -308,7 +314,10 @@ bool Piece_run::find(const Cone& cone, const Blockers& left, Cone& found) {
       return true;
     }
     note(view_->blocker(blocker).eye_side, {no_line, 0, 0});
-    if (is_covered) return false;
+    if (is_covered) {
+      steps_.push_back({false, {}, blocker});
+      return false;
+    }
     beside.push_back(blocker);
   }
 }

@@ -26,6 +26,13 @@ struct Along_counters {
   }
 };
 
+/// A cut of a cone, first the part on this side, then the other one; or what covers a cone.
+struct Along_step {
+  bool is_cut;
+  Line_side cut;
+  std::uint32_t blocker;
+};
+
 /// A run cuts the piece along edges, as the eye sees them, until a part is beside all that is in front, or all parts
 /// are behind something. All that it rests on are signs of quadratics in t, so its answer is true as far as none of
 /// these has a root. Doubles choose what is cut, and know most signs of a range. It refers to the view. Exact: yes.
@@ -40,7 +47,8 @@ class Piece_run {
   struct Answer {
     bool seen, sure;
     Parameter_range range;
-    Cone part;
+    Cone part;                      ///< what is seen, or none
+    std::vector<Along_step> steps;  ///< in preorder, where nothing is
   };
   /// At t, true in the answer's range; not sure where a sign that it needs is zero at t alone.
   Answer run(const Quadratic_root& t, const Parameter_range& range, const Blockers& all);
@@ -100,6 +108,7 @@ class Piece_run {
   Blockers all_;
   std::vector<int> front_;  // by blocker: the eye's side of it
   std::vector<Fact> facts_;
+  std::vector<Along_step> steps_;
   std::deque<Quadratic> linear_;
   Along_counters counters_;
 };

@@ -29,11 +29,14 @@ const Eye_line& Piece_view::line(std::uint32_t number) const {
   return number < shared ? scene_->lines()[number] : own_[number - shared];
 }
 
-std::uint32_t Piece_view::number_of(const Exact_pluecker& line) {
+std::uint32_t Piece_view::number_of(const Exact_pluecker& line, std::uint32_t piece) {
   if (const auto at = scene_->numbers().find(line); at != scene_->numbers().end()) return at->second;
   const auto number = static_cast<std::uint32_t>(scene_->lines().size() + own_.size());
   const auto [at, is_new] = own_numbers_.try_emplace(line, number);
-  if (is_new) own_.push_back(eye_line(scene_->eye(), scene_->occluders().frame(), line));
+  if (is_new) {
+    own_.push_back(eye_line(scene_->eye(), scene_->occluders().frame(), line));
+    own_pieces_.push_back(piece);
+  }
   return at->second;
 }
 
@@ -51,10 +54,29 @@ void Piece_view::add_blocker(std::uint32_t piece) {
   for (std::size_t i = 0; i < part.corners.size(); ++i) {
     Exact_pluecker line = join(part.corners[i].exact, part.corners[(i + 1) % part.corners.size()].exact);
     const int sense = make_canonical(line);
-    part.edges.push_back({number_of(line), sense});
+    part.edges.push_back({number_of(line, piece), sense});
   }
   part.size = squared_size(part.corners);
   blockers_.push_back(&parts_.emplace_back(std::move(part)));
+}
+
+Along_certificate::Side Piece_view::named(const Line_side& side) const {
+  using Kind = Along_certificate::Side::Kind;
+  const std::size_t shared = scene_->lines().size();
+  if (side.line < shared) {
+    const auto& [piece, corner] = scene_->edges(side.line).front();
+    return {Kind::edge, piece, corner, -side.sign * scene_->polygons()[piece].edges[corner].sign};
+  }
+  // Both normals are the same, but for a factor: that of the line, and that of the two planes.
+  const std::uint32_t piece = own_pieces_[side.line - shared];
+  const Eye_line& its = line(side.line);
+  const std::array<Integer, 4>&own = plane_.exact, &other = scene_->occluders().plane(piece).exact;
+  int sense = 0;
+  for (const std::size_t c : {0, 1})
+    for (std::size_t k = 0; k < 3 && sense == 0; ++k)
+      sense = side_ * sgn((c == 0 ? its.first : its.change)[k]) *
+              sgn(Integer(target_->eye_side.c[c] * other[k] - scene_->polygons()[piece].eye_side.c[c] * own[k]));
+  return {Kind::meet, piece, 0, side.sign * sense};
 }
 
 bool Piece_view::is_out_of_the_way(const Eye_polygon& polygon, const Parameter_range& range) const {

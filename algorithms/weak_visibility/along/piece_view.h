@@ -1,6 +1,7 @@
 #pragma once
 // What stands before one piece, as a moving eye has it: the piece, what may hide it, and the lines of their edges.
 
+#include <sightline/algorithms/verify/along.h>
 #include <sightline/algorithms/weak_visibility/along/along_scene.h>
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/algorithms/weak_visibility/line_space.h>
@@ -42,11 +43,13 @@ class Piece_view {
   /// The scene's lines, and behind them those in which blockers meet the piece's plane.
   const Eye_line& line(std::uint32_t number) const;
   std::uint32_t line_count() const { return static_cast<std::uint32_t>(scene_->lines().size() + own_.size()); }
+  /// A side as certificates have it, by an edge or by the piece whose plane meets this one's.
+  Along_certificate::Side named(const Line_side& side) const;
   /// The eye's side of the piece's plane: 1 where it is on the side from which it looks.
   int side_of_eye(const Quadratic_root& t) const { return side_ * t.sign_of(target_->eye_side); }
 
  private:
-  std::uint32_t number_of(const Exact_pluecker& line);
+  std::uint32_t number_of(const Exact_pluecker& line, std::uint32_t piece);
   void add_blocker(std::uint32_t piece);
   bool is_out_of_the_way(const Eye_polygon& polygon, const Parameter_range& range) const;
 
@@ -58,6 +61,7 @@ class Piece_view {
   std::vector<const Eye_polygon*> blockers_;
   std::deque<Eye_polygon> parts_;  // blockers that are parts of pieces
   std::vector<Eye_line> own_;
+  std::vector<std::uint32_t> own_pieces_;  // that meet the piece's plane there
   std::map<Exact_pluecker, std::uint32_t, Less_entries> own_numbers_;
 };
 
