@@ -48,7 +48,11 @@ struct Task {
   std::uint32_t cover = Visible_surface<V>::nothing;  // the chunk that is nearest of those that cover the region
   std::vector<std::uint32_t> tied;                    // chunks in the plane of the cover that come after it
   std::uint32_t depth = 0;
+  const std::vector<std::uint32_t>* without = nullptr;  // pieces that count as not there, or none
 
+  bool is_without(std::uint32_t piece) const {
+    return without != nullptr && std::find(without->begin(), without->end(), piece) != without->end();
+  }
   bool has_cover() const { return cover != Visible_surface<V>::nothing; }
   void remove_item(std::size_t i) {
     items[i] = items.back();

@@ -69,15 +69,17 @@ class Solver {
         seen_(view),
         done_(options) {}
 
-  Surface solve(std::vector<Region<V>> fields) {
+  /// `without`: of each field the pieces that count as not there; or no list at all.
+  Surface solve(std::vector<Region<V>> fields, const std::vector<std::vector<std::uint32_t>>& without = {}) {
     const double share = 0x1p0 / static_cast<double>(fields.size());
     std::vector<Output<V>> outputs(fields.size());
-    for (std::size_t k = 0; k < fields.size(); ++k) {
+    parallel_for(fields.size(), [&](std::size_t k) {
       Task<V> task;
       task.region = fields[k];
+      if (!without.empty()) task.without = &without[k];
       if (!chunks_.boxes().nodes().empty()) task.boxes.push_back({0, 0});
       outputs[k].root = solve_in_parallel(std::move(task), share, outputs[k]);
-    }
+    });
     Surface surface;
     for (const Output<V>& out : outputs) surface.roots.push_back(append(out, out.root, surface));
     surface.counters.pieces = view_.scene().pieces().size();
@@ -143,7 +145,8 @@ class Solver {
   }
   void add_chunks(const Piece_boxes::Node& leaf, Task<V>& task, Visible_counters& counters) const {
     for (std::uint32_t chunk = leaf.first; chunk < leaf.first + leaf.count; ++chunk) {
-      if (view_.eye_side(chunks_.piece_of(chunk)) == CGAL::ZERO) continue;
+      const std::uint32_t piece = chunks_.piece_of(chunk);
+      if (view_.eye_side(piece) == CGAL::ZERO || task.is_without(piece)) continue;
       ++counters.looked_at;
       if (chunks_.is_outside(chunk, task.region, counters.predicates)) continue;
       Item item = chunks_.with_all_edges(chunk);
@@ -183,6 +186,7 @@ class Solver {
     part.cover = task.cover;
     part.tied = task.tied;
     part.depth = task.depth + 1;
+    part.without = task.without;
     if (is_flat(part)) return part;
     for (const Closed_box& box : task.boxes)
       if (!chunks_.is_behind(chunks_.node(box), side)) part.boxes.push_back(box);
