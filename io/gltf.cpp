@@ -147,12 +147,12 @@ Placement composed(const Placement& outer, const Placement& inner) {
 
 // ---- The file
 
-/// A buffer, and for messages where it is: from a byte of a file on.
+/// A buffer, and for messages where it is.
 struct Buffer {
   std::string_view bytes;
-  std::string file;
-  std::size_t file_offset = 0;
-  std::string own = {};  // the bytes, where they are not in the file that is read
+  std::size_t file_offset = 0;  // in the file that is read, where it is there
+  std::string beside = {};      // or else its own name
+  std::string own = {};         // and its bytes
 };
 
 /// A part of a buffer that holds `count` elements, each `stride` bytes behind the one before.
@@ -327,7 +327,7 @@ class Gltf_reader {
     if (word(next + 4) != binary_chunk) return;  // what comes behind it is for extensions
     if (binary_length > length - (next + chunk_header_size))
       input_.fail_at_byte(next, "the binary chunk is longer than the file; repair it");
-    binary_ = {input_.bytes.substr(next + chunk_header_size, binary_length), input_.name, next + chunk_header_size};
+    binary_ = {input_.bytes.substr(next + chunk_header_size, binary_length), next + chunk_header_size};
   }
   void read_json(std::string_view text) {
     Tree_builder builder;
@@ -351,23 +351,24 @@ class Gltf_reader {
     Buffer& made = buffers_[index];
     if (std::optional<std::string> data = data_of(text)) {
       made.own = std::move(*data);
-      made.file = input_.name + ", " + place;
+      made.beside = place;
     } else if (const std::optional<std::string> path = path_of(text); !path) {
       fail(place + ".uri", quoted(text) + " is neither data in base64 nor a file beside this one; write a .glb");
     } else if (!neighbour_) {
       fail(place, "its data are not in this file, but in " + quoted(text) + "; read it by its name, or write a .glb");
     } else {
       made.own = neighbour_(*path);
-      made.file = *path;
+      made.beside = quoted(*path);
     }
     made.bytes = made.own;
     bytes_beside_ += made.own.size();
     return made;
   }
-  [[noreturn]] static void fail_at(const Elements& elements, std::size_t offset, const std::string& message) {
+  [[noreturn]] void fail_at(const Elements& elements, std::size_t offset, const std::string& message) const {
     const Buffer& in = *elements.buffer;
-    const auto begin = static_cast<std::size_t>(elements.bytes.data() - in.bytes.data());
-    throw Input_error::in_binary(in.file, in.file_offset + begin + offset, message);
+    const std::size_t at = in.file_offset + static_cast<std::size_t>(elements.bytes.data() - in.bytes.data()) + offset;
+    if (in.beside.empty()) input_.fail_at_byte(at, message);
+    throw Input_error::of_file(input_.name, "in " + in.beside + ", byte " + std::to_string(at) + ": " + message);
   }
   /// Of all files.
   std::size_t bytes() const { return input_.bytes.size() + bytes_beside_; }

@@ -325,11 +325,12 @@ TEST(Read_gltf, finds_its_buffers_beside_it) {
     }
     return std::string("accepted");
   };
-  // What is wrong in a file beside it is said of that file; one that is not there is named.
+  // What is wrong in a file beside it is said with that file's name; one that is not there is named.
   std::string wrong = gltf.binary.substr(split);
   wrong[2] = 9;
   write_bytes(folder / "indices.bin", wrong);
-  EXPECT_EQ(refused(), "indices.bin: byte 2: there is no point 9 of 5; repair the index");
+  EXPECT_EQ(refused(),
+            (folder / "scene.gltf").string() + ": in indices.bin, byte 2: there is no point 9 of 5; repair the index");
   std::filesystem::remove(folder / "indices.bin");
   EXPECT_NE(refused().find("indices.bin"), std::string::npos) << refused();
   std::filesystem::remove_all(folder);
