@@ -452,28 +452,29 @@ commands.boolean = () => {
 commands.compare = () => {
   const visible = data.visible ? new Set(unpacked(data.visible)) : null;
   const methods = data.methods.map(one => ({...one, said: Boolean(one.missing), missing: new Set(one.missing ? unpacked(one.missing) : []), extra: new Set(one.extra ? unpacked(one.extra) : [])}));
-  let chosen = methods.find(one => one.said);
+  let chosen = null;
   const stateOf = k => {
     const face = polygons.faces[k];
-    return !chosen ? 0 : chosen.missing.has(face) ? 2 : chosen.extra.has(face) ? 3 : visible.has(face) ? 0 : 1;
+    return !chosen || !chosen.said ? (visible.has(face) ? 0 : 1) : chosen.missing.has(face) ? 2 : chosen.extra.has(face) ? 3 : visible.has(face) ? 0 : 1;
   };
   const errorsOf = one => Object.entries(one.errors || {}).filter(([, value]) => typeof value === 'number' && value !== 0).map(([key, value]) => `${key.replaceAll('_', ' ')} ${Number(value.toPrecision(3))}`).join(', ');
   const where = element('p', {id: 'method'});
+  const saidOf = one => one.status !== 'done' ? one.status : `${one.seconds.toPrecision(2)} s, ${(one.peak_bytes / 1e6).toFixed(1)} MB${errorsOf(one) ? '; ' + errorsOf(one) : ''}`;
+  const list = listOf(methods, one => `${one.name}: ${saidOf(one)}`, one => choose(one));
   const choose = one => {
-    if (one.said) chosen = one;
-    where.textContent = one.status !== 'done' ? `${one.name}: ${one.status}` : one.said ? `${one.name}: ${one.missing.size} faces are missing, ${one.extra.size} too many` : `${one.name}: ${errorsOf(one)}`;
+    chosen = one;
+    where.textContent = `${one.name}: ${one.said ? `${one.missing.size} faces are missing, ${one.extra.size} too many` : saidOf(one)}`;
+    list.querySelectorAll('button').forEach((made, i) => made.setAttribute('aria-pressed', methods[i] === one));
     paint();
   };
-  const rowOf = one => element('tr', {}, element('th', {scope: 'row'}, button(one.name, () => choose(one))),
-    ...(one.status === 'done' ? [one.seconds.toPrecision(3), (one.peak_bytes / 1e6).toFixed(1), errorsOf(one)] : ['', '', one.status]).map(text => element('td', {}, text)));
   return {
     groupsChange: true,
+    beginsAtEye: Boolean(data.eye),
     colourOf: visible ? k => palette[data.groups[stateOf(k)].role] : k => colourOfFace(polygons.faces[k]),
     nameOf: k => visible ? data.groups[stateOf(k)].name : '',
     begin() {
-      const heads = ['asked', 'seconds', 'MB', 'errors'].map(text => element('th', {scope: 'col'}, text));
-      section('Seconds and errors', where, element('table', {id: 'methods'}, element('tr', {}, ...heads), ...methods.map(rowOf)));
-      if (chosen) choose(chosen);
+      section('Seconds and errors', where, element('div', {id: 'methods'}, list));
+      if (methods.length > 0) choose(methods[0]);
     },
   };
 };
