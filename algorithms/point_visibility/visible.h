@@ -74,14 +74,15 @@ Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, Cone
                    [&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones)); });
   return surface;
 }
-/// The same where in each cone some pieces count as not there. Pre: a list for each.
+/// The same of what is behind pieces that are looked through. Pre: of each cone a list of those that are met first in
+/// it, one behind the other, nearest first; each is met in all of it.
 template <View V>
 Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, Cones<V> cones,
-                                   const std::vector<std::vector<std::uint32_t>>& without,
+                                   const std::vector<std::vector<std::uint32_t>>& through,
                                    const Visible_options& options = {}) {
   Visible_surface<V> surface;
   run_with_threads(options.threads,
-                   [&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones), without); });
+                   [&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones), through); });
   return surface;
 }
 /// The same over the whole sphere of directions.
