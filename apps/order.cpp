@@ -8,6 +8,7 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/image/bsp2d.h>
+#include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/verify/order.h>
@@ -36,6 +37,39 @@ static Order_certificate certificate_of(const Scene& scene, const Exact_point& e
   return certificate;
 }
 
+/// A fragment with its corners.
+static Drawn with_corners(const Exact_traits& traits, Drawn drawn, const Convex_polygon<Exact_traits>& polygon) {
+  for (const Corner<Exact_traits>& corner : polygon) drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
+  return drawn;
+}
+
+namespace {
+
+/// What of polygons is in front of a near plane, for a picture; nothing where there is no such plane.
+class In_view {
+ public:
+  In_view(const Exact_traits& traits, const std::optional<Plane>& near) : traits_(traits) {
+    if (near) cutter_ = traits.prepare(*near);
+  }
+  /// `drawn`: the polygon, but for its corners.
+  void add(const Drawn& drawn, const Convex_polygon<Exact_traits>& polygon, Predicate_counts& counts,
+           std::vector<Drawn>& to) {
+    if (!cutter_) return;
+    const Position at = classify(traits_, polygon, *cutter_, scratch_, counts);
+    if (at == Position::in_front) to.push_back(with_corners(traits_, drawn, polygon));
+    if (at == Position::across)
+      to.push_back(with_corners(traits_, drawn, split(traits_, polygon, *cutter_, scratch_, store_)[1]));
+  }
+
+ private:
+  const Exact_traits& traits_;
+  std::optional<Prepared_plane> cutter_;
+  Polygon_store<Exact_traits> store_;
+  Split_scratch<Exact_traits> scratch_;
+};
+
+}  // namespace
+
 /// What the order by the priority graph took, and its picture's polygons.
 struct Graph_order {
   Priority_tree_counters tree;
@@ -63,8 +97,7 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
   outcome.walk.predicates = order.counters.predicates;
 
   std::vector<std::uint32_t> seen(scene.counters().faces_read);
-  Polygon_store<Exact_traits> store;
-  Split_scratch<Exact_traits> scratch;
+  In_view in_view(traits, near);
   for (const Convex_polygon<Exact_traits>& polygon : order.polygons) {
     if (task.bsp.progress && outcome.drawn.size() % 64 == 0)
       task.bsp.progress(outcome.drawn.size(), order.polygons.size());
@@ -74,31 +107,23 @@ static Outcome run_graph(Scene& scene, const Task& task, bool two_sided, Graph_o
     drawn.fragment.piece = piece.number;
     drawn.number = seen[piece.face]++;
     drawn.side = traits.side(traits.eye(*task.eye), piece.support, outcome.walk.predicates);
-    const auto with_corners = [&](const Convex_polygon<Exact_traits>& part) {
-      Drawn whole = drawn;
-      for (const Corner<Exact_traits>& corner : part)
-        whole.fragment.vertices.push_back(traits.position(*corner.vertex));
-      return whole;
-    };
-    outcome.drawn.push_back(with_corners(polygon));
-    if (!near) continue;
-    const Prepared_plane cutter = traits.prepare(*near);
-    const Position at = classify(traits, polygon, cutter, scratch, outcome.walk.predicates);
-    if (at == Position::in_front) graph.in_view.push_back(outcome.drawn.back());
-    if (at == Position::across)
-      graph.in_view.push_back(with_corners(split(traits, polygon, cutter, scratch, store)[1]));
+    outcome.drawn.push_back(with_corners(traits, drawn, polygon));
+    in_view.add(drawn, polygon, outcome.walk.predicates, graph.in_view);
   }
   return outcome;
 }
 
-/// What the order by a tree that passes over what is hidden took, and the faces that are seen.
+/// What the order by a tree that passes over what is hidden took, what is seen, and its picture's polygons.
 struct Skipped_order {
   Bsp2d_counters counters;
-  std::vector<Face_id> visible, from_behind;
+  Visible_surface<Exact_view> surface;
+  std::vector<Drawn> in_view;  // as in Graph_order
 };
 
-/// What is seen of the fragments of a tree, nearest first.
-static Outcome run_skipping(const Scene& scene, const Task& task, Skipped_order& skipped) {
+/// What is seen of the fragments of a tree, farthest first.
+static Outcome run_skipping(Scene& scene, const Task& task, Skipped_order& skipped) {
+  std::optional<Plane> near;
+  if (task.near) near = scene.add_plane(*task.near);
   const Exact_traits traits(scene);
   Outcome outcome;
   Stopwatch watch;
@@ -109,20 +134,21 @@ static Outcome run_skipping(const Scene& scene, const Task& task, Skipped_order&
   const Exact_view view(scene, *task.eye);
   Bsp2d_options options;
   options.progress = task.bsp.progress;
-  const Bsp2d result = bsp2d(view, tree, whole_sphere(view), options);
+  Bsp2d result = bsp2d(view, tree, whole_sphere(view), options);
   outcome.order_seconds = watch.seconds();
   outcome.walk.nodes = result.counters.nodes;
   outcome.walk.fragments = result.counters.fragments;
   outcome.walk.on_planes = result.counters.on_planes;
   outcome.walk.predicates = result.counters.predicates;
-  skipped = {result.counters, result.surface.visible, result.surface.from_behind};
+  skipped = {result.counters, std::move(result.surface), {}};
+  std::reverse(result.seen.begin(), result.seen.end());
+  In_view in_view(traits, near);
   for (const std::uint32_t i : result.seen) {
     const Fragment<Exact_traits>& fragment = tree.fragments[i];
     const Piece& piece = scene.pieces()[fragment.polygon.piece];
-    Drawn& drawn = outcome.drawn.emplace_back(
-        Drawn{{piece.face, piece.number, {}}, fragment.number, view.eye_side(fragment.polygon.piece)});
-    for (const Corner<Exact_traits>& corner : fragment.polygon)
-      drawn.fragment.vertices.push_back(traits.position(*corner.vertex));
+    const Drawn drawn{{piece.face, piece.number, {}}, fragment.number, view.eye_side(fragment.polygon.piece)};
+    outcome.drawn.push_back(with_corners(traits, drawn, fragment.polygon));
+    in_view.add(drawn, fragment.polygon, outcome.walk.predicates, skipped.in_view);
   }
   return outcome;
 }
@@ -133,7 +159,8 @@ static void write_page(const Order_arguments& arguments, const Scene& scene, con
   Page page("order", scene);
   page.set_eye(eye);
   page.add_fact("faces", fmt::format("{}", scene.counters().faces));
-  page.add_fact("polygons", fmt::format("{}, back to front", outcome.drawn.size()));
+  page.add_fact("polygons", fmt::format("{}{}, back to front", outcome.drawn.size(),
+                                        arguments.skip_hidden ? " that are seen" : ""));
   page.add_fact("cuts", fmt::format("{}", outcome.tree.splits));
   page.add_fact("method", arguments.by_graph() ? "graph" : "bsp, " + arguments.kernel);
   page.add_fact("eye", Page::text(eye));
@@ -163,8 +190,6 @@ static void check_usage(const Order_arguments& arguments) {
   if (!arguments.front_to_back) throw Usage_error("--skip-hidden needs --front-to-back: what hides comes first");
   if (arguments.by_graph() || arguments.kernel != "exact")
     throw Usage_error("--skip-hidden is for a tree, and exact: leave out --method and --kernel");
-  if (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty() || !arguments.mesh.empty())
-    throw Usage_error("--skip-hidden leaves out fragments: no --certificate, and for a picture `sightline see`");
 }
 
 static Exit run(const Order_arguments& arguments) {
@@ -185,7 +210,7 @@ static Exit run(const Order_arguments& arguments) {
   task.bsp.threads = common.threads;
   task.bsp.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   Graph_order graph;
-  if (by_graph) task.near = near;
+  if (by_graph || arguments.skip_hidden) task.near = near;
   Skipped_order skipped;
   Outcome outcome = by_graph                ? run_graph(scene, task, arguments.two_sided, graph)
                     : arguments.skip_hidden ? run_skipping(scene, task, skipped)
@@ -194,16 +219,19 @@ static Exit run(const Order_arguments& arguments) {
   if (!arguments.certificate.empty()) {
     task.bsp.progress(1, 1);  // no certificate once the budget is over
     write_file(arguments.certificate, [&](std::ostream& out) {
-      write_certificate(out, certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided));
+      if (arguments.skip_hidden)
+        write_visible_certificate(out, Exact_view(scene, eye), skipped.surface, eye, {}, task.bsp.progress);
+      else write_certificate(out, certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided));
     });
   }
   if (!arguments.svg.empty()) {
-    if (near && !by_graph) {
+    std::vector<Drawn>& in_view = arguments.skip_hidden ? skipped.in_view : graph.in_view;
+    if (near && !task.near) {
       task.near = near;
-      graph.in_view = run_method(arguments.kernel, scene, task).drawn;
+      in_view = run_method(arguments.kernel, scene, task).drawn;
     }
     Svg svg = empty_picture(view);
-    paint(svg, view, near ? graph.in_view : outcome.drawn, true);
+    paint(svg, view, near ? in_view : outcome.drawn, true);
     write_file(arguments.svg, svg.text());
   }
 
@@ -211,7 +239,7 @@ static Exit run(const Order_arguments& arguments) {
   if (!arguments.mesh.empty()) write_mesh(arguments.mesh, outcome);
 
   // The other way round is an order, too.
-  if (arguments.front_to_back && !arguments.skip_hidden) std::reverse(outcome.drawn.begin(), outcome.drawn.end());
+  if (arguments.front_to_back) std::reverse(outcome.drawn.begin(), outcome.drawn.end());
 
   progress.clear();
   Json fragments = Json::array();
@@ -235,8 +263,8 @@ static Exit run(const Order_arguments& arguments) {
                 {"predicates", predicates_json(c.predicates)},
                 {"eye_predicates", predicates_json(outcome.walk.predicates)}};
   if (arguments.skip_hidden) {
-    result["visible"] = skipped.visible;
-    result["from_behind"] = skipped.from_behind;
+    result["visible"] = skipped.surface.visible;
+    result["from_behind"] = skipped.surface.from_behind;
     counters["skip_hidden"] = counters_json(skipped.counters);
   }
   if (by_graph) {
@@ -261,7 +289,8 @@ static Exit run(const Order_arguments& arguments) {
     row("order", fmt::format("{} fragments{}, {}; the eye is in the planes of {} nodes", outcome.drawn.size(),
                              arguments.skip_hidden ? " that are seen" : "", direction, outcome.walk.on_planes));
   if (arguments.skip_hidden) {
-    row("visible", fmt::format("{} faces, {} from behind", skipped.visible.size(), skipped.from_behind.size()));
+    row("visible",
+        fmt::format("{} faces, {} from behind", skipped.surface.visible.size(), skipped.surface.from_behind.size()));
     const Bsp2d_counters& k = skipped.counters;
     row("not visited", fmt::format("{} of {} nodes, {} of {} fragments, {} of {} faces; {} fragments visited in vain",
                                    k.nodes_skipped, c.nodes, k.fragments_skipped, c.fragments, k.faces_skipped,
@@ -304,7 +333,10 @@ void add_order(Command program) {
   command.add_flag("--front-to-back", a->front_to_back, "list the nearest first");
   command.add_flag("--skip-hidden", a->skip_hidden,
                    "with --front-to-back: only what is seen; what is behind that is not visited");
-  command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
+  command
+      .add_option("--certificate", a->certificate,
+                  "write what `sightline verify` reads: of the order; with --skip-hidden of what is seen")
+      .writes_file();
   command.add_option("--svg", a->svg, "draw the order as a painter would").writes_file().check(ending(".svg"));
   command.add_option("--html", a->html, "write a page to look at, in which a slider paints back to front")
       .writes_file()

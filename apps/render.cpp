@@ -75,14 +75,14 @@ Rendered render(Scene& scene, const View& view, const Render_arguments& argument
   if (transparent && !shows_through(arguments.method))
     throw Usage_error(
         fmt::format("--method {} shows only what is first, and some faces let light through: take "
-                    "centres, scan-line, bsp or graph, or --alpha 1",
+                    "exact, centres, scan-line, bsp or graph, or --alpha 1",
                     arguments.method));
   const auto colour = [&](std::uint32_t piece) { return tints[piece].colour; };
   Rendered rendered{{pixels, view.background}, {}};
   const Stopwatch watch;
   if (arguments.method == "exact") {
     run_means(
-        Exact_view(scene, pixels.eye, field_of(pixels)), pixels, colour,
+        Exact_view(scene, pixels.eye, field_of(pixels)), pixels, tints,
         [&](const Mean_row& row) { rendered.canvas.set(row); }, options);
   } else if (arguments.samples > 1) {
     const Mean_image means =
@@ -192,17 +192,19 @@ void add_render(Command program) {
   command.add_option("--eye", a->eye, "the eye X,Y,Z: exact decimals or p/q; by default a place outside the scene")
       .check(not_empty());
   command
-      .add_option("--method", a->method,
-                  "exact: each pixel the mean over its square of what is seen, without samples; centres: what an "
-                  "exact ray through its centre meets first; depth: a depth buffer, in floats; weighted: the same, "
-                  "where faces let light through weighted blending; rays: what Embree's "
-                  "rays through centres meet, in floats; painter-min, "
-                  "painter-max, painter-mean: faces sorted by the depth of their nearest corner, farthest corner or "
-                  "corners' mean, which is often wrong; newell: sorted by depth, compared pair by pair, and cut where "
-                  "there is no order; scan-line: row by row, from edge to edge; warnock: in windows, "
-                  "each cut into four until one face is first in it; weiler-atherton: directions cut along the edges "
-                  "of the nearest polygon; bsp2d: near to far by a tree, clipped by another one of what is covered; "
-                  "bsp, graph: painted in the orders of `sightline order`")
+      .add_option(
+          "--method", a->method,
+          "exact: each pixel the mean over its square of what is seen, without samples, layer behind layer where "
+          "faces let light through; centres: what an "
+          "exact ray through its centre meets first; depth: a depth buffer, in floats; weighted: the same, "
+          "where faces let light through weighted blending; rays: what Embree's "
+          "rays through centres meet, in floats; painter-min, "
+          "painter-max, painter-mean: faces sorted by the depth of their nearest corner, farthest corner or "
+          "corners' mean, which is often wrong; newell: sorted by depth, compared pair by pair, and cut where "
+          "there is no order; scan-line: row by row, from edge to edge; warnock: in windows, "
+          "each cut into four until one face is first in it; weiler-atherton: directions cut along the edges "
+          "of the nearest polygon; bsp2d: near to far by a tree, clipped by another one of what is covered; "
+          "bsp, graph: painted in the orders of `sightline order`")
       .check(one_of(image_methods))
       .show_default();
   command.add_option("--kernel", a->kernel, "arithmetic of the painters, newell, scan-line, warnock and bsp")

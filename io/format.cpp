@@ -17,6 +17,7 @@ std::optional<Format> format_of_ending(const std::filesystem::path& path) {
   if (ending == ".map") return Format::map;
   if (ending == ".bsp") return Format::bsp;
   if (ending == ".glb") return Format::glb;
+  if (ending == ".gltf") return Format::gltf;
   return std::nullopt;
 }
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -146,20 +147,80 @@ Placement composed(const Placement& outer, const Placement& inner) {
 
 // ---- The file
 
+/// A buffer, and for messages where it is.
+struct Buffer {
+  std::string_view bytes;
+  std::size_t file_offset = 0;  // in the file that is read, where it is there
+  std::string beside = {};      // or else its own name
+  std::string own = {};         // and its bytes
+};
+
 /// A part of a buffer that holds `count` elements, each `stride` bytes behind the one before.
 struct Elements {
   std::string_view bytes;
-  std::size_t file_offset;  // of bytes[0], for messages
+  const Buffer* buffer;
   std::size_t count, stride;
   std::uint64_t component;
 };
 
-class Glb_reader {
- public:
-  Glb_reader(const Input& input, const Read_options& options) : input_(input), options_(options) {}
+// ---- Buffers beside the JSON
 
-  Polygon_soup read() {
+/// What a data: URI holds, or nothing where it is none in base64.
+std::optional<std::string> data_of(std::string_view uri) {
+  constexpr std::string_view scheme = "data:", coded = ";base64,",
+                             digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  const std::size_t comma = uri.find(coded);
+  if (!uri.starts_with(scheme) || comma == std::string_view::npos) return std::nullopt;
+  std::string_view text = uri.substr(comma + coded.size());
+  for (int k = 0; k < 2 && text.ends_with('='); ++k) text.remove_suffix(1);
+  std::string bytes;
+  std::uint32_t bits = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const std::size_t digit = digits.find(text[i]);
+    if (digit == std::string_view::npos) return std::nullopt;
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    if (i % 4 != 0) bytes += static_cast<char>(bits >> (6 - 2 * (i % 4)) & 255);
+  }
+  return bytes;
+}
+
+/// The path that a relative URI stands for; nothing where it is none.
+std::optional<std::string> path_of(std::string_view uri) {
+  if (uri.empty() || uri.front() == '/' || uri.find(':') != std::string_view::npos) return std::nullopt;
+  std::string path;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    if (uri[i] != '%') {
+      path += uri[i];
+      continue;
+    }
+    unsigned value = 0;
+    const char* const first = uri.data() + i + 1;
+    if (uri.size() - i < 3 || std::from_chars(first, first + 2, value, 16).ptr != first + 2 || value == 0)
+      return std::nullopt;
+    path += static_cast<char>(value);
+    i += 2;
+  }
+  return path;
+}
+
+class Gltf_reader {
+ public:
+  Gltf_reader(const Input& input, const Gltf_neighbour& neighbour, const Read_options& options)
+      : input_(input), neighbour_(neighbour), options_(options) {}
+
+  Polygon_soup read_binary() {
     read_chunks();
+    return read_scene();
+  }
+  Polygon_soup read_text() {
+    json_begin_ = 0;
+    const std::size_t mark = input_.bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0;
+    read_json(input_.bytes.substr(mark));
+    return read_scene();
+  }
+
+ private:
+  Polygon_soup read_scene() {
     const Tree& version = at(tree_, "asset", "version");
     if (!version.is_string() || !version.get_ref<const std::string&>().starts_with("2."))
       fail("asset.version", "only glTF 2 is read; convert the file");
@@ -170,12 +231,13 @@ class Glb_reader {
     return std::move(soup_);
   }
 
- private:
   // ---- Errors, and what JSON holds
 
   /// `place` is where in the JSON.
   [[noreturn]] void fail(const std::string& place, const std::string& message) const {
-    input_.fail_at_byte(json_begin, "in the JSON, " + place + ": " + message);
+    const std::string where = place + ": " + message;
+    if (json_begin_ == 0) throw Input_error::of_file(input_.name, where);
+    input_.fail_at_byte(json_begin_, "in the JSON, " + where);
   }
   static std::string item(const std::string& list, std::size_t index) {
     return list + '[' + std::to_string(index) + ']';
@@ -258,24 +320,62 @@ class Glb_reader {
     if (word(header_size + 4) != json_chunk) input_.fail_at_byte(header_size + 4, "the first chunk is no JSON");
     if (json_length > length - std::min(length, json_begin))
       input_.fail_at_byte(header_size, "the JSON is longer than the file; repair it");
-    const std::string_view text = input_.bytes.substr(json_begin, json_length);
-    Tree_builder builder;
-    if (!Tree::sax_parse(text.begin(), text.end(), &builder))
-      input_.fail_at_byte(builder.error_at ? json_begin + std::min(*builder.error_at, json_length) : json_begin,
-                          builder.error_at ? "this is no JSON; repair the file" : "the JSON is too deep");
-    tree_ = std::move(builder.root);
+    read_json(input_.bytes.substr(json_begin, json_length));
     const std::size_t next = json_begin + json_length;
     if (next == length) return;
     const std::size_t binary_length = word(next);
     if (word(next + 4) != binary_chunk) return;  // what comes behind it is for extensions
     if (binary_length > length - (next + chunk_header_size))
       input_.fail_at_byte(next, "the binary chunk is longer than the file; repair it");
-    binary_ = input_.bytes.substr(next + chunk_header_size, binary_length);
+    binary_ = {input_.bytes.substr(next + chunk_header_size, binary_length), next + chunk_header_size};
   }
+  void read_json(std::string_view text) {
+    Tree_builder builder;
+    if (!Tree::sax_parse(text.begin(), text.end(), &builder)) {
+      const std::string message = builder.error_at ? "this is no JSON; repair the file" : "the JSON is too deep";
+      const std::size_t at = builder.error_at ? std::min(*builder.error_at, text.size()) : 0;
+      if (json_begin_ == 0) input_.fail(text.data() + at, message);
+      input_.fail_at_byte(json_begin_ + at, message);
+    }
+    tree_ = std::move(builder.root);
+  }
+
+  /// The bytes of a buffer: of the binary chunk, of a data: URI, or of a file beside this one.
+  const Buffer& buffer(std::uint64_t index, const std::string& asked_by) {
+    if (const auto known = buffers_.find(index); known != buffers_.end()) return known->second;
+    const std::string place = item("buffers", index);
+    const Tree* const uri = find(entry("buffers", index, asked_by), "uri");
+    if (uri == nullptr && index == 0 && binary_.bytes.data() != nullptr) return binary_;
+    if (uri == nullptr || !uri->is_string()) fail(place, "its data are not in this file; repair the file");
+    const std::string& text = uri->get_ref<const std::string&>();
+    Buffer& made = buffers_[index];
+    if (std::optional<std::string> data = data_of(text)) {
+      made.own = std::move(*data);
+      made.beside = place;
+    } else if (const std::optional<std::string> path = path_of(text); !path) {
+      fail(place + ".uri", quoted(text) + " is neither data in base64 nor a file beside this one; write a .glb");
+    } else if (!neighbour_) {
+      fail(place, "its data are not in this file, but in " + quoted(text) + "; read it by its name, or write a .glb");
+    } else {
+      made.own = neighbour_(*path);
+      made.beside = quoted(*path);
+    }
+    made.bytes = made.own;
+    bytes_beside_ += made.own.size();
+    return made;
+  }
+  [[noreturn]] void fail_at(const Elements& elements, std::size_t offset, const std::string& message) const {
+    const Buffer& in = *elements.buffer;
+    const std::size_t at = in.file_offset + static_cast<std::size_t>(elements.bytes.data() - in.bytes.data()) + offset;
+    if (in.beside.empty()) input_.fail_at_byte(at, message);
+    throw Input_error::of_file(input_.name, "in " + in.beside + ", byte " + std::to_string(at) + ": " + message);
+  }
+  /// Of all files.
+  std::size_t bytes() const { return input_.bytes.size() + bytes_beside_; }
 
   /// The elements of an accessor, all of which are there.
   Elements elements(std::uint64_t accessor, const std::string& asked_by, const std::string& type,
-                    const std::set<std::uint64_t>& components) const {
+                    const std::set<std::uint64_t>& components) {
     const std::string place = item("accessors", accessor);
     const Tree& of = entry("accessors", accessor, asked_by);
     if (find(of, "sparse") != nullptr) fail(place + ".sparse", "sparse accessors are not read; write them out");
@@ -294,13 +394,10 @@ class Glb_reader {
     const std::uint64_t view_index = whole(at(of, place, "bufferView"), place + ".bufferView");
     const std::string view_place = item("bufferViews", view_index);
     const Tree& view = entry("bufferViews", view_index, place + ".bufferView");
-    const std::uint64_t buffer = whole(at(view, view_place, "buffer"), view_place + ".buffer");
-    const Tree& of_buffer = entry("buffers", buffer, view_place + ".buffer");
-    if (buffer != 0 || find(of_buffer, "uri") != nullptr)
-      fail(item("buffers", buffer), "its data are not in this file; write a .glb that holds all of them");
+    const Buffer& in = buffer(whole(at(view, view_place, "buffer"), view_place + ".buffer"), view_place + ".buffer");
     const std::uint64_t begin = whole_or(view, "byteOffset", 0, view_place),
                         length = whole(at(view, view_place, "byteLength"), view_place + ".byteLength");
-    if (begin > binary_.size() || length > binary_.size() - begin)
+    if (begin > in.bytes.size() || length > in.bytes.size() - begin)
       fail(view_place, "it goes beyond its buffer; repair the file");
     // 2. The elements, in the view.
     all.stride = whole_or(view, "byteStride", size, view_place);
@@ -309,8 +406,8 @@ class Glb_reader {
     if (offset > length ||
         (all.count > 0 && (length - offset < size || all.count - 1 > (length - offset - size) / all.stride)))
       fail(place, "it goes beyond its bufferView; repair the file");
-    all.bytes = binary_.substr(begin + offset, length - offset);
-    all.file_offset = static_cast<std::size_t>(all.bytes.data() - input_.bytes.data());
+    all.bytes = in.bytes.substr(begin + offset, length - offset);
+    all.buffer = &in;
     return all;
   }
 
@@ -412,16 +509,15 @@ class Glb_reader {
   }
 
   void add_points(const Elements& points, const Placement& here, const std::string& place) {
-    if (points.count > input_.bytes.size() / 12 + most_points_beside_the_files - soup_.point_count() ||
-        soup_.point_count() > input_.bytes.size() / 12 + most_points_beside_the_files)
+    if (points.count > bytes() / 12 + most_points_beside_the_files - soup_.point_count() ||
+        soup_.point_count() > bytes() / 12 + most_points_beside_the_files)
       fail(place, "nodes repeat meshes to too many points; write a file with fewer copies");
     for (std::size_t p = 0; p < points.count; ++p) {
       std::array<double, 3> x;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t offset = p * points.stride + 4 * k;
         x[k] = static_cast<double>(load<float>(points.bytes, offset, std::endian::little));
-        if (!std::isfinite(x[k]))
-          input_.fail_at_byte(points.file_offset + offset, "a coordinate is not a finite number; repair the point");
+        if (!std::isfinite(x[k])) fail_at(points, offset, "a coordinate is not a finite number; repair the point");
       }
       if (here.is_identity) soup_.add_point(x[0], x[1], x[2]);
       else {
@@ -443,8 +539,9 @@ class Glb_reader {
                 : indices->component == 5123 ? load<std::uint16_t>(indices->bytes, offset, order)
                                              : load<std::uint32_t>(indices->bytes, offset, order);
         if (index >= points.count)
-          input_.fail_at_byte(indices->file_offset + offset, "there is no point " + std::to_string(index) + " of " +
-                                                                 std::to_string(points.count) + "; repair the index");
+          fail_at(*indices, offset,
+                  "there is no point " + std::to_string(index) + " of " + std::to_string(points.count) +
+                      "; repair the index");
       }
       return static_cast<Point_id>(first + index);
     };
@@ -455,7 +552,7 @@ class Glb_reader {
     if (mode == 4 && count % 3 != 0)
       fail(place, "its " + std::to_string(count) + " corners are no triangles; repair the file");
     const std::size_t triangles = mode == 4 ? count / 3 : count < 3 ? 0 : count - 2;
-    if (triangles + soup_.face_count() > input_.bytes.size() + most_triangles_beside_the_files)
+    if (triangles + soup_.face_count() > bytes() + most_triangles_beside_the_files)
       fail(place, "nodes repeat meshes to too many triangles; write a file with fewer copies");
     for (std::size_t t = 0; t < triangles; ++t) {
       if (mode == 4) add(3 * t, 3 * t + 1, 3 * t + 2);
@@ -465,9 +562,13 @@ class Glb_reader {
   }
 
   const Input& input_;
+  const Gltf_neighbour& neighbour_;
   Read_options options_;
+  std::size_t json_begin_ = json_begin;  // in the file; 0 where it is the file
   Tree tree_;
-  std::string_view binary_;
+  Buffer binary_;                            // the chunk; no bytes where there is none
+  std::map<std::uint64_t, Buffer> buffers_;  // those that were asked for
+  std::size_t bytes_beside_ = 0;             // of all buffers that are not in the file
   std::set<std::size_t> placed_;
   Polygon_soup soup_;
 };
@@ -476,6 +577,11 @@ class Glb_reader {
 
 bool looks_like_glb(std::string_view bytes) { return bytes.starts_with(glb_magic); }
 
-Polygon_soup read_glb(const Input& input, const Read_options& options) { return Glb_reader(input, options).read(); }
+Polygon_soup read_glb(const Input& input, const Read_options& options, const Gltf_neighbour& neighbour) {
+  return Gltf_reader(input, neighbour, options).read_binary();
+}
+Polygon_soup read_gltf(const Input& input, const Read_options& options, const Gltf_neighbour& neighbour) {
+  return Gltf_reader(input, neighbour, options).read_text();
+}
 
 }  // namespace sightline

@@ -31,7 +31,9 @@ std::optional<Format> format_of_content(const Input& input) {
 
 }  // namespace detail
 
-Polygon_soup read_scene(std::string_view bytes, Format format, const std::string& name, const Read_options& options) {
+/// `neighbour`: as read_gltf() has it.
+static Polygon_soup read_beside(std::string_view bytes, Format format, const std::string& name,
+                                const Read_options& options, const Gltf_neighbour& neighbour) {
   const Input input{name, bytes};
   if (bytes.find_first_not_of(" \t\v\f\r\n", bytes.starts_with(byte_order_mark) ? byte_order_mark.size() : 0) ==
       std::string_view::npos)
@@ -44,7 +46,8 @@ Polygon_soup read_scene(std::string_view bytes, Format format, const std::string
       case Format::stl: return read_stl(input, options);
       case Format::map: return read_map(input, options);
       case Format::bsp: return read_quake_bsp(input);
-      case Format::glb: return read_glb(input, options);
+      case Format::glb: return read_glb(input, options, neighbour);
+      case Format::gltf: return read_gltf(input, options, neighbour);
       default: return read_ply(input, options);
     }
   }();
@@ -53,6 +56,10 @@ Polygon_soup read_scene(std::string_view bytes, Format format, const std::string
     throw Input_error::of_file(name, "more points or faces than ids of 32 bits can number; cut the scene into parts");
   soup.file = name;
   return soup;
+}
+
+Polygon_soup read_scene(std::string_view bytes, Format format, const std::string& name, const Read_options& options) {
+  return read_beside(bytes, format, name, options, {});
 }
 
 Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& options) {
@@ -64,7 +71,8 @@ Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& o
     throw Input_error::of_file(
         name, std::string("neither its ending nor its content is of a known format; give one of ") + supported_formats +
                   ", or of " + read_only_formats);
-  return read_scene(bytes, *format, name, options);
+  return read_beside(bytes, *format, name, options,
+                     [&](const std::string& neighbour) { return read_bytes(path.parent_path() / neighbour); });
 }
 
 }  // namespace sightline

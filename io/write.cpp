@@ -24,7 +24,8 @@ void write_scene(const Polygon_soup& soup, std::ostream& out, Format format) {
     case Format::stl: return write_stl(soup, out);
     case Format::map:
     case Format::bsp: throw Not_representable("levels are read only; write .qoff, which holds any scene without holes");
-    case Format::glb: throw Not_representable("glTF is read only; write .qoff, which holds any scene without holes");
+    case Format::glb:
+    case Format::gltf: throw Not_representable("glTF is read only; write .qoff, which holds any scene without holes");
   }
 }
 

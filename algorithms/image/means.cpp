@@ -1,5 +1,7 @@
 #include <sightline/algorithms/image/means.h>
 
+#include <sightline/algorithms/image/blend.h>
+#include <sightline/algorithms/image/layers.h>
 #include <sightline/algorithms/image/pixel_cones.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/threads.h>
@@ -20,10 +22,10 @@ namespace {
 /// In pixels from the top left.
 using Image_point = std::array<double, 2>;
 
-/// A part of the surface, in the image.
+/// A part of a surface, in the image.
 struct Image_polygon {
   std::span<const Image_point> corners;  // of a convex polygon
-  Colour colour;
+  Layer shown;                           // what it adds to a pixel that it covers
   double top, bottom;
 };
 
@@ -92,18 +94,18 @@ struct Row {
       for (std::size_t x = from; x < to; ++x) {
         double share = 0;
         for (const Row_edge& edge : edges) share += edge.beside(static_cast<double>(x));
-        add(x, std::fabs(share), polygon.colour);
+        add(x, std::fabs(share), polygon.shown);
       }
     };
     in_part(first, inner_first);
-    for (std::size_t x = inner_first; x < inner_last; ++x) add(x, 1, polygon.colour);
+    for (std::size_t x = inner_first; x < inner_last; ++x) add(x, 1, polygon.shown);
     in_part(inner_last, last);
   }
 
  private:
-  void add(std::size_t x, double share, const Colour& colour) {
-    for (std::size_t k = 0; k < 3; ++k) sums[x][k] += share * colour[k];
-    covered[x] += share;
+  void add(std::size_t x, double share, const Layer& shown) {
+    for (std::size_t k = 0; k < 3; ++k) sums[x][k] += share * shown.colour[k];
+    covered[x] += share * shown.alpha;
   }
 };
 
@@ -142,6 +144,77 @@ class Corners {
   Exact_point to_look_, to_right_, to_up_;
 };
 
+/// Parts of surfaces in an image, and the rows that they make.
+class Image_parts {
+ public:
+  /// Pre: the view outlives them.
+  Image_parts(const Exact_view& view, const Pixel_view& pixels)
+      : centres_(pixels), place_(view, centres_), height_(pixels.height), width_(pixels.width) {}
+  Image_parts(const Image_parts&) = delete;
+  Image_parts& operator=(const Image_parts&) = delete;
+
+  /// Parts that show something; shown(i) is what part i adds to a pixel that it covers. In parallel.
+  template <class Shown>
+  void add(const Visible_surface<Exact_view>& surface, Shown shown) {
+    std::vector<Image_point>& corners = corners_.emplace_back(surface.rays.size());
+    const std::size_t before = polygons_.size();
+    polygons_.resize(before + surface.parts.size());
+    parallel_for(surface.parts.size(), [&](std::size_t i) {
+      const auto& part = surface.parts[i];
+      if (part.piece == surface.nothing) return;
+      Image_polygon polygon{{&corners[part.first], part.size}, shown(i), double(height_), 0};
+      for (std::size_t k = part.first; k < part.first + part.size; ++k) {
+        corners[k] = place_(surface.rays[k]);
+        polygon.top = std::min(polygon.top, corners[k][1]);
+        polygon.bottom = std::max(polygon.bottom, corners[k][1]);
+      }
+      polygons_[before + i] = polygon;
+    });
+  }
+
+  /// Each row once. In parallel.
+  void draw(const std::function<void(const Mean_row&)>& visit, const Image_options& options) const {
+    const std::vector<std::vector<std::uint32_t>> bands = polygons_of_bands();
+    std::size_t done = 0;
+    std::mutex mutex;
+    parallel_for(bands.size(), [&](std::size_t band) {
+      std::vector<Row_edge> edges;
+      std::vector<Colour> sums(width_);
+      std::vector<double> covered(width_);
+      for (std::size_t y = band * rows; y < std::min<std::size_t>((band + 1) * rows, height_); ++y) {
+        std::fill(sums.begin(), sums.end(), Colour{});
+        std::fill(covered.begin(), covered.end(), 0);
+        for (const std::uint32_t i : bands[band]) Row{double(y), sums, covered}.add(polygons_[i], edges);
+        visit({static_cast<std::uint32_t>(y), sums, covered});
+      }
+      if (!options.progress) return;
+      const std::lock_guard lock(mutex);
+      options.progress(++done, bands.size());
+    });
+  }
+
+ private:
+  static constexpr std::size_t rows = 16;  // of a band
+
+  std::vector<std::vector<std::uint32_t>> polygons_of_bands() const {
+    const std::size_t count = (height_ + rows - 1) / rows;
+    std::vector<std::vector<std::uint32_t>> bands(count);
+    for (std::uint32_t i = 0; i < polygons_.size(); ++i) {
+      if (!(polygons_[i].top < polygons_[i].bottom)) continue;
+      const auto last = std::min(static_cast<std::size_t>(polygons_[i].bottom) / rows, count - 1);
+      for (auto band = static_cast<std::size_t>(std::max(polygons_[i].top, 0.0)) / rows; band <= last; ++band)
+        bands[band].push_back(i);
+    }
+    return bands;
+  }
+
+  const Pixel_centres centres_;
+  const Corners place_;
+  const std::uint32_t height_, width_;
+  std::vector<std::vector<Image_point>> corners_;  // of each surface
+  std::vector<Image_polygon> polygons_;            // nothing where a part shows nothing
+};
+
 }  // namespace
 
 }  // namespace image_detail
@@ -162,62 +235,57 @@ void visible_means(const Exact_view& view, const Visible_surface<Exact_view>& su
                    const std::function<Colour(std::uint32_t piece)>& colour,
                    const std::function<void(const Mean_row&)>& visit, const Image_options& options) {
   using namespace image_detail;
-  constexpr std::size_t rows = 16;
-  const Pixel_centres centres(pixels);
   run_with_threads(options.threads, [&] {
-    // 1. The parts in the image.
-    const Corners place(view, centres);
-    std::vector<Image_point> corners(surface.rays.size());
-    std::vector<Image_polygon> polygons(surface.parts.size());
-    parallel_for(polygons.size(), [&](std::size_t i) {
-      const auto& part = surface.parts[i];
-      if (part.piece == surface.nothing) return;
-      Image_polygon polygon{{&corners[part.first], part.size}, colour(part.piece), double(pixels.height), 0};
-      for (std::size_t k = part.first; k < part.first + part.size; ++k) {
-        corners[k] = place(surface.rays[k]);
-        polygon.top = std::min(polygon.top, corners[k][1]);
-        polygon.bottom = std::max(polygon.bottom, corners[k][1]);
-      }
-      polygons[i] = polygon;
-    });
-    // 2. Which bands of rows they meet.
-    const std::size_t count = (pixels.height + rows - 1) / rows;
-    std::vector<std::vector<std::uint32_t>> bands(count);
-    for (std::uint32_t i = 0; i < polygons.size(); ++i) {
-      if (!(polygons[i].top < polygons[i].bottom)) continue;
-      const auto last = std::min(static_cast<std::size_t>(polygons[i].bottom) / rows, count - 1);
-      for (auto band = static_cast<std::size_t>(std::max(polygons[i].top, 0.0)) / rows; band <= last; ++band)
-        bands[band].push_back(i);
-    }
-    // 3. Row by row.
-    std::size_t done = 0;
-    std::mutex mutex;
-    parallel_for(count, [&](std::size_t band) {
-      std::vector<Row_edge> edges;
-      std::vector<Colour> sums(pixels.width);
-      std::vector<double> covered(pixels.width);
-      for (std::size_t y = band * rows; y < std::min<std::size_t>((band + 1) * rows, pixels.height); ++y) {
-        std::fill(sums.begin(), sums.end(), Colour{});
-        std::fill(covered.begin(), covered.end(), 0);
-        for (const std::uint32_t i : bands[band]) Row{double(y), sums, covered}.add(polygons[i], edges);
-        visit({static_cast<std::uint32_t>(y), sums, covered});
-      }
-      if (!options.progress) return;
-      const std::lock_guard lock(mutex);
-      options.progress(++done, count);
-    });
+    Image_parts parts(view, pixels);
+    parts.add(surface, [&](std::size_t i) { return Layer{colour(surface.parts[i].piece), 1}; });
+    parts.draw(visit, options);
   });
+}
+
+void blended_means(const Exact_view& view, const Pixel_view& pixels, const std::vector<Tint>& tints,
+                   const std::function<void(const Mean_row&)>& visit, const Image_options& options) {
+  using namespace image_detail;
+  check_tints(tints, view.scene().pieces().size());
+  std::vector<double> alpha;
+  for (const Tint& tint : tints) alpha.push_back(tint.alpha);
+  run_with_threads(options.threads, [&] {
+    Image_parts parts(view, pixels);
+    const auto add = [&](const Visible_layer& layer) {
+      parts.add(layer.surface, [&](std::size_t i) {
+        const Tint& tint = tints[layer.surface.parts[i].piece];
+        Layer shown;
+        shown.put_behind({tint.colour, layer.light[i] * tint.alpha});
+        return shown;
+      });
+    };
+    visible_layers(view, Piece_boxes(view.scene()), field_of_view(view), alpha, add,
+                   {options.threads, options.progress});
+    parts.draw(visit, options);
+  });
+}
+
+Mean_image Mean_image::empty(const Pixel_view& pixels) {
+  const std::size_t size = std::size_t{pixels.width} * pixels.height;
+  return {pixels.width, pixels.height, std::vector<Colour>(size), std::vector<double>(size)};
+}
+void Mean_image::set(const Mean_row& row) {
+  const auto first = static_cast<std::ptrdiff_t>(std::size_t{row.y} * width);
+  std::copy(row.colours.begin(), row.colours.end(), colours.begin() + first);
+  std::copy(row.covered.begin(), row.covered.end(), covered.begin() + first);
 }
 
 Mean_image visible_means(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                          const std::function<Colour(std::uint32_t piece)>& colour, const Image_options& options) {
-  const std::size_t size = std::size_t{pixels.width} * pixels.height;
-  Mean_image image{pixels.width, pixels.height, std::vector<Colour>(size), std::vector<double>(size)};
-  const auto keep = [&](const Mean_row& row) {
-    std::copy(row.colours.begin(), row.colours.end(), &image.colours[std::size_t{row.y} * pixels.width]);
-    std::copy(row.covered.begin(), row.covered.end(), &image.covered[std::size_t{row.y} * pixels.width]);
-  };
-  visible_means(view, surface, pixels, colour, keep, options);
+  Mean_image image = Mean_image::empty(pixels);
+  visible_means(
+      view, surface, pixels, colour, [&](const Mean_row& row) { image.set(row); }, options);
+  return image;
+}
+Mean_image blended_means(const Exact_view& view, const Pixel_view& pixels, const std::vector<Tint>& tints,
+                         const Image_options& options) {
+  Mean_image image = Mean_image::empty(pixels);
+  blended_means(
+      view, pixels, tints, [&](const Mean_row& row) { image.set(row); }, options);
   return image;
 }
 

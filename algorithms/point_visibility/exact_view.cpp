@@ -363,6 +363,9 @@ std::vector<std::array<Integer, 3>> field_of(const std::vector<Exact_point>& ray
 
 template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>,
                                                      const Visible_options&);
+template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>,
+                                                     const std::vector<std::vector<std::uint32_t>>&,
+                                                     const Visible_options&);
 template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, const Visible_options&);
 
 }  // namespace sightline

@@ -74,6 +74,17 @@ Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, Cone
                    [&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones)); });
   return surface;
 }
+/// The same of what is behind pieces that are looked through. Pre: of each cone a list of those that are met first in
+/// it, one behind the other, nearest first; each is met in all of it.
+template <View V>
+Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, Cones<V> cones,
+                                   const std::vector<std::vector<std::uint32_t>>& through,
+                                   const Visible_options& options = {}) {
+  Visible_surface<V> surface;
+  run_with_threads(options.threads,
+                   [&] { surface = visible_detail::Solver<V>(view, boxes, options).solve(std::move(cones), through); });
+  return surface;
+}
 /// The same over the whole sphere of directions.
 template <View V>
 Visible_surface<V> visible_surface(const V& view, const Piece_boxes& boxes, const Visible_options& options = {}) {
@@ -93,6 +104,9 @@ std::vector<Exact_point> vertices(const V& view, const Visible_surface<V>& surfa
 
 // Compiled once, beside what it calls most: in exact_view.cpp. For numbers of CGAL's kernels see kernels.h.
 extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>,
+                                                            const Visible_options&);
+extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&, Cones<Exact_view>,
+                                                            const std::vector<std::vector<std::uint32_t>>&,
                                                             const Visible_options&);
 extern template Visible_surface<Exact_view> visible_surface(const Exact_view&, const Piece_boxes&,
                                                             const Visible_options&);

@@ -10,6 +10,7 @@
 #include <sightline/kernel/located_point.h>
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
+#include <sightline/kernel/prepared_plane.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/sign.h>
 
@@ -39,6 +40,16 @@ struct Closed_box {
   }  // a heap has the nearest first
 };
 
+/// What is looked through in a region: pieces that are met there one behind the other, nearest first. All that is met
+/// before the last is among them, so boxes behind its plane, where the eye is, hold nothing else.
+struct Looked_through {
+  const std::vector<std::uint32_t>& pieces;
+  Prepared_plane last;
+
+  bool has(std::uint32_t piece) const { return std::find(pieces.begin(), pieces.end(), piece) != pieces.end(); }
+  bool passes(const Piece_boxes::Box& box) const { return Piece_boxes::is_behind(box, last); }
+};
+
 /// A region and what may be seen in it.
 template <View V>
 struct Task {
@@ -48,6 +59,7 @@ struct Task {
   std::uint32_t cover = Visible_surface<V>::nothing;  // the chunk that is nearest of those that cover the region
   std::vector<std::uint32_t> tied;                    // chunks in the plane of the cover that come after it
   std::uint32_t depth = 0;
+  const Looked_through* through = nullptr;  // or nothing is
 
   bool has_cover() const { return cover != Visible_surface<V>::nothing; }
   void remove_item(std::size_t i) {

@@ -17,6 +17,7 @@
 #include <sightline/algorithms/point_visibility/visible_region.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/plane.h>
+#include <sightline/kernel/prepared_plane.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/sign.h>
 #include <sightline/kernel/threads.h>
@@ -69,15 +70,19 @@ class Solver {
         seen_(view),
         done_(options) {}
 
-  Surface solve(std::vector<Region<V>> fields) {
+  /// `through`: of each field the pieces that are looked through, as Looked_through has them; or no list at all.
+  Surface solve(std::vector<Region<V>> fields, const std::vector<std::vector<std::uint32_t>>& through = {}) {
     const double share = 0x1p0 / static_cast<double>(fields.size());
     std::vector<Output<V>> outputs(fields.size());
-    for (std::size_t k = 0; k < fields.size(); ++k) {
+    parallel_for(fields.size(), [&](std::size_t k) {
       Task<V> task;
       task.region = fields[k];
+      std::optional<Looked_through> looked;
+      if (!through.empty() && !through[k].empty())
+        task.through = &looked.emplace(Looked_through{through[k], plane_with_the_eye_behind(through[k].back())});
       if (!chunks_.boxes().nodes().empty()) task.boxes.push_back({0, 0});
       outputs[k].root = solve_in_parallel(std::move(task), share, outputs[k]);
-    }
+    });
     Surface surface;
     for (const Output<V>& out : outputs) surface.roots.push_back(append(out, out.root, surface));
     surface.counters.pieces = view_.scene().pieces().size();
@@ -87,6 +92,11 @@ class Solver {
   }
 
  private:
+  Prepared_plane plane_with_the_eye_behind(std::uint32_t piece) const {
+    const auto support = view_.scene().pieces()[piece].support;
+    return view_.scene().prepared(view_.eye_side(piece) == CGAL::POSITIVE ? support.opposite() : support);
+  }
+
   // ---- One region
 
   /// Drops what is hidden in the region, opens boxes, and returns the plane to cut it by; none where it is settled.
@@ -133,6 +143,7 @@ class Solver {
                Visible_counters& counters) const {
     const Piece_boxes::Node& node = chunks_.boxes().nodes()[child];
     if (chunks_.is_outside(node, task.region)) return;
+    if (task.through != nullptr && task.through->passes(node.box)) return;
     const double distance = chunks_.distance(node.box);
     if (hiding && hiding->hides(node.box, distance)) {
       ++counters.hidden_boxes;
@@ -143,7 +154,8 @@ class Solver {
   }
   void add_chunks(const Piece_boxes::Node& leaf, Task<V>& task, Visible_counters& counters) const {
     for (std::uint32_t chunk = leaf.first; chunk < leaf.first + leaf.count; ++chunk) {
-      if (view_.eye_side(chunks_.piece_of(chunk)) == CGAL::ZERO) continue;
+      const std::uint32_t piece = chunks_.piece_of(chunk);
+      if (view_.eye_side(piece) == CGAL::ZERO || (task.through != nullptr && task.through->has(piece))) continue;
       ++counters.looked_at;
       if (chunks_.is_outside(chunk, task.region, counters.predicates)) continue;
       Item item = chunks_.with_all_edges(chunk);
@@ -183,6 +195,7 @@ class Solver {
     part.cover = task.cover;
     part.tied = task.tied;
     part.depth = task.depth + 1;
+    part.through = task.through;
     if (is_flat(part)) return part;
     for (const Closed_box& box : task.boxes)
       if (!chunks_.is_behind(chunks_.node(box), side)) part.boxes.push_back(box);

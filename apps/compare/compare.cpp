@@ -154,6 +154,11 @@ void add_compare(Command program) {
   command.add_option("--svg", a->svg, "weak, render: plot the seconds and the errors")
       .writes_file()
       .check(ending(".svg"));
+  command
+      .add_option("--html", a->html,
+                  "write a page to look at: what each took and has wrong; of see and weak, in which faces")
+      .writes_file()
+      .check(ending(".html"));
   a->tints.add_to(command);
   a->view.add_to(command, "of what is drawn for render by default 512x512; of the plot 860x560");
   command.footer(
@@ -183,6 +188,7 @@ void add_compare(Command program) {
       "not.");
   command.set_action([a, kernels] {
     a->kernels_given = kernels.given();
+    a->says = !a->html.empty() && (a->command == "see" || a->command == "weak");
     if (a->command == "render") return compare_images(*a);
     if (a->command == "pvs") return compare_cells(*a);
     if (a->command == "trace") return compare_rays(*a);

@@ -22,7 +22,7 @@ struct Compare_arguments {
   Source_arguments sources;
   std::vector<std::size_t> rays{100, 1000, 10000, 100000};
   Weak_task weak;
-  std::string svg;
+  std::string svg, html;
   View_arguments view;
   Tint_arguments tints;
   std::string ray_file;

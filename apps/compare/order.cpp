@@ -1,6 +1,7 @@
 // compare order, compare bsp: kernels that build the same tree.
 
 #include "compare.h"
+#include "page.h"
 
 #include <sightline/harness/compare/order_errors.h>
 
@@ -122,6 +123,8 @@ Exit compare_orders(const Compare_arguments& arguments) {
   const Order_trial trial(arguments, common.read());
   Json rows = Json::array();
   const Exit exit = ask(trial, common.budget, rows);
+  if (!arguments.html.empty())
+    write_comparison(arguments, trial.scene, rows, trial.task.eye ? &*trial.task.eye : nullptr);
   if (write_json(common, "compare", trial.scene, {{"question", arguments.command}, {"rows", rows}},
                  {{"threads", trial.task.bsp.threads}}, Json::object()))
     return exit;

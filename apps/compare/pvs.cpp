@@ -2,6 +2,7 @@
 // compiled level came with.
 
 #include "compare.h"
+#include "page.h"
 #include "leaves.h"
 
 #include <sightline/algorithms/levels/pvs.h>
@@ -328,6 +329,7 @@ Exit compare_cells(const Compare_arguments& arguments) {
       r["errors"].erase("worst_cell");
     }
   }
+  if (!arguments.html.empty()) write_comparison(arguments, level.scene(), rows);
   Json result{{"question", "pvs"},
               {"cells", trial.cells.size()},
               {"pairs", exact.counters.pairs},

@@ -1,6 +1,7 @@
 // compare render: every method of sightline render against exact rays through the same pixels.
 
 #include "compare.h"
+#include "page.h"
 
 #include "../methods/images.h"
 #include "../support/pixels.h"
@@ -33,8 +34,8 @@ static Json errors_of(const Scene& scene, const Image_outcome& outcome, const Im
           {"largest_missing", e.largest_missing}};
 }
 
-static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, int threads,
-                        const Image_truth& truth) {
+static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const std::vector<Tint>& tints,
+                        int threads, const Image_truth& truth) {
   Image_options options;
   options.threads = threads;
   const Peak_memory memory;
@@ -42,11 +43,7 @@ static Json judge_image(Scene& scene, const Pixel_view& pixels, const Image_task
     const Stopwatch watch;
     const Exact_view view(scene, pixels.eye, field_of(pixels));
     run_means(
-        view, pixels,
-        [](std::uint32_t) {
-          return Colour{1, 1, 1};
-        },
-        [](const Mean_row&) {}, options);
+        view, pixels, tints, [](const Mean_row&) {}, options);
     return {{"status", "done"}, {"seconds", watch.seconds()}, {"peak_bytes", memory.bytes()}};
   }
   const Image_outcome outcome = run_image(scene, pixels, task, options);
@@ -153,7 +150,8 @@ struct Image_trial : Trial {
   std::uint64_t seed() const { return arguments.common.seed; }
   void add(Json name, Image_task task) {
     task.tints = transparent ? &tints : nullptr;
-    contestants.push_back({std::move(name), [this, task] { return judge_image(scene, pixels, task, threads, truth); }});
+    contestants.push_back(
+        {std::move(name), [this, task] { return judge_image(scene, pixels, task, tints, threads, truth); }});
   }
   static Pixel_view pixels_of(View_arguments of_image, const Exact_point& eye, const Scene& scene) {
     if (of_image.canvas.size.empty()) of_image.canvas.size = "512x512";
@@ -174,6 +172,7 @@ Exit compare_images(const Compare_arguments& arguments) {
   const Exact_point& eye = trial.eye;
   Json rows = Json::array();
   const Exit exit = ask(trial, common.budget, rows);
+  if (!arguments.html.empty()) write_comparison(arguments, trial.scene, rows, &eye);
   if (!arguments.svg.empty()) write_file(arguments.svg, image_plot(rows, trial.transparent));
   if (write_json(common, "compare", trial.scene,
                  {{"question", "render"},

@@ -1,6 +1,7 @@
 // compare see: kernels that partition what an eye sees, and depth buffers.
 
 #include "compare.h"
+#include "page.h"
 
 #include <sightline/harness/compare/visible_errors.h>
 #include <sightline/algorithms/point_visibility/kernels.h>
@@ -161,6 +162,7 @@ Exit compare_visible(const Compare_arguments& arguments) {
   const auto& [scene, eye, visible] = std::tie(trial.scene, trial.eye, trial.surface.visible);
   Json rows = Json::array();
   const Exit exit = ask(trial, common.budget, rows);
+  if (!arguments.html.empty()) write_comparison(arguments, scene, rows, &eye, &visible);
   if (write_json(common, "compare", scene,
                  {{"question", "see"}, {"eye", point_json(eye)}, {"visible", visible.size()}, {"rows", rows}},
                  {{"threads", trial.options.threads}}, Json::object()))

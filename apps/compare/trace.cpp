@@ -1,6 +1,7 @@
 // compare trace: rays by exact methods and by Embree, through corners, edges, along faces, from faces, from afar.
 
 #include "compare.h"
+#include "page.h"
 
 #include "../methods/rays.h"
 #include "../support/paths.h"
@@ -194,6 +195,7 @@ Exit compare_rays(const Compare_arguments& arguments) {
   const std::size_t count = trial.asked.rays.size();
   Json rows = Json::array();
   const Exit exit = ask(trial, common.budget, rows);
+  if (!arguments.html.empty()) write_comparison(arguments, trial.scene, rows);
   if (write_json(common, "compare", trial.scene,
                  {{"question", "trace"}, {"rays", count}, {"hit", trial.hit}, {"tied", trial.tied}, {"rows", rows}},
                  Json::object(), Json::object()))

@@ -1,6 +1,7 @@
 // compare weak: what polygons see, by lines, events, one blocker alone, doubles, and rays.
 
 #include "compare.h"
+#include "page.h"
 
 #include <sightline/harness/compare/weak_errors.h>
 #include <sightline/io/plot.h>
@@ -154,6 +155,7 @@ Exit compare_weak(const Compare_arguments& arguments) {
   Json rows = Json::array();
   Exit exit = ask(trial, common.budget, rows);
   if (exit == Exit::done && !exact.undecided.empty()) exit = Exit::undecided;
+  if (!arguments.html.empty()) write_comparison(arguments, trial.scene, rows, nullptr, &exact.visible);
   if (!arguments.svg.empty()) write_file(arguments.svg, weak_plot(rows, arguments.view.canvas));
   Json result{{"question", "weak"},
               {"visible", exact.visible.size()},

@@ -1,5 +1,6 @@
 #include "images.h"
 
+#include "../support/tints.h"
 #include "rays.h"
 
 #include <sightline/algorithms/baseline/blended_depth.h>
@@ -29,7 +30,7 @@ bool is_true_method(const std::string& method) {
   return !method.starts_with("painter") && method != "depth" && method != "rays" && method != "weighted";
 }
 bool shows_through(const std::string& method) {
-  static const std::set<std::string> solid{"exact", "rays", "warnock", "weiler-atherton", "bsp2d"};
+  static const std::set<std::string> solid{"rays", "warnock", "weiler-atherton", "bsp2d"};
   return solid.count(method) == 0;
 }
 
@@ -138,14 +139,18 @@ Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task
   return outcome;
 }
 
-void run_means(const Exact_view& view, const Pixel_view& pixels,
-               const std::function<Colour(std::uint32_t piece)>& colour,
+void run_means(const Exact_view& view, const Pixel_view& pixels, const std::vector<Tint>& tints,
                const std::function<void(const Mean_row&)>& visit, const Image_options& options) {
+  if (is_transparent(tints)) {
+    blended_means(view, pixels, tints, visit, options);
+    return;
+  }
   Visible_options visible;
   visible.threads = options.threads;
   visible.progress = options.progress;
   const auto surface = visible_surface(view, Piece_boxes(view.scene()), field_of_view(view), visible);
-  visible_means(view, surface, pixels, colour, visit, options);
+  visible_means(
+      view, surface, pixels, [&](std::uint32_t piece) { return tints[piece].colour; }, visit, options);
 }
 
 }  // namespace sightline::app

@@ -51,9 +51,8 @@ struct Image_outcome {
 
 /// Any method but `exact`; with tints one that shows through. The scene takes no plane.
 Image_outcome run_image(Scene& scene, const Pixel_view& pixels, const Image_task& task, const Image_options& options);
-/// The method `exact`. Pre: the view has the field of the pixels.
-void run_means(const Exact_view& view, const Pixel_view& pixels,
-               const std::function<Colour(std::uint32_t piece)>& colour,
+/// The method `exact`, of tints of pieces. Pre: the view has the field of the pixels.
+void run_means(const Exact_view& view, const Pixel_view& pixels, const std::vector<Tint>& tints,
                const std::function<void(const Mean_row&)>& visit, const Image_options& options);
 
 }  // namespace sightline::app

@@ -447,3 +447,34 @@ commands.boolean = () => {
   const faces = unpacked(data.operand_faces);
   return {nameOf: k => faces.length > 0 ? `face ${faces[polygons.number(k)]} of its solid` : ''};
 };
+
+/// Who was asked, what it took, and the faces that each has wrong.
+commands.compare = () => {
+  const visible = data.visible ? new Set(unpacked(data.visible)) : null;
+  const methods = data.methods.map(one => ({...one, said: Boolean(one.missing), missing: new Set(one.missing ? unpacked(one.missing) : []), extra: new Set(one.extra ? unpacked(one.extra) : [])}));
+  let chosen = null;
+  const stateOf = k => {
+    const face = polygons.faces[k];
+    return !chosen || !chosen.said ? (visible.has(face) ? 0 : 1) : chosen.missing.has(face) ? 2 : chosen.extra.has(face) ? 3 : visible.has(face) ? 0 : 1;
+  };
+  const errorsOf = one => Object.entries(one.errors || {}).filter(([, value]) => typeof value === 'number' && value !== 0).map(([key, value]) => `${key.replaceAll('_', ' ')} ${Number(value.toPrecision(3))}`).join(', ');
+  const where = element('p', {id: 'method'});
+  const saidOf = one => one.status !== 'done' ? one.status : `${one.seconds.toPrecision(2)} s, ${(one.peak_bytes / 1e6).toFixed(1)} MB${errorsOf(one) ? '; ' + errorsOf(one) : ''}`;
+  const list = listOf(methods, one => `${one.name}: ${saidOf(one)}`, one => choose(one));
+  const choose = one => {
+    chosen = one;
+    where.textContent = `${one.name}: ${one.said ? `${one.missing.size} faces are missing, ${one.extra.size} too many` : saidOf(one)}`;
+    list.querySelectorAll('button').forEach((made, i) => made.setAttribute('aria-pressed', methods[i] === one));
+    paint();
+  };
+  return {
+    groupsChange: true,
+    beginsAtEye: Boolean(data.eye),
+    colourOf: visible ? k => palette[data.groups[stateOf(k)].role] : k => colourOfFace(polygons.faces[k]),
+    nameOf: k => visible ? data.groups[stateOf(k)].name : '',
+    begin() {
+      section('Seconds and errors', where, element('div', {id: 'methods'}, list));
+      if (methods.length > 0) choose(methods[0]);
+    },
+  };
+};

@@ -6,6 +6,7 @@
 #include <sightline/algorithms/image/blend.h>
 #include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/image/centres.h>
+#include <sightline/algorithms/image/layers.h>
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/image/newell.h>
 #include <sightline/algorithms/image/painter.h>
@@ -203,11 +204,34 @@ Outcome by_method(const Seen& seen) {
               ties);
 }
 
-/// Layers that let light through, by spans, the tree and newell, against those that rays meet.
-Outcome by_layers(const Seen& seen) {
+/// Tints of pieces, three of four let light through.
+std::vector<Tint> glass(const Scene& scene) {
   std::vector<Tint> tints;
-  for (std::uint32_t i = 0; i < seen.scene.pieces().size(); ++i)
+  for (std::uint32_t i = 0; i < scene.pieces().size(); ++i)
     tints.push_back({{double(i % 7), double(i % 5), double(i % 3)}, i % 4 == 3 ? 1 : 0.25 * (i % 4 + 1)});
+  return tints;
+}
+
+/// What is visible at centres, and through that, one surface behind the other.
+Blended_image by_surfaces_behind(const Seen& seen, const std::vector<Tint>& tints) {
+  Blended_image image = Blended_image::empty(seen.pixels);
+  const Exact_view view(seen.scene, seen.pixels.eye, field_of(seen.pixels));
+  std::vector<double> alpha;
+  for (const Tint& tint : tints) alpha.push_back(tint.alpha);
+  const auto add = [&](const Visible_layer& layer) {
+    const Piece_image shown = paint(view, layer.surface, seen.pixels, serial());
+    for (std::size_t i = 0; i < shown.pieces.size(); ++i)
+      if (shown.pieces[i] != Piece_image::nothing) image.layers[i].put_behind(tints[shown.pieces[i]]);
+  };
+  Visible_options alone;
+  alone.threads = 1;
+  visible_layers(view, Piece_boxes(seen.scene), field_of_view(view), alpha, add, alone);
+  return image;
+}
+
+/// Layers that let light through, by spans, the tree, surfaces and newell, against those that rays meet.
+Outcome by_layers(const Seen& seen) {
+  const std::vector<Tint> tints = glass(seen.scene);
   const Blended_image truth = blended_centres(Exact_view(seen.scene, seen.pixels.eye), seen.pixels, tints, serial());
   const auto check = [&](const Blended_image& image, const std::string& method, bool ties) {
     for (std::size_t i = 0; i < truth.layers.size(); ++i) {
@@ -226,14 +250,18 @@ Outcome by_layers(const Seen& seen) {
   const Outcome tree =
       check(blended_painting(tree_order(seen), seen.pixels, Image_kernel::exact, tints, serial()), "the tree", false);
   if (tree.state != Outcome::State::passed) return tree;
+  const Outcome surfaces = check(by_surfaces_behind(seen, tints), "surfaces behind one another", false);
+  if (surfaces.state != Outcome::State::passed) return surfaces;
   const Newell_order sorted = newell_order(seen.scene, seen.pixels, Image_kernel::exact, serial());
   return check(blended_painting(sorted.polygons, seen.pixels, Image_kernel::exact, tints, serial()), "newell", false);
 }
 
 /// The means of an image are those of four pixels each in one of twice its size.
+template <bool Transparent>
 Outcome refined(const Seen& seen) {
   const auto means = [&](const Pixel_view& pixels) {
     const Exact_view view(seen.scene, pixels.eye, field_of(pixels));
+    if (Transparent) return blended_means(view, pixels, glass(seen.scene), serial());
     Visible_options alone;
     alone.threads = 1;
     const auto surface = visible_surface(view, Piece_boxes(seen.scene), field_of_view(view), alone);
@@ -282,7 +310,8 @@ Subject render() {
                by_surface<by_clip_polygons>),
       check_of("bsp2d", "near to far, clipped by what is covered, shows what see does", by_surface<by_two_trees>),
       check_of("layers", "what lets light through is sorted as exact rays meet it", by_layers),
-      check_of("refine", "a pixel's mean is that of its quarters", refined),
+      check_of("refine", "a pixel's mean is that of its quarters", refined<false>),
+      check_of("refine_layers", "so it is where faces let light through", refined<true>),
   };
   add_laws(subject, {"permute", "translate", "scale", "bystander"});
   return subject;

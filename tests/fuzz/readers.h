@@ -75,12 +75,13 @@ inline void check_reader(std::string_view bytes, Format format) {
   }
   if (const std::optional<Polygon_soup> rounded = scene_in(bytes, format, {true})) {
     require(format == Format::map || rounded->face_count() == soup->face_count(), "rounding leaves the faces");
-    if (format != Format::stl && format != Format::map && format != Format::glb)
+    if (format != Format::stl && format != Format::map && format != Format::glb && format != Format::gltf)
       require(rounded->point_count() == soup->point_count() && same_faces(*soup, *rounded),
               "rounding leaves the points' numbers");
   }
   require(comes_back(*soup, Format::qoff), "QOFF holds any scene that was read");
-  if (format == Format::map || format == Format::bsp || format == Format::glb) return;  // read only
+  if (format == Format::map || format == Format::bsp || format == Format::glb || format == Format::gltf)
+    return;  // read only
   if (format == Format::stl ? triangles && soup->face_count() > 0 : format != Format::qoff)
     require(comes_back(*soup, format), "a format holds what was read from it");
   if (format == Format::ply) comes_back(*soup, Format::ply_binary);  // where coordinates are doubles
@@ -94,6 +95,7 @@ inline void read_stl(std::string_view bytes) { check_reader(bytes, Format::stl);
 /// A level's brushes, each of which bounds a solid.
 inline void read_map(std::string_view bytes) { check_reader(bytes, Format::map); }
 inline void read_glb(std::string_view bytes) { check_reader(bytes, Format::glb); }
+inline void read_gltf(std::string_view bytes) { check_reader(bytes, Format::gltf); }
 /// A table of what cells see; what was read and is written is the same when it is read.
 inline void read_table(std::string_view bytes) {
   std::optional<Visibility_table> table;

@@ -48,6 +48,7 @@ inline const std::vector<Target>& targets() {
                                        {"read_map", read_map, {".map"}},
                                        {"read_bsp", read_bsp, {".bsp"}},
                                        {"read_glb", read_glb, {".glb"}},
+                                       {"read_gltf", read_gltf, {".gltf"}},
                                        {"read_table", read_table, {".pvs"}},
                                        {"decimal", decimal, {".off", ".qoff", ".obj"}},
                                        {"read_certificate", read_certificate, {"certificates/", "forms/"}},

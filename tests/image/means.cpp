@@ -1,7 +1,9 @@
 // Means over pixels against areas in rationals, cut from what brute force sees.
 
-#include "../point_visibility/oracle.h"
+#include "stacks.h"
+
 #include "../point_visibility/scenes.h"
+#include "../sample.h"
 
 #include <sightline/algorithms/image/means.h>
 #include <sightline/algorithms/point_visibility/visible.h>
@@ -89,5 +91,105 @@ TEST_P(Means, are_those_of_areas_in_rationals) {
 }
 INSTANTIATE_TEST_SUITE_P(All, Means, testing::ValuesIn(view_scenes::families),
                          [](const auto& family) { return view_scenes::name(family.param); });
+
+/// The planes through the eye in which what a ray meets may change, in coordinates (across, upwards, along): through
+/// edges, and through lines where two pieces' planes cross.
+std::vector<Exact_point> changes(const oracle::Flats& flats, const Pixel_view& pixels) {
+  const Exact_point look = exactly(pixels.look), right = exactly(pixels.right), up = exactly(pixels.up);
+  std::vector<Exact_point> normals;
+  const auto add = [&](const Exact_point& n) {
+    if (!oracle::is_zero(n)) normals.push_back({oracle::dot(n, right), oracle::dot(n, up), oracle::dot(n, look)});
+  };
+  for (std::size_t f = 0; f < flats.size(); ++f) {
+    const oracle::Points& corners = flats[f].corners;
+    const Rational height = flats[f].height(pixels.eye);
+    if (sgn(height) == 0) continue;
+    for (std::size_t k = 0; k < corners.size(); ++k)
+      add(oracle::cross(oracle::minus(corners[k], pixels.eye),
+                        oracle::minus(corners[(k + 1) % corners.size()], pixels.eye)));
+    for (std::size_t g = 0; g < f; ++g)
+      if (const Rational other = flats[g].height(pixels.eye); sgn(other) != 0)
+        add(oracle::minus(oracle::along({0, 0, 0}, other, flats[f].plane.normal),
+                          oracle::along({0, 0, 0}, height, flats[g].plane.normal)));
+  }
+  return normals;
+}
+
+/// The image cut wherever what a ray meets may change, each part with what the ray through its middle meets.
+std::vector<std::pair<oracle::Points, Layer>> cut_everywhere(const oracle::Flats& flats, const Pixel_view& pixels,
+                                                             const std::vector<Tint>& tints) {
+  std::vector<oracle::Points> parts{{{-1, 1, 1}, {1, 1, 1}, {1, -1, 1}, {-1, -1, 1}}};
+  for (const Exact_point& normal : changes(flats, pixels)) {
+    std::vector<oracle::Points> halves;
+    for (const oracle::Points& part : parts)
+      for (const oracle::Half_space& side : {oracle::Half_space{normal, 0}, opposite(oracle::Half_space{normal, 0})})
+        if (oracle::Points half = oracle::clipped(part, side); !half.empty()) halves.push_back(std::move(half));
+    parts = std::move(halves);
+  }
+  std::vector<std::pair<oracle::Points, Layer>> all;
+  for (oracle::Points& part : parts) {
+    const Exact_point middle = oracle::centroid(part);
+    Exact_point direction = exactly(pixels.look);
+    direction = oracle::along(direction, middle[0], exactly(pixels.right));
+    direction = oracle::along(direction, middle[1], exactly(pixels.up));
+    all.emplace_back(std::move(part), image_test::brute_stack(flats, pixels.eye, direction, tints).layer);
+  }
+  return all;
+}
+
+class Blended_means : public testing::TestWithParam<Family> {};
+
+TEST_P(Blended_means, are_those_of_all_regions_of_the_image_in_rationals) {
+  std::size_t deep = 0;
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(20u); ++seed) {
+    const view_scenes::Case made = view_scenes::make(GetParam(), seed)[0];
+    const Scene scene(made.soup);
+    const oracle::Flats flats = oracle::flats_of(scene);
+    if (flats.size() > 12) continue;
+    Random random(seed);
+    Pixel_view pixels = any_pixel_view(made.soup, made.eye, random);
+    pixels.width = 1 + pixels.width % 3;
+    pixels.height = 1 + pixels.height % 3;
+    const std::vector<Tint> tints = image_test::any_tints(flats.size(), random);
+    const Exact_view view(scene, made.eye, field_of(pixels));
+    const Mean_image image = blended_means(view, pixels, tints, {.threads = 2});
+
+    std::vector<Layer> expected(image.colours.size());
+    for (const auto& [part, layer] : cut_everywhere(flats, pixels, tints)) {
+      deep += layer.alpha > 0 && layer.alpha < 1;
+      for (std::uint32_t y = 0; y < pixels.height; ++y)
+        for (std::uint32_t x = 0; x < pixels.width; ++x) {
+          const double area = area_in(part, x, y, pixels).get_d();
+          Layer& sum = expected[y * pixels.width + x];
+          for (std::size_t k = 0; k < 3; ++k) sum.colour[k] += area * layer.colour[k];
+          sum.alpha += area * layer.alpha;
+        }
+    }
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      for (std::size_t k = 0; k < 3; ++k)
+        ASSERT_NEAR(image.colours[i][k], expected[i].colour[k], 1e-5) << made.name << ", pixel " << i;
+      ASSERT_NEAR(image.covered[i], expected[i].alpha, 1e-7) << made.name << ", pixel " << i;
+    }
+    const Mean_image again = blended_means(view, pixels, tints, {.threads = 1});
+    EXPECT_TRUE(again.colours == image.colours && again.covered == image.covered) << made.name;
+  }
+  EXPECT_GT(deep, test_scenes::least(20u));
+}
+INSTANTIATE_TEST_SUITE_P(All, Blended_means, testing::ValuesIn(view_scenes::families),
+                         [](const auto& family) { return view_scenes::name(family.param); });
+
+TEST(Blended_means, of_what_hides_all_are_those_of_what_is_first) {
+  using namespace view_scenes;
+  const Scene scene(soup_of({rectangle(-9, 1, -9, 2, -2), rectangle(-9, 9, -3, 9, -4)}));
+  const Pixel_view pixels{at(0, 0, 0), {0, 0, -1}, {0.5, 0, 0}, {0, 0.5, 0}, 3, 3};
+  const Exact_view view(scene, pixels.eye, field_of(pixels));
+  const auto surface = visible_surface(view, Piece_boxes(scene), field_of_view(view));
+  const std::vector<Tint> tints{{{200, 0, 0}, 1}, {{0, 100, 0}, 1}};
+  const Mean_image solid = blended_means(view, pixels, tints),
+                   first = visible_means(view, surface, pixels, [&](std::uint32_t p) { return tints[p].colour; });
+  EXPECT_EQ(solid.colours, first.colours);
+  EXPECT_EQ(solid.covered, first.covered);
+  EXPECT_THROW(blended_means(view, pixels, {tints[0]}), std::invalid_argument);
+}
 
 }  // namespace

@@ -1,6 +1,7 @@
 // Scenes in glTF: what nodes make of meshes, exactly; and what is refused.
 
 #include <sightline/io/binary.h>
+#include <sightline/io/file.h>
 #include <sightline/io/grouped_polygons.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
@@ -9,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <limits>
 #include <string>
 #include <vector>
@@ -263,6 +265,95 @@ TEST(Read_glb, copies_out_of_proportion_are_refused) {
   gltf.tree["nodes"] = copies;
   gltf.tree["scenes"][0]["nodes"] = numbers;
   EXPECT_NE(why(gltf).find("too many points"), std::string::npos);
+}
+
+// ---- In JSON, its buffers elsewhere
+
+std::string in_base64(const std::string& bytes) {
+  static const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    std::uint32_t three = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      three = three << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0);
+    for (std::size_t k = 0; k < 4; ++k) text += i + k > bytes.size() ? '=' : digits[three >> (18 - 6 * k) & 63];
+  }
+  return text;
+}
+Polygon_soup read_json(const Tree& tree) { return read_scene(tree.dump(), Format::gltf, "it"); }
+std::string why_not(const Tree& tree) {
+  try {
+    read_json(tree);
+  } catch (const Input_error& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(Read_gltf, with_its_buffers_in_itself_is_the_binary_file) {
+  for (std::size_t extra = 0; extra < 3; ++extra) {  // all ends of base64
+    Glb gltf(five, std::vector<std::uint8_t>{4, 3, 2, 0, 1, 2});
+    gltf.node()["translation"] = {0.1, -2, 1e-3};
+    const Polygon_soup binary = gltf.read();
+    gltf.tree["buffers"][0]["uri"] =
+        "data:application/octet-stream;base64," + in_base64(gltf.binary + std::string(extra, '\xff'));
+    const Polygon_soup text = read_json(gltf.tree);
+    EXPECT_EQ(faces_of(text), faces_of(binary));
+    ASSERT_EQ(text.point_count(), binary.point_count());
+    for (Point_id p = 0; p < text.point_count(); ++p) EXPECT_EQ(text.point(p), binary.point(p));
+  }
+}
+
+TEST(Read_gltf, finds_its_buffers_beside_it) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "gltf beside";
+  std::filesystem::create_directories(folder / "parts");
+  Glb gltf(five, std::vector<std::uint16_t>{4, 3, 2});
+  // The indices in a file of their own.
+  const std::size_t split = gltf.tree["bufferViews"][0]["byteLength"];
+  write_bytes(folder / "parts" / "five points.bin", gltf.binary.substr(0, split));
+  write_bytes(folder / "indices.bin", gltf.binary.substr(split));
+  gltf.tree["buffers"] = Tree::array({{{"uri", "parts/five%20points.bin"}}, {{"uri", "indices.bin"}}});
+  gltf.tree["bufferViews"][1] = {{"buffer", 1}, {"byteLength", 6}};
+  write_bytes(folder / "scene.gltf", gltf.tree.dump());
+  EXPECT_EQ(faces_of(read_scene(folder / "scene.gltf")), "432 ");
+  EXPECT_EQ(read_scene(folder / "scene.gltf").point_count(), 5u);
+  const auto refused = [&] {
+    try {
+      read_scene(folder / "scene.gltf");
+    } catch (const Input_error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  // What is wrong in a file beside it is said with that file's name; one that is not there is named.
+  std::string wrong = gltf.binary.substr(split);
+  wrong[2] = 9;
+  write_bytes(folder / "indices.bin", wrong);
+  EXPECT_EQ(refused(),
+            (folder / "scene.gltf").string() + ": in indices.bin, byte 2: there is no point 9 of 5; repair the index");
+  std::filesystem::remove(folder / "indices.bin");
+  EXPECT_NE(refused().find("indices.bin"), std::string::npos) << refused();
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Read_gltf, of_buffers_that_are_nowhere_says_so) {
+  Glb gltf(triangle);
+  const auto with = [&](const char* uri) {
+    gltf.tree["buffers"][0]["uri"] = uri;
+    return why_not(gltf.tree);
+  };
+  EXPECT_NE(why_not(gltf.tree).find("buffers[0]: its data are not in this file"), std::string::npos);
+  for (const char* uri : {"https://example.org/a.bin", "/etc/passwd", "", "a%2", "a%zz", "a%00", "data:;base64,A*AA",
+                          "data:text/plain,abc", "file:a.bin"})
+    EXPECT_NE(with(uri).find("is neither data in base64 nor a file beside this one"), std::string::npos) << with(uri);
+  EXPECT_NE(with("points.bin").find("its data are not in this file, but in"), std::string::npos);
+  EXPECT_NE(with("data:;base64,AAAA").find("it goes beyond its buffer"), std::string::npos);
+  try {
+    read_scene("{\n \"asset\": nothing}", Format::gltf, "it");
+    ADD_FAILURE() << "accepted";
+  } catch (const Input_error& error) {
+    EXPECT_EQ(error.line, 2u) << error.what();
+  }
 }
 
 }  // namespace

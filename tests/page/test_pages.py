@@ -3,6 +3,7 @@
 import json
 from fractions import Fraction
 
+import pytest
 from conftest import block_of, corpus, program, run
 
 eye = "--eye=-3.5,-5,5"
@@ -17,10 +18,12 @@ def test_an_order_is_painted_by_a_slider(open_page, town):
     assert page.text("#slider-value") == f"3 of {count}"
     assert page.js("return sightline.drawing.to") == 3
     assert 0 < page.picture()[0] < whole
+    fragments = json.loads(run("order", town, eye, "--json", "-"))["result"]["fragments"]
+    assert page.text("#painted") == f"painted last: face {fragments[2]['face']}"
     page.press("]")
     assert page.text("#slider-value") == f"4 of {count}"
     page.slide(0)
-    assert page.picture()[1] < 8, "nothing is painted"
+    assert page.picture()[1] < 8 and page.text("#painted") == "nothing is painted yet"
 
 
 def test_a_click_says_which_face_and_where_exactly(open_page, town):
@@ -78,6 +81,40 @@ def test_a_graph_shows_cycles_and_the_arcs_of_a_face(open_page):
     behind = sorted(f"face {a[1][0]}" for a in arcs if a[0] == [k, 0])
     lists = page.all("#arcs ul.list")
     assert [sorted(item.text for item in one.find_elements("css selector", "button")) for one in lists] == [in_front, behind]
+
+
+def looks_of(page, k):
+    return page.js("return [...sightline.looks.slice(4 * arguments[0], 4 * arguments[0] + 3)]", k)
+
+
+def test_colours_of_a_graph_are_its_cycles_or_its_priorities(open_page, tmp_path):
+    scene = tmp_path / "bars.off"
+    # Three bars in a cycle, and two squares, one far before them and one far behind.
+    lines = (corpus / "general" / "three_bars.off").read_text().split("\n", 1)
+    body = [line for line in lines[1].splitlines() if line.strip() and not line.startswith("#")]
+    points, faces = map(int, body[0].split()[:2])
+    corners, loops = body[1:1 + points], body[1 + points:1 + points + faces]
+    for z in (-50, 50):
+        loops.append(f"4 {len(corners)} {len(corners) + 1} {len(corners) + 2} {len(corners) + 3}")
+        corners += [f"{x} {y} {z}" for x, y in ((-9, -9), (9, -9), (9, 9), (-9, 9))]
+    scene.write_text(f"OFF\n{len(corners)} {len(loops)} 0\n" + "\n".join(corners + loops) + "\n")
+    components = [[face for face, _ in one] for one in json.loads(run("graph", scene, "--json", "-"))["result"]["components"]]
+    page = open_page("graph", scene)
+    cycle = next(one for one in components if len(one) > 1)
+    alone = [one[0] for one in components if len(one) == 1]
+    assert len(cycle) == 3 and len(alone) == faces - 1
+    spread = lambda face: max(looks_of(page, face)) - min(looks_of(page, face))
+    assert all(spread(face) > 60 for face in cycle) and all(spread(face) < 40 for face in alone), "what is in no cycle is grey"
+    # Chosen and no more: its outlines are drawn, or not.
+    before = page.js("return sightline.lines('cycle')")
+    page.all("section ul.list button")[0].click()
+    assert before == 0 and page.js("return sightline.lines('cycle')") > 0
+    page.all("section ul.list button")[0].click()
+    assert page.js("return sightline.lines('cycle')") == 0
+    # By priority: from dark blue to yellow.
+    next(b for b in page.all("#panel button") if b.text == "Priority").click()
+    green = [looks_of(page, one[0])[1] for one in components]
+    assert green == sorted(green) and green[-1] > 2 * green[0]
 
 
 def test_arcs_are_the_same_as_a_list_and_as_a_matrix(open_page, tmp_path):
@@ -169,6 +206,14 @@ def test_a_path_is_played(open_page, town):
         assert page.text("#frame").startswith(f"{len(frames[n - 1]['on_view'])} polygons on-view, {frames[n - 1]['cut_edges']} edges")
         assert page.text("#viewpoint") == f"viewpoint {n}: " + ", ".join(frames[n - 1]["eye"])
         assert page.js("return sightline.lines('cut')") == frames[n - 1]["cut_edges"], "the cut is drawn"
+        on, before = set(frames[n - 1]["on_view"]), set(frames[max(0, n - 2)]["on_view"])
+        for k in range(0, page.data["polygons"]["count"], 7):
+            page.js("sightline.select(arguments[0])", k)
+            face = int(page.text("#selected-name").split()[1].rstrip(":,"))
+            assert page.text("#selected-name").endswith("on-view" if face in on else "off-view")
+            r, g, b = looks_of(page, k)
+            assert (max(r, g, b) - min(r, g, b) < 20) == (face not in on), (n, k)
+            assert face not in on or (g > r) == (face not in before), "green where it has just become so"
     page.slide(1)
     page.one("#play").click()
     page.js("return new Promise(done => setTimeout(done, 700))")
@@ -373,6 +418,142 @@ def test_the_unrolled_sphere_has_the_colour_of_what_is_met_there(open_page):
 def test_a_source_out_of_all_proportion_leaves_the_scene_in_view(open_page):
     page = open_page("weak", corpus / "general" / "cube.off", "--from", "-1e9,0,0 -1e9,0,1 -1e9,1,1 -1e9,1,0")
     assert page.is_drawn()
+
+
+def test_outlines_are_the_sides_of_polygons_and_nothing_else(open_page, tmp_path):
+    """Of a triangle, a square and a heptagon every side is drawn, and nothing across them, where they are fans of triangles."""
+    heptagon = [(30, 0), (40, 0), (46, 8), (44, 18), (35, 22), (26, 18), (24, 8)]
+    polygons = [[(0, 0), (18, 0), (9, 18)], [(0, 24), (18, 24), (18, 42), (0, 42)], heptagon]
+    scene = tmp_path / "flat.off"
+    corners = [p for polygon in polygons for p in polygon]
+    places = iter(range(len(corners)))
+    faces = [" ".join(map(str, [len(polygon), *(next(places) for _ in polygon)])) for polygon in polygons]
+    scene.write_text(f"OFF {len(corners)} {len(polygons)} 0\n" + "\n".join([f"{x} {y} 0" for x, y in corners] + faces))
+    page = open_page("order", scene, "--eye=20,20,90")
+    frame = page.data["frame"]
+
+    def darkened(places):
+        """Whether edges darken what is there, or beside it."""
+        points = [[(x - m) / frame["size"] for x, m in zip((*place, 0), frame["middle"])] for place in places]
+        return page.js("""
+            const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, pictures = [];
+            for (const outlines of [false, true]) {
+              sightline.drawing.outlines = outlines;
+              sightline.draw();
+              const all = new Uint8Array(4 * view.width * view.height);
+              gl.readPixels(0, 0, view.width, view.height, gl.RGBA, gl.UNSIGNED_BYTE, all);
+              pictures.push(all);
+            }
+            return arguments[0].map(place => {
+              const [x, y] = sightline.onCanvas(place).map(c => Math.round(c * scale));
+              for (let a = -2; a <= 2; ++a)
+                for (let b = -2; b <= 2; ++b) {
+                  const i = 4 * ((view.height - 1 - y - b) * view.width + x + a);
+                  if (pictures[1][i] < pictures[0][i] - 20) return true;
+                }
+              return false;
+            });
+            """, points)
+
+    def between(p, q, share):
+        return tuple(a + share * (b - a) for a, b in zip(p, q))
+
+    for polygon in polygons:
+        n = len(polygon)
+        sides = [between(polygon[k], polygon[(k + 1) % n], 0.4) for k in range(n)]
+        assert darkened(sides) == [True] * n, f"{n} corners"
+        across = [between(polygon[0], polygon[k], share) for k in range(2, n - 1) for share in (0.3, 0.5, 0.7)]
+        middle = tuple(sum(c) / n for c in zip(*polygon))
+        assert not any(darkened(across + [middle])), f"{n} corners"
+
+
+def test_a_painter_needs_an_order_and_a_depth_buffer_does_not(open_page):
+    """The pieces of a cube in the file's order, which is none: painted, the last is in front; with depths, the nearest."""
+    page = open_page("see", corpus / "general" / "cube.off", "--eye=3,4,5")
+    base = page.data["base"]
+    page.js("sightline.drawing.to = arguments[0], sightline.drawing.outlines = false", base)
+    met = {}
+    for painter, outside in ((True, False), (False, False), (True, True)):
+        if outside:  # where no order is claimed
+            page.press("e")
+        seen, wrong = page.js("""
+            const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, pixel = new Uint8Array(4), met = [];
+            sightline.drawing.painter = arguments[0];
+            sightline.draw();
+            let wrong = 0;
+            for (let x = 10; x < view.clientWidth; x += 19)
+              for (let y = 10; y < view.clientHeight; y += 17) {
+                const k = sightline.pickAt(x, y);
+                if (k < 0 || [[3, 0], [-3, 0], [0, 3], [0, -3]].some(([a, b]) => sightline.pickAt(x + a, y + b) !== k)) { met.push(-1); continue; }
+                met.push(k);
+                gl.readPixels(Math.round(x * scale), view.height - 1 - Math.round(y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
+                const own = [...sightline.looks.slice(4 * k, 4 * k + 3)], grey = own.reduce((a, b) => a + b) * 0.33;
+                const fits = colour => colour.every((c, i) => Math.abs(c - pixel[i]) < 3);
+                // From outside of a cube the painter's last is seen from behind where it is no face of the near three.
+                wrong += !fits(own) && !fits(own.map(c => (c * 0.45 + grey * 0.55) * 0.8));
+              }
+            return [met, wrong];
+            """, painter)
+        assert wrong == 0 and sum(k >= 0 for k in seen) > 50, (painter, outside)
+        if not outside:
+            met[painter] = seen
+    both = [(a, b) for a, b in zip(met[True], met[False]) if a >= 0 and b >= 0]
+    assert len(both) > 50 and all(a >= b or a != b for a, b in both)
+    differ = [(a, b) for a, b in both if a != b]
+    assert len(differ) > 20, "the cube's order is one, from this eye"
+    assert all(a > b for a, b in differ), "what is painted last has the higher number"
+
+
+@pytest.mark.parametrize("size", [20000, 24000])
+def test_a_page_of_many_corners_rounds_them(open_page, tmp_path, size):
+    scene = tmp_path / "terrain.off"
+    run("generate", "terrain", "--size", size, "--out", scene)
+    page = open_page("cutset", scene, "--orbit", 2)
+    assert "exact" not in page.data["polygons"] and ("step" in page.data["polygons"]) == (size == 24000)
+    words = scene.read_text().split()
+    points, faces = int(words[1]), int(words[2])
+    place = lambda p: [float(x) for x in words[4 + 3 * p:7 + 3 * p]]
+    within = 2**-15 * page.data["frame"]["size"]
+    for k in (0, faces // 2, faces - 1):
+        page.js("sightline.select(arguments[0])", k)
+        assert page.text("#selected-name").startswith(f"face {k}: ")
+        said = [[float(x) for x in item.text.split(", ")] for item in page.all("#selection .exact li")]
+        loop = [int(w) for w in words[4 + 3 * points + 4 * k + 1:4 + 3 * points + 4 * k + 4]]
+        assert len(said) == 3
+        for p in loop:
+            assert any(all(abs(a - b) <= within for a, b in zip(place(p), q)) for q in said), (k, p, said)
+
+
+def test_a_comparison_shows_the_faces_that_each_has_wrong(open_page, tmp_path):
+    scene = tmp_path / "leaves.qoff"
+    run("generate", "leaves", "--seed", 1, "--ulps", 0, "--out", scene, "--query", tmp_path / "leaves.json")
+    words = ["compare", scene, "see", "--eye=" + ",".join(json.loads((tmp_path / "leaves.json").read_text())["eye"]), "--sizes", 16, "--bits", 16]
+    page = open_page(*words)
+    assert page.is_drawn()
+    rows = json.loads(run(*words, "--json", "-"))["result"]["rows"]
+    assert [item.text.split(": ")[0] for item in page.all("#methods button")] == [method["name"] for method in page.data["methods"]]
+    assert all(f"{1e-6 * method['peak_bytes']:.1f} MB" in item.text for item, method in zip(page.all("#methods button"), page.data["methods"]))
+    assert page.text("#method") == "partition, exact: 0 faces are missing, 0 too many"
+    wrong = 0
+    for row, item, method in zip(rows, page.all("#methods button"), page.data["methods"]):
+        item.click()
+        assert [one.text for one in page.all("#methods [aria-pressed=true]")] == [item.text]
+        hidden, visible = row["errors"]["wrongly_hidden"], row["errors"]["wrongly_visible"]
+        assert page.text("#method") == f"{method['name']}: {hidden} faces are missing, {visible} too many"
+        wrong += hidden + visible
+        if hidden + visible > 0 and "exact" not in method["name"]:
+            names = page.js("""
+                const names = [];
+                for (let k = 0; k < arguments[0]; ++k) { sightline.select(k); names.push(document.getElementById('selected-name').textContent); }
+                sightline.select(-1);
+                return names;
+                """, page.data["polygons"]["count"])
+            assert sum(name.endswith("visible, and missing") for name in names) >= hidden
+            assert sum(name.endswith("not visible, and said to be") for name in names) >= visible
+    assert wrong > 0, "a scene that something gets wrong"
+    # Where no list of faces is said, the table alone.
+    page = open_page("compare", scene, "trace", "--random", 20, name="trace.html")
+    assert page.is_drawn() and len(page.all("#methods button")) == len(page.data["methods"]) > 0
 
 
 # ---- What needs no browser

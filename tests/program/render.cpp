@@ -79,24 +79,27 @@ TEST_F(Render, writes_pictures_of_their_size) {
 
 TEST_F(Render, lets_light_through) {
   const std::string colours = file("colours.csv", "r,g,b,a\n255,0,0,0.5\n0,255,0\n0,0,255,1\n1,2,3\n4,5,6,0\n7,8,9\n");
-  for (const char* method : {"centres", "scan-line", "bsp", "graph", "depth", "weighted", "painter-max"}) {
+  for (const char* method : {"exact", "centres", "scan-line", "bsp", "graph", "depth", "weighted", "painter-max"}) {
     const Json made = render({cube, "--eye", "3,-4,5", "--method", method, "--colours", colours});
     EXPECT_FALSE(made["result"].contains("faces")) << method;  // a pixel shows several
-    EXPECT_GT(made["counters"]["drawn"], 0) << method;
+    if (method != std::string("exact")) EXPECT_GT(made["counters"]["drawn"], 0) << method;
   }
   const Outcome table =
       run({"compare", rooms, "render", "--eye", "-3,-4,6", "--alpha", "0.5", "--size", "64x48", "--json", "-"});
   EXPECT_EQ(table.code, done) << table;
   const Json json = table.json();
   EXPECT_EQ(json["result"]["transparent"], true);
-  std::set<std::string> wrong;
+  std::set<std::string> wrong, methods;
   for (const Json& row : json["result"]["rows"]) {
     const std::string method = row["method"];
-    if (row["kernel"] == "exact" || method == "depth" || method == "weighted") {
+    methods.insert(method);
+    if (method == "exact") EXPECT_FALSE(row.contains("errors"));  // means, not what is at centres
+    else if (row["kernel"] == "exact" || method == "depth" || method == "weighted") {
       if (row["errors"]["wrong"] > 0) wrong.insert(method);
     }
     EXPECT_NE(method, "warnock");
   }
+  EXPECT_EQ(methods.count("exact"), 1u);
   EXPECT_TRUE(wrong.count("depth") == 1 && wrong.count("weighted") == 1);
   for (const char* method : {"centres", "scan-line", "bsp", "graph"}) EXPECT_EQ(wrong.count(method), 0u) << method;
 }
