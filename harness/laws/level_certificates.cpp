@@ -1,4 +1,4 @@
-// What is said of cells: the truth is accepted, and what is wrong by corners alone is refused.
+#include <sightline/harness/laws/level_certificates.h>
 
 #include <sightline/algorithms/levels/stated_cell.h>
 #include <sightline/algorithms/verify/level_fill.h>
@@ -169,7 +169,7 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
     Polygon_soup soup = posed.soup;
     const std::size_t place = random.below(said.size());
     Cell_of_level& cell = said[place];
-    const std::size_t way = random.below(5);
+    const std::size_t way = random.below(6);
     if (way == 0) {  // a hole, unless what is left is a smaller box
       said.erase(said.begin() + static_cast<std::ptrdiff_t>(place));
       if (said.empty() || box_about_cells(said) != box_about_cells(truth)) continue;
@@ -193,6 +193,22 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
       if (!cell.has_certificate || !has_way) continue;
       cell.has_certificate = false;
       cell.sources.clear();
+    }
+    if (way == 5) {  // a cell elsewhere, as large as it was; or a wall otherwise than its cell beyond has it
+      const Exact_point step{generate::integer(random, 1, 9), generate::integer(random, -9, 9),
+                             generate::integer(random, -9, 9)};
+      const std::vector<std::uint32_t>& walls = level.cells()[place].walls;
+      const std::size_t w = random.below(walls.size());
+      if (level.cells()[place].is_outside && level.walls()[walls[w]].behind == no_cell) continue;
+      if (level.cells()[place].is_outside) {
+        Points& wall = cell.walls[w];
+        wall.push_back(generate::centroid({wall.front(), wall.back()}));
+      } else {
+        for (Points& wall : cell.walls)
+          for (Exact_point& corner : wall) corner = generate::along(corner, generate::ratio(1, 1 << 20), step);
+        cell.sources.clear();
+        if (box_about_cells(said) != box_about_cells(truth)) continue;
+      }
     }
     if (const Verdict lie = verify_level_fill(soup, said); lie.accepted)
       return Outcome::failed("cells that do not fill the box, or leave out a room, are accepted: " + lie.why);

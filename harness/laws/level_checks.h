@@ -1,5 +1,5 @@
 #pragma once
-// What checks of levels share, and those that have a source of their own.
+// What checks of levels share.
 
 #include <sightline/algorithms/levels/cells.h>
 #include <sightline/algorithms/levels/pvs.h>
@@ -44,11 +44,5 @@ Polygon_soup polyhedron(const Level_cells& level, const std::vector<Cell_id>& ce
 /// What a set of cells that is convex together sees, asked of it alone: what portals see outwards, and what the
 /// polyhedron sees from within.
 Weakly_visible seen_alone(const Level_cells& level, const Occluders& occluders, const std::vector<Cell_id>& cells);
-
-// ---- Checks
-
-Outcome volumes(const Posed_scene& posed, Random& random);
-Outcome coarse(const Posed_scene& posed, Random& random);
-Outcome certificates(const Posed_scene& posed, Random& random);
 
 }  // namespace sightline::harness::levels_subject

@@ -1,4 +1,4 @@
-// Volumes that divide a level, and convex regions of its cells.
+#include <sightline/harness/laws/level_groups.h>
 
 #include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/grid.h>
@@ -206,6 +206,18 @@ Outcome regions_are_convex(const Level_cells& level, const std::vector<std::vect
   return {};
 }
 
+/// Sides of boxes on a small lattice: cells of a few planes, walls of which some are covered.
+Polygon_soup sheets(Random& random) {
+  generate::Faces faces;
+  for (std::size_t count = 3 + random.below(6); count > 0; --count) {
+    const Exact_point low = generate::lattice(random, 2);
+    Exact_point high;
+    for (std::size_t k = 0; k < 3; ++k) high[k] = low[k] + generate::integer(random, 1, 3);
+    faces.push_back(generate::box(low, high)[random.below(6)]);
+  }
+  return generate::soup_of(faces);
+}
+
 }  // namespace
 
 Outcome volumes(const Posed_scene& posed, Random& random) {
@@ -214,7 +226,10 @@ Outcome volumes(const Posed_scene& posed, Random& random) {
 }
 
 Outcome coarse(const Posed_scene& posed, Random& random) {
-  const Level_cells level(posed.soup);
+  const Polygon_soup soup = random.chance(1, 2) ? posed.soup : sheets(random);
+  Cell_options cell_options;
+  if (random.chance(2, 3)) cell_options.tree = any_tree(soup, random);
+  const Level_cells level(soup, cell_options);
   const std::size_t most = random.chance(1, 2) ? 1 : 1 + random.below(level.cells().size());
   const std::vector<std::uint32_t> region_of = convex_regions(level, most);
   std::vector<std::vector<Cell_id>> regions;

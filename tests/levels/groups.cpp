@@ -91,7 +91,7 @@ TEST(Volumes, are_parted_by_planes_along_an_edge_of_each) {
     for (const Exact_point& p :
          {Exact_point{-9, 0, 0}, Exact_point{9, 0, 0}, Exact_point{0, -1, -9}, Exact_point{0, 1, -9},
           Exact_point{0, -9, gap}, Exact_point{0, 9, gap}, Exact_point{-1, 0, gap + 9}, Exact_point{1, 0, gap + 9}})
-      soup.add_point(p[0], p[1], p[2]);
+      soup.add_point(p[0], p[1], p[2] + 2 * p[0] + p[1]);  // so that boxes about them overlap
     for (const Point_id first : {0u, 4u})
       for (const auto& [a, b, c] :
            std::initializer_list<std::array<Point_id, 3>>{{0, 1, 2}, {1, 0, 3}, {2, 3, 0}, {3, 2, 1}})
@@ -151,6 +151,34 @@ TEST(Convex_regions, of_boxes_are_put_together_again) {
   EXPECT_EQ(solid, 1u);
   EXPECT_EQ(regions, 6u);
   EXPECT_EQ(std::set<std::uint32_t>(none.begin(), none.end()).size(), level.cells().size());
+}
+
+/// A plane across z, and one across x on both sides of it, in a box from -5 to 3.
+Cell_options quarters(const Rational& z, const Rational& x) {
+  Cell_options options;
+  options.tree.nodes = {{{0, 0, 1, -z}, {1, 2}}, {{1, 0, 0, -x}, {-1, -2}}, {{1, 0, 0, -x}, {-3, -4}}};
+  options.tree.root = 0;
+  options.tree.corners = {{-1, -1, -1}, {1, 1, 1}};
+  return options;
+}
+
+TEST(Convex_regions, have_no_face_inside) {
+  Polygon_soup sheet;
+  for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) sheet.add_point(x, y, 0);
+  sheet.add_face({0, 1, 2, 3});
+  const Level_cells level(sheet, quarters(0, {3, 2}));  // the narrow open wall beside it comes last
+  ASSERT_EQ(level.cells().size(), 4u);
+  const std::vector<std::uint32_t> regions = convex_regions(level, 1);
+  EXPECT_EQ((std::set<std::uint32_t>(regions.begin(), regions.end())), (std::set<std::uint32_t>{0, 1}));
+  for (const long z : {1, -1}) EXPECT_EQ(regions[level.at({0, 0, z})], regions[level.at({Rational(7, 4), 0, z})]);
+}
+
+TEST(Convex_regions, are_put_together_once_their_neighbours_are) {
+  Cell_options options = quarters(-4, 0);  // two flat ones below a large one
+  options.tree.nodes[0].children[0] = -5;
+  const Level_cells level(Polygon_soup{}, options);
+  ASSERT_EQ(level.cells().size(), 3u);
+  EXPECT_EQ(convex_regions(level, 1), (std::vector<std::uint32_t>{0, 0, 0}));
 }
 
 }  // namespace
