@@ -51,8 +51,8 @@ std::vector<Seal> seals_of(const Cells_arguments& arguments) {
   return seals;
 }
 
-/// The whole of it: points once, by number.
-Json cells_json(const Level_cells& level) {
+/// The whole of it: points once, by number; with the convex region of each cell where there are regions.
+Json cells_json(const Level_cells& level, const std::vector<std::uint32_t>& regions) {
   Json points = Json::array(), cells = Json::array(), walls = Json::array();
   for (const Exact_point& p : level.points()) points.push_back(point_json(p));
   for (const Level_cell& cell : level.cells())
@@ -63,6 +63,8 @@ Json cells_json(const Level_cells& level) {
                      {"leaf", cell.leaf},
                      {"faces", ids_json(cell.faces)},
                      {"walls", ids_json(cell.walls)}});
+  for (std::size_t c = 0; c < regions.size(); ++c)
+    cells[c]["convex_region"] = regions[c] == no_cell ? Json() : Json(regions[c]);
   for (const Cell_wall& wall : level.walls()) {
     Json open = Json::array();
     for (const std::vector<std::uint32_t>& part : wall.open) open.push_back(ids_json(part));
@@ -144,15 +146,21 @@ Exit run(const Cells_arguments& arguments) {
   options.candidates = arguments.candidates;
   options.seed = common.seed;
   options.threads = common.threads;
-  options.tree = arguments.division.tree(common, soup);
+  const Division division = arguments.division.division(common, soup);
+  options.tree = division.tree;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Stopwatch watch;
   const Level_cells level(soup, options);
+  std::vector<std::uint32_t> regions;  // by cell
+  if (division.kind == Division::Kind::regions) regions = division.groups(level);
+  std::uint32_t region_count = 0;
+  for (const std::uint32_t region : regions)
+    if (region != no_cell) region_count = std::max(region_count, region + 1);
   const double seconds = watch.seconds();
   progress.clear();
   const Scene& scene = level.scene();
   const Cell_counters& c = level.counters();
-  if (!arguments.out.empty()) write_file(arguments.out, to_text(cells_json(level)) + "\n");
+  if (!arguments.out.empty()) write_file(arguments.out, to_text(cells_json(level, regions)) + "\n");
 
   Json leaks = Json::array();
   std::vector<Seal> seals;
@@ -174,18 +182,21 @@ Exit run(const Cells_arguments& arguments) {
   }
   if (!arguments.html.empty()) write_page(arguments.html, level, seals, ways);
   const Exit exit = leaks.empty() ? Exit::done : Exit::disagreement;
-  const Json result{{"cells", c.cells},
-                    {"solid", c.solid},
-                    {"portals", c.portals},
-                    {"regions", c.regions},
-                    {"closed", level.is_closed()},
-                    {"sealed", seals.size() - leaks.size()},
-                    {"in_solid", given.size() - seals.size()},
-                    {"leaks", leaks}};
+  Json result{{"cells", c.cells},
+              {"solid", c.solid},
+              {"portals", c.portals},
+              {"regions", c.regions},
+              {"closed", level.is_closed()},
+              {"sealed", seals.size() - leaks.size()},
+              {"in_solid", given.size() - seals.size()},
+              {"leaks", leaks}};
+  if (!regions.empty()) result["convex_regions"] = region_count;
   if (write_json(common, "cells", scene, result, counters_json(c), {{"build", seconds}})) return exit;
   scene_rows(scene);
   row("cells", fmt::format("{}: {} solid{}, {} without end; {} regions", c.cells, c.solid,
                            level.is_closed() ? "" : " (the faces do not close up)", c.outside, c.regions));
+  if (!regions.empty())
+    row("coarse", fmt::format("{} convex regions of {} cells that are not solid", region_count, c.cells - c.solid));
   row("walls", fmt::format("{}: {} portals between cells that are not solid, {} covered by faces", c.walls, c.portals,
                            c.covered));
   row("tree", fmt::format("{} nodes, {} splits; {} corners of walls in planes that divide them", c.nodes, c.splits,

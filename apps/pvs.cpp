@@ -11,7 +11,7 @@
 
 #include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/pvs.h>
-#include <sightline/algorithms/levels/ways.h>
+#include <sightline/algorithms/levels/stated_cell.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/harness/generate/transform.h>
@@ -45,27 +45,26 @@ struct Pvs_arguments {
   std::vector<std::uint32_t> show;
 };
 
-/// What the cells of a box of --grid see, together.
-struct Box_row {
-  std::uint32_t box;
+/// What the cells of a box, a volume or a convex region see, together.
+struct Group_row {
+  std::uint32_t number;
   std::vector<Cell_id> cells;
-  std::vector<Face_id> visible, undecided;  // ascending; what one cell sees is undecided of no box
+  std::vector<Face_id> visible, undecided;  // ascending; what one cell sees is undecided of no group
 };
 
-/// Of boxes that have cells which are asked about, by number.
-std::vector<Box_row> rows_of_boxes(const Level_cells& level, const Visibility_table& table) {
-  std::map<std::uint32_t, Box_row> rows;
-  for (Cell_id cell = 0; cell < level.cells().size(); ++cell) {
+/// Of groups that have cells which are asked about, by number.
+std::vector<Group_row> rows_of_groups(const std::vector<std::uint32_t>& groups, const Visibility_table& table) {
+  std::map<std::uint32_t, Group_row> rows;
+  for (Cell_id cell = 0; cell < groups.size(); ++cell) {
     const Row* const seen = table.row_of(cell);
-    if (seen == nullptr) continue;
-    const std::uint32_t box = level.cells()[cell].leaf;
-    Box_row& row = rows.try_emplace(box, Box_row{box, {}, {}, {}}).first->second;
+    if (seen == nullptr || groups[cell] == no_cell) continue;
+    Group_row& row = rows.try_emplace(groups[cell], Group_row{groups[cell], {}, {}, {}}).first->second;
     row.cells.push_back(cell);
     row.visible.insert(row.visible.end(), seen->visible.begin(), seen->visible.end());
     row.undecided.insert(row.undecided.end(), seen->undecided.begin(), seen->undecided.end());
   }
-  std::vector<Box_row> list;
-  for (auto& [box, row] : rows) {
+  std::vector<Group_row> list;
+  for (auto& [number, row] : rows) {
     for (std::vector<Face_id>* faces : {&row.visible, &row.undecided}) {
       std::sort(faces->begin(), faces->end());
       faces->erase(std::unique(faces->begin(), faces->end()), faces->end());
@@ -77,24 +76,43 @@ std::vector<Box_row> rows_of_boxes(const Level_cells& level, const Visibility_ta
   return list;
 }
 
-Json boxes_json(const std::vector<Box_row>& rows, const std::array<std::uint32_t, 3>& counts) {
+/// What JSON and people call the groups of a division; nothing where there are none.
+struct Group_names {
+  const char *one, *all, *words;
+};
+std::optional<Group_names> names_of(Division::Kind kind) {
+  switch (kind) {
+    case Division::Kind::boxes: return Group_names{"box", "boxes", "boxes"};
+    case Division::Kind::volumes: return Group_names{"volume", "volumes", "volumes"};
+    case Division::Kind::regions: return Group_names{"convex_region", "convex_regions", "convex regions"};
+    case Division::Kind::none:
+    case Division::Kind::leaves: break;
+  }
+  return std::nullopt;
+}
+
+Json groups_json(const std::vector<Group_row>& rows, const Division& division, const Group_names& names) {
   Json list = Json::array();
-  for (const Box_row& row : rows)
-    list.push_back(
-        {{"box", Json::array({row.box % counts[0], row.box / counts[0] % counts[1], row.box / counts[0] / counts[1]})},
-         {"cells", row.cells},
-         {"visible", row.visible},
-         {"undecided", row.undecided}});
+  for (const Group_row& row : rows) {
+    Json& json = list.emplace_back();
+    if (division.kind != Division::Kind::boxes) json[names.one] = row.number;
+    else {
+      const auto [x, y, z] = division.counts;
+      json[names.one] = {row.number % x, row.number / x % y, row.number / x / y};
+    }
+    json.update({{"cells", row.cells}, {"visible", row.visible}, {"undecided", row.undecided}});
+  }
   return list;
 }
 
 /// The table of a level that a command line asks for, and its parts.
 class Table_maker {
  public:
-  Table_maker(const Pvs_arguments& arguments, const Polygon_soup& soup, const Level_cells& level)
+  Table_maker(const Pvs_arguments& arguments, const std::string& division, const Polygon_soup& soup,
+              const Level_cells& level)
       : arguments_(arguments), level_(level), faces_(soup.face_count()), search_(level, options()) {
     question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), arguments.candidates,
-                            arguments.common.seed, arguments.outside ? ", outside" : "", arguments.division.question(),
+                            arguments.common.seed, arguments.outside ? ", outside" : "", division,
                             arguments.cells_too ? ", cells too" : "");
     if (arguments.cells_too) cell_search_.emplace(level, options());
   }
@@ -360,12 +378,12 @@ void write_page(const Pvs_arguments& arguments, const Level_cells& level, const 
 }
 
 /// A cell as what bounds it, for the index: its corners, and its walls as places of these, as seen from outside.
-void state_cell(Json& entry, const Level_cells& level, Cell_id cell) {
+void state_walls(Json& entry, const Cell_statement& statement) {
   std::map<Exact_point, std::size_t> places;
   Json corners = Json::array(), walls = Json::array();
-  for (const std::uint32_t w : level.cells()[cell].walls) {
+  for (const std::vector<Exact_point>& polygon : statement.walls) {
     Json& wall = walls.emplace_back(Json::array());
-    for (const Exact_point& p : levels_detail::looking_from(level, level.walls()[w], level.walls()[w].corners, cell)) {
+    for (const Exact_point& p : polygon) {
       const auto [at, is_new] = places.try_emplace(p, places.size());
       if (is_new) corners.push_back(point_json(p));
       wall.push_back(at->second);
@@ -375,7 +393,7 @@ void state_cell(Json& entry, const Level_cells& level, Cell_id cell) {
   entry["walls"] = std::move(walls);
 }
 
-/// A certificate for each cell that is asked about, of what its portals see outwards; and an index that states the
+/// A certificate for each cell that is asked about, of what its portals see outwards; and an index that states all
 /// cells.
 void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
   const fs::path folder = arguments.certificates;
@@ -385,10 +403,14 @@ void write_certificates(const Pvs_arguments& arguments, const Level_cells& level
     throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another folder");
   const Occluders occluders(level.scene());
   Progress progress("proving");
-  Json index = Json::array();
+  Json index = Json::array(), rest = Json::array();
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell) {
     progress(cell, table.cells.size());
-    if (!table.cells[cell]) continue;
+    const Cell_statement statement = stated_cell(level, cell);
+    if (!table.cells[cell]) {
+      state_walls(rest.emplace_back(Json{{"cell", cell}}), statement);
+      continue;
+    }
     Sources sources;
     for (const std::vector<Exact_point>& portal : portals_of(level, cell)) {
       sources.polygons.push_back(weak_source(occluders, portal));
@@ -405,15 +427,16 @@ void write_certificates(const Pvs_arguments& arguments, const Level_cells& level
     write_file((folder / name).string(), [&](std::ostream& out) {
       write_certificate(out, weak_certificate(level.scene(), sources.points, false, found));
     });
-    Json entry{
-        {"cell", cell}, {"within", level.cells()[cell].faces}, {"certificate", name}, {"unproved", found.unproved}};
-    state_cell(entry, level, cell);
-    index.push_back(std::move(entry));
+    state_walls(index.emplace_back(Json{
+                    {"cell", cell}, {"within", statement.within}, {"certificate", name}, {"unproved", found.unproved}}),
+                statement);
   }
   progress.clear();
-  write_file(
-      (folder / "index.json").string(),
-      to_text({{"format", "sightline pvs certificates 2"}, {"question", table.question}, {"cells", index}}) + "\n");
+  write_file((folder / "index.json").string(), to_text({{"format", "sightline pvs certificates 3"},
+                                                        {"question", table.question},
+                                                        {"cells", std::move(index)},
+                                                        {"rest", std::move(rest)}}) +
+                                                   "\n");
 }
 
 std::size_t count_of(const Visibility_table& table, std::vector<std::uint32_t> Row::*numbers) {
@@ -440,8 +463,8 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.shard.empty() || arguments.resume || !arguments.show.empty() || !arguments.certificates.empty())
     throw Usage_error("--out FILE.bsp is about leaves alone: leave out --shard, --resume, --show and --certificates");
-  if (!arguments.division.grid.empty())
-    throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --grid");
+  if (const Division_arguments& d = arguments.division; !d.grid.empty() || !d.volumes.empty() || d.coarse > 0)
+    throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --grid, --volumes and --coarse");
   const std::string bytes = compiled_level(common, "--out FILE.bsp");
   const Quake_level file = read_quake_level({common.scene, bytes});
   Cell_options cell_options;
@@ -507,12 +530,13 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   cell_options.candidates = arguments.candidates;
   cell_options.seed = common.seed;
   cell_options.threads = common.threads;
-  cell_options.tree = arguments.division.tree(common, soup);
+  const Division division = arguments.division.division(common, soup);
+  cell_options.tree = division.tree;
   const Stopwatch watch;
   const Level_cells level(soup, cell_options);
   const double cells_seconds = watch.seconds();
 
-  Table_maker maker(arguments, soup, level);
+  Table_maker maker(arguments, division.question, soup, level);
   const Visibility_table table = arguments.resume ? maker.resumed(shard, shards) : maker.make(shard, shards);
   maker.clear();
   const double seconds = watch.seconds() - cells_seconds;
@@ -550,9 +574,12 @@ Exit run_pvs(const Pvs_arguments& arguments) {
     if (arguments.cells_too) shown.back().update({{"cells", seen.cells}, {"cells_undecided", seen.cells_undecided}});
   }
   if (!shown.empty()) result["shown"] = shown;
-  const std::vector<Box_row> boxes =
-      arguments.division.grid.empty() ? std::vector<Box_row>{} : rows_of_boxes(level, table);
-  if (!arguments.division.grid.empty()) result["boxes"] = boxes_json(boxes, arguments.division.counts());
+  const std::optional<Group_names> names = names_of(division.kind);
+  std::vector<Group_row> groups;
+  if (names) {
+    groups = rows_of_groups(division.groups(level), table);
+    result[names->all] = groups_json(groups, division, *names);
+  }
   Json counters = counters_json(c);
   counters["cells"] = counters_json(level.counters());
   if (arguments.cells_too) counters["pairs_of_cells"] = counters_json(of_cells);
@@ -567,12 +594,12 @@ Exit run_pvs(const Pvs_arguments& arguments) {
                           "{} left to events; {} pairs were not reached",
                           c.within, c.extended, c.searched, c.hidden, c.by_events, c.unreached));
   if (arguments.cells_too) row_of_cells(of_cells, cells_visible, cells_undecided);
-  if (!boxes.empty()) {
+  if (names) {
     std::size_t pairs = 0;
-    for (const Box_row& box : boxes) pairs += box.visible.size();
-    row("boxes", fmt::format("{} have cells that are asked about; {} pairs of a box and a face are visible; --json - "
-                             "lists them",
-                             boxes.size(), pairs));
+    for (const Group_row& group : groups) pairs += group.visible.size();
+    row(names->words, fmt::format("{} have cells that are asked about; {} pairs of one of them and a face are visible; "
+                                  "--json - lists them",
+                                  groups.size(), pairs));
   }
   if (arguments.resume) row("resumed", fmt::format("{} of {} blocks were there", maker.blocks_kept(), blocks));
   for (const Cell_id cell : arguments.show) {
@@ -657,9 +684,8 @@ void add_pvs(Command program) {
       "         for i in 0 1 2 3; do sightline pvs level.map --shard $i/4 --out part$i.pvs --resume & done; wait\n"
       "         sightline merge part?.pvs --out level.pvs\n"
       "         sightline pvs level.bsp --out better.bsp\n"
-      "Cells are those of `sightline cells` with the same --candidates, --seed, --leaves and --grid. Exit code 4: "
-      "pairs are "
-      "undecided; in a .bsp their leaves see each other.");
+      "Cells are those of `sightline cells` with the same --candidates, --seed, --leaves, --grid and --volumes. Exit "
+      "code 4: pairs are undecided; in a .bsp their leaves see each other.");
   command.set_action([a] { return run_pvs(*a); });
 }
 

@@ -34,6 +34,12 @@ Json object(const std::vector<std::pair<std::string, Json>>& members) {
 Json a_count() { return {{"type", "integer"}, {"minimum", 0}}; }
 Json a_face() { return {{"type", "integer"}, {"minimum", 0}, {"description", "the place of a face, from 0"}}; }
 
+/// What boxes, volumes and convex regions see, each with its name.
+Json groups_of(const std::string& key, const Json& name) {
+  return list_of(
+      object({{key, name}, {"cells", list_of(a_count())}, {"visible", named("faces")}, {"undecided", named("faces")}}));
+}
+
 Json definitions() {
   const Json count = a_count(), face = a_face();
   return {{"exact", {{"type", "string"}, {"pattern", "^-?[0-9]+(/[0-9]+)?$"}, {"description", "p or p/q, reduced"}}},
@@ -285,25 +291,25 @@ std::map<std::string, Json> results() {
                {"closed", type("boolean")},
                {"sealed", count},
                {"in_solid", count},
+               {"convex_regions?", count},
                {"leaks", list_of(object({{"from", named("point")},
                                          {"way", list_of(object({{"cell", count}, {"point", named("point")}}))}}))}})},
-      {"pvs",
-       object({{"cells", count},
-               {"faces", count},
-               {"visible", count},
-               {"undecided", count},
-               {"blocks_kept", count},
-               {"leaves?", object({{"leaves", count}, {"visible", count}})},
-               {"boxes?",
-                list_of(object(
-                    {{"box", list_of(count)}, {"cells", list_of(count)}, {"visible", faces}, {"undecided", faces}}))},
-               {"pairs_of_cells?", object({{"visible", count}, {"undecided", count}})},
-               {"shown?", list_of(object({{"cell", count},
-                                          {"point", named("point")},
-                                          {"visible", faces},
-                                          {"undecided", faces},
-                                          {"cells?", list_of(count)},
-                                          {"cells_undecided?", list_of(count)}}))}})},
+      {"pvs", object({{"cells", count},
+                      {"faces", count},
+                      {"visible", count},
+                      {"undecided", count},
+                      {"blocks_kept", count},
+                      {"leaves?", object({{"leaves", count}, {"visible", count}})},
+                      {"boxes?", groups_of("box", list_of(count))},
+                      {"volumes?", groups_of("volume", count)},
+                      {"convex_regions?", groups_of("convex_region", count)},
+                      {"pairs_of_cells?", object({{"visible", count}, {"undecided", count}})},
+                      {"shown?", list_of(object({{"cell", count},
+                                                 {"point", named("point")},
+                                                 {"visible", faces},
+                                                 {"undecided", faces},
+                                                 {"cells?", list_of(count)},
+                                                 {"cells_undecided?", list_of(count)}}))}})},
       {"verify", object({{"accepted", type("boolean")},
                          {"why", type("string")},
                          {"fragments?", list_of(count)},

@@ -4,6 +4,7 @@
 
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/level_cell.h>
+#include <sightline/algorithms/verify/level_fill.h>
 #include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/io/file.h>
 #include <sightline/io/format.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 #include <random>
 
 namespace sightline::app {
@@ -49,18 +51,20 @@ static Certificate certificate_of(const std::string& file) {
   }
 }
 
-/// A cell of a folder: what its index says of it, and its certificate.
+/// A cell of a folder: what its index says of it, and its certificate, if it has one.
 struct Cell_entry {
   std::uint64_t cell = 0;
   std::string file;
   Cell_statement statement;
 };
 
-static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::path& folder) {
+static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::path& folder, bool has_certificate) {
   Cell_entry entry;
   entry.cell = json.at("cell").get<std::uint64_t>();
-  entry.file = (folder / json.at("certificate").get<std::string>()).string();
-  entry.statement.within = json.at("within").get<std::vector<Face_id>>();
+  if (has_certificate) {
+    entry.file = (folder / json.at("certificate").get<std::string>()).string();
+    entry.statement.within = json.at("within").get<std::vector<Face_id>>();
+  }
   std::vector<Exact_point> corners;
   for (const nlohmann::json& corner : json.at("corners")) {
     if (!corner.is_array() || corner.size() != 3) throw std::invalid_argument("a corner has not three coordinates");
@@ -79,71 +83,98 @@ static Cell_entry cell_entry(const nlohmann::json& json, const std::filesystem::
 }
 
 /// The cells that the index of a folder states, in its order.
-static std::vector<Cell_entry> cells_in(const std::filesystem::path& folder) {
-  constexpr const char* format = "sightline pvs certificates 2";
-  const std::string index = (folder / "index.json").string();
-  if (!std::filesystem::exists(index))
+struct Cell_index {
+  std::vector<Cell_entry> cells, rest;  ///< with certificates, and without
+};
+
+static Cell_index cells_in(const std::filesystem::path& folder) {
+  constexpr const char* format = "sightline pvs certificates 3";
+  const std::string file = (folder / "index.json").string();
+  if (!std::filesystem::exists(file))
     throw Input_error::of_file(
         folder.string(), "is a directory; name a file in it, or a folder that `sightline pvs --certificates` wrote");
-  const nlohmann::json json = parse_json(read_bytes(index), index);
+  const nlohmann::json json = parse_json(read_bytes(file), file);
   const auto refuse = [&](const std::string& what) {
-    throw Input_error::of_file(index, what + "; write the folder again with `sightline pvs --certificates FOLDER`");
+    throw Input_error::of_file(file, what + "; write the folder again with `sightline pvs --certificates FOLDER`");
   };
   if (!json.is_object() || !json.contains("format") || json["format"] != format)
     refuse(fmt::format("its \"format\" is not \"{}\"", format));
-  std::vector<Cell_entry> cells;
-  if (json.contains("cells") && json["cells"].is_array())
-    for (std::size_t i = 0; i < json["cells"].size(); ++i) try {
-        cells.push_back(cell_entry(json["cells"][i], folder));
+  Cell_index index;
+  const auto read = [&](const char* key, std::vector<Cell_entry>& cells) {
+    if (!json.contains(key) || !json[key].is_array()) refuse(fmt::format("has no list \"{}\"", key));
+    for (std::size_t i = 0; i < json[key].size(); ++i) try {
+        cells.push_back(cell_entry(json[key][i], folder, &cells == &index.cells));
       } catch (const nlohmann::json::exception&) {
-        refuse(fmt::format("entry {} of \"cells\" has not the parts of a cell", i));
+        refuse(fmt::format("entry {} of \"{}\" has not the parts of a cell", i, key));
       } catch (const std::invalid_argument& error) {
-        refuse(fmt::format("entry {} of \"cells\": {}", i, error.what()));
+        refuse(fmt::format("entry {} of \"{}\": {}", i, key, error.what()));
       }
-  if (cells.empty()) refuse("names no cells");
-  return cells;
+  };
+  read("cells", index.cells);
+  read("rest", index.rest);
+  if (index.cells.empty()) refuse("names no cells");
+  return index;
 }
 
-/// All cells of a folder with their certificates, or so many of them, drawn at random.
+/// All cells of a folder with their certificates, or so many of them, drawn at random; and that its cells fill a level.
 static Exit run_folder(const Common& common, const std::string& folder, std::size_t sample) {
   const Polygon_soup soup = common.read();
-  std::vector<Cell_entry> cells = cells_in(folder);
-  const std::size_t all = cells.size();
-  if (sample > 0 && sample < all) {
+  Cell_index index = cells_in(folder);
+  std::vector<Cell_entry>& cells = index.cells;
+  std::vector<std::size_t> chosen(cells.size());
+  std::iota(chosen.begin(), chosen.end(), 0);
+  if (sample > 0 && sample < cells.size()) {
     std::mt19937_64 random(common.seed);
-    std::shuffle(cells.begin(), cells.end(), random);
-    cells.resize(sample);
+    std::shuffle(chosen.begin(), chosen.end(), random);
+    chosen.resize(sample);
   }
   const Stopwatch watch;
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
   Json rejected = Json::array();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    progress(i, cells.size());
+
+  // 1. Cell by cell.
+  std::vector<Cell_of_level> level;
+  for (const Cell_entry& entry : cells) level.push_back({entry.cell, entry.statement.walls, true, {}});
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    progress(i, chosen.size());
     if (common.budget > 0 && watch.seconds() > common.budget)
-      throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, cells.size()));
-    const Certificate certificate = certificate_of(cells[i].file);
+      throw Out_of_budget(fmt::format("the budget ran out after {} of {} cells", i, chosen.size()));
+    const Cell_entry& entry = cells[chosen[i]];
+    const Certificate certificate = certificate_of(entry.file);
     const Weak_certificate* const claim = std::get_if<Weak_certificate>(&certificate);
     if (claim == nullptr)
-      throw Input_error::of_file(cells[i].file, "is no certificate of weak visibility; write the folder again");
-    const Verdict verdict = verify_level_cell(soup, cells[i].statement, *claim, options);
-    if (!verdict.accepted) rejected.push_back({{"cell", cells[i].cell}, {"file", cells[i].file}, {"why", verdict.why}});
+      throw Input_error::of_file(entry.file, "is no certificate of weak visibility; write the folder again");
+    const Verdict verdict = verify_level_cell(soup, entry.statement, *claim, options);
+    if (!verdict.accepted) rejected.push_back({{"cell", entry.cell}, {"file", entry.file}, {"why", verdict.why}});
+    else level[chosen[i]].sources = claim->sources;
   }
+
+  // 2. All together.
+  for (Cell_entry& entry : index.rest) level.push_back({entry.cell, std::move(entry.statement.walls), false, {}});
+  const Verdict filled = verify_level_fill(soup, level);
+  if (!filled.accepted) rejected.push_back({{"file", folder + "/index.json"}, {"why", filled.why}});
+
   const double seconds = watch.seconds();
   progress.clear();
   const Exit exit = rejected.empty() ? Exit::done : Exit::disagreement;
-  const std::string what =
-      fmt::format("{} of {} cells and their certificates, {} rejected", cells.size(), all, rejected.size());
+  std::string what = fmt::format("{} of {} cells and their certificates, {} rejected", chosen.size(), cells.size(),
+                                 rejected.size() - (filled.accepted ? 0 : 1));
+  if (filled.accepted)
+    what += fmt::format("; with {} others they fill a box about the scene, and no way leads to these{}",
+                        index.rest.size(), chosen.size() < cells.size() ? " from those checked" : "");
   if (!common.json.empty()) {
     const Json result{{"accepted", rejected.empty()}, {"why", what}, {"rejected", rejected}};
-    if (write_json(common, "verify", Scene(soup), result, {{"certificates", cells.size()}}, {{"verify", seconds}}))
+    if (write_json(common, "verify", Scene(soup), result, {{"certificates", chosen.size()}}, {{"verify", seconds}}))
       return exit;
   }
   row(rejected.empty() ? "accepted" : "REJECTED", what);
   for (const Json& one : rejected)
-    row("", fmt::format("cell {} ({}): {}", one["cell"].dump(), one["file"].get<std::string>(),
-                        one["why"].get<std::string>()));
+    row("", one.contains("cell")
+                ? fmt::format("cell {} ({}): {}", one["cell"].dump(), one["file"].get<std::string>(),
+                              one["why"].get<std::string>())
+                : fmt::format("{}: {}", one["file"].get<std::string>(), one["why"].get<std::string>()));
   row("seconds", fmt::format("{:.3f}", seconds));
   return exit;
 }

@@ -92,7 +92,11 @@ class Given_tree {
     return whole;
   }
   Wall_polygon section_of(std::int32_t node, const std::vector<Plane>& within, Wall_cutter& cutter) const {
-    Wall_polygon polygon = cutter.section(planes_[static_cast<std::size_t>(node)], box_);
+    const Plane own = planes_[static_cast<std::size_t>(node)];
+    for (const std::array<Plane, 2>& axis : box_)
+      for (const Plane side : axis)
+        if (side.id() == own.id()) return {};  // it has the whole box on one side
+    Wall_polygon polygon = cutter.section(own, box_);
     for (const Plane plane : within) polygon = cutter.in_front(polygon, plane);
     return polygon;
   }
@@ -125,12 +129,17 @@ struct Level_cells::Space {
   std::vector<std::array<Cell_id, 2>> leaves;  // by node: the cells in front and behind, where those are leaves
 
   Space(const Polygon_soup& soup, const Cell_options& options)
-      : scene(soup),
+      : scene(with_points(soup, options.tree.corners)),
         box(box_about(scene)),
         given(scene, box, options.tree),
         traits(scene),
         tree(build_bsp(traits, bsp_options(options))) {}
 
+  /// The same scene on a grid that has the points too.
+  static Polygon_soup with_points(Polygon_soup soup, const std::vector<Exact_point>& points) {
+    for (const Exact_point& p : points) soup.add_point(p[0], p[1], p[2]);
+    return soup;
+  }
   /// Beyond all points of the scene: its coordinates on the grid are less than that.
   static Box_planes box_about(Scene& scene) {
     Integer reach;

@@ -42,7 +42,8 @@ struct Space_tree {
     std::array<std::int32_t, 2> children;  ///< in front, behind: a node, or below 0 leaf -1 - child
   };
   std::vector<Node> nodes;
-  std::int32_t root = -1;  ///< a node, or a leaf
+  std::int32_t root = -1;            ///< a node, or a leaf
+  std::vector<Exact_point> corners;  ///< that planes are through, where those are wider than planes of the scene
 };
 
 struct Cell_counters {

@@ -1,13 +1,12 @@
 #include <sightline/algorithms/verify/level_cell.h>
 
+#include <sightline/algorithms/verify/cell_walls.h>
 #include <sightline/algorithms/verify/covering.h>
-#include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/weak_lines.h>
 
 #include <algorithm>
 #include <cstddef>
-#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -25,19 +24,6 @@ namespace {
 
 Homogeneous turned(const Homogeneous& plane) {
   return {Integer(-plane[0]), Integer(-plane[1]), Integer(-plane[2]), Integer(-plane[3])};
-}
-
-/// The planes that stand on a convex polygon's edges, its inside in front of them.
-std::vector<Homogeneous> edge_planes(const Outline& polygon) {
-  const Integer_vector normal{polygon.plane[0], polygon.plane[1], polygon.plane[2]};
-  std::vector<Homogeneous> planes;
-  for (std::size_t i = 0; i < polygon.corners.size(); ++i) {
-    const Homogeneous& a = polygon.corners[i];
-    const Integer_vector inward = primitive(cross(normal, minus(polygon.corners[(i + 1) % polygon.corners.size()], a)));
-    planes.push_back({Integer(inward[0] * a[3]), Integer(inward[1] * a[3]), Integer(inward[2] * a[3]),
-                      Integer(-dot(inward, Integer_vector{a[0], a[1], a[2]}))});
-  }
-  return planes;
 }
 
 /// What is in front of all planes; no corners where that has no area.
@@ -71,33 +57,6 @@ bool alike(const Homogeneous& a, const Homogeneous& b) {
   return sign_of_dot(Integer_vector{a[0], a[1], a[2]}, Integer_vector{b[0], b[1], b[2]}) > 0;
 }
 
-/// (1) Rejects unless the polygons bound a convex polyhedron that has an inside.
-std::vector<Outline> outlines_of_walls(const std::vector<Polygon>& walls) {
-  if (walls.empty()) reject("it has no walls");
-  std::vector<Outline> outlines;
-  Boundary_chain boundary;
-  for (std::size_t w = 0; w < walls.size(); ++w) {
-    if (!canonical(walls[w])) reject(name("wall", w) + " has a number that is not in lowest terms");
-    const certificate_check::Plane plane{newell_normal(walls[w]), walls[w].empty() ? Exact_point{} : walls[w][0]};
-    if (is_zero(plane.normal)) reject(name("wall", w) + " has zero area");
-    if (const std::string why = not_convex(walls[w], plane); !why.empty()) reject(name("wall", w) + ' ' + why);
-    outlines.emplace_back(walls[w]);
-    boundary.add(walls[w], 1);
-  }
-  if (const std::optional<Exact_point> open = boundary.nonzero())
-    reject("its walls do not close up at " + exact_name(*open));
-  for (std::size_t w = 0; w < outlines.size(); ++w) {
-    bool has_inside = false;
-    for (const Outline& other : outlines) {
-      if (reaches(outlines[w].plane, other.corners, 1))
-        reject("it is not convex: a corner is outside of " + name("wall", w));
-      has_inside = has_inside || reaches(outlines[w].plane, other.corners, -1);
-    }
-    if (!has_inside) reject("it has no inside: all corners are in the plane of " + name("wall", w));
-  }
-  return outlines;
-}
-
 /// (2) Rejects where a fragment passes through the inside.
 void check_inside(const std::vector<Outline>& walls, const std::vector<Order_fragment>& fragments,
                   const std::vector<Outline>& outlines) {
@@ -115,14 +74,8 @@ void check_sources(const std::vector<Outline>& walls, const std::vector<Outline>
                    const std::vector<Order_fragment>& fragments, const std::vector<Outline>& outlines) {
   for (std::size_t s = 0; s < sources.size(); ++s) {
     bool in_wall = false, looks_in = false;
-    for (const Outline& wall : walls) {
-      if (!wall.in_plane(sources[s].plane)) continue;
-      const std::vector<Homogeneous> edges = edge_planes(wall);
-      if (std::any_of(edges.begin(), edges.end(),
-                      [&](const Homogeneous& edge) { return reaches(edge, sources[s].corners, -1); }))
-        continue;
-      (alike(wall.plane, sources[s].plane) ? in_wall : looks_in) = true;
-    }
+    for (const Outline& wall : walls)
+      if (is_within(sources[s], wall)) (alike(wall.plane, sources[s].plane) ? in_wall : looks_in) = true;
     if (!in_wall) reject(name("source", s) + (looks_in ? " looks into the cell" : " is in none of its walls"));
     const std::vector<Homogeneous> edges = edge_planes(sources[s]);
     for (std::size_t i = 0; i < outlines.size(); ++i)

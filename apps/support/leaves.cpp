@@ -1,7 +1,11 @@
 #include "leaves.h"
 
+#include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/grid.h>
+#include <sightline/algorithms/levels/volumes.h>
 #include <sightline/io/file.h>
+#include <sightline/io/input.h>
+#include <sightline/io/visibility_table.h>
 
 #include <algorithm>
 #include <charconv>
@@ -17,6 +21,17 @@ void Division_arguments::add_to(Command command) {
           "NX,NY,NZ: cells within even boxes, so many along each axis of the box about the scene; box (x, y, z) "
           "is number x + NX (y + NY z), and those at the rim go on without end")
       .check(not_empty());
+  command
+      .add_option("--volumes", volumes,
+                  "cells within volumes, rooms say: a file of convex closed polyhedra that do not overlap, each a "
+                  "connected component, with points of its own; by first faces they are volume 0, 1, ...")
+      .reads_file()
+      .check(not_empty());
+  command
+      .add_option("--coarse", coarse,
+                  "put cells that are not solid together while they are convex together and no face is inside, until "
+                  "so many regions are left, or no two can be put together")
+      .check(range(1, 1000000000));
 }
 
 std::array<std::uint32_t, 3> Division_arguments::counts() const {
@@ -37,18 +52,54 @@ std::array<std::uint32_t, 3> Division_arguments::counts() const {
   return counts;
 }
 
-Space_tree Division_arguments::tree(const Common& common, const Polygon_soup& soup) const {
-  if (leaves && !grid.empty()) throw Usage_error("--grid and --leaves both divide space: leave out one of them");
+Division Division_arguments::division(const Common& common, const Polygon_soup& soup) const {
+  if (static_cast<int>(leaves) + !grid.empty() + !volumes.empty() + (coarse > 0) > 1)
+    throw Usage_error("--leaves, --grid, --volumes and --coarse each say what is asked about: leave out all but one");
+  Division division;
   if (leaves) {
     const std::string bytes = compiled_level(common, "--leaves");
-    return space_tree(read_quake_level({common.scene, bytes}), common.scene);
+    division.kind = Division::Kind::leaves;
+    division.question = ", leaves";
+    division.tree = space_tree(read_quake_level({common.scene, bytes}), common.scene);
   }
-  if (grid.empty()) return {};
-  try {
-    return even_boxes(soup, counts());
-  } catch (const std::invalid_argument& error) {
-    throw Usage_error("--grid " + grid + ": " + error.what() + "; ask for 1 there");
+  if (!grid.empty()) {
+    division.kind = Division::Kind::boxes;
+    division.question = ", grid " + grid;
+    division.counts = counts();
+    try {
+      division.tree = even_boxes(soup, division.counts);
+    } catch (const std::invalid_argument& error) {
+      throw Usage_error("--grid " + grid + ": " + error.what() + "; ask for 1 there");
+    }
   }
+  if (!volumes.empty()) {
+    Common of_file = common;
+    of_file.scene = volumes;
+    of_file.flip = false;  // that turns SCENE alone
+    const Polygon_soup read = of_file.read();
+    division.kind = Division::Kind::volumes;
+    division.question = fmt::format(", volumes {:016x}", fingerprint(read));
+    try {
+      Volume_division found = convex_volumes(read);
+      division.tree = std::move(found.tree);
+      division.volumes = found.volumes;
+    } catch (const std::invalid_argument& error) {
+      throw Input_error::of_file(volumes, error.what());
+    }
+  }
+  if (coarse > 0) {
+    division.kind = Division::Kind::regions;
+    division.regions = coarse;
+  }
+  return division;
+}
+
+std::vector<std::uint32_t> Division::groups(const Level_cells& level) const {
+  if (kind == Kind::regions) return convex_regions(level, regions);
+  std::vector<std::uint32_t> groups;
+  for (const Level_cell& cell : level.cells())
+    groups.push_back(kind == Kind::boxes || (kind == Kind::volumes && cell.leaf < volumes) ? cell.leaf : no_cell);
+  return groups;
 }
 
 std::string compiled_level(const Common& common, const std::string& wanted) {

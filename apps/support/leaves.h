@@ -1,5 +1,6 @@
 #pragma once
-// What divides space before faces do: a compiled level's own tree and leaves, or even boxes.
+// What divides space before faces do, a compiled level's own tree and leaves, even boxes or volumes, and what puts
+// cells together again.
 
 #include "common.h"
 
@@ -14,18 +15,32 @@
 
 namespace sightline::app {
 
-/// Options --leaves and --grid, of which there may be one.
+/// What divides space, and is asked about beside cells.
+struct Division {
+  enum class Kind { none, leaves, boxes, volumes, regions } kind = Kind::none;
+  std::string question;  ///< what a table has to name: it is another one without
+  Space_tree tree;
+  std::array<std::uint32_t, 3> counts{};  ///< of boxes
+  std::uint32_t volumes = 0;
+  std::size_t regions = 0;  ///< at most
+
+  /// By cell the box, volume or region that it is in; no_cell: none.
+  std::vector<std::uint32_t> groups(const Level_cells& level) const;
+};
+
+/// Options --leaves, --grid, --volumes and --coarse, of which there may be one.
 struct Division_arguments {
   bool leaves = false;
-  std::string grid;  // "NX,NY,NZ", or empty
+  std::string grid;     // "NX,NY,NZ", or empty
+  std::string volumes;  // a file, or empty
+  std::size_t coarse = 0;
 
   void add_to(Command command);
-  /// The tree that they ask for; none by default. Errors: Usage_error.
-  Space_tree tree(const Common& common, const Polygon_soup& soup) const;
-  /// Of --grid. Errors: Usage_error.
+  /// What they ask for. Errors: Usage_error, and Input_error for files.
+  Division division(const Common& common, const Polygon_soup& soup) const;
+
+ private:
   std::array<std::uint32_t, 3> counts() const;
-  /// What a table has to name: it is another one without.
-  std::string question() const { return leaves ? ", leaves" : grid.empty() ? "" : ", grid " + grid; }
 };
 
 /// The bytes of SCENE where it is a compiled level. Errors: Usage_error that begins with `wanted` where it is none.

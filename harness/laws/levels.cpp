@@ -10,6 +10,9 @@
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/laws/flat_faces.h>
+#include <sightline/harness/laws/level_certificates.h>
+#include <sightline/harness/laws/level_checks.h>
+#include <sightline/harness/laws/level_groups.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
@@ -25,15 +28,8 @@ namespace levels_subject {
 
 using generate::Points;
 
-constexpr std::size_t most_undecided_cells = 3000;  // of a search; more are for `fuzz weak`
-
 // ---- Brute force, on corners alone
 
-Rational six_cones(const Points& polygon) {
-  Rational sum = 0;
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) sum += dot(polygon[0], cross(polygon[i], polygon[i + 1]));
-  return sum;
-}
 /// Where a ray meets a piece, t > 0; nothing beside it and where the ray runs along it.
 struct Meeting {
   Rational t;
@@ -89,12 +85,7 @@ Exact_point any_direction(Random& random) {
 
 /// Cells are convex, with their points inside, and fill a box.
 Outcome fill(const Level_cells& level) {
-  Exact_point low = level.points()[0], high = low;
-  for (const Exact_point& p : level.points())
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], p[k]);
-      high[k] = std::max(high[k], p[k]);
-    }
+  const auto [low, high] = box_about(level.points());
   Rational volume = 0;
   for (Cell_id c = 0; c < level.cells().size(); ++c) {
     const Exact_point inside = level.inside(c);
@@ -166,38 +157,6 @@ Outcome windings(const Level_cells& level, const std::vector<Flat_face>& flats, 
   return {};
 }
 
-/// A tree of planes along axes and through points of the scene: some miss what those above leave, some come twice.
-Space_tree any_tree(const Polygon_soup& soup, Random& random) {
-  Space_tree tree;
-  std::int32_t leaves = 0;
-  const std::size_t nodes = random.below(8);
-  for (std::size_t n = 0; n < nodes; ++n) {
-    Space_tree::Node node;
-    const std::size_t made = tree.nodes.size();
-    if (made > 0 && random.chance(1, 4)) node.plane = tree.nodes[random.below(made)].plane;
-    else {
-      for (std::size_t k = 0; k < 3; ++k) node.plane[k] = generate::integer(random, -2, 2);
-      if (random.chance(1, 2) || is_zero(Exact_point{node.plane[0], node.plane[1], node.plane[2]})) {
-        node.plane = {};
-        node.plane[random.below(3)] = random.chance(1, 2) ? 1 : -1;
-      }
-      Exact_point p{};
-      if (soup.point_count() > 0) p = soup.point(static_cast<Point_id>(random.below(soup.point_count())));
-      for (std::size_t k = 0; k < 3; ++k) node.plane[3] -= node.plane[k] * p[k];
-    }
-    for (std::int32_t& child : node.children) child = -1 - leaves++;
-    if (made > 0) {  // in the place of a leaf
-      Space_tree::Node& above = tree.nodes[random.below(made)];
-      std::int32_t& child = above.children[random.below(2)];
-      if (child >= 0) continue;
-      child = static_cast<std::int32_t>(made);
-    }
-    tree.nodes.push_back(node);
-  }
-  tree.root = tree.nodes.empty() ? -1 - leaves : 0;
-  return tree;
-}
-
 /// Each cell is in the leaf that it names: the middle of it, by the tree itself, and no corner beyond a plane above.
 Outcome leaves(const Level_cells& level, const Space_tree& tree) {
   const auto height = [](const std::array<Rational, 4>& h, const Exact_point& p) {
@@ -219,21 +178,6 @@ Outcome leaves(const Level_cells& level, const Space_tree& tree) {
       return Outcome::failed("cell " + std::to_string(c) + " is in another leaf than it names");
   }
   return {};
-}
-
-/// The box about all corners of faces.
-std::array<Exact_point, 2> box_of(const Polygon_soup& soup) {
-  std::array<Exact_point, 2> box{};
-  for (std::size_t k = 0; k < 3; ++k) {
-    std::vector<Rational> at;
-    for (Face_id f = 0; f < soup.face_count(); ++f)
-      for (std::size_t l = 0; l < soup.loop_count(f); ++l)
-        for (const Point_id p : soup.loop(f, l)) at.push_back(soup.point(p)[k]);
-    if (at.empty()) continue;
-    box[0][k] = *std::min_element(at.begin(), at.end());
-    box[1][k] = *std::max_element(at.begin(), at.end());
-  }
-  return box;
 }
 
 /// Each cell names the box that its middle is in, by division; one beyond the rim names the box at the rim.
@@ -258,14 +202,15 @@ Outcome of_cells(const Posed_scene& posed, const Answer&, Random& random) {
   std::array<std::uint32_t, 3> boxes{};  // of a grid
   if (random.chance(1, 2)) options.tree = any_tree(posed.soup, random);
   else if (random.chance(1, 2)) {
-    const std::array<Exact_point, 2> box = box_of(posed.soup);
+    const std::array<Exact_point, 2> box = box_of_corners(posed.soup);
     for (std::size_t k = 0; k < 3; ++k)
       boxes[k] = box[0][k] == box[1][k] ? 1 : static_cast<std::uint32_t>(random.between(1, 3));
     options.tree = even_boxes(posed.soup, boxes);
   }
   const Level_cells level(posed.soup, options);
   if (boxes[0] > 0)
-    if (const Outcome outcome = in_boxes(level, box_of(posed.soup), boxes); outcome.state != Outcome::State::passed)
+    if (const Outcome outcome = in_boxes(level, box_of_corners(posed.soup), boxes);
+        outcome.state != Outcome::State::passed)
       return outcome;
   const std::vector<Flat_face> flats = flat_faces_of(level.scene());
   if (const Outcome outcome = fill(level); outcome.state != Outcome::State::passed) return outcome;
@@ -306,44 +251,6 @@ Outcome of_boxes(const Posed_scene&, const Answer&, Random& random) {
   return windings(level, flats, random);
 }
 
-/// A cell as a closed polyhedron, fronts outwards.
-Polygon_soup polyhedron(const Level_cells& level, Cell_id cell) {
-  Polygon_soup soup;
-  for (const std::uint32_t w : level.cells()[cell].walls) {
-    Points polygon = level.polygon(level.walls()[w].corners);
-    if (level.walls()[w].front == cell) std::reverse(polygon.begin(), polygon.end());
-    std::vector<Point_id> loop;
-    for (const Exact_point& p : polygon) loop.push_back(soup.add_point(p[0], p[1], p[2]));
-    soup.add_face(loop);
-  }
-  return soup;
-}
-
-/// What a cell sees, asked of it alone: what portals see outwards, and what the polyhedron sees from within.
-Weakly_visible seen_alone(const Level_cells& level, const Occluders& occluders, Cell_id cell) {
-  std::vector<Weak_source> sources;
-  for (const Points& portal : portals_of(level, cell)) sources.push_back(weak_source(occluders, portal));
-  Weak_options options;
-  options.threads = 1;
-  options.search.cells = most_undecided_cells;
-  Weakly_visible found;
-  if (!sources.empty()) found = weakly_visible(occluders, sources, options);
-  else
-    for (const Piece& piece : level.scene().pieces())
-      if (found.hidden.empty() || found.hidden.back() != piece.face) found.hidden.push_back(piece.face);
-  add_seen_from_within(level.scene(), Weak_volume(polyhedron(level, cell)), false, found);
-  return found;
-}
-
-Pvs_options options_of(Random& random) {
-  Pvs_options options;
-  options.threads = 1;
-  options.search.cells = most_undecided_cells;
-  options.event_edges = 0;
-  options.outside = random.chance(1, 2);
-  return options;
-}
-
 /// What random rays from inside cells meet first is visible from there.
 Outcome sightlines(const Posed_scene& posed, const Answer&, Random& random) {
   const Level_cells level(posed.soup);
@@ -370,7 +277,7 @@ Outcome alone(const Posed_scene& posed, const Answer&, Random& random) {
   for (std::size_t k = 0; k < 3; ++k) {
     const Cell_id c = static_cast<Cell_id>(random.below(level.cells().size()));
     if (pvs.is_asked[c] == 0) continue;
-    const Weakly_visible found = seen_alone(level, occluders, c);
+    const Weakly_visible found = seen_alone(level, occluders, {c});
     undecided |= !found.undecided.empty() || !pvs.undecided[c].empty();
     for (const bool visible : {true, false}) {
       const std::vector<Face_id>& said = visible ? pvs.visible[c] : found.visible;
@@ -501,7 +408,14 @@ Subject pvs() {
       {"sightlines", "what random rays from cells meet first is visible", levels_subject::sightlines},
       {"alone", "a cell by itself sees the same", levels_subject::alone},
       {"segments", "cells that a random segment joins see each other", levels_subject::segments},
-      {"pairs", "two cells by themselves see each other as the table says, with a certificate", levels_subject::pairs}};
+      {"pairs", "two cells by themselves see each other as the table says, with a certificate", levels_subject::pairs},
+      check_of_a_share("volumes",
+                       "cells fill the volumes that they name; boxes as volumes see what boxes of a grid see", 2,
+                       levels_subject::volumes),
+      check_of_a_share("coarse", "regions are convex, empty and as few as can be, and see what they see by themselves",
+                       2, levels_subject::coarse),
+      check_of_a_share("certificates", "what is true of cells is accepted, and what is not is refused", 2,
+                       levels_subject::certificates)};
   return subject;
 }
 

@@ -4,8 +4,10 @@
 
 #include <sightline/algorithms/levels/cell_pvs.h>
 #include <sightline/algorithms/levels/cells.h>
+#include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/grid.h>
 #include <sightline/algorithms/levels/pvs.h>
+#include <sightline/algorithms/levels/volumes.h>
 #include <sightline/kernel/vectors.h>
 
 #include <memory>
@@ -17,10 +19,12 @@ namespace {
 
 struct Level {
   std::shared_ptr<const Level_cells> cells;
+  std::uint32_t volumes = 0;  // that they are within
 };
 
-/// The cells of a scene, within even boxes where `grid` has three counts.
-Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, const py::list& grid,
+/// The cells of a scene, within even boxes where `grid` has three counts, or within the polyhedra of `volumes`, a model
+/// or nullptr.
+Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, const py::list& grid, const Model* volumes,
                const Question& question) {
   std::vector<std::uint32_t> counts;
   for (const py::handle count : grid) counts.push_back(py::cast<std::uint32_t>(count));
@@ -31,7 +35,12 @@ Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, cons
     options.threads = asking.threads;
     options.progress = progress_within_budget(asking);
     if (!counts.empty()) options.tree = even_boxes(model.soup(), {counts.at(0), counts.at(1), counts.at(2)});
-    return Level{std::make_shared<const Level_cells>(model.soup(), options)};
+    Volume_division division;
+    if (volumes != nullptr) {
+      division = convex_volumes(volumes->soup());
+      options.tree = std::move(division.tree);
+    }
+    return Level{std::make_shared<const Level_cells>(model.soup(), options), division.volumes};
   });
 }
 
@@ -124,7 +133,17 @@ void add_levels(py::module_& module) {
       .def("outside", of_cells([](const Level_cell& cell) { return cell.is_outside ? 1 : 0; }))
       .def("windings", of_cells([](const Level_cell& cell) { return cell.winding; }))
       .def("regions", of_cells([](const Level_cell& cell) { return cell.region; }))
-      .def("boxes", of_cells([](const Level_cell& cell) { return cell.leaf; }))
+      .def_readonly("volumes", &Level::volumes)
+      .def(
+          "coarse",
+          [](const Level& level, std::size_t most) {
+            std::vector<std::int64_t> all;
+            for (const std::uint32_t region : convex_regions(*level.cells, most))
+              all.push_back(region == no_cell ? -1 : std::int64_t{region});
+            return ids(all);
+          },
+          py::arg("most"))
+      .def("leaves", of_cells([](const Level_cell& cell) { return cell.leaf; }))
       .def(
           "faces", [](const Level& level, Cell_id cell) { return ids(cell_of(level, cell).faces); }, py::arg("cell"))
       .def(
@@ -153,7 +172,7 @@ void add_levels(py::module_& module) {
           },
           py::arg("point"));
   module.def("cells", &level_of, py::arg("model"), py::arg("candidates"), py::arg("seed"), py::arg("grid"),
-             py::arg("question"));
+             py::arg("volumes").none(true), py::arg("question"));
   for (const auto& [name, ask] : {std::pair("faces_seen", &faces_seen), {"cells_seen", &cells_seen}})
     module.def(name, ask, py::arg("level"), py::arg("seed"), py::arg("outside"), py::arg("question"));
 }

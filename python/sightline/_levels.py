@@ -59,8 +59,14 @@ class Cell:
         grid = self.cells.grid
         if grid is None:
             return None
-        number = int(self.cells._level.boxes()[self.id])
+        number = int(self.cells._leaves[self.id])
         return number % grid[0], number // grid[0] % grid[1], number // grid[0] // grid[1]
+
+    @property
+    def room(self) -> Optional[int]:
+        """The volume of `volumes` that it is in, by first faces; None: it is in none, or there are none."""
+        number = int(self.cells._leaves[self.id])
+        return number if number < self.cells._level.volumes else None
 
     @property
     def faces(self) -> Ids:
@@ -102,7 +108,7 @@ class Cells(Sequence[Cell]):
         self.outside: NDArray[np.bool_] = level.outside().astype(bool)
         self.windings: Ids = level.windings()
         self.regions: Ids = level.regions()
-        self._level, self._seed = level, seed
+        self._level, self._seed, self._leaves = level, seed, level.leaves()
 
     def __len__(self) -> int:
         return len(self._level)
@@ -140,6 +146,15 @@ class Cells(Sequence[Cell]):
         """The cell that a point is in; on a wall, that in front of it; None beyond the box."""
         cell = self._level.at(point)
         return None if cell is None else Cell(self, cell)
+
+    def coarse(self, most: int = 1) -> Ids:
+        """Cells that are not solid, put together to convex regions without a face inside: each cell's region, or -1.
+
+        No more are put together once there are `most` regions.
+        """
+        if operator.index(most) < 1:
+            raise ValueError(f"most is {most}; give 1 or more")
+        return self._level.coarse(most)
 
     def way_out(self, point: Any) -> List[Cell]:
         """Cells from that of a point to one that has no end, through open walls: a leak; empty: there is no way."""

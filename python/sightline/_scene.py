@@ -228,6 +228,7 @@ class Scene:
         self,
         *,
         grid: Any = None,
+        volumes: Optional["Scene"] = None,
         candidates: int = 5,
         seed: int = 1,
         threads: int = 0,
@@ -236,8 +237,9 @@ class Scene:
     ) -> Cells:
         """The convex cells that the faces' planes divide space into, the walls between them, what is solid, and leaks.
 
-        grid: (nx, ny, nz), even boxes that cells lie within, along each axis of the box about the scene. candidates:
-        planes tried for each node of the tree, by the seed's choice.
+        grid: (nx, ny, nz), even boxes that cells lie within, along each axis of the box about the scene. volumes: the
+        same for given rooms, the convex closed polyhedra of a scene, each with points of its own. candidates: planes
+        tried for each node of the tree, by the seed's choice.
 
         >>> cells = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]]).cells()
         >>> cells.at((1, 1, "1/9")).faces, cells.at((1, 1, "-1/9")).faces
@@ -248,16 +250,19 @@ class Scene:
         if not 0 <= operator.index(seed) < 2**64:
             raise ValueError(f"seed is {seed}; give 0 to 2**64 - 1")
         counts = counts_of(grid)
+        if counts is not None and volumes is not None:
+            raise ValueError("grid and volumes each say what cells lie within; give one of them")
+        rooms = None if volumes is None else volumes._model
         with followed(progress, "cells") as told:
             question = _question(threads, told, budget)
-            return Cells(
-                self, _sightline.cells(self._model, candidates, seed, list(counts or ()), question), counts, seed
-            )
+            level = _sightline.cells(self._model, candidates, seed, list(counts or ()), rooms, question)
+        return Cells(self, level, counts, seed)
 
     def pvs(
         self,
         *,
         grid: Any = None,
+        volumes: Optional["Scene"] = None,
         candidates: int = 5,
         seed: int = 1,
         outside: bool = False,
@@ -269,7 +274,9 @@ class Scene:
 
         What `budget`, which is of looking, leaves open is undecided. Other arguments: as of cells(), and Cells.pvs().
         """
-        cells = self.cells(grid=grid, candidates=candidates, seed=seed, threads=threads, progress=progress)
+        cells = self.cells(
+            grid=grid, volumes=volumes, candidates=candidates, seed=seed, threads=threads, progress=progress
+        )
         return cells.pvs(outside=outside, threads=threads, progress=progress, budget=budget)
 
     def trace(

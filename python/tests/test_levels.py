@@ -70,6 +70,40 @@ def test_volumes_and_walls_add_up(family, grid):
                 assert cell.box[k] == min(max(share // 1, 0), grid[k] - 1)  # those at the rim go on without end
 
 
+def boxes(*ends):
+    """Boxes by two corners each, with points of their own."""
+    V, F = [], []
+    for low, high in ends:
+        first = len(V)
+        V += [[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for k in (0, 1) for j in (0, 1) for i in (0, 1)]
+        for f in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+            F.append([first + i for i in f])
+    return sightline.Scene(V, F)
+
+
+def test_rooms_hold_their_cells_and_regions_are_fewer():
+    scene = two_rooms()
+    low, high = scene.info()["box"]
+    middle = (low[0] + high[0]) / 2
+    rooms = boxes((low, (middle, high[1], high[2])), ((middle, low[1], low[2]), high))
+    cells = scene.cells(volumes=rooms)
+    for room in (0, 1):
+        inside = [cell for cell in cells if cell.room == room]
+        assert sum(cell.volume for cell in inside) == (middle - low[0]) * (high[1] - low[1]) * (high[2] - low[2])
+        assert all((cell.inside[0] < middle) == (room == 0) for cell in inside)
+    assert {cell.room for cell in cells} == {0, 1, None} and {cell.room for cell in scene.cells()} == {None}
+    assert scene.pvs(volumes=rooms).visible.keys() == cells.pvs().visible.keys()
+    regions = cells.coarse()
+    assert ((regions < 0) == cells.solid).all() and regions.max() < len(cells) - 1
+    assert regions.max() + 1 < cells.coarse(10**9).max() + 1 == (~cells.solid).sum()
+    with pytest.raises(ValueError, match="faces? 0 and face 6 .* overlap"):
+        scene.cells(volumes=boxes((low, high), (low, high)))
+    with pytest.raises(ValueError, match="give one of them"):
+        scene.cells(volumes=rooms, grid=(1, 1, 1))
+    with pytest.raises(ValueError, match="most is 0"):
+        cells.coarse(0)
+
+
 def test_covered_parts_of_walls_are_the_faces():
     cube = sightline.read(corpus / "cube.off")
     cells = cube.cells()

@@ -247,7 +247,7 @@ TEST_F(Levels, certificates_of_all_cells_are_accepted_and_agree_with_the_table) 
   EXPECT_EQ(run({"verify", rooms, rooms, "--sample", "2"}).code, usage);
 }
 
-/// A folder of one cell, of which the index or the certificate says something else than `pvs` did; what `verify` says.
+/// A folder in which the index or the certificate says something else of one cell than `pvs` did; what `verify` says.
 /// Nothing is claimed of what the cell sees, so that what is wrong is what is said of the cell.
 TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
   ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs")}).code, done);
@@ -261,9 +261,11 @@ TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
     return certificate;
   };
   const auto verified = [&](const Json& cell, const Json& certificate) {
-    std::filesystem::create_directories(path("forged"));
+    if (!std::filesystem::exists(path("forged")))
+      std::filesystem::copy(path("proofs"), path("forged"), std::filesystem::copy_options::recursive);
     Json one = index;
-    one["cells"] = Json::array({cell});
+    for (Json& entry : one["cells"])
+      if (entry["cell"] == cell["cell"]) entry = cell;
     std::ofstream(path("forged/index.json")) << one;
     std::ofstream(path("forged/" + cell["certificate"].get<std::string>())) << certificate;
     return run({"verify", rooms, out("forged")});
@@ -358,6 +360,106 @@ TEST_F(Levels, cells_that_are_not_what_is_said_of_them_are_refused) {
     EXPECT_EQ(r.code, bad_input) << r;
     EXPECT_NE(r.err.find("sightline pvs --certificates"), std::string::npos) << r;
   }
+}
+
+TEST_F(Levels, cells_that_are_left_out_of_an_index_are_missed) {
+  ASSERT_EQ(run({"pvs", rooms, "--certificates", out("proofs")}).code, done);
+  const Json index = Json::parse(bytes_of("proofs/index.json"));
+  const auto verified = [&](auto change) {
+    Json said = index;
+    change(said);
+    std::ofstream(path("proofs/index.json")) << said;
+    return run({"verify", rooms, out("proofs")});
+  };
+  const Outcome truth = verified([](Json&) {});
+  EXPECT_EQ(truth.code, done) << truth;
+  EXPECT_NE(truth.out.find("they fill a box about the scene, and no way leads to these"), std::string::npos) << truth;
+  const Outcome hole = verified([](Json& said) { said["rest"].erase(0); });
+  EXPECT_EQ(hole.code, disagreement) << hole;
+  EXPECT_NE(hole.out.find("with no cell beyond it"), std::string::npos) << hole;
+  const Outcome room = verified([](Json& said) { said["cells"].erase(0); });
+  EXPECT_EQ(room.code, disagreement) << room;
+  const Outcome unasked = verified([](Json& said) {  // stated, but nothing is said of what it sees
+    said["rest"].push_back(said["cells"][0]);
+    said["cells"].erase(0);
+  });
+  EXPECT_EQ(unasked.code, disagreement) << unasked;
+  EXPECT_NE(unasked.out.find("there is a way to cell " + index["cells"][0]["cell"].dump()), std::string::npos)
+      << unasked;
+  const Outcome none = verified([](Json& said) { said.erase("rest"); });
+  EXPECT_EQ(none.code, bad_input) << none;
+}
+
+TEST_F(Levels, volumes_see_what_their_cells_see) {
+  // The halves of two_rooms as the boxes of a grid have them, and as volumes.
+  const Json by_grid = run({"pvs", rooms, "--grid", "2,1,1", "--json", "-"}).json()["result"]["boxes"];
+  ASSERT_EQ(by_grid.size(), 2u);
+  const Json box = Json::parse(run({"info", rooms, "--json", "-"}).out)["result"]["box"];
+  const auto number = [&](std::size_t end, std::size_t k) { return std::stoi(box[end][k].get<std::string>()); };
+  const int middle = (number(0, 0) + number(1, 0)) / 2;
+  std::ofstream halves(path("halves.off"));
+  halves << "OFF\n16 12 0\n";
+  for (const auto& [low, high] : {std::pair(-1000, middle), {middle, 1000}})
+    for (const int z : {-1000, 1000})
+      halves << low << " -1000 " << z << "\n"
+             << high << " -1000 " << z << "\n"
+             << high << " 1000 " << z << "\n"
+             << low << " 1000 " << z << "\n";
+  for (const int v : {0, 8})
+    for (const std::array<int, 4>& f : std::initializer_list<std::array<int, 4>>{
+             {3, 2, 1, 0}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}})
+      halves << 4 << ' ' << v + f[0] << ' ' << v + f[1] << ' ' << v + f[2] << ' ' << v + f[3] << '\n';
+  halves.close();
+  const Outcome r = run({"pvs", rooms, "--volumes", out("halves.off"), "--certificates", out("proofs"), "--out",
+                         out("t.pvs"), "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json by_volume = r.json()["result"]["volumes"];
+  ASSERT_EQ(by_volume.size(), 2u);
+  for (std::size_t v : {0u, 1u}) {
+    EXPECT_EQ(by_volume[v]["volume"], v);
+    EXPECT_EQ(by_volume[v]["visible"], by_grid[v]["visible"]);
+  }
+  EXPECT_NE(by_volume[0]["visible"], by_volume[1]["visible"]);
+  const Outcome proved = run({"verify", rooms, out("proofs")});
+  EXPECT_EQ(proved.code, done) << proved;
+
+  // A table of other volumes is another table; what are no volumes is told with faces.
+  std::ofstream(path("one.off")) << "OFF\n4 4 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  ASSERT_EQ(run({"pvs", rooms, "--volumes", out("halves.off"), "--shard", "0/2", "--out", out("0.pvs")}).code, done);
+  ASSERT_EQ(run({"pvs", rooms, "--volumes", out("one.off"), "--shard", "1/2", "--out", out("1.pvs")}).code, done);
+  EXPECT_NE(run({"merge", out("0.pvs"), out("1.pvs"), "--out", out("all.pvs")}).code, done);
+  std::ofstream(path("open.off")) << "OFF\n4 3 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n3 0 2 1\n3 0 1 3\n3 1 2 3\n";
+  const Outcome open = run({"cells", rooms, "--volumes", out("open.off")});
+  EXPECT_EQ(open.code, bad_input) << open;
+  EXPECT_NE(open.err.find("open.off: face 0 "), std::string::npos) << open;
+  EXPECT_EQ(run({"cells", rooms, "--volumes", out("one.off"), "--grid", "2,2,2"}).code, usage);
+  EXPECT_EQ(run({"cells", rooms, "--volumes", out("none.off")}).code, bad_input);
+}
+
+TEST_F(Levels, convex_regions_see_what_their_cells_see) {
+  const Outcome cells = run({"cells", rooms, "--coarse", "1", "--out", out("cells.json"), "--json", "-"});
+  ASSERT_EQ(cells.code, done) << cells;
+  ASSERT_EQ(run({"pvs", rooms, "--out", out("t.json")}).code, done);
+  std::map<std::uint32_t, std::set<std::uint32_t>> seen, said;
+  std::set<std::uint32_t> numbers;
+  const Json list = Json::parse(bytes_of("cells.json"))["cells"], table = Json::parse(bytes_of("t.json"));
+  for (const Json& cell : list) {
+    EXPECT_EQ(cell["solid"].get<bool>(), cell["convex_region"].is_null());
+    if (!cell["convex_region"].is_null()) numbers.insert(cell["convex_region"].get<std::uint32_t>());
+  }
+  EXPECT_EQ(cells.json()["result"]["convex_regions"], numbers.size());
+  EXPECT_LT(numbers.size(), list.size() / 2);
+  for (const Json& cell : table["cells"])
+    for (const std::uint32_t face : cell["visible"])
+      seen[list[cell["cell"].get<std::size_t>()]["convex_region"].get<std::uint32_t>()].insert(face);
+  const Json regions = run({"pvs", rooms, "--coarse", "1", "--json", "-"}).json()["result"]["convex_regions"];
+  for (const Json& region : regions)
+    said[region["convex_region"].get<std::uint32_t>()] = region["visible"].get<std::set<std::uint32_t>>();
+  EXPECT_EQ(said, seen);
+  EXPECT_LT(said.size(), table["cells"].size());
+  const Json most = run({"cells", rooms, "--coarse", "30", "--json", "-"}).json()["result"]["convex_regions"];
+  EXPECT_EQ(most, 30);
+  EXPECT_EQ(run({"cells", rooms, "--coarse", "0"}).code, usage);
 }
 
 TEST_F(Levels, rooms_of_the_corpus_have_cells_that_are_checked) {

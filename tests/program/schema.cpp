@@ -109,6 +109,9 @@ TEST_F(Schema, of_each_command_is_what_it_writes) {
       {"cells", rooms, "--seal", "1,1,1"},
       {"pvs", rooms},
       {"pvs", (corpus / "general" / "two_rooms.map").string(), "--show", "54"},
+      {"pvs", (corpus / "general" / "two_rooms.map").string(), "--coarse", "1"},
+      {"pvs", rooms, "--volumes", (corpus / "general" / "cube.off").string()},
+      {"cells", rooms, "--coarse", "1"},
       {"report", "--questions", "see", "--families", "edge_on", "--distances", "1", "--sizes", "0", "--reduce", "1"},
       {"verify", cube, certificate}};
   for (std::vector<std::string> arguments : documents) {

@@ -1,0 +1,145 @@
+#include <sightline/algorithms/levels/coarse.h>
+
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+#include <set>
+#include <utility>
+
+namespace sightline {
+
+namespace levels_detail {
+
+/// Convex polyhedra that grow, each known by one of its cells.
+class Region_merger {
+ public:
+  explicit Region_merger(const Level_cells& level) : level_(level), up_(level.cells().size()), regions_(up_.size()) {
+    std::iota(up_.begin(), up_.end(), 0);
+    for (std::uint32_t w = 0; w < level.walls().size(); ++w) add_wall(w);
+    std::stable_sort(open_.begin(), open_.end(),
+                     [&](std::uint32_t v, std::uint32_t w) { return areas_[v] > areas_[w]; });
+  }
+
+  /// Puts together what can be until `count` regions that are not solid are no more than `most`.
+  void merge(std::size_t count, std::size_t most) {
+    for (bool goes_on = true; goes_on;) {
+      goes_on = false;
+      for (const std::uint32_t w : open_) {
+        if (count <= most) return;
+        const Cell_id a = region_of(level_.walls()[w].front), b = region_of(level_.walls()[w].behind);
+        const std::uint32_t plane = sides_[w].first;
+        if (a == b || !fits(a, b, plane) || !fits(b, a, plane) || is_covered(a, b)) continue;
+        put_together(a, b, plane);
+        --count;
+        goes_on = true;
+      }
+    }
+  }
+
+  Cell_id region_of(Cell_id c) {
+    while (up_[c] != c) c = up_[c] = up_[up_[c]];
+    return c;
+  }
+
+ private:
+  /// A plane, and whether it is positive where the region is.
+  using Side = std::pair<std::uint32_t, bool>;
+  struct Region {
+    std::set<std::uint32_t> corners;  // points of the level; some may be in the inside of sides
+    std::set<Side> sides;
+    std::vector<std::uint32_t> covered;  // walls, in part at least
+  };
+
+  void add_wall(std::uint32_t w) {
+    // 1. Its plane, by one name whatever its front, and its area, squared and times four.
+    const Cell_wall& wall = level_.walls()[w];
+    const std::vector<Exact_point> corners = level_.polygon(wall.corners);
+    Exact_point normal{};
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+      const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
+      for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
+    }
+    areas_.push_back(dot(normal, normal));
+    const Rational first = sgn(normal[0]) != 0 ? normal[0] : sgn(normal[1]) != 0 ? normal[1] : normal[2];
+    for (Rational& x : normal) x /= first;
+    const std::array<Rational, 4> plane{normal[0], normal[1], normal[2], -dot(normal, corners[0])};
+    const auto [at, is_new] = ids_.try_emplace(plane, static_cast<std::uint32_t>(planes_.size()));
+    if (is_new) planes_.push_back(plane);
+    sides_.emplace_back(at->second, sgn(first) > 0);
+
+    // 2. What it is to its cells.
+    const bool is_inner =
+        wall.behind != no_cell && !level_.cells()[wall.front].is_solid && !level_.cells()[wall.behind].is_solid;
+    const bool is_open = wall.faces_front.empty() && wall.faces_behind.empty();
+    if (is_inner && is_open) open_.push_back(w);
+    for (const Cell_id cell : {wall.front, wall.behind}) {
+      if (cell == no_cell) continue;
+      Region& region = regions_[cell];
+      region.corners.insert(wall.corners.begin(), wall.corners.end());
+      region.sides.insert({at->second, (sgn(first) > 0) == (cell == wall.front)});
+      if (is_inner && !is_open) region.covered.push_back(w);
+    }
+  }
+
+  /// Whether a region is within all planes of another one, but for one.
+  bool fits(Cell_id a, Cell_id other, std::uint32_t but) const {
+    for (const auto& [plane, is_positive] : regions_[other].sides) {
+      if (plane == but) continue;
+      const std::array<Rational, 4>& h = planes_[plane];
+      for (const std::uint32_t corner : regions_[a].corners) {
+        const Exact_point& p = level_.points()[corner];
+        const int side = sgn(Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]));
+        if (is_positive ? side < 0 : side > 0) return false;
+      }
+    }
+    return true;
+  }
+
+  /// Whether a face covers some of what two regions have in common.
+  bool is_covered(Cell_id a, Cell_id b) {
+    return std::any_of(regions_[a].covered.begin(), regions_[a].covered.end(), [&](std::uint32_t w) {
+      return region_of(level_.walls()[w].front) == b || region_of(level_.walls()[w].behind) == b;
+    });
+  }
+
+  void put_together(Cell_id a, Cell_id b, std::uint32_t between) {
+    Region& one = regions_[std::min(a, b)];
+    Region& other = regions_[std::max(a, b)];
+    one.corners.merge(other.corners);
+    one.sides.merge(other.sides);
+    for (const bool is_positive : {false, true}) one.sides.erase({between, is_positive});
+    one.covered.insert(one.covered.end(), other.covered.begin(), other.covered.end());
+    other = {};
+    up_[std::max(a, b)] = std::min(a, b);
+  }
+
+  const Level_cells& level_;
+  std::vector<Cell_id> up_;
+  std::vector<Region> regions_;  // by the least of their cells
+  std::map<std::array<Rational, 4>, std::uint32_t> ids_;
+  std::vector<std::array<Rational, 4>> planes_;
+  std::vector<Side> sides_;          // by wall: of the cell in front
+  std::vector<Rational> areas_;      // by wall
+  std::vector<std::uint32_t> open_;  // walls that no face covers some of, the largest first
+};
+
+}  // namespace levels_detail
+
+std::vector<std::uint32_t> convex_regions(const Level_cells& level, std::size_t most) {
+  const std::vector<Level_cell>& cells = level.cells();
+  levels_detail::Region_merger merger(level);
+  merger.merge(cells.size() - level.counters().solid, most);
+  std::vector<std::uint32_t> numbers(cells.size(), no_cell);
+  std::uint32_t next = 0;
+  for (Cell_id c = 0; c < cells.size(); ++c) {
+    if (cells[c].is_solid) continue;
+    const Cell_id first = merger.region_of(c);  // the least of its cells
+    numbers[c] = first == c ? next++ : numbers[first];
+  }
+  return numbers;
+}
+
+}  // namespace sightline

@@ -1,0 +1,292 @@
+#include <sightline/algorithms/levels/volumes.h>
+
+#include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <map>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sightline {
+
+namespace levels_detail {
+
+using Volume_plane = std::array<Rational, 4>;
+
+/// A convex polyhedron, its planes with the inside behind them.
+struct Convex_volume {
+  std::string name;  // for messages: a face of it
+  std::vector<Volume_plane> planes;
+  std::vector<Exact_point> corners;     // sorted
+  std::vector<Exact_point> directions;  // of edges, some of which are parallel
+  std::array<Exact_point, 2> box;
+};
+
+/// The least and the largest side of corners to a plane.
+std::array<int, 2> sides_to(const Volume_plane& h, const std::vector<Exact_point>& corners) {
+  std::array<int, 2> sides{1, -1};
+  for (const Exact_point& p : corners) {
+    const int side = sgn(Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]));
+    sides = {std::min(sides[0], side), std::max(sides[1], side)};
+  }
+  return sides;
+}
+
+/// The faces of each component, by shared points; components by their first faces.
+std::vector<std::vector<Face_id>> components_of(const Polygon_soup& soup) {
+  std::vector<Point_id> up(soup.point_count());
+  std::iota(up.begin(), up.end(), 0);
+  const auto top = [&](Point_id p) {
+    while (up[p] != p) p = up[p] = up[up[p]];
+    return p;
+  };
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    for (std::size_t l = 0; l < soup.loop_count(f); ++l)
+      for (const Point_id p : soup.loop(f, l)) up[top(p)] = top(soup.loop(f)[0]);
+  std::map<Point_id, std::size_t> places;
+  std::vector<std::vector<Face_id>> components;
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    if (soup.loop(f).empty()) continue;
+    const auto [at, is_new] = places.try_emplace(top(soup.loop(f)[0]), components.size());
+    if (is_new) components.emplace_back();
+    components[at->second].push_back(f);
+  }
+  return components;
+}
+
+Polygon_soup of_faces(const Polygon_soup& soup, const std::vector<Face_id>& faces) {
+  Polygon_soup part;
+  std::map<Point_id, Point_id> ids;
+  std::vector<Point_id> loop;
+  for (const Face_id f : faces)
+    for (std::size_t l = 0; l < soup.loop_count(f); ++l) {
+      loop.clear();
+      for (const Point_id p : soup.loop(f, l)) {
+        const auto [at, is_new] = ids.try_emplace(p, static_cast<Point_id>(part.point_count()));
+        if (is_new)
+          for (const Rational& x : soup.point(p)) part.coordinates.push(x);
+        loop.push_back(at->second);
+      }
+      if (l == 0) part.add_face(loop);
+      else part.add_hole(loop);
+    }
+  return part;
+}
+
+Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>& faces) {
+  const Scene scene(of_faces(soup, faces));
+  const auto name = [&](Face_id f) { return "face " + std::to_string(faces[f]); };
+  Convex_volume volume;
+  volume.name = name(0);
+
+  // 1. Its surface.
+  if (!closure(scene).closed)
+    throw std::invalid_argument(volume.name + " and what shares points with it do not close up; add the faces that " +
+                                "are missing, and turn the others so that all fronts look outwards, or all inwards");
+  for (const Piece& piece : scene.pieces()) {
+    volume.planes.push_back(scene.file_coefficients(piece.support));
+    const std::span<const Piece_corner> corners = scene.corners(piece);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      volume.corners.push_back(scene.position(corners[k].point));
+      volume.directions.push_back(
+          minus(scene.position(corners[(k + 1) % corners.size()].point), volume.corners.back()));
+    }
+  }
+  std::sort(volume.corners.begin(), volume.corners.end());
+  volume.corners.erase(std::unique(volume.corners.begin(), volume.corners.end()), volume.corners.end());
+
+  // 2. All of it on one side of each plane.
+  int inside = 0;  // the side that it is on
+  for (std::size_t i = 0; i < volume.planes.size(); ++i) {
+    const std::array<int, 2> sides = sides_to(volume.planes[i], volume.corners);
+    const int side = sides[0] + sides[1];
+    if (side == 0 || (inside != 0 && side != inside))
+      throw std::invalid_argument(name(scene.pieces()[i].face) + " has corners of faces that share points with it on " +
+                                  "both sides, or on none: they are not convex; cut them into convex volumes, each " +
+                                  "with points of its own");
+    inside = side;
+  }
+  if (inside == 0) throw std::invalid_argument(volume.name + " has no area; leave it out");
+  if (inside > 0)
+    for (Volume_plane& h : volume.planes)
+      for (Rational& x : h) x = -x;
+
+  volume.box = {volume.corners[0], volume.corners[0]};
+  for (const Exact_point& p : volume.corners)
+    for (std::size_t k = 0; k < 3; ++k) {
+      volume.box[0][k] = std::min(volume.box[0][k], p[k]);
+      volume.box[1][k] = std::max(volume.box[1][k], p[k]);
+    }
+  return volume;
+}
+
+/// Whether some plane parts two convex polyhedra: that of a side, or one along an edge of each.
+bool are_apart(const Convex_volume& a, const Convex_volume& b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.box[1][k] <= b.box[0][k] || b.box[1][k] <= a.box[0][k]) return true;
+  const auto is_beyond = [](const Convex_volume& of, const Convex_volume& other) {
+    return std::any_of(of.planes.begin(), of.planes.end(),
+                       [&](const Volume_plane& h) { return sides_to(h, other.corners)[0] >= 0; });
+  };
+  if (is_beyond(a, b) || is_beyond(b, a)) return true;
+  const auto extent = [](const Convex_volume& of, const Exact_point& direction) {
+    std::array<Rational, 2> ends{dot(direction, of.corners[0]), dot(direction, of.corners[0])};
+    for (const Exact_point& p : of.corners) {
+      const Rational at = dot(direction, p);
+      ends = {std::min(ends[0], at), std::max(ends[1], at)};
+    }
+    return ends;
+  };
+  for (const Exact_point& u : a.directions)
+    for (const Exact_point& v : b.directions) {
+      const Exact_point normal = cross(u, v);
+      if (is_zero(normal)) continue;
+      const std::array<Rational, 2> of_a = extent(a, normal), of_b = extent(b, normal);
+      if (of_a[1] <= of_b[0] || of_b[1] <= of_a[0]) return true;
+    }
+  return false;
+}
+
+void check_apart(const std::vector<Convex_volume>& volumes) {
+  std::vector<std::size_t> order(volumes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return volumes[a].box[0] < volumes[b].box[0]; });
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const Convex_volume &a = volumes[order[i]], &b = volumes[order[j]];
+      if (b.box[0][0] >= a.box[1][0]) break;
+      if (!are_apart(a, b))
+        throw std::invalid_argument(volumes[std::min(order[i], order[j])].name + " and " +
+                                    volumes[std::max(order[i], order[j])].name +
+                                    " are of volumes that overlap; move one, or cut off what they have in common");
+    }
+}
+
+/// Divides space by planes of volumes until no more is left than one, or none.
+class Volume_divider {
+ public:
+  explicit Volume_divider(const std::vector<Convex_volume>& volumes) : volumes_(volumes) {
+    std::map<Volume_plane, std::uint32_t> ids;
+    for (const Convex_volume& volume : volumes_) {
+      std::vector<std::uint32_t>& own = own_.emplace_back();
+      for (const Volume_plane& h : volume.planes) {
+        const auto [at, is_new] = ids.try_emplace(canonical(h), static_cast<std::uint32_t>(planes_.size()));
+        if (is_new) planes_.push_back(at->first);
+        own.push_back(at->second);
+      }
+      std::sort(own.begin(), own.end());
+      own.erase(std::unique(own.begin(), own.end()), own.end());
+    }
+  }
+
+  Space_tree divided() {
+    struct Waiting {
+      std::int32_t above;
+      std::size_t side;  // of `above`: 0 in front, 1 behind
+      std::vector<Left> left;
+    };
+    std::vector<Waiting> stack;
+    std::vector<Left> all;
+    for (std::uint32_t v = 0; v < volumes_.size(); ++v) all.push_back({v, own_[v]});
+    stack.push_back({-1, 0, std::move(all)});
+    while (!stack.empty()) {
+      const Waiting job = std::move(stack.back());
+      stack.pop_back();
+      const std::int32_t made = made_of(job.left);
+      if (job.above < 0) tree_.root = made;
+      else tree_.nodes[static_cast<std::size_t>(job.above)].children[job.side] = made;
+      if (made < 0) continue;
+      const std::uint32_t plane = chosen(job.left);
+      tree_.nodes.push_back({planes_[plane], {}});
+      for (const std::size_t side : {0u, 1u}) {
+        Waiting& below = stack.emplace_back(Waiting{made, side, {}});
+        for (const Left& left : job.left)
+          if (reaches(left.volume, plane)[side]) {
+            below.left.push_back(left);
+            std::erase(below.left.back().planes, plane);
+          }
+      }
+    }
+    return std::move(tree_);
+  }
+
+ private:
+  /// A volume that may have a part here, and those of its planes that are none of the nodes above.
+  struct Left {
+    std::uint32_t volume;
+    std::vector<std::uint32_t> planes;
+  };
+
+  /// One name of a plane whichever side is its front.
+  static Volume_plane canonical(Volume_plane h) {
+    const Rational first = sgn(h[0]) != 0 ? h[0] : sgn(h[1]) != 0 ? h[1] : h[2];
+    for (Rational& x : h) x /= first;
+    return h;
+  }
+
+  /// The number of the node to come; or below 0 a leaf, where nothing is left, or one volume is all.
+  std::int32_t made_of(const std::vector<Left>& left) const {
+    if (left.empty()) return -1 - static_cast<std::int32_t>(volumes_.size());
+    for (const Left& one : left)
+      if (one.planes.empty()) return -1 - static_cast<std::int32_t>(one.volume);
+    return static_cast<std::int32_t>(tree_.nodes.size());
+  }
+
+  /// Whether a volume has points in front of a plane, behind it.
+  std::array<bool, 2> reaches(std::uint32_t volume, std::uint32_t plane) const {
+    const std::array<int, 2> sides = sides_to(planes_[plane], volumes_[volume].corners);
+    return {sides[1] > 0, sides[0] < 0};
+  }
+
+  /// Of some planes that are left the one that leaves the least on both sides: cut volumes count twice.
+  std::uint32_t chosen(const std::vector<Left>& left) const {
+    constexpr std::size_t tried = 8;
+    std::uint32_t best = left[0].planes[0];
+    std::size_t least = ~std::size_t{0};
+    for (std::size_t k = 0; k < tried; ++k) {
+      const Left& of = left[k * left.size() / tried];
+      const std::uint32_t plane = of.planes[k % of.planes.size()];
+      std::array<std::size_t, 2> counts{};
+      for (const Left& one : left) {
+        const std::array<bool, 2> sides = reaches(one.volume, plane);
+        counts[0] += sides[0];
+        counts[1] += sides[1];
+      }
+      const std::size_t cost = counts[0] + counts[1] + std::max(counts[0], counts[1]);
+      if (cost >= least) continue;
+      least = cost;
+      best = plane;
+    }
+    return best;
+  }
+
+  const std::vector<Convex_volume>& volumes_;
+  std::vector<Volume_plane> planes_;
+  std::vector<std::vector<std::uint32_t>> own_;  // by volume
+  Space_tree tree_;
+};
+
+}  // namespace levels_detail
+
+Volume_division convex_volumes(const Polygon_soup& soup) {
+  std::vector<levels_detail::Convex_volume> volumes;
+  for (const std::vector<Face_id>& faces : levels_detail::components_of(soup))
+    volumes.push_back(levels_detail::convex_volume(soup, faces));
+  levels_detail::check_apart(volumes);
+  Volume_division division{levels_detail::Volume_divider(volumes).divided(),
+                           static_cast<std::uint32_t>(volumes.size())};
+  for (const levels_detail::Convex_volume& volume : volumes)
+    division.tree.corners.insert(division.tree.corners.end(), volume.corners.begin(), volume.corners.end());
+  return division;
+}
+
+}  // namespace sightline

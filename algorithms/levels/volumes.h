@@ -1,0 +1,23 @@
+#pragma once
+// Space divided by given volumes, rooms say, for cells that lie within them. To be read after cells.h.
+
+#include <sightline/algorithms/levels/cells.h>
+
+#include <cstdint>
+
+namespace sightline {
+
+struct Volume_division {
+  Space_tree tree;
+  std::uint32_t volumes = 0;
+};
+
+/// A tree of given convex polyhedra, each a connected component of the faces, by points that they share: leaf v is
+/// volume v, by first faces, and leaf `volumes` all else. Fronts may look outwards or inwards. Degenerate: volumes may
+/// touch, as long as they have points of their own; faces of no area are passed over, and sides may be in parts.
+/// Errors: std::invalid_argument, one line that names faces, where a component does not close up or is not convex, or
+/// where two have points inside in common. Cost: a tree of n planes with its n log n sides of volumes, where few are
+/// cut; n^2 in the worst case. Exact: yes. Proof: P-88c
+Volume_division convex_volumes(const Polygon_soup& soup);
+
+}  // namespace sightline
