@@ -191,8 +191,12 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
                          const std::optional<Place>& eye = std::nullopt) {
   std::vector<bool> set_aside(scene.parts.size());
   for (const Covering::Set_aside& entry : covering.set_aside) set_aside[entry.face] = true;
-  for (std::size_t f = 0; f < set_aside.size(); ++f)
-    require(set_aside[f] == scene.set_aside[f] || (!set_aside[f] && scene.duplicate[f]), "what is set aside has to be");
+  std::vector<bool> drawn(scene.parts.size());
+  for (const Order_fragment& fragment : covering.fragments) drawn[fragment.face] = true;
+  for (std::size_t f = 0; f < set_aside.size(); ++f) {
+    const bool needs_no_reason = scene.duplicate[f] || (eye && !drawn[f]);
+    require(set_aside[f] == scene.set_aside[f] || (!set_aside[f] && needs_no_reason), "what is set aside has to be");
+  }
   const auto is_in = [](const Flat& part, const Place& p) { return part.side(p) == 0 && part.location(p) >= 0; };
   const auto lies_with = [](const Flat& part, const Flat& fragment) {  // in its plane, with its front
     return sign_of_dot(part.normal, fragment.normal) > 0 && fragment.is_in_plane_of(part);
