@@ -14,6 +14,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -323,6 +324,9 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
   for (const Points& cone : claim.empty) tiles.emplace_back(directions(cone));
   std::optional<Tile> field;
   if (!claim.field.empty()) field.emplace(directions(claim.field));
+  const auto preference = [&](std::size_t i) {  // of what is as far: seen from the front, then as in the file
+    return std::tuple(fragments[i].side(eye) <= 0, claim.fragments[i].face, claim.fragments[i].piece);
+  };
   for (const Visible_certificate::Part& part : claim.parts) {
     const Places rays = directions(rays_of(claim, part));
     tiles.emplace_back(rays);
@@ -336,9 +340,12 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
     for (const Place& p : mixtures(corners)) {
       require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0,
               "a part is in its fragment");
-      for (const Flat& other : fragments)
-        if (const auto hit = other.hit(eye, p))
-          require(hit->at != Flat::At::between || hit->location == 0, "nothing is before a visible part");
+      for (std::size_t i = 0; i < fragments.size(); ++i)
+        if (const auto hit = fragments[i].hit(eye, p); hit && hit->location > 0) {
+          require(hit->at != Flat::At::between, "nothing is before a visible part");
+          require(hit->at != Flat::At::q || preference(part.fragment) <= preference(i),
+                  "of what is as far, a visible part is of what is preferred");
+        }
     }
   }
   for (const Points& cone : claim.empty)

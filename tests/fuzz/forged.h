@@ -8,48 +8,14 @@
 #include "mutate.h"
 #include "pretences.h"
 #include "retold.h"
+#include "solid_forgeries.h"
+#include "tallies.h"
 #include "truth.h"
 
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/transform.h>
 
-#include <iomanip>
-#include <map>
-#include <ostream>
-
 namespace fuzz {
-
-/// What became of certificates; of those accepted, how many say what is true of the scene, to the same question.
-struct Judged {
-  std::size_t rejected = 0, accepted = 0, the_truth = 0;
-
-  std::size_t shown() const { return rejected + accepted; }
-  Judged& operator+=(const Judged& other) {
-    rejected += other.rejected, accepted += other.accepted, the_truth += other.the_truth;
-    return *this;
-  }
-};
-/// By what was forged: "kind of certificate: kind of forgery".
-using Tallies = std::map<std::string, Judged>;
-
-inline void add(Tallies& to, const Tallies& tallies) {
-  for (const auto& [name, judged] : tallies) to[name] += judged;
-}
-inline void print(std::ostream& out, const Tallies& tallies) {
-  const auto row = [&](const auto& name, const auto& shown, const auto& rejected, const auto& accepted,
-                       const auto& the_truth) {
-    out << std::left << std::setw(48) << name << std::right;
-    out << std::setw(12) << shown << std::setw(12) << rejected << std::setw(12) << accepted << std::setw(12)
-        << the_truth << '\n';
-  };
-  Judged all;
-  row("forged", "shown", "rejected", "accepted", "the truth");
-  for (const auto& [name, judged] : tallies) {
-    row(name, judged.shown(), judged.rejected, judged.accepted, judged.the_truth);
-    all += judged;
-  }
-  row("all", all.shown(), all.rejected, all.accepted, all.the_truth);
-}
 
 // ---- The scene
 
@@ -84,18 +50,6 @@ inline Kind any_kind(const Posed_scene& scene, Bytes& bytes) {
 
 // ---- Forgeries of one certificate
 
-/// A lie about what a certificate shows, or now and then two; its name, nothing where there is nothing to lie about.
-template <class Claim>
-std::string told_a_lie(Claim& claim, const Posed_scene& scene, Bytes& bytes) {
-  const std::vector<Lie<Claim>>& lies = lies_in(claim);
-  std::string name;
-  for (std::size_t left = bytes.below(4) == 0 ? 2 : 1; left > 0; --left) {
-    const Lie<Claim>& lie = lies[bytes.below(lies.size())];
-    if (lie.tell(claim, scene, bytes)) name = name.empty() ? std::string(lie.name) : "several lies";
-  }
-  return name;
-}
-
 /// What is accepted is accepted however it is told.
 template <class Claim>
 void tell_otherwise(const Polygon_soup& soup, const Claim& accepted, Mutator& random) {
@@ -122,7 +76,7 @@ Tallies judged_forgeries_of(const Claim& shown, const Pretence& pretence, const 
     if (k > 0) {
       const std::string words = random.random_bytes(bytes_of_lies);
       Bytes bytes(words);
-      const std::string lie = told_a_lie(claim, scene, bytes);
+      const std::string lie = told_a_lie(lies_in(claim), claim, scene, bytes);
       if (lie.empty()) continue;
       name = pretence.is_true() ? lie : "a lie about another scene";
     }
@@ -155,6 +109,10 @@ inline Tallies judged_forgeries(std::string_view text) {
   Bytes bytes(text);
   const Posed_scene scene = any_scene(bytes);
   if (scene.soup.face_count() == 0 || scene.soup.face_count() > most_faces) return {};
+  if (bytes.below(8) == 0) {
+    Mutator random(bytes.word());
+    return judged_solid_forgeries(scene, random);
+  }
   const Kind kind = any_kind(scene, bytes);
   const Pretence pretence = pretence_of(scene, bytes);
   std::optional<Certificate> answer = answered(kind, pretence.scene);

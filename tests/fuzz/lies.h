@@ -229,6 +229,18 @@ inline const std::vector<Lie<Graph_certificate>>& lies_in(const Graph_certificat
 
 // ---- In what an eye sees
 
+inline bool is_of_another_in_its_plane(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  if (claim.parts.empty()) return false;
+  std::size_t& own = claim.parts[any_of_first(claim.parts, bytes)].fragment;
+  const std::vector<Flat> fragments = flats(claim);
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < fragments.size(); ++i)
+    if (i != own && fragments[i].is_in_plane_of(fragments[own])) others.push_back(i);
+  if (others.empty()) return false;
+  own = others[any_of_first(others, bytes)];
+  return true;
+}
+
 inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certificate&) {
   using Claim = Visible_certificate;
   static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
@@ -250,6 +262,7 @@ inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certif
           const std::size_t fragment = any_of_first(claim.fragments, bytes);
           return std::exchange(claim.parts[any_of_first(claim.parts, bytes)].fragment, fragment) != fragment;
         }},
+       {"a part of another fragment in its plane", is_of_another_in_its_plane},
        {"what is seen is called empty",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {
           if (claim.parts.empty()) return false;
@@ -483,6 +496,19 @@ inline const std::vector<Lie<Weak_certificate>>& lies_in(const Weak_certificate&
        {"a proof left out",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) { return remove_any(claim.hidden, bytes); }}});
   return all;
+}
+
+// ---- Any of them
+
+/// A lie about what a certificate shows, or now and then two; its name, nothing where there is nothing to lie about.
+template <class Claim>
+std::string told_a_lie(const std::vector<Lie<Claim>>& lies, Claim& claim, const Posed_scene& scene, Bytes& bytes) {
+  std::string name;
+  for (std::size_t left = bytes.below(4) == 0 ? 2 : 1; left > 0; --left) {
+    const Lie<Claim>& lie = lies[bytes.below(lies.size())];
+    if (lie.tell(claim, scene, bytes)) name = name.empty() ? std::string(lie.name) : "several lies";
+  }
+  return name;
 }
 
 }  // namespace fuzz
