@@ -254,6 +254,13 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
                 std::count_if(claim.fragments.begin(), claim.fragments.end(),
                               [&](const Order_fragment& fragment) { return fragment.face == f; }) <= 1,
             "a convex face is one fragment");
+  for (const Order_fragment& fragment : claim.fragments) {
+    if (scene.parts[fragment.face].size() < 2) continue;
+    std::set<Exact_point> own;
+    for (std::size_t k = 0; k < scene.soup.loop_count(fragment.face); ++k)
+      for (const Point_id p : scene.soup.loop(fragment.face, k)) own.insert(scene.soup.point(p));
+    for (const Exact_point& p : fragment.vertices) require(own.count(p) > 0, "a face is cut at its own points");
+  }
   const std::size_t n = fragments.size();
   const auto has_corner = [&](std::size_t of, int side, std::size_t plane) {
     return std::any_of(fragments[of].corners.begin(), fragments[of].corners.end(),

@@ -213,12 +213,25 @@ inline bool joins_with_arcs(Graph_certificate& claim, const Posed_scene& truth, 
   return true;
 }
 
+/// What may not be cut, or not there.
+inline bool cuts_a_fragment(Graph_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  if (claim.fragments.empty()) return false;
+  const std::size_t k = any_of_first(claim.fragments, bytes);
+  Mutator random(bytes.byte());
+  const auto [one, other] = halves(claim.fragments[k].vertices, random);
+  if (is_flat(one) || is_flat(other)) return false;
+  claim.fragments[k].vertices = one;
+  add_beside(claim, k, {claim.fragments[k].face, claim.fragments[k].piece, other});
+  return true;
+}
+
 inline const std::vector<Lie<Graph_certificate>>& lies_in(const Graph_certificate&) {
   using Claim = Graph_certificate;
   static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
       {{"a component split", splits_a_component},
        {"components joined", joins_components},
        {"components joined by arcs", joins_with_arcs},
+       {"a fragment cut", cuts_a_fragment},
        {"neighbours swapped", swap_neighbours<Claim>},
        {"arcs exchanged", [](Claim& claim, const Posed_scene&,
                              Bytes& bytes) { return exchange(claim.arcs, bytes, &Graph_certificate::Arc::to); }},
