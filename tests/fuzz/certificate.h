@@ -35,20 +35,21 @@ inline const Known_scene& known_scene() {
   return scene;
 }
 
+/// In one thread: what is checked is small.
 inline Verdict verdict_on(const Polygon_soup& soup, const Order_certificate& claim) {
-  return verify_order(soup, claim);
+  return verify_order(soup, claim, {1, {}});
 }
 inline Verdict verdict_on(const Polygon_soup& soup, const Graph_certificate& claim) {
-  return verify_graph(soup, claim);
+  return verify_graph(soup, claim, {1, {}});
 }
 inline Verdict verdict_on(const Polygon_soup& soup, const Visible_certificate& claim) {
-  return verify_visible(soup, claim);
+  return verify_visible(soup, claim, {1, {}});
 }
-inline Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim) { return verify_weak(soup, claim); }
+inline Verdict verdict_on(const Polygon_soup& soup, const Weak_certificate& claim) {
+  return verify_weak(soup, claim, {1, {}});
+}
 inline Verdict verdict_on(const Polygon_soup& soup, const Along_certificate& claim) {
-  Verify_options serial;
-  serial.threads = 1;
-  return verify_along(soup, claim, serial);
+  return verify_along(soup, claim, {1, {}});
 }
 
 inline std::optional<Certificate> certificate_in(std::string_view bytes) {

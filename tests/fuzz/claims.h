@@ -15,6 +15,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -192,8 +193,12 @@ inline void try_covering(const Known_scene& scene, const Covering& covering, con
                          const std::optional<Place>& eye = std::nullopt) {
   std::vector<bool> set_aside(scene.parts.size());
   for (const Covering::Set_aside& entry : covering.set_aside) set_aside[entry.face] = true;
-  for (std::size_t f = 0; f < set_aside.size(); ++f)
-    require(set_aside[f] == scene.set_aside[f] || (!set_aside[f] && scene.duplicate[f]), "what is set aside has to be");
+  std::vector<bool> drawn(scene.parts.size());
+  for (const Order_fragment& fragment : covering.fragments) drawn[fragment.face] = true;
+  for (std::size_t f = 0; f < set_aside.size(); ++f) {
+    const bool needs_no_reason = scene.duplicate[f] || (eye && !drawn[f]);
+    require(set_aside[f] == scene.set_aside[f] || (!set_aside[f] && needs_no_reason), "what is set aside has to be");
+  }
   const auto is_in = [](const Flat& part, const Place& p) { return part.side(p) == 0 && part.location(p) >= 0; };
   const auto lies_with = [](const Flat& part, const Flat& fragment) {  // in its plane, with its front
     return sign_of_dot(part.normal, fragment.normal) > 0 && fragment.is_in_plane_of(part);
@@ -250,6 +255,13 @@ inline void try_claims(const Known_scene& scene, const Graph_certificate& claim)
                 std::count_if(claim.fragments.begin(), claim.fragments.end(),
                               [&](const Order_fragment& fragment) { return fragment.face == f; }) <= 1,
             "a convex face is one fragment");
+  for (const Order_fragment& fragment : claim.fragments) {
+    if (scene.parts[fragment.face].size() < 2) continue;
+    std::set<Exact_point> own;
+    for (std::size_t k = 0; k < scene.soup.loop_count(fragment.face); ++k)
+      for (const Point_id p : scene.soup.loop(fragment.face, k)) own.insert(scene.soup.point(p));
+    for (const Exact_point& p : fragment.vertices) require(own.count(p) > 0, "a face is cut at its own points");
+  }
   const std::size_t n = fragments.size();
   const auto has_corner = [&](std::size_t of, int side, std::size_t plane) {
     return std::any_of(fragments[of].corners.begin(), fragments[of].corners.end(),
@@ -320,6 +332,9 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
   for (const Points& cone : claim.empty) tiles.emplace_back(directions(cone));
   std::optional<Tile> field;
   if (!claim.field.empty()) field.emplace(directions(claim.field));
+  const auto preference = [&](std::size_t i) {  // of what is as far: seen from the front, then as in the file
+    return std::tuple(fragments[i].side(eye) <= 0, claim.fragments[i].face, claim.fragments[i].piece);
+  };
   for (const Visible_certificate::Part& part : claim.parts) {
     const Places rays = directions(rays_of(claim, part));
     tiles.emplace_back(rays);
@@ -333,9 +348,12 @@ inline void try_claims(const Known_scene& scene, const Visible_certificate& clai
     for (const Place& p : mixtures(corners)) {
       require(fragments[part.fragment].side(p) == 0 && fragments[part.fragment].location(p) >= 0,
               "a part is in its fragment");
-      for (const Flat& other : fragments)
-        if (const auto hit = other.hit(eye, p))
-          require(hit->at != Flat::At::between || hit->location == 0, "nothing is before a visible part");
+      for (std::size_t i = 0; i < fragments.size(); ++i)
+        if (const auto hit = fragments[i].hit(eye, p); hit && hit->location > 0) {
+          require(hit->at != Flat::At::between, "nothing is before a visible part");
+          require(hit->at != Flat::At::q || preference(part.fragment) <= preference(i),
+                  "of what is as far, a visible part is of what is preferred");
+        }
     }
   }
   for (const Points& cone : claim.empty)

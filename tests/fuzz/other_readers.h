@@ -111,9 +111,7 @@ inline std::vector<Weak_certificate> naming_too_much(const Weak_certificate& cla
 inline std::vector<Along_certificate> naming_too_much(const Along_certificate& claim) {
   std::vector<Along_certificate> all;
   for (std::size_t k = 0; k < claim.proofs.size() && all.size() < 12; ++k) {
-    const auto add = [&](auto&& change) {
-      change(all.emplace_back(claim).proofs[k]);
-    };
+    const auto add = [&](auto&& change) { change(all.emplace_back(claim).proofs[k]); };
     add([&](auto& proof) { proof.range.high = claim.moments.size(); });
     add([&](auto& proof) { proof.fragment = claim.fragments.size(); });
     add([&](auto& proof) {

@@ -35,7 +35,6 @@ int main(int count, char** words) {
       return 1;
     }
   }
-  std::cout << name << ": nothing in " << inputs << " inputs";
-  if (certificates_shown > 0) std::cout << ", " << certificates_shown << " certificates";
-  std::cout << ", " << spent() << " s\n";
+  std::cout << name << ": nothing in " << inputs << " inputs, " << spent() << " s\n";
+  if (!certificates_shown.empty()) print(std::cout, certificates_shown);
 }
