@@ -25,6 +25,8 @@ enum class Reading {
   closed_start,   ///< trace: faces that hold the origin are met there
   fronts_only,    ///< trace: faces are met from the front only
   farthest,       ///< trace: the last face is named, not the first
+  inside_out,     ///< boolean: fronts look inwards
+  swapped,        ///< boolean: the second solid less the first
 };
 
 /// Those that make sense for a question.
