@@ -148,12 +148,6 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
   return json;
 }
 
-/// An answer that lists nothing supports no reading, though it be right under some.
-bool lists_faces(const Answer& answer) {
-  return !answer.visible.empty() || !answer.order.empty() || (answer.surface && answer.surface->face_count() > 0) ||
-         std::any_of(answer.first.begin(), answer.first.end(), [](const auto& face) { return face.has_value(); });
-}
-
 /// What a wrong case looks like once it is moved, and under other readings of the question.
 std::vector<std::string> guesses(const Judge_arguments& arguments, const Court& court, const Case_group& group,
                                  const Judge_case& asked, const Judged& broken) {

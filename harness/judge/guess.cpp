@@ -72,6 +72,11 @@ std::vector<Reading> readings_of(Question question) {
   return {};
 }
 
+bool lists_faces(const Answer& answer) {
+  return !answer.visible.empty() || !answer.order.empty() || (answer.surface && answer.surface->face_count() > 0) ||
+         std::any_of(answer.first.begin(), answer.first.end(), [](const auto& face) { return face.has_value(); });
+}
+
 bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, const Answer& answer,
               const Truth_options& options) {
   Query other = query;

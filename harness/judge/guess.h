@@ -32,6 +32,9 @@ enum class Reading {
 /// Those that make sense for a question.
 std::vector<Reading> readings_of(Question question);
 
+/// Whether an answer lists anything: one that does not supports no reading, though it be right under some.
+bool lists_faces(const Answer& answer);
+
 /// Whether an answer is right, every face of it, if it is read so. Pre: the query could be asked. Cost: that of the
 /// truth. Exact: yes.
 bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, const Answer& answer,
