@@ -40,23 +40,23 @@ Outcome judge_solids(const Posed_scene& posed, Random& random) {
   query.operation = operations[random.below(4)];
   if (!judge::flaw_of_solids(both, query.first).empty()) return Outcome::not_applicable();
   const judge::Solid_truth truth = judge::solid_truth(both, query);
-  const auto is_accepted = [&](const Polygon_soup& surface) {
+  const auto graded = [&](const Polygon_soup& surface) {
     judge::Answer answer;
     answer.surface = surface;
-    return !judge::grade_solid(truth, answer).wrong();
+    return judge::grade_solid(truth, answer);
   };
   // 1. Results of any operation.
   const Polygon_soup exact = surface_of(solids, query.operation);
   for (const Set_operation said : operations) {
     const Polygon_soup surface = surface_of(solids, said);
     const bool differs = volume(surface_of(std::array{exact, surface}, Set_operation::differ)) != 0;
-    if (is_accepted(surface) == differs)
+    if (graded(surface).wrong() != differs)
       return Outcome::failed(std::string("the judge ") + (differs ? "accepts" : "rejects") + " the " + name(said) +
                              " for the " + name(query.operation));
   }
   // 2. Both as they are, which wind twice round what they share.
-  if (volume(surface_of(solids, Set_operation::intersect)) != 0 && is_accepted(both))
-    return Outcome::failed("the judge accepts both solids as they are, though they overlap");
+  if (volume(surface_of(solids, Set_operation::intersect)) != 0 && graded(both).wrong_points.empty())
+    return Outcome::failed("the judge finds no point that both solids wind round twice, though they overlap");
   // 3. An open surface.
   if (exact.face_count() == 0) return {};
   Polygon_soup open;
@@ -65,7 +65,7 @@ Outcome judge_solids(const Posed_scene& posed, Random& random) {
   for (Face_id f = 0; f < exact.face_count(); ++f)
     if (f != left_out) open.add_face(exact.loop(f));
   try {
-    is_accepted(open);
+    graded(open);
   } catch (const std::invalid_argument&) {
     return {};
   }

@@ -318,7 +318,8 @@ class Function_subject {
 py::dict fuzzed(const py::function& ask, const Case_options& options, std::uint64_t seed, std::size_t scenes,
                 double seconds, const std::string& family, std::size_t most_faces, double reduce) {
   if (options.question != Question::see && options.question != Question::weak)
-    throw py::value_error("fuzz asks see or weak, of which laws say what follows; judge() grades all questions");
+    throw py::value_error(
+        "fuzz asks see or weak, of which laws say what follows; judge() grades orders, rays and solids, too");
   Function_subject function(ask, options);
   const harness::Subject subject = function.subject();
   harness::Fuzz_options limits;
