@@ -435,7 +435,8 @@ std::vector<std::pair<std::string, Json>> judge_members() {
       {"breaches", count},
       {"faces", object({{"judged", count}, {"wrong_visible", count}, {"wrong_hidden", count}, {"abstained", count}})},
       {"seconds", object({{"p50", seconds}, {"p95", seconds}, {"max", seconds}})},
-      {"bytes", count}};
+      {"bytes", count},
+      {"errors?", object({{"area", number}, {"volume", number}})}};
   const Json row = object(with(sums, {{"family", text}}));
   const Json line = object({{"face", face},
                             {"from", named("point")},
@@ -452,7 +453,7 @@ std::vector<std::pair<std::string, Json>> judge_members() {
   const Json reduced = object(with(broken, {{"runs", count}, {"finished", type("boolean")}, {"files", texts}}));
   const Json smallest = object(with(failure, {{"files", texts}, {"guess?", texts}, {"reduced?", reduced}}));
   return {{"program", text},
-          {"query", one_word_of({"order", "see", "weak", "trace"})},
+          {"query", one_word_of({"order", "see", "weak", "trace", "boolean"})},
           {"two_sided", type("boolean")},
           {"contract", one_word_of({"exact", "conservative", "aggressive"})},
           {"shard", tuple_of(count, 2)},

@@ -1,6 +1,6 @@
-// Set operations on solids: two spheres against CGAL's corefinement in the same run, growth up to a million triangles
-// each, many operands. bench_solids [--max TRIANGLES] [--certificates]. Each row is a process of its own; seconds are
-// of one thread's processor time, reading apart; the best of up to five turns.
+// Set operations on solids: two spheres against CGAL's corefinement and Nef polyhedra in the same run, growth up to a
+// million triangles each, many operands. bench_solids [--max TRIANGLES] [--certificates]. Each row is a process of its
+// own; seconds are of one thread's processor time, reading apart; the best of up to five turns.
 
 #include "measure.h"
 
@@ -10,6 +10,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Nef_polyhedron_3.h>
 #include <CGAL/Polygon_mesh_processing/corefinement.h>
 #include <CGAL/Surface_mesh.h>
 
@@ -188,25 +189,43 @@ void print_row(const std::string& name, const std::vector<Polygon_soup>& solids,
   std::fflush(stdout);
 }
 
+using Cgal_kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Cgal_mesh = CGAL::Surface_mesh<Cgal_kernel::Point_3>;
+
+std::array<Cgal_mesh, 2> cgal_meshes(const std::vector<Polygon_soup>& solids) {
+  std::array<Cgal_mesh, 2> meshes;
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::vector<Cgal_mesh::Vertex_index> ids;
+    for (Point_id p = 0; p < solids[k].point_count(); ++p) {
+      const Exact_point at = solids[k].point(p);
+      ids.push_back(meshes[k].add_vertex({at[0].get_d(), at[1].get_d(), at[2].get_d()}));
+    }
+    for (Face_id f = 0; f < solids[k].face_count(); ++f) {
+      const auto loop = solids[k].loop(f);
+      meshes[k].add_face(ids[loop[0]], ids[loop[1]], ids[loop[2]]);
+    }
+  }
+  return meshes;
+}
+
+/// Seconds of CGAL's Nef polyhedra with Epeck: to make them of meshes, and to unite them; one turn.
+std::array<double, 2> nef_polyhedra(const std::vector<Polygon_soup>& solids) {
+  using Nef = CGAL::Nef_polyhedron_3<Cgal_kernel>;
+  std::array<Cgal_mesh, 2> meshes = cgal_meshes(solids);
+  const double begin = processor_seconds();
+  const Nef first(meshes[0]), second(meshes[1]);
+  const double converted = processor_seconds();
+  const Nef result = first.join(second);
+  const double united = result.is_empty() ? converted : processor_seconds();
+  return {converted - begin, united - converted};
+}
+
 /// Seconds of CGAL's corefinement with Epeck, meshes made before; the best of five.
 double corefinement(const std::vector<Polygon_soup>& solids) {
-  using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-  using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
   double best = 0;
   for (int turn = 0; turn < 5; ++turn) {
-    std::array<Mesh, 2> meshes;
-    for (std::size_t k = 0; k < 2; ++k) {
-      std::vector<Mesh::Vertex_index> ids;
-      for (Point_id p = 0; p < solids[k].point_count(); ++p) {
-        const Exact_point at = solids[k].point(p);
-        ids.push_back(meshes[k].add_vertex({at[0].get_d(), at[1].get_d(), at[2].get_d()}));
-      }
-      for (Face_id f = 0; f < solids[k].face_count(); ++f) {
-        const auto loop = solids[k].loop(f);
-        meshes[k].add_face(ids[loop[0]], ids[loop[1]], ids[loop[2]]);
-      }
-    }
-    Mesh result;
+    std::array<Cgal_mesh, 2> meshes = cgal_meshes(solids);
+    Cgal_mesh result;
     const double begin = processor_seconds();
     CGAL::Polygon_mesh_processing::corefine_and_compute_union(meshes[0], meshes[1], result);
     const double seconds = processor_seconds() - begin;
@@ -237,6 +256,9 @@ int main(int argc, char** argv) {
     if (side != 64) continue;
     bench::in_child<double>(spheres_corefined, [&] { return corefinement(solids); });
     fmt::print("{:<26} {:>28.4f}\n", "  CGAL corefinement, Epeck", spheres_corefined);
+    std::array<double, 2> nef{};
+    bench::in_child<std::array<double, 2>>(nef, [&] { return nef_polyhedra(solids); });
+    fmt::print("{:<26} {:>18.4f} {:>9.4f}\n", "  CGAL Nef, Epeck", nef[0], nef[1]);
   }
   print_row("1,000 rotated cubes", rotated_cubes(1000), Set_operation::unite, certificates);
   print_row("20^3 touching cubes", touching_cubes(20), Set_operation::unite, false);

@@ -19,6 +19,9 @@ inline constexpr const char* read_only_formats = "Quake's levels (.map, .bsp) an
 struct Read_options {
   /// `--coordinates double`: a number in text is first rounded to the nearest double, ties to even.
   bool round_to_double = false;
+  /// Of .qoff: the coordinates' common denominator may be of any length. No Scene can be made of such a soup's points
+  /// together.
+  bool any_denominator = false;
 };
 
 /// The format that a file name's ending names, upper or lower case (.ply: text, when written); nothing for any other

@@ -14,6 +14,7 @@ using namespace sightline;
 
 /// A command line SCENE QUERY ANSWER [MORE].
 struct Task {
+  Polygon_soup soup;
   Scene scene;
   judge::Query query;
   std::string answer;
@@ -45,8 +46,8 @@ inline int main(int argc, char** argv, judge::Question question, void (*solve)(c
     return 2;
   }
   try {
-    const Task task{Scene(read_scene(std::filesystem::path(argv[1]))), read_query(argv[2]), argv[3],
-                    std::vector<std::string>(argv + 4, argv + argc)};
+    const Polygon_soup soup = read_scene(std::filesystem::path(argv[1]));
+    const Task task{soup, Scene(soup), read_query(argv[2]), argv[3], std::vector<std::string>(argv + 4, argv + argc)};
     if (task.query.question != question) {
       std::cerr << "answers queries of `" << judge::question_names[static_cast<std::size_t>(question)] << "` only\n";
       return 2;

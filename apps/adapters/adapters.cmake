@@ -14,7 +14,7 @@ foreach(source IN LISTS sources)
   add_dependencies(adapters adapter_${name})
 endforeach()
 
-# Three are built by a test, and judged by others: right where they should be, wrong where doubles or rays cannot know. (see_envelope, which was never seen wrong, takes a minute to compile: it is judged by hand.)
+# Three are built by a test, and judged by others: right where they should be, wrong where doubles or rays cannot know. (see_envelope and boolean_cgal take a minute and more to compile: they are judged by hand.)
 if(NOT SIGHTLINE_TESTS)
   return()
 endif()

@@ -24,16 +24,10 @@ std::int64_t ulps_of(const std::string& text) {
   return value;
 }
 
-/// What looks, moved by so many ulps of the scene's size, askew to the axes.
-void move(const Polygon_soup& scene, judge::Query& query, std::int64_t ulps) {
-  const Rational ulp = generate::ulps_of_size(1, generate::size_bits(scene));
-  const std::array<long, 3> askew{3, -2, 1};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Rational by = ulp * static_cast<long>(ulps) * askew[k];
-    query.eye[k] += by;
-    for (Exact_point& p : query.source) p[k] += by;
-    for (Exact_ray& ray : query.rays) ray.origin[k] += by;
-  }
+/// So many ulps of the scene's size, askew to the axes.
+Exact_point askew(const Polygon_soup& scene, std::int64_t ulps) {
+  const Rational by = generate::ulps_of_size(ulps, generate::size_bits(scene));
+  return {by * 3, by * -2, by};
 }
 
 namespace fs = std::filesystem;
@@ -75,9 +69,7 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
                       0, "as it is given", [make, options](std::uint64_t seed, std::int64_t ulps) {
                         const Judge_case given = make(seed);
                         if (!given.not_asked.empty()) return given;
-                        judge::Query moved = given.query;
-                        move(given.soup, moved, ulps);
-                        return case_of(given.soup, moved, options);
+                        return judge::moved(given, askew(given.soup, ulps), options);
                       }});
   }
   return groups;

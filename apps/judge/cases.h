@@ -31,7 +31,7 @@ struct Case_group {
   std::int64_t ulps = 0;  ///< where they are
   std::string exactly;    ///< what they are at 0 ulps: "exactly degenerate", or as the scene's file is
   /// The same case so many ulps of its size from there: a family's as far from its degeneracy; of a scene of somebody's
-  /// the eye, or the source, is moved, askew to the axes.
+  /// the eye, the source or the second solid is moved, askew to the axes.
   std::function<Judge_case(std::uint64_t seed, std::int64_t ulps)> moved;
 };
 

@@ -21,9 +21,17 @@ static std::string in_words(const judge::Grade& grade) {
     all.push_back(fmt::format("ray {} first meets {}, not {}", wrong.ray,
                               wrong.nothing ? std::string("nothing") : fmt::format("face {}", wrong.right.front()),
                               wrong.said ? fmt::format("face {}", *wrong.said) : std::string("nothing")));
+  for (const judge::Wrong_point& wrong : grade.wrong_points)
+    all.push_back(fmt::format(
+        "a point beside face {} is {}, and {}", wrong.face, wrong.inside ? "inside" : "outside",
+        wrong.winding ? fmt::format("wound round {} times", *wrong.winding) : std::string("on a face of the answer")));
+  if (all.empty() && grade.volume_error != 0)
+    all.push_back(fmt::format("the volume is off by {:.2g} of it", grade.volume_error));
+  if (all.empty() && grade.area_error != 0)
+    all.push_back(fmt::format("the area is off by {:.2g} of it", grade.area_error));
   for (const auto& [earlier, later] : grade.wrong_pairs)
     all.push_back(fmt::format("face {} is drawn before face {} but is nearer somewhere", earlier, later));
-  if (grade.wrong_pairs.empty() && grade.wrong_rays.empty()) {
+  if (all.empty()) {
     for (const Face_id face : grade.wrong_visible) all.push_back(fmt::format("face {} is shown but hidden", face));
     for (const Face_id face : grade.wrong_hidden) all.push_back(fmt::format("face {} is missing but visible", face));
   }

@@ -100,7 +100,8 @@ void keep_picture(const Judge_arguments& arguments, Json& explained_case, const 
 Json made_smaller(const Judge_arguments& arguments, const Court& court, const Judge_case& asked, const Judged& broken) {
   bool one_ray = false;  // as an eye and a direction
   const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
-    Query query{asked.query.question, smaller.eye, smaller.source, asked.query.two_sided, asked.query.rays};
+    Query query{asked.query.question, smaller.eye,           smaller.source,   asked.query.two_sided,
+                asked.query.rays,     asked.query.operation, asked.query.first};
     if (one_ray) query = {query.question, {}, {}, false, {{smaller.eye, smaller.source.at(0)}}};
     return case_of(smaller.soup, query, arguments.case_options());
   };
@@ -145,12 +146,6 @@ Json made_smaller(const Judge_arguments& arguments, const Court& court, const Ju
     keep_picture(arguments, json, "reduced");
   }
   return json;
-}
-
-/// An answer that lists nothing supports no reading, though it be right under some.
-bool lists_faces(const Answer& answer) {
-  return !answer.visible.empty() || !answer.order.empty() ||
-         std::any_of(answer.first.begin(), answer.first.end(), [](const auto& face) { return face.has_value(); });
 }
 
 /// What a wrong case looks like once it is moved, and under other readings of the question.
@@ -275,9 +270,11 @@ Exit run(const Judge_arguments& arguments) {
     throw Usage_error("--ask wants --scenes: which scene is asked about");
   if (arguments.reduce > 0 && arguments.keep.empty())
     throw Usage_error("--reduce wants --keep: the folder for the scene");
-  const bool of_rays = arguments.query == "trace";
+  const bool of_rays = arguments.query == "trace", of_solids = arguments.query == "boolean";
   if (of_rays && arguments.two_sided)
     throw Usage_error("--two-sided is not of --query trace: rays meet faces from both sides; leave it out");
+  if (of_solids && arguments.two_sided)
+    throw Usage_error("--two-sided is not of --query boolean: fronts look outwards; leave it out");
   if (!of_rays && arguments.excuse_touching) throw Usage_error("--excuse-touching is of --query trace only");
   check_kept(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
@@ -386,7 +383,8 @@ void add_judge(Command program) {
       .required();
   command
       .add_option("--query", a->query,
-                  "what it is asked: order, see (from a point), weak (from a polygon), trace (what rays meet first)")
+                  "what it is asked: order, see (from a point), weak (from a polygon), trace (what rays meet first), "
+                  "boolean (set operations on solids)")
       .required()
       .check(one_of(
           std::vector<std::string>(sightline::judge::question_names.begin(), sightline::judge::question_names.end())));
@@ -465,6 +463,9 @@ void add_judge(Command program) {
       "leaves face 7 open.\n"
       "For trace, {\"query\": \"trace\", \"rays\": [{\"origin\": [0, 0, 1], \"direction\": [0, 0, -1]}, ...]}, a line "
       "for each ray: the face that it meets first, `none` or `abstained`.\n"
+      "For boolean, {\"query\": \"boolean\", \"operation\": \"union\", \"first\": 6}, the first 6 faces bounding one "
+      "solid "
+      "and all others the other: the result's surface as OFF, fronts outwards, or `abstained`.\n"
       "Example: sightline judge --program \"python3 mine.py {scene} {query} {answer}\" --query see --contract exact "
       "--html report.html\n"
       "A wrong face, an answer outside of the protocol and a crash break the contract; to abstain, and to run out of "

@@ -109,7 +109,8 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
   const double size = Extent(points).size();
 
   // 1. The line that refutes; an eye that is far from the scene stays outside of the picture.
-  Exact_point from = weak ? query.source.at(0) : query.eye, to = points[0];
+  const bool solids = query.question == judge::Question::boolean;
+  Exact_point from = weak ? query.source.at(0) : solids ? points[0] : query.eye, to = points[0];
   if (why.refutation) from = why.refutation->from, to = why.refutation->to;
   const Direction3 along = near(minus(from, to));
   const double distance = std::sqrt(dot(along, along));
@@ -177,10 +178,10 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
     }
     dot_at(svg, p, 4.5, "#202020");
     dot_at(svg, q, 4, red);
-    const std::string looker = query.question == judge::Question::trace ? "origin" : "eye";
+    const std::string looker = solids ? "point" : query.question == judge::Question::trace ? "origin" : "eye";
     name_at(svg, p, weak ? "source" : far ? looker + ", farther" : looker);
     name_at(svg, q, fmt::format("face {}", why.refutation->face));
-  } else if (!weak) {
+  } else if (!weak && !solids) {
     dot_at(svg, projected(view, from), 4.5, "#202020");
   }
   const bool order = query.question == judge::Question::order, trace = query.question == judge::Question::trace;
@@ -191,9 +192,15 @@ std::string picture_of(const Polygon_soup& soup, const judge::Query& query, cons
     x += 26 + 5.8 * static_cast<double>(words.size());
   };
   if (!grade.wrong_hidden.empty())
-    key("hsl(20,90%,58%)", order ? "nearer, or missing" : trace ? "met, but not named" : "missing but visible");
+    key("hsl(20,90%,58%)", order    ? "nearer, or missing"
+                           : trace  ? "met, but not named"
+                           : solids ? "lacks what is beside"
+                                    : "missing but visible");
   if (!grade.wrong_visible.empty())
-    key("hsl(285,60%,62%)", order ? "drawn over it" : trace ? "named, but not met first" : "shown but hidden");
+    key("hsl(285,60%,62%)", order    ? "drawn over it"
+                            : trace  ? "named, but not met first"
+                            : solids ? "holds what is beside"
+                                     : "shown but hidden");
   if (why.refutation && why.refutation->by) key("hsl(205,55%,58%)", "in the way");
   if (weak) key("hsl(50,85%,60%)", "source");
   if (grade.wrong()) key("hsl(140,12%,72%)", "right");

@@ -2,9 +2,21 @@
 
 #include "table.h"
 
+#include <cmath>
 #include <iostream>
+#include <map>
 
 namespace sightline::app {
+
+/// Wrongly shown and wrongly hidden: rays or points, where these are wrong, else faces.
+static std::array<std::size_t, 2> wrong_counts(const judge::Grade& grade) {
+  if (grade.wrong_rays.empty() && grade.wrong_points.empty())
+    return {grade.wrong_visible.size(), grade.wrong_hidden.size()};
+  std::array<std::size_t, 2> counts{};
+  for (const judge::Wrong_ray& ray : grade.wrong_rays) counts[0] += ray.said.has_value(), counts[1] += !ray.nothing;
+  for (const judge::Wrong_point& point : grade.wrong_points) ++counts[point.is_held() ? 0 : 1];
+  return counts;
+}
 
 Json sums_of(const std::vector<const Judged*>& cases) {
   Json row;
@@ -12,6 +24,7 @@ Json sums_of(const std::vector<const Judged*>& cases) {
   std::size_t not_asked = 0, judged = 0, wrong_visible = 0, wrong_hidden = 0, abstained = 0, breaches = 0;
   std::vector<double> seconds;
   std::uint64_t bytes = 0;
+  std::map<std::string, double> errors;  // of solids: the largest, as shares
   for (const Judged* c : cases) {
     if (!c->not_asked.empty()) {
       ++not_asked;
@@ -20,11 +33,13 @@ Json sums_of(const std::vector<const Judged*>& cases) {
     ++marks[static_cast<std::size_t>(c->mark)];
     breaches += c->breaks;
     judged += c->grade.judged;
-    const std::vector<judge::Wrong_ray>& rays = c->grade.wrong_rays;  // of rays these are counted, not faces
-    const auto named = std::count_if(rays.begin(), rays.end(), [](const auto& ray) { return ray.said.has_value(); });
-    const auto missed = std::count_if(rays.begin(), rays.end(), [](const auto& ray) { return !ray.nothing; });
-    wrong_visible += rays.empty() ? c->grade.wrong_visible.size() : static_cast<std::size_t>(named);
-    wrong_hidden += rays.empty() ? c->grade.wrong_hidden.size() : static_cast<std::size_t>(missed);
+    const auto [visible, hidden] = wrong_counts(c->grade);
+    wrong_visible += visible, wrong_hidden += hidden;
+    if (c->answer.surface) {
+      double &volume = errors["volume"], &area = errors["area"];
+      volume = std::max(volume, std::fabs(c->grade.volume_error));
+      area = std::max(area, std::fabs(c->grade.area_error));
+    }
     abstained += c->grade.abstained.size();
     seconds.push_back(c->seconds);
     bytes = std::max(bytes, c->bytes);
@@ -35,6 +50,7 @@ Json sums_of(const std::vector<const Judged*>& cases) {
   row["breaches"] = breaches;
   row["faces"] = {
       {"judged", judged}, {"wrong_visible", wrong_visible}, {"wrong_hidden", wrong_hidden}, {"abstained", abstained}};
+  if (!errors.empty()) row["errors"] = errors;
   std::sort(seconds.begin(), seconds.end());
   const auto percentile = [&](double share) {
     return seconds.empty()
@@ -65,6 +81,9 @@ void print_table(const Json& document) {
                              count(cases["out of memory"]), count(faces["wrong_visible"]), count(faces["wrong_hidden"]),
                              seconds("p50"), seconds("p95"), seconds("max"),
                              fmt::format("{:.0f}", r["bytes"].get<double>() / 1e6));
+    if (r.contains("errors") && (r["errors"]["volume"] != 0 || r["errors"]["area"] != 0))
+      std::cout << fmt::format("    off by, at most: volume {:.2g}, area {:.2g} of the exact one\n",
+                               r["errors"]["volume"].get<double>(), r["errors"]["area"].get<double>());
   };
   for (const Json& r : document["result"]["rows"]) print(r);
   print(document["result"]["total"]);

@@ -89,15 +89,11 @@ class Witness {
   const Report_program* program_ = nullptr;
 };
 
-judge::Question judged_as(const std::string& question) {
-  return question == "order"  ? judge::Question::order
-         : question == "weak" ? judge::Question::weak
-                              : judge::Question::see;
-}
-
 /// An answer as the judge has it.
-judge::Answer answer_of(judge::Question question, const Json& said) {
+judge::Answer answer_of(judge::Question question, std::size_t faces, const Json& said) {
   judge::Answer answer;
+  if (question == judge::Question::trace)
+    return judge::read_answer(Json{{"first", said}}.dump(), question, faces, said.size());
   if (question != judge::Question::order) {
     answer.visible = said.get<std::vector<Face_id>>();
     return answer;
@@ -113,7 +109,7 @@ void explain_case(const Judge_case& asked, const Json& said, report::Example& ex
   judge::Explanation why;
   try {
     if (!said.is_null()) {
-      const judge::Answer answer = answer_of(asked.query.question, said);
+      const judge::Answer answer = answer_of(asked.query.question, asked.soup.face_count(), said);
       grade = judge::grade(judge::truth_of(asked.soup, asked.query, {1, 20, true}), answer);
       if (grade.wrong()) why = judge::explain(asked.soup, asked.query, answer, grade, judge::Contract::exact);
       if (why.refutation) example.why = why.refutation->words;
@@ -129,10 +125,10 @@ void explain_case(const Judge_case& asked, const Json& said, report::Example& ex
 std::optional<report::Example> example_of(const report::Row& row, const Judge_case& asked,
                                           const Example_options& options) {
   const Witness witness(row, options);
-  const Case_options as_programs_get_it{judged_as(row.who.question), false, true};
+  const Case_options as_programs_get_it{case_question(row.who.question), false, true};
   const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
-    return std::make_shared<const Judge_case>(
-        case_of(smaller.soup, {as_programs_get_it.question, smaller.eye, smaller.source, false}, as_programs_get_it));
+    const judge::Query query{as_programs_get_it.question, smaller.eye, smaller.source, false, asked.query.rays};
+    return std::make_shared<const Judge_case>(case_of(smaller.soup, query, as_programs_get_it));
   };
   const bool repeats = repeats_a_point(asked.soup);
   Json name;

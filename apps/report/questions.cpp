@@ -194,6 +194,13 @@ const Report_question& report_question(const std::string& name) {
   throw std::logic_error("no question " + name);
 }
 
+judge::Question case_question(const std::string& name) {
+  return name == "order"   ? judge::Question::order
+         : name == "weak"  ? judge::Question::weak
+         : name == "trace" ? judge::Question::trace
+                           : judge::Question::see;
+}
+
 std::string method_of(const Json& name) {
   std::string method = name["method"].get<std::string>();
   if (name.contains("size")) method += fmt::format(" {}", name["size"].get<int>());
@@ -236,11 +243,12 @@ std::string Report_program::name() const {
 Report_program report_program(const std::string& text, const Report_limits& limits) {
   const std::size_t equals = text.find('=');
   const std::string question = text.substr(0, equals);
-  const auto place = std::find(judge::question_names.begin(), judge::question_names.end(), question);
-  if (equals == std::string::npos || place == judge::question_names.end() || question == "trace")
-    throw Usage_error("--program " + text +
-                      ": write QUESTION=COMMAND, the question one of order, see, weak, as in see=\"python3 mine.py "
-                      "{scene} {query} {answer}\"");
+  const bool is_asked = question == "order" || question == "see" || question == "weak" || question == "trace";
+  if (equals == std::string::npos || !is_asked)
+    throw Usage_error(
+        "--program " + text +
+        ": write QUESTION=COMMAND, the question one of order, see, weak, trace, as in see=\"python3 mine.py "
+        "{scene} {query} {answer}\"");
   Court_options options;
   options.program = text.substr(equals + 1);
   options.limits = {limits.seconds, limits.bytes};
@@ -250,8 +258,13 @@ Report_program report_program(const std::string& text, const Report_limits& limi
 
 /// An answer as rows of `compare` have it.
 static Json said_json(const judge::Answer& answer) {
-  if (answer.order.empty()) return answer.visible;
   Json all = Json::array();
+  for (const std::optional<Face_id>& face : answer.first) all.push_back(face ? Json(*face) : Json());
+  if (!answer.first.empty()) {
+    for (const Face_id ray : answer.abstained) all[ray] = "abstained";
+    return all;
+  }
+  if (answer.order.empty()) return answer.visible;
   for (const judge::Drawn_face& item : answer.order) {
     Json points = Json::array();
     for (const Exact_point& p : item.part) points.push_back(point_json(p));
@@ -277,14 +290,16 @@ Contestant contestant_of(const Report_program& program, std::shared_ptr<const Ju
               }
               return Verdict::right;
             }();
-            const auto wrong = static_cast<double>(grade.wrong_visible.size() + grade.wrong_hidden.size());
+            const bool of_rays = asked->query.question == judge::Question::trace;
+            const auto wrong = static_cast<double>(of_rays ? grade.wrong_rays.size()
+                                                           : grade.wrong_visible.size() + grade.wrong_hidden.size());
+            const std::size_t least = of_rays ? 1 : asked->soup.face_count();
             return Json{{"status", "done"},
                         {"kind", static_cast<int>(kind)},
                         {"seconds", judged.seconds},
                         {"peak_bytes", judged.bytes},
                         {"said", said_json(judged.answer)},
-                        {"error",
-                         wrong / std::max(1.0, static_cast<double>(std::max(grade.judged, asked->soup.face_count())))}};
+                        {"error", wrong / std::max(1.0, static_cast<double>(std::max(grade.judged, least)))}};
           }};
 }
 

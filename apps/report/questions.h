@@ -57,6 +57,8 @@ struct Report_question {
 /// order, see, render, weak, trace, cutset, pvs.
 const std::vector<Report_question>& report_questions();
 const Report_question& report_question(const std::string& name);
+/// What `judge` asks of the same cases, so that programs stand beside the methods; of other questions an eye is enough.
+judge::Question case_question(const std::string& name);
 
 /// The cut-set along a path of viewpoints that follows from the scene and the seed: by trackers, and face by face in
 /// several numbers.

@@ -89,12 +89,6 @@ std::optional<std::size_t> size_with(const generate::Family& family, std::size_t
   return high;
 }
 
-judge::Question case_question(const std::string& question) {
-  return question == "order"  ? judge::Question::order
-         : question == "weak" ? judge::Question::weak
-                              : judge::Question::see;
-}
-
 std::vector<Unit> units_of(const Report_arguments& a) {
   std::vector<Unit> units;
   std::map<std::pair<std::string, std::size_t>, std::optional<std::size_t>> sizes;
@@ -495,7 +489,7 @@ void add_report(Command program) {
       .check(whole_number() & range(0, 1'000'000));
   command.add_option(
       "--program", a->programs,
-      "somebody's program beside the methods: QUESTION=COMMAND, the question order, see or weak, and the "
+      "somebody's program beside the methods: QUESTION=COMMAND, the question order, see, weak or trace, and the "
       "command as `sightline judge` takes it; may be repeated");
   command.add_option("--cases", a->cases, "scenes of each family, distance and size; 0: 3, with --quick 1")
       .check(whole_number())

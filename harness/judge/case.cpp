@@ -1,7 +1,10 @@
 #include <sightline/harness/judge/case.h>
 
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/solids.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/harness/judge/rays.h>
+#include <sightline/harness/judge/solids.h>
 #include <sightline/harness/judge/truth.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -65,6 +68,12 @@ void add_rays(Case& made, std::uint64_t seed, const Case_options& options) {
   std::erase_if(made.query.rays, [](const Exact_ray& ray) { return ray.direction == Exact_point{0, 0, 0}; });
 }
 
+/// Planar faces, or triangles.
+Polygon_soup with_faces_for(const Polygon_soup& soup, const Case_options& options) {
+  Polygon_soup planar = with_planar_faces(soup);
+  return options.triangles ? in_triangles(planar) : planar;
+}
+
 /// As programs get it: rounded where that is wanted, and with planar faces.
 void prepare(Case& made, const Case_options& options) {
   const Polygon_soup given = made.soup;
@@ -73,12 +82,27 @@ void prepare(Case& made, const Case_options& options) {
     made.soup = rounded_to_doubles(made.soup);
     made.query = rounded_to_doubles(std::move(made.query));
   }
-  made.soup = with_planar_faces(made.soup);
-  if (options.triangles) made.soup = in_triangles(made.soup);
+  if (options.question == Question::boolean) {
+    std::array<Polygon_soup, 2> solids = solids_of(made.soup, made.query.first);
+    for (Polygon_soup& solid : solids) solid = with_faces_for(solid, options);
+    made.soup = joined(solids);
+    made.query.first = solids[0].face_count();
+  } else {
+    made.soup = with_faces_for(made.soup, options);
+  }
   made.as_given =
       same_coordinates(made.soup, given) &&
       (options.question == Question::weak ? made.query.source == wanted.source : made.query.eye == wanted.eye) &&
       same_rays(made.query.rays, wanted.rays);
+}
+
+/// Two solids, and any operation on them.
+void pose_solids(Case& made, const generate::Solid_pair& solids, generate::Random& random) {
+  constexpr std::array<Set_operation, 4> operations{Set_operation::unite, Set_operation::intersect,
+                                                    Set_operation::subtract, Set_operation::differ};
+  made.soup = joined(solids);
+  made.query.first = solids[0].face_count();
+  made.query.operation = operations[random.below(4)];
 }
 
 /// Runs `make`; what cannot be made, or is beyond the range of doubles, is not asked.
@@ -103,6 +127,12 @@ Case case_of(const generate::Family& family, const generate::Family_parameters& 
     generate::Posed_scene posed = family.make(parameters);
     made.soup = posed.soup;
     made.query = {options.question, posed.eye, posed.source, options.two_sided};
+    if (options.question == Question::boolean) {
+      std::uint64_t seed = parameters.seed;  // another for each family, or all would be asked the same operation
+      for (const char letter : family.name) seed = seed * 31 + static_cast<unsigned char>(letter);
+      generate::Random random(seed);
+      pose_solids(made, generate::pair_of_solids(posed, random), random);
+    }
     prepare(made, options);
     if (options.question == Question::trace) add_rays(made, parameters.seed, options);
     if (options.question != Question::weak) return;
@@ -127,6 +157,11 @@ Case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_options& 
         high[k] = std::max(high[k], scene.point(p)[k]);
       }
     generate::Random random(seed);
+    if (options.question == Question::boolean) {
+      pose_solids(made, generate::pair_of_copies(scene, random), random);
+      prepare(made, options);
+      return;
+    }
     // A place in the box, or up to a quarter of its sides outside.
     Rational longest = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -147,6 +182,21 @@ Case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_options& 
     prepare(made, options);
     if (options.question == Question::trace) add_rays(made, seed, options);
   });
+}
+
+Case moved(const Case& made, const Exact_point& by, const Case_options& options) {
+  const auto move = [&](Exact_point& p) { p = generate::along(p, 1, by); };
+  Polygon_soup soup = made.soup;
+  Query query = made.query;
+  move(query.eye);
+  for (Exact_point& p : query.source) move(p);
+  for (Exact_ray& ray : query.rays) move(ray.origin);
+  if (query.question == Question::boolean) {
+    std::array<Polygon_soup, 2> solids = solids_of(soup, query.first);
+    solids[1] = generate::translated(solids[1], by);
+    soup = joined(solids);
+  }
+  return case_of(soup, query, options);
 }
 
 Case case_of(const Polygon_soup& scene, const Query& query, const Case_options& options) {

@@ -27,15 +27,19 @@ struct Case {
   std::string not_asked;
 };
 
-/// A case of a family. Where weak visibility is asked and the family names no source, a face of the scene looks. The
-/// same arguments give the same case.
+/// A case of a family. Where weak visibility is asked and the family names no source, a face of the scene looks; where
+/// set operations are, solids are made of its faces, generate::pair_of_solids(). The same arguments give the same case.
 Case case_of(const generate::Family& family, const generate::Family_parameters& parameters,
              const Case_options& options);
 
 /// A query about a scene.
 Case case_of(const Polygon_soup& scene, const Query& query, const Case_options& options);
 
-/// A case of a scene of somebody's: an eye in or about its box, or a small square there that looks along an axis.
+/// A case with what is asked about moved: the eye, the source, the rays' origins, or the second solid.
+Case moved(const Case& made, const Exact_point& by, const Case_options& options);
+
+/// A case of a scene of somebody's: an eye in or about its box, or a small square there that looks along an axis; of
+/// set operations, the scene and generate::pair_of_copies().
 Case case_of(const Polygon_soup& scene, std::uint64_t seed, const Case_options& options);
 
 }  // namespace sightline::judge

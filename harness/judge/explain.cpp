@@ -388,6 +388,28 @@ Explanation explain_traced(const Polygon_soup& soup, const Query& query, const G
   return why;
 }
 
+Explanation explain_solid(const Grade& grade, bool missing_first) {
+  Explanation why;
+  why.share = static_cast<double>(grade.wrong_points.size()) / static_cast<double>(grade.judged);
+  why.share_words = percent(why.share) +
+                    " of the points are inside and ought not, or the other way round; the volume is off by " +
+                    percent(grade.volume_error) + ", the area by " + percent(grade.area_error);
+  auto worst = std::find_if(grade.wrong_points.begin(), grade.wrong_points.end(),
+                            [&](const Wrong_point& point) { return point.is_held() != missing_first; });
+  if (worst == grade.wrong_points.end()) worst = grade.wrong_points.begin();
+  if (worst == grade.wrong_points.end()) return why;
+  why.refutation = {worst->face,
+                    worst->at,
+                    worst->on,
+                    {},
+                    {},
+                    words_of(worst->at) + ", beside " + face_words(worst->face) + " at " + words_of(worst->on) +
+                        ", is " + (worst->inside ? "inside" : "outside") + " the result, and the answer " +
+                        (worst->winding ? "winds round it " + std::to_string(*worst->winding) + " times"
+                                        : std::string("has a face through it"))};
+  return why;
+}
+
 }  // namespace
 
 Explanation explain(const Polygon_soup& soup, const Query& query, const Answer& answer, const Grade& grade,
@@ -398,6 +420,7 @@ Explanation explain(const Polygon_soup& soup, const Query& query, const Answer& 
     case Question::see: return explain_seen(soup, query, grade, missing_first);
     case Question::weak: return explain_weak(soup, query, grade, answer, missing_first, seconds);
     case Question::trace: return explain_traced(soup, query, grade, missing_first);
+    case Question::boolean: return explain_solid(grade, missing_first);
   }
   return {};
 }

@@ -11,7 +11,8 @@
 
 namespace sightline::judge {
 
-/// A segment from the eye, or from the source, to a face about which an answer is wrong.
+/// A segment from the eye, from the source, or from a point in or outside a solid, to a face about which an answer is
+/// wrong.
 struct Refutation {
   Face_id face = 0;
   Exact_point from, to;
@@ -23,7 +24,7 @@ struct Refutation {
 struct Explanation {
   std::optional<Refutation> refutation;  ///< none where no segment tells, as of parts in an order
   /// Of what is wrong: see, order: the solid angle as a share of all directions, 4 pi; weak: the area of wrong faces as
-  /// a share of all that are judged; trace: of the rays. In doubles from exact differences.
+  /// a share of all that are judged; trace: of the rays; boolean: of the points. In doubles from exact differences.
   double share = 0;
   std::string share_words;  ///< one line: what the share is of
 };
@@ -31,9 +32,9 @@ struct Explanation {
 /// Explains a grade. See: a face that is missing is seen along a line in the middle of the largest part of it that is
 /// visible; one that is shown is hidden by what the line to a point of it meets. Order: a direction in which what is
 /// drawn earlier is nearer. Weak: a sightline that verify_weak() accepts, or what stands on a line to a hidden face.
-/// Trace: a ray, and what it meets. Faces that the contract forbids to be wrong come first. Pre: faces are planar, the
-/// grade is of an answer to the query, and wrong. `seconds`: for the sightline of a weak query. Cost: that of the
-/// truth. Exact: yes, but for the share and words.
+/// Trace: a ray, and what it meets. Boolean: a point, and the face beside it. Faces that the contract forbids to be
+/// wrong come first. Pre: faces are planar, the grade is of an answer to the query, and wrong. `seconds`: for the
+/// sightline of a weak query. Cost: that of the truth. Exact: yes, but for the share and words.
 Explanation explain(const Polygon_soup& soup, const Query& query, const Answer& answer, const Grade& grade,
                     Contract contract, double seconds = 20);
 

@@ -3,8 +3,12 @@
 namespace sightline::judge {
 
 bool keeps(Contract contract, const Grade& grade) {
-  return (contract == Contract::aggressive || grade.wrong_hidden.empty()) &&
-         (contract == Contract::conservative || grade.wrong_visible.empty());
+  switch (contract) {
+    case Contract::exact: return !grade.wrong();
+    case Contract::conservative: return grade.wrong_hidden.empty() && !grade.too_small();
+    case Contract::aggressive: return grade.wrong_visible.empty() && !grade.too_large();
+  }
+  return false;
 }
 
 bool breaks(Contract contract, Mark mark, const Grade& grade) {

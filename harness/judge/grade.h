@@ -4,6 +4,7 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string_view>
@@ -19,24 +20,46 @@ struct Wrong_ray {
   bool nothing = false;  ///< that it meets nothing would be right
 };
 
+/// A point that a solid holds and ought not, or the other way round.
+struct Wrong_point {
+  Exact_point at, on;          ///< the point, and one of a face beside it
+  Face_id face = 0;            ///< that face
+  bool inside = false;         ///< whether it is in the exact result
+  std::optional<int> winding;  ///< how often the answer winds round it; none: a face of the answer holds it
+
+  /// Whether the answer has more there than the result, not less.
+  bool is_held() const { return winding ? *winding > (inside ? 1 : 0) : !inside; }
+};
+
 /// What is wrong with an answer. Lists are sorted. Faces that nothing is known about, or that are no faces (of zero
 /// area, doubles of others), are in none of them.
 struct Grade {
   std::vector<Face_id> wrong_visible;  ///< shown although hidden; in an order: painted over a face that is nearer
-                                       ///< there, or outside of itself; of rays: named although not met first
+                                       ///< there, or outside of itself; of rays: named although not met first;
+                                       ///< of solids: beside a point that is held although outside
   std::vector<Face_id> wrong_hidden;   ///< hidden although visible; in an order: painted over by a face that is farther
-                                       ///< there, or missing, or in part; of rays: met first but not named
-  std::vector<Face_id> abstained;      ///< no answer; of rays: their numbers
+                                       ///< there, or missing, or in part; of rays: met first but not named; of
+                                       ///< solids: beside a point that is inside but not held
+  std::vector<Face_id> abstained;      ///< no answer; of rays and points: their numbers
   std::vector<std::array<Face_id, 2>>
       wrong_pairs;                    ///< of an order: drawn earlier but nearer somewhere, and what is drawn over it
   std::vector<Wrong_ray> wrong_rays;  ///< of rays
-  std::size_t judged = 0;             ///< faces about which something is known, or rays
+  std::vector<Wrong_point> wrong_points;    ///< of solids
+  double volume_error = 0, area_error = 0;  ///< of solids: by how much too large, as shares of the exact ones
+  std::size_t judged = 0;                   ///< faces about which something is known, or rays, or points
 
-  bool wrong() const { return !wrong_visible.empty() || !wrong_hidden.empty(); }
+  bool too_large() const { return volume_error > largest_error; }
+  bool too_small() const { return volume_error < -largest_error; }
+  bool wrong() const {
+    return !wrong_visible.empty() || !wrong_hidden.empty() || too_large() || too_small() ||
+           std::fabs(area_error) > largest_error;
+  }
+
+  static constexpr double largest_error = 0x1p-20;  ///< of volumes and areas: what is rounded is right
 };
 
-/// What a program promises: no wrong faces; never to hide a visible one; never to show a hidden one. Abstaining breaks
-/// none of them.
+/// What a program promises: no wrong faces; never to hide a visible one; never to show a hidden one. Of solids: the
+/// result; never less than it; never more. Abstaining breaks none of them.
 enum class Contract { exact, conservative, aggressive };
 inline constexpr std::array<std::string_view, 3> contract_names{"exact", "conservative", "aggressive"};
 

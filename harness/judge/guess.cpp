@@ -67,8 +67,14 @@ std::vector<Reading> readings_of(Question question) {
       return {Reading::turned, Reading::other_sides, Reading::source_turned, Reading::complement, Reading::from_one};
     case Question::trace:
       return {Reading::to_points, Reading::closed_start, Reading::fronts_only, Reading::farthest, Reading::from_one};
+    case Question::boolean: return {Reading::inside_out, Reading::swapped};
   }
   return {};
+}
+
+bool lists_faces(const Answer& answer) {
+  return !answer.visible.empty() || !answer.order.empty() || (answer.surface && answer.surface->face_count() > 0) ||
+         std::any_of(answer.first.begin(), answer.first.end(), [](const auto& face) { return face.has_value(); });
 }
 
 bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, const Answer& answer,
@@ -108,6 +114,15 @@ bool is_right(Reading reading, const Polygon_soup& soup, const Query& query, con
     case Reading::closed_start: rule.start = Ray_start::closed; return traced_right(soup, query, answer, rule);
     case Reading::fronts_only: rule.fronts_only = true; return traced_right(soup, query, answer, rule);
     case Reading::farthest: rule.farthest = true; return traced_right(soup, query, answer, rule);
+    case Reading::inside_out:
+      if (read.surface) read.surface = turned_round(*read.surface);
+      break;
+    case Reading::swapped: {
+      std::array<Polygon_soup, 2> solids = solids_of(soup, query.first);
+      std::swap(solids[0], solids[1]);
+      other.first = solids[0].face_count();
+      return graded_right(joined(solids), other, answer, options);
+    }
   }
   return graded_right(soup, other, read, options);
 }
@@ -126,6 +141,8 @@ std::string words_of(Reading reading, bool two_sided) {
     case Reading::closed_start: return "as if faces that hold the origin were met there";
     case Reading::fronts_only: return "as if faces were met from the front only";
     case Reading::farthest: return "as if the last face were asked for, not the first";
+    case Reading::inside_out: return "as if fronts looked inwards";
+    case Reading::swapped: return "as if the first solid were to be taken from the second";
   }
   return {};
 }

@@ -25,10 +25,15 @@ enum class Reading {
   closed_start,   ///< trace: faces that hold the origin are met there
   fronts_only,    ///< trace: faces are met from the front only
   farthest,       ///< trace: the last face is named, not the first
+  inside_out,     ///< boolean: fronts look inwards
+  swapped,        ///< boolean: the second solid less the first
 };
 
 /// Those that make sense for a question.
 std::vector<Reading> readings_of(Question question);
+
+/// Whether an answer lists anything: one that does not supports no reading, though it be right under some.
+bool lists_faces(const Answer& answer);
 
 /// Whether an answer is right, every face of it, if it is read so. Pre: the query could be asked. Cost: that of the
 /// truth. Exact: yes.

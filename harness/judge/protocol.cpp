@@ -1,5 +1,6 @@
 #include <sightline/harness/judge/protocol.h>
 
+#include <sightline/io/read.h>
 #include <sightline/kernel/quoted.h>
 
 #include <algorithm>
@@ -229,6 +230,31 @@ Answer Answer_reader::finished() {
   return std::move(answer_);
 }
 
+/// A surface in OFF, whose numbers are decimals, or p/q; nothing where it is abstained from.
+std::optional<Polygon_soup> surface_of(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string::npos) fail("it is empty; write OFF, of no result `OFF` and a line `0 0 0`");
+  const std::string_view word = std::string_view(text).substr(begin, text.find_last_not_of(" \t\r\n") + 1 - begin);
+  if (word == "abstained" || word == "abstained all") return std::nullopt;
+  Read_options options;
+  options.any_denominator = true;
+  try {
+    return read_scene(text, text.find('/') == std::string::npos ? Format::off : Format::qoff, "OFF", options);
+  } catch (const Input_error& error) {
+    fail(error.what());
+  }
+}
+
+Set_operation operation_of(const nlohmann::json& name) {
+  for (const Set_operation operation : {Set_operation::unite, Set_operation::intersect, Set_operation::subtract})
+    if (name == sightline::name(operation)) return operation;
+  if (name != sightline::name(Set_operation::differ))
+    fail(
+        "query: \"operation\" is neither \"union\" nor \"intersection\" nor \"difference\" nor "
+        "\"symmetric-difference\"");
+  return Set_operation::differ;
+}
+
 }  // namespace protocol_detail
 
 Json to_json(const Query& query) {
@@ -238,6 +264,11 @@ Json to_json(const Query& query) {
     for (const Exact_ray& ray : query.rays)
       value["rays"].push_back({{"origin", protocol_detail::point_json(ray.origin)},
                                {"direction", protocol_detail::point_json(ray.direction)}});
+    return value;
+  }
+  if (query.question == Question::boolean) {
+    value["operation"] = name(query.operation);
+    value["first"] = query.first;
     return value;
   }
   if (query.question == Question::weak) {
@@ -261,7 +292,8 @@ Query query_from_json(const nlohmann::json& value) {
   const auto known = std::find_if(question_names.begin(), question_names.end(),
                                   [&](std::string_view question) { return name == question; });
   if (known == question_names.end())
-    protocol_detail::fail("query: \"query\" is neither \"order\" nor \"see\" nor \"weak\" nor \"trace\"");
+    protocol_detail::fail(
+        "query: \"query\" is neither \"order\" nor \"see\" nor \"weak\" nor \"trace\" nor \"boolean\"");
   query.question = static_cast<Question>(known - question_names.begin());
   if (query.question == Question::trace) {
     const nlohmann::json& rays = member("rays");
@@ -275,6 +307,12 @@ Query query_from_json(const nlohmann::json& value) {
     }
     return query;
   }
+  if (query.question == Question::boolean) {
+    query.operation = protocol_detail::operation_of(member("operation"));
+    if (!member("first").is_number_unsigned()) protocol_detail::fail("query: \"first\" is no number of faces");
+    query.first = member("first").get<std::size_t>();
+    return query;
+  }
   if (query.question == Question::weak) query.source = points_from_json(member("source"), "source");
   else query.eye = point_from_json(member("eye"), "eye");
   if (!member("two_sided").is_boolean()) protocol_detail::fail("query: \"two_sided\" is neither true nor false");
@@ -283,6 +321,11 @@ Query query_from_json(const nlohmann::json& value) {
 }
 
 Answer read_answer(const std::string& text, Question question, std::size_t faces, std::size_t rays) {
+  if (question == Question::boolean) {
+    Answer answer;
+    answer.surface = protocol_detail::surface_of(text);
+    return answer;
+  }
   protocol_detail::Answer_reader reader(question, faces, rays);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   return first != std::string::npos && text[first] == '{' ? reader.from_json(text) : reader.from_lines(text);

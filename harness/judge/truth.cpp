@@ -159,6 +159,11 @@ Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options
     case Question::see: truth_detail::find_seen(scene, query, options, truth); break;
     case Question::weak: truth_detail::find_lit(soup, scene, query, options, truth); break;
     case Question::trace: truth_detail::find_traced(soup, scene, query, options, truth); break;
+    case Question::boolean:
+      truth.not_asked = flaw_of_solids(soup, query.first);
+      if (truth.not_asked.empty())
+        truth.solid = std::make_shared<const Solid_truth>(solid_truth(soup, query, options.threads));
+      break;
   }
   if (query.question == Question::see)
     for (const Piece& piece : scene.pieces())
@@ -170,6 +175,7 @@ Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options
 Grade grade(const Truth& truth, const Answer& answer) {
   if (truth.order) return truth.order->grade(answer);
   if (!truth.rays.empty()) return grade_rays(truth.rays, answer);
+  if (truth.solid) return grade_solid(*truth.solid, answer);
   Grade grade;
   grade.judged = truth.visible.size() + truth.hidden.size();
   const auto judge = [&](const std::vector<Face_id>& faces, bool visible, std::vector<Face_id>& wrong) {

@@ -5,6 +5,7 @@
 #include <sightline/harness/judge/order.h>
 #include <sightline/harness/judge/protocol.h>
 #include <sightline/harness/judge/rays.h>
+#include <sightline/harness/judge/solids.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <memory>
@@ -19,7 +20,8 @@ struct Truth {
   std::vector<Face_id> visible;  ///< of see and weak; sorted
   std::vector<Face_id> hidden;
   std::shared_ptr<const Order_truth> order;
-  std::vector<Ray_truth> rays;  ///< of trace
+  std::vector<Ray_truth> rays;               ///< of trace
+  std::shared_ptr<const Solid_truth> solid;  ///< of boolean
 };
 
 struct Truth_options {
@@ -44,11 +46,12 @@ Query rounded_to_doubles(Query query);
 /// What is true of a query. Faces that are set aside (zero area, duplicates of earlier ones), and those that a search
 /// leaves undecided, are neither visible nor hidden. Weak visibility is certified, and the certificate checked by
 /// verify_weak(). Pre: faces are planar, with_planar_faces(). Degenerate: what visible_surface(), weakly_visible(),
-/// Order_truth and ray_truths() say. Cost: that of these, and of the check. Errors: std::logic_error where the checker
-/// does not accept the library's own certificate. Exact: yes.
+/// Order_truth, ray_truths() and solid_truth() say. Cost: that of these, and of the check. Errors: std::logic_error
+/// where the checker does not accept the library's own certificate. Exact: yes.
 Truth truth_of(const Polygon_soup& soup, const Query& query, const Truth_options& options = {});
 
-/// What is wrong with an answer. Pre: the query could be asked, and the answer is about its scene. Exact: yes.
+/// What is wrong with an answer. Pre: the query could be asked, and the answer is about its scene. Errors: those of
+/// grade_solid(). Exact: yes.
 Grade grade(const Truth& truth, const Answer& answer);
 
 }  // namespace sightline::judge

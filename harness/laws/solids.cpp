@@ -7,9 +7,12 @@
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/algorithms/verify/solids.h>
 #include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/flat_faces.h>
+#include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/kernel/scene/closed.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
@@ -26,6 +29,8 @@ namespace sightline::harness {
 
 namespace solids_subject {
 
+using generate::add_cone, generate::add_prism, generate::any_step, generate::base_of, generate::face_alone;
+
 constexpr std::array<Set_operation, 4> all_operations{Set_operation::unite, Set_operation::intersect,
                                                       Set_operation::subtract, Set_operation::differ};
 constexpr std::array<const char*, 4> operation_names{"union", "intersection", "difference", "symmetric difference"};
@@ -38,70 +43,6 @@ Set_result result_of(const std::vector<Polygon_soup>& solids, Set_operation oper
   options.inside = rule;
   options.keep_fragments = keep_fragments;
   return set_operation(Operands(solids), options);
-}
-
-// ---- Solids
-
-Polygon_soup face_alone(const Polygon_soup& soup, Face_id face) {
-  Polygon_soup alone;
-  for (std::size_t k = 0; k < soup.loop_count(face); ++k) {
-    std::vector<Point_id> ids;
-    for (const Point_id p : soup.loop(face, k)) {
-      const Exact_point at = soup.point(p);
-      ids.push_back(alone.add_point(at[0], at[1], at[2]));
-    }
-    if (k == 0) alone.add_face(ids);
-    else alone.add_hole(ids);
-  }
-  return alone;
-}
-
-/// Its corners, where it is one that solids can be made of.
-generate::Points base_of(const Polygon_soup& soup, Face_id face, bool planar) {
-  if (soup.loop_count(face) != 1) return {};
-  const Scene scene(face_alone(soup, face));
-  if (scene.pieces().empty() || (planar && !scene.non_planar().empty())) return {};
-  generate::Points corners;
-  for (const Point_id p : soup.loop(face))
-    if (const Exact_point at = soup.point(p); corners.empty() || corners.back() != at) corners.push_back(at);
-  while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
-  return corners;
-}
-
-void add_polygon(Polygon_soup& soup, const generate::Points& corners) {
-  std::vector<Point_id> ids;
-  for (const Exact_point& p : corners) ids.push_back(soup.add_point(p[0], p[1], p[2]));
-  soup.add_face(ids);
-}
-
-/// The base as it is; then what closes it, to the apex.
-void add_cone(Polygon_soup& soup, const generate::Points& base, const Exact_point& apex) {
-  add_polygon(soup, base);
-  for (std::size_t k = 0; k < base.size(); ++k) add_polygon(soup, {base[(k + 1) % base.size()], base[k], apex});
-}
-
-void add_prism(Polygon_soup& soup, const generate::Points& base, const Exact_point& along) {
-  const auto moved = [&](const Exact_point& p) {
-    return Exact_point{p[0] + along[0], p[1] + along[1], p[2] + along[2]};
-  };
-  add_polygon(soup, base);
-  generate::Points top;
-  for (const Exact_point& p : base) top.push_back(moved(p));
-  std::reverse(top.begin(), top.end());
-  add_polygon(soup, top);
-  for (std::size_t k = 0; k < base.size(); ++k) {
-    const Exact_point &p = base[k], &q = base[(k + 1) % base.size()];
-    add_polygon(soup, {q, p, moved(p), moved(q)});
-  }
-}
-
-/// How far a solid is moved: not, by a lattice step, or by a few ulps.
-Exact_point any_step(const Posed_scene& scene, Random& random) {
-  Exact_point step = generate::lattice(random, 2);
-  if (random.chance(1, 3)) return {0, 0, 0};
-  const Rational unit = random.chance(1, 3) ? generate::ulps_of_size(1, generate::size_bits(scene.soup)) : Rational(1);
-  for (Rational& x : step) x *= unit;
-  return step;
 }
 
 // ---- Cones from the eye, for labels
@@ -252,41 +193,6 @@ Check check_of_solids(const char* name, const char* what,
 }  // namespace solids_subject
 
 using namespace solids_subject;
-
-struct Solid_oracle::Faces {
-  Flat_face face;
-};
-
-Solid_oracle::Solid_oracle(const Polygon_soup& soup) {
-  for (Face_id f = 0; f < soup.face_count(); ++f) {
-    const Polygon_soup alone = face_alone(soup, f);
-    for (Flat_face& face : flat_faces_of(Scene(alone))) faces_.push_back({std::move(face)});
-  }
-}
-Solid_oracle::~Solid_oracle() = default;
-Solid_oracle::Solid_oracle(Solid_oracle&&) noexcept = default;
-
-bool Solid_oracle::is_on_a_face(const Exact_point& p) const {
-  return std::any_of(faces_.begin(), faces_.end(), [&](const Faces& entry) { return entry.face.holds(p); });
-}
-
-int Solid_oracle::winding(const Exact_point& p, Random& random) const {
-  for (;;) {
-    const Exact_point direction = generate::lattice(random, 1000);
-    if (is_zero(direction)) continue;
-    int winding = 0;
-    bool general = true;
-    for (const auto& [face] : faces_) {
-      const std::optional<Rational> t = met_at(face, p, direction);
-      if (!t) continue;
-      const Rational slope = dot(face.normal, direction);
-      general = slope != 0 && face.side_within(generate::along(p, *t, direction)) > 0;
-      if (!general) break;
-      winding += sgn(slope);
-    }
-    if (general) return winding;
-  }
-}
 
 /// A block, and two prisms through it that leave an island between them in a hole, which touches the hole in a corner.
 std::vector<Polygon_soup> block_with_island(Random& random) {
@@ -504,6 +410,7 @@ Subject boolean() {
           "rounding", "rounded results are closed, and solids where they are said to be sound",
           [](const std::vector<Polygon_soup>& solids, Random& random) { return flaw_of_rounding(solids, random); })};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn", "cut"});
+  subject.checks.push_back(judged_solids_check());
   return subject;
 }
 

@@ -11,23 +11,6 @@
 
 namespace sightline::harness {
 
-/// A closed surface by its convex parts alone, in rationals: winding numbers by brute force. Nothing of it is shared
-/// with set operations.
-class Solid_oracle {
- public:
-  explicit Solid_oracle(const Polygon_soup& soup);
-  ~Solid_oracle();
-  Solid_oracle(Solid_oracle&&) noexcept;
-  /// Whether a face holds the point.
-  bool is_on_a_face(const Exact_point& p) const;
-  /// Pre: !is_on_a_face(p), and the soup is closed.
-  int winding(const Exact_point& p, Random& random) const;
-
- private:
-  struct Faces;
-  std::vector<Faces> faces_;
-};
-
 /// Solids of faces of a scene: cones over them, prisms on them, or copies of one another; two or three; now and then a
 /// block with a hole in which an island touches it. Faces that
 /// cross themselves or have holes are left out. May be empty, and wound round any number of times.

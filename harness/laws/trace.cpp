@@ -7,6 +7,7 @@
 #include <sightline/algorithms/rays/by_tree.h>
 #include <sightline/algorithms/rays/tracer.h>
 #include <sightline/harness/generate/rays.h>
+#include <sightline/harness/laws/judge_laws.h>
 #include <sightline/harness/laws/laws.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/sightline.h>
@@ -297,6 +298,7 @@ Subject trace() {
   subject.checks = {by_definition(), by_tree(), in_doubles(), as_seen()};
   add_laws(subject, {"begin", "permute", "translate", "scale", "rotate", "mirror", "turn"});
   subject.checks.push_back(by_front_door());  // last: others keep their random choices
+  subject.checks.push_back(judged_rays_check());
   return subject;
 }
 

@@ -35,7 +35,6 @@ std::size_t place_of(const std::string& name, const std::array<std::string_view,
   throw py::value_error(what + " is one of " + all + ", not " + sightline::quoted(name));
 }
 Question question_of(const std::string& name) {
-  if (name == "trace") throw py::value_error("query is one of order, see, weak; `sightline judge` asks about rays");
   return static_cast<Question>(place_of(name, judge::question_names, "query"));
 }
 Contract contract_of(const std::string& name) {
@@ -82,8 +81,18 @@ py::list fractions(const std::vector<Exact_point>& points) {
   return all;
 }
 
-/// What looks, as a function gets it: the eye, (3,), or the source, (k, 3).
+/// What is asked, as a function gets it: the eye, (3,), the source, (k, 3), the rays, (r, 2, 3), or the operation and
+/// how many faces are the first solid's.
 py::object looker_of(const judge::Query& query, bool exact) {
+  if (query.question == Question::boolean) return py::make_tuple(name(query.operation), query.first);
+  if (query.question == Question::trace) {
+    std::vector<Exact_point> ends;
+    for (const Exact_ray& ray : query.rays) ends.insert(ends.end(), {ray.origin, ray.direction});
+    if (!exact) return rounded({&ends}).attr("reshape")(-1, 2, 3);
+    py::list rays;
+    for (const Exact_ray& ray : query.rays) rays.append(fractions({ray.origin, ray.direction}));
+    return rays;
+  }
   const bool is_weak = query.question == Question::weak;
   if (exact) return is_weak ? py::object(fractions(query.source)) : py::object(python::fractions(query.eye));
   if (is_weak) return rounded({&query.source});
@@ -150,7 +159,7 @@ struct Graded {
 
 Graded graded(const Case& asked, const Truth& truth, const std::string& text) {
   Graded found;
-  found.answer = judge::read_answer(text, asked.query.question, asked.soup.face_count());
+  found.answer = judge::read_answer(text, asked.query.question, asked.soup.face_count(), asked.query.rays.size());
   found.grade = judge::grade(truth, found.answer);
   found.mark = judge::mark_of(found.grade);
   return found;
@@ -166,7 +175,7 @@ py::dict explained(const Case& asked, const Graded& graded, const std::string& c
   {
     const py::gil_scoped_release released;
     why = judge::explain(asked.soup, asked.query, graded.answer, graded.grade, contract_of(contract));
-    if (!graded.answer.visible.empty() || !graded.answer.order.empty())
+    if (judge::lists_faces(graded.answer))
       for (const judge::Reading reading : judge::readings_of(asked.query.question))
         if (judge::is_right(reading, asked.soup, asked.query, graded.answer, options))
           guesses.push_back("the answer is right read otherwise, " + judge::words_of(reading, asked.query.two_sided));
@@ -188,7 +197,9 @@ py::dict explained(const Case& asked, const Graded& graded, const std::string& c
 /// A case made smaller as long as `fails` says so.
 Case reduced(const Case& asked, const Case_options& options, const py::function& fails, double seconds) {
   const auto of = [&](const generate::Posed_scene& scene) {
-    return judge::case_of(scene.soup, {asked.query.question, scene.eye, scene.source, asked.query.two_sided}, options);
+    judge::Query query = asked.query;
+    query.eye = scene.eye, query.source = scene.source;
+    return judge::case_of(scene.soup, query, options);
   };
   generate::Posed_scene scene;
   scene.soup = asked.soup;
@@ -306,8 +317,9 @@ class Function_subject {
 
 py::dict fuzzed(const py::function& ask, const Case_options& options, std::uint64_t seed, std::size_t scenes,
                 double seconds, const std::string& family, std::size_t most_faces, double reduce) {
-  if (options.question == Question::order)
-    throw py::value_error("fuzz asks see or weak, of which laws say what follows; judge() grades orders");
+  if (options.question != Question::see && options.question != Question::weak)
+    throw py::value_error(
+        "fuzz asks see or weak, of which laws say what follows; judge() grades orders, rays and solids, too");
   Function_subject function(ask, options);
   const harness::Subject subject = function.subject();
   harness::Fuzz_options limits;
@@ -375,6 +387,9 @@ void add_harness(py::module_& module) {
           [](const Graded& graded) { return std::string(judge::mark_names[static_cast<std::size_t>(graded.mark)]); })
       .def_property_readonly("wrong_visible", [](const Graded& graded) { return ids(graded.grade.wrong_visible); })
       .def_property_readonly("wrong_hidden", [](const Graded& graded) { return ids(graded.grade.wrong_hidden); })
+      .def_property_readonly(
+          "errors",
+          [](const Graded& graded) { return py::make_tuple(graded.grade.volume_error, graded.grade.area_error); })
       .def_property_readonly("judged", [](const Graded& graded) { return graded.grade.judged; })
       .def(
           "breaks",

@@ -4,6 +4,7 @@ import json
 import operator
 import os
 import time
+from fractions import Fraction
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -77,12 +78,35 @@ def _arguments(case: "_sightline.Case", exact: bool, triangles: bool) -> Tuple[A
 
 def _said(answer: Any, query: str) -> str:
     """An answer as the protocol has it: of faces, of a truth value for each face, or {"visible": ..., ...}."""
+    if query == "boolean":
+        return _off(answer)
+    if query == "trace":
+        faces = answer.tolist() if isinstance(answer, np.ndarray) else list(answer)
+        return json.dumps({"first": [_first(face) for face in faces]})
     key = "order" if query == "order" else "visible"
     if isinstance(answer, dict):
         return json.dumps({key: [], **{name: np.asarray(value).tolist() for name, value in answer.items()}})
     if isinstance(answer, np.ndarray) and answer.dtype == bool:
         answer = np.flatnonzero(answer)
     return json.dumps({key: [operator.index(face) for face in answer]})
+
+
+def _first(face: Any) -> Any:
+    """What a ray meets first: a face; nothing where it is None or -1; or "abstained"."""
+    if face is None or face == "abstained":
+        return face
+    number = operator.index(face)
+    return None if number == -1 else number
+
+
+def _off(answer: Any) -> str:
+    """A surface, (points, faces), as OFF whose numbers are exactly its own; None leaves it open."""
+    if answer is None:
+        return "abstained"
+    points, faces = answer
+    lines = [" ".join(str(Fraction(x)) for x in point) for point in points]
+    lines += [" ".join(str(operator.index(i)) for i in (len(face), *face)) for face in faces]
+    return "\n".join([f"OFF\n{len(points)} {len(faces)} 0", *lines, ""])
 
 
 class Failure:
@@ -116,7 +140,7 @@ class Failure:
 
     @property
     def eye(self) -> Any:
-        """The eye, exactly; where weak visibility is asked, the corners of the source."""
+        """What was asked about, exactly: the eye, the corners of the source, the rays, or operation and solids."""
         return self._case.looker(True)
 
     def save(self, folder: Path) -> None:
@@ -180,6 +204,14 @@ class _Court:
         if self.query == "order":
             wrong = [f"face {face} is painted over what is nearer there" for face in graded.wrong_visible]
             wrong += [f"face {face} is painted over, or missing" for face in graded.wrong_hidden]
+        if self.query == "trace":
+            wrong = [f"face {face} is named, and not met first" for face in graded.wrong_visible]
+            wrong += [f"face {face} is met first, and not named" for face in graded.wrong_hidden]
+        if self.query == "boolean":
+            wrong = [f"what is outside beside face {face} is held" for face in graded.wrong_visible]
+            wrong += [f"what is inside beside face {face} is not held" for face in graded.wrong_hidden]
+            if not wrong and graded.mark == "wrong":
+                wrong = ["the volume is off by {:.2g} of it, the area by {:.2g}".format(*graded.errors)]
         failure.why = ", ".join(wrong[:4]) + (f", and {len(wrong) - 4} more" if len(wrong) > 4 else "")
         failure._graded = graded
         return graded.mark, failure if graded.breaks(self.contract) else None
@@ -269,7 +301,10 @@ def judge(
     """Asks a function many cases, most of them degenerate on purpose, and grades its answers against the exact truth.
 
     function(V, F, eye) returns the faces that are seen (`see`, query="see"), or all faces, farthest first ("order");
-    function(V, F, source) those that are weakly visible from a convex polygon ("weak"). V is (n, 3) doubles that are
+    function(V, F, source) those that are weakly visible from a convex polygon ("weak"); function(V, F, rays) the face
+    that each ray meets first, None or -1 where there is none ("trace"), rays being (r, 2, 3), origins and directions;
+    function(V, F, (operation, first)) the surface of a set operation, (points, faces), or None to leave it open
+    ("boolean"), the first so many faces bounding one solid and all others the other. V is (n, 3) doubles that are
     exactly what is asked about, or, if exact, Fractions; F is a list of arrays of corners, or, if triangles, (m, 3);
     eye is (3,), source (k, 3). Instead of faces it may return one truth value for each face, or a dictionary
     {"visible": faces, "abstained": faces}. Only fronts are seen, unless two_sided.

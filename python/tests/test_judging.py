@@ -115,6 +115,50 @@ def test_orders_and_weak_visibility():
     assert not sightline.judge(turned, "weak", families=["five_edges"], cases=2, ulps=(0,), reduce=0)
 
 
+@pytest.mark.parametrize("exact", [False, True])
+def test_rays(exact):
+    def first(V, F, rays):
+        rays = np.asarray(rays)
+        return sightline.Scene(V, F).trace(rays[:, 0], rays[:, 1]).faces
+
+    asked = dict(query="trace", families=["hinged", "boxes"], ulps=[0, "far"], cases=2, exact=exact)
+    report = sightline.judge(first, **asked)
+    assert report and report.total["right"] == 8, report
+    nothing = sightline.judge(lambda V, F, rays: [None] * len(rays), reduce=0, **asked)
+    assert nothing.total["wrong"] == 8
+    assert nothing.smallest.wrong_hidden.size > 0 and nothing.smallest.wrong_visible.size == 0
+    assert "met first, and not named" in nothing.smallest.why and "first meets" in str(nothing.smallest)
+    assert sightline.judge(lambda V, F, rays: ["abstained"] * len(rays), **asked).total["abstained"] == 8
+    assert sightline.judge(lambda V, F, rays: [], reduce=0, **asked).total["invalid"] == 8
+
+
+@pytest.mark.parametrize("exact", [False, True])
+def test_set_operations(exact):
+    def solids(V, F, first):
+        return [sightline.Scene(V, faces) for faces in (F[:first], F[first:])]
+
+    def result(V, F, asked):
+        scene = sightline.boolean(asked[0], *solids(V, F, asked[1])).scene
+        return scene.points(exact=True), scene.faces()
+
+    def both(V, F, asked):
+        return V, F
+
+    asked = dict(query="boolean", families=["leaves", "boxes"], ulps=[0, "far"], cases=3, exact=exact, triangles=True)
+    report = sightline.judge(result, **asked)
+    assert report and report.total["right"] > 6, report
+    union = sightline.judge(lambda V, F, asked: result(V, F, ("union", asked[1])), contract="conservative", **asked)
+    assert union and union.total["wrong"] > 0, union
+    wrong = sightline.judge(both, reduce=1, **asked)
+    assert not wrong and wrong.smallest.mark == "wrong" and wrong.smallest.eye[0] in wrong.smallest._case.query()
+    assert "beside face" in wrong.smallest.why or "the volume" in wrong.smallest.why
+    assert sightline.judge(lambda V, F, asked: None, **asked).total["abstained"] == report.total["right"]
+    open_ones = sightline.judge(lambda V, F, asked: (V, F[1:]), reduce=0, **asked)
+    assert open_ones.total["invalid"] == report.total["right"]
+    with pytest.raises(ValueError, match="fuzz asks see or weak"):
+        sightline.fuzz(both, query="boolean")
+
+
 def test_interrupts_are_not_graded():
     def interrupted(V, F, eye):
         raise KeyboardInterrupt

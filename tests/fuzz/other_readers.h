@@ -205,12 +205,14 @@ inline void answer(std::string_view bytes) {
     return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end() &&
            (list.empty() || list.back() < faces);
   };
-  for (const judge::Question question :
-       {judge::Question::order, judge::Question::see, judge::Question::weak, judge::Question::trace}) {
+  for (const judge::Question question : {judge::Question::order, judge::Question::see, judge::Question::weak,
+                                         judge::Question::trace, judge::Question::boolean}) {
     const auto taken_answer = taken("", [&] { return judge::read_answer(std::string(bytes), question, faces, rays); });
     if (!taken_answer) continue;
     require(ascends(taken_answer->visible) && ascends(taken_answer->abstained),
             "faces are sorted, once, and of the scene");
+    require(question == judge::Question::boolean || !taken_answer->surface, "a surface answers set operations alone");
+    if (taken_answer->surface) taken_answer->surface->check_corners();
     require(question == judge::Question::order ? taken_answer->visible.empty() : taken_answer->order.empty(),
             "an answer is to what was asked");
     require(taken_answer->first.size() == (question == judge::Question::trace ? rays : 0), "each ray is answered");

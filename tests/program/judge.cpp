@@ -181,6 +181,63 @@ TEST_F(Judge, asks_what_rays_meet_first) {
       usage);
 }
 
+TEST_F(Judge, asks_for_set_operations) {
+  // Two tetrahedra that share the corner at the origin's one: the second twice as large.
+  const std::string faces = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n", other = "3 4 6 5\n3 4 5 7\n3 5 6 7\n3 6 4 7\n";
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n", larger = "0 0 0\n2 0 0\n0 2 0\n0 0 2\n";
+  const std::string scene = file("two.off", "OFF\n8 8 0\n" + points + larger + faces + other),
+                    query = file("two.json", R"({"query": "boolean", "operation": "intersection", "first": 4})"),
+                    small = file("small.off", "OFF\n4 4 0\n" + points + faces),
+                    large = file("large.off", "OFF\n4 4 0\n" + larger + faces),
+                    open = file("open.off", "OFF\n4 3 0\n" + points + "3 0 2 1\n3 0 1 3\n3 1 2 3\n");
+  const auto judged = [&](const std::string& said, const std::string& contract, int code) {
+    return judge(shell("cp " + said + " $3"),
+                 {"--query", "boolean", "--contract", contract, "--scenes", scene, "--ask", query}, code)["result"];
+  };
+  const Json right = judged(small, "exact", done)["total"];
+  EXPECT_EQ(right["cases"]["right"], 1);
+  EXPECT_GT(right["faces"]["judged"], 30);
+  EXPECT_EQ(right["errors"].dump(), R"({"area":0.0,"volume":0.0})");
+  const Json more = judged(large, "aggressive", disagreement);
+  EXPECT_EQ(more["total"]["errors"]["volume"], 7);
+  EXPECT_GT(more["total"]["faces"]["wrong_visible"], 0);
+  EXPECT_EQ(more["total"]["faces"]["wrong_hidden"], 0);
+  EXPECT_NE(more["smallest"]["why"].get<std::string>().find(" is outside, and wound round 1 times"), std::string::npos)
+      << more["smallest"];
+  judged(large, "conservative", done);
+  const Json invalid = judged(open, "conservative", disagreement);
+  EXPECT_EQ(invalid["total"]["cases"]["invalid"], 1);
+  EXPECT_NE(invalid["smallest"]["why"].get<std::string>().find("not closed: 3 edges"), std::string::npos)
+      << invalid["smallest"];
+  const Json leaves_open =
+      judge(shell("echo abstained > $3"),
+            {"--query", "boolean", "--contract", "exact", "--families", "boxes,leaves", "--cases", "2"},
+            done)["result"]["total"];
+  EXPECT_GT(leaves_open["cases"]["abstained"], 8);
+  EXPECT_EQ(leaves_open["cases"]["abstained"], leaves_open["asked"]);
+  // A scene that is a solid is asked about with a copy of itself; an open one is not.
+  const Json copies =
+      judge(shell("cp $1 $3"), {"--query", "boolean", "--contract", "conservative", "--scenes", small, "--cases", "8"},
+            done)["result"];
+  EXPECT_EQ(copies["total"]["asked"], 8);  // both as they are lack nothing
+  EXPECT_GT(copies["total"]["faces"]["wrong_visible"], 0);
+  EXPECT_EQ(copies["total"]["faces"]["wrong_hidden"], 0);
+  EXPECT_EQ(judge(shell("cp $1 $3"), {"--query", "boolean", "--contract", "exact", "--scenes", open},
+                  done)["result"]["not_asked"]
+                .dump(),
+            R"({"a solid is not closed":5})");
+  // On the page, with a picture; and made smaller.
+  const Outcome page = run({"judge", "--program", shell("cp " + large + " $3"), "--query", "boolean", "--contract",
+                            "exact", "--scenes", scene, "--ask", query, "--html", path("solids.html").string(),
+                            "--keep", path("kept").string(), "--reduce", "5"});
+  EXPECT_EQ(page.code, disagreement) << page;
+  EXPECT_NE(page.out.find("the answer winds round it 1 times"), std::string::npos) << page;
+  EXPECT_NE(read_file(path("solids.html")).find("holds what is beside"), std::string::npos);
+  EXPECT_EQ(Json::parse(read_file(path("kept") / "reduced.json"))["first"], 4);
+  EXPECT_EQ(run({"judge", "--program", shell("true"), "--query", "boolean", "--contract", "exact", "--two-sided"}).code,
+            usage);
+}
+
 TEST_F(Judge, makes_the_smallest_smaller_and_asks_it_again) {
   // Face 0 is shown always: what is left is one triangle that looks away.
   const std::string program = shell("echo 0 > $3");

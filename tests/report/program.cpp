@@ -138,7 +138,7 @@ TEST_F(Report_command, says_what_to_do_about_bad_input) {
       {{"report", "--json", json, "--distances", "near"}, usage},
       {{"report", "--json", json, "--questions", "what"}, usage},
       {{"report", "--json", json, "--program", program}, usage},
-      {{"report", "--json", json, "--program", "trace=" + program}, usage},
+      {{"report", "--json", json, "--program", "boolean=" + program}, usage},
       {{"report", "--json", json, "--program", "see=sh x"}, usage},
       {{"report", "--json", json, "--questions", "order", "--program", "see=" + program}, usage},
       {words({"--json", json, "--program", "see=/none/there {scene} {query} {answer}"}), usage},
@@ -153,6 +153,35 @@ TEST_F(Report_command, says_what_to_do_about_bad_input) {
     EXPECT_EQ(r.code, code) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;
   }
+}
+
+TEST_F(Report_command, asks_programs_what_rays_meet) {
+  const std::string blind = file("no_hits.sh", "for ray in $(grep -o origin \"$2\"); do echo none; done > \"$3\"\n");
+  const Outcome r =
+      run({"report",     "--questions", "trace",       "--quick",
+           "--families", "boxes",       "--distances", "0",
+           "--sizes",    "0",           "--cases",     "2",
+           "--reduce",   "30",          "--keep",      path("kept").string(),
+           "--json",     "-",           "--program",   "trace=sh " + blind + " {scene} {query} {answer}"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  bool is_there = false;
+  for (const Json& s : result["summaries"]) {
+    if (s["kernel"] != "program") continue;
+    is_there = true;
+    EXPECT_EQ(s["wrong"], 2) << s;
+    EXPECT_GT(s["error"], 0.2);
+    EXPECT_LT(s["error"], 1);
+  }
+  EXPECT_TRUE(is_there) << result["summaries"];
+  bool is_shown = false;
+  for (const Json& example : result["examples"]) {
+    if (example["kernel"] != "program") continue;
+    is_shown = true;
+    EXPECT_NE(example["why"].get<std::string>().find("first meets face"), std::string::npos) << example["why"];
+    EXPECT_EQ(again(example["again"], "").code, disagreement) << example["again"];
+  }
+  EXPECT_TRUE(is_shown) << result["examples"];
 }
 
 TEST_F(Report_command, asks_about_scenes_and_counts_what_it_cannot_ask) {

@@ -1,0 +1,130 @@
+#include <sightline/harness/generate/solids.h>
+
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/harness/generate/transform.h>
+#include <sightline/kernel/scene/scene.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace sightline::generate {
+
+namespace {
+
+/// Fronts outwards; empty where there is no volume.
+template <class Add>
+Polygon_soup outwards(Points base, Add add) {
+  for (int turn = 0; turn < 2; ++turn) {
+    Polygon_soup solid;
+    add(solid, base);
+    const int sign = sgn(volume(solid));
+    if (sign > 0) return solid;
+    if (sign == 0) return {};
+    std::reverse(base.begin(), base.end());
+  }
+  return {};
+}
+
+Polygon_soup any_solid(const Points& base, const Exact_point& apex, const Exact_point& along, Random& random) {
+  const bool cone = random.chance(1, 2);
+  return outwards(base, [&](Polygon_soup& solid, const Points& b) {
+    cone ? add_cone(solid, b, apex) : add_prism(solid, b, along);
+  });
+}
+
+}  // namespace
+
+Polygon_soup face_alone(const Polygon_soup& soup, Face_id face) {
+  Polygon_soup alone;
+  for (std::size_t k = 0; k < soup.loop_count(face); ++k) {
+    Points corners;
+    for (const Point_id p : soup.loop(face, k)) corners.push_back(soup.point(p));
+    const std::vector<Point_id> ids = added(alone, corners);
+    if (k == 0) alone.add_face(ids);
+    else alone.add_hole(ids);
+  }
+  return alone;
+}
+
+Points base_of(const Polygon_soup& soup, Face_id face, bool planar) {
+  if (soup.loop_count(face) != 1) return {};
+  const Scene scene(face_alone(soup, face));
+  if (scene.pieces().empty() || (planar && !scene.non_planar().empty())) return {};
+  Points corners;
+  for (const Point_id p : soup.loop(face))
+    if (const Exact_point at = soup.point(p); corners.empty() || corners.back() != at) corners.push_back(at);
+  while (corners.size() > 1 && corners.back() == corners.front()) corners.pop_back();
+  return corners;
+}
+
+void add_cone(Polygon_soup& soup, const Points& base, const Exact_point& apex) {
+  soup.add_face(added(soup, base));
+  for (std::size_t k = 0; k < base.size(); ++k)
+    soup.add_face(added(soup, {base[(k + 1) % base.size()], base[k], apex}));
+}
+
+void add_prism(Polygon_soup& soup, const Points& base, const Exact_point& along) {
+  const auto moved = [&](const Exact_point& p) {
+    return Exact_point{p[0] + along[0], p[1] + along[1], p[2] + along[2]};
+  };
+  soup.add_face(added(soup, base));
+  Points top;
+  for (const Exact_point& p : base) top.push_back(moved(p));
+  std::reverse(top.begin(), top.end());
+  soup.add_face(added(soup, top));
+  for (std::size_t k = 0; k < base.size(); ++k) {
+    const Exact_point &p = base[k], &q = base[(k + 1) % base.size()];
+    soup.add_face(added(soup, {q, p, moved(p), moved(q)}));
+  }
+}
+
+Exact_point any_step(const Posed_scene& scene, Random& random) {
+  Exact_point step = lattice(random, 2);
+  if (random.chance(1, 3)) return {0, 0, 0};
+  const Rational unit = random.chance(1, 3) ? ulps_of_size(1, size_bits(scene.soup)) : Rational(1);
+  for (Rational& x : step) x *= unit;
+  return step;
+}
+
+Solid_pair pair_of_solids(const Posed_scene& scene, Random& random) {
+  std::vector<Points> bases;
+  for (Face_id f = 0; f < scene.soup.face_count(); ++f)
+    if (Points base = base_of(scene.soup, f, true); !base.empty()) bases.push_back(std::move(base));
+  if (bases.empty()) return {};
+  constexpr int tries = 20;  // an apex may be in the base's plane
+  for (int k = 0; k < tries; ++k) {
+    const Exact_point apex = random.chance(1, 2) ? scene.eye : lattice(random, 8), along = lattice(random, 3),
+                      other_apex = lattice(random, 8), other_along = lattice(random, 3);
+    const Points &base = bases[random.below(bases.size())], &other = bases[random.below(bases.size())];
+    Solid_pair pair{any_solid(base, apex, along, random), {}};
+    switch (random.below(4)) {
+      case 0: pair[1] = any_solid(other, apex, along, random); break;
+      case 1: pair[1] = any_solid(other, other_apex, other_along, random); break;
+      case 2: pair[1] = any_solid(base, other_apex, other_along, random); break;
+      default: pair[1] = translated(pair[0], any_step(scene, random));
+    }
+    if (pair[0].face_count() > 0 && pair[1].face_count() > 0) return pair;
+  }
+  return {};
+}
+
+Solid_pair pair_of_copies(const Polygon_soup& soup, Random& random) {
+  if (soup.face_count() == 0) return {};
+  Exact_point low = soup.point(0), high = low, step{0, 0, 0};
+  for (Point_id p = 0; p < soup.point_count(); ++p)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], soup.point(p)[k]);
+      high[k] = std::max(high[k], soup.point(p)[k]);
+    }
+  const bool near = random.chance(1, 4);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational unit = near ? ulps_of_size(1, size_bits(soup)) : Rational((high[k] - low[k]) / 4);
+    step[k] = unit * integer(random, -4, 4);
+    if (random.chance(1, 3)) step[k] = 0;
+  }
+  return {soup, translated(soup, step)};
+}
+
+}  // namespace sightline::generate

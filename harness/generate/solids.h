@@ -1,0 +1,39 @@
+#pragma once
+// Closed surfaces made of a scene's faces: cones over them, prisms on them, and pairs of these, which touch as likely
+// as not.
+
+#include <sightline/harness/generate/families.h>
+#include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/random.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <array>
+
+namespace sightline::generate {
+
+/// A face, holes and all, on points of its own.
+Polygon_soup face_alone(const Polygon_soup& soup, Face_id face);
+
+/// The corners of a face that solids can be made of, none twice in turn: one loop that does not cross itself, with
+/// area; none of any other face. `planar`: nor of one that is not planar.
+Points base_of(const Polygon_soup& soup, Face_id face, bool planar);
+
+/// Adds the base as it is, then what closes it, to the apex.
+void add_cone(Polygon_soup& soup, const Points& base, const Exact_point& apex);
+/// Adds the base as it is, and what closes it, moved along.
+void add_prism(Polygon_soup& soup, const Points& base, const Exact_point& along);
+
+/// How far a solid may be moved: not, by a lattice step, or by a few ulps.
+Exact_point any_step(const Posed_scene& scene, Random& random);
+
+using Solid_pair = std::array<Polygon_soup, 2>;
+
+/// Two solids, each a cone over a planar face or a prism on one, fronts outwards: of any two faces with one apex or
+/// another, on the same face, or one a copy of the other beside it. Empty where no face serves.
+Solid_pair pair_of_solids(const Posed_scene& scene, Random& random);
+
+/// A surface, and a copy of it: where it is, a few ulps away, or moved along the axes by quarters of its box, so that
+/// planes of faces meet.
+Solid_pair pair_of_copies(const Polygon_soup& soup, Random& random);
+
+}  // namespace sightline::generate

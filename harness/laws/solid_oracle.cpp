@@ -1,0 +1,45 @@
+#include <sightline/harness/laws/solid_oracle.h>
+
+#include <sightline/harness/generate/solids.h>
+#include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+namespace sightline::harness {
+
+Solid_oracle::Solid_oracle(const Polygon_soup& soup) {
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const Scene alone(generate::face_alone(soup, f));
+    for (Flat_face& face : flat_faces_of(alone)) faces_.push_back(std::move(face));
+    if (std::any_of(alone.set_aside().begin(), alone.set_aside().end(),
+                    [](const Set_aside& aside) { return aside.reason != Set_aside_reason::zero_area; }))
+      unusable_.push_back(f);
+  }
+}
+
+bool Solid_oracle::is_on_a_face(const Exact_point& p) const {
+  return std::any_of(faces_.begin(), faces_.end(), [&](const Flat_face& face) { return face.holds(p); });
+}
+
+int Solid_oracle::winding(const Exact_point& p, generate::Random& random) const {
+  for (;;) {
+    const Exact_point direction = generate::lattice(random, 1000);
+    if (is_zero(direction)) continue;
+    int winding = 0;
+    bool general = true;
+    for (const Flat_face& face : faces_) {
+      const std::optional<Rational> t = met_at(face, p, direction);
+      if (!t) continue;
+      const Rational slope = dot(face.normal, direction);
+      general = slope != 0 && face.side_within(generate::along(p, *t, direction)) > 0;
+      if (!general) break;
+      winding += sgn(slope);
+    }
+    if (general) return winding;
+  }
+}
+
+}  // namespace sightline::harness

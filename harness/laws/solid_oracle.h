@@ -1,0 +1,29 @@
+#pragma once
+// Winding numbers by brute force, in rationals.
+
+#include <sightline/harness/generate/random.h>
+#include <sightline/harness/laws/flat_faces.h>
+#include <sightline/kernel/scene/polygon_soup.h>
+
+#include <vector>
+
+namespace sightline::harness {
+
+/// A surface by the convex parts of its faces alone, each face cut by itself. Nothing of it is shared with set
+/// operations.
+class Solid_oracle {
+ public:
+  explicit Solid_oracle(const Polygon_soup& soup);
+
+  /// Faces with area that bound nothing: they cross themselves.
+  const std::vector<Face_id>& unusable() const { return unusable_; }
+  bool is_on_a_face(const Exact_point& p) const;
+  /// Pre: !is_on_a_face(p), and the surface is closed.
+  int winding(const Exact_point& p, generate::Random& random) const;
+
+ private:
+  std::vector<Flat_face> faces_;
+  std::vector<Face_id> unusable_;
+};
+
+}  // namespace sightline::harness
