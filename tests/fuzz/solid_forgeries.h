@@ -10,6 +10,7 @@
 #include <sightline/algorithms/verify/solids.h>
 #include <sightline/harness/generate/random.h>
 #include <sightline/harness/generate/transform.h>
+#include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/harness/laws/solids.h>
 
 #include <map>
