@@ -13,6 +13,8 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
+#include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
@@ -408,6 +410,34 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
   return weakly_visible(model, sources, asking);
 }
 
+// ---- Along a path
+
+Seen_along see_along(const Model& model, const Exact_point& from, const Exact_point& to, const Asking& asking) {
+  const std::shared_ptr<const Model::Inside> inside = model.inside();
+  Along_options options;
+  options.two_sided = asking.two_sided;
+  options.threads = asking.threads;
+  options.progress = progress_within_budget(asking);
+  Visible_along found = visible_along(inside->occluders(), from, to, options);
+  Seen_along answer;
+  for (Along_event& event : found.events) {
+    Seen_along::Event& told = answer.events.emplace_back(Seen_along::Event{std::move(event.t), {}});
+    for (Along_event::Change& change : event.changes)
+      told.changes.push_back(
+          {change.face, change.before, change.at, change.after, name(change.kind), std::move(change.edges)});
+  }
+  answer.at_start = std::move(found.at_start);
+  answer.at_end = std::move(found.at_end);
+  answer.visible = std::move(found.visible);
+  options.progress = {};
+  options.with_proofs = true;
+  answer.certificate_ = [inside, from, to, options] {
+    const Visible_along proved = visible_along(inside->occluders(), from, to, options);
+    return certificate_text(along_certificate(inside->scene, proved, from, to, options.two_sided));
+  };
+  return answer;
+}
+
 // ---- Rays
 
 namespace {
@@ -499,6 +529,7 @@ Checked verify(const Model& model, const std::string& certificate, const Asking&
   std::istringstream in(certificate);
   const Certificate claim = read_certificate(in);
   Verify_options options;
+  options.threads = asking.threads;
   options.progress = progress_within_budget(asking);
   const Polygon_soup& soup = model.soup();
   struct Check {

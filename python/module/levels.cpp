@@ -6,9 +6,13 @@
 #include <sightline/algorithms/levels/cells.h>
 #include <sightline/algorithms/levels/grid.h>
 #include <sightline/algorithms/levels/pvs.h>
+#include <sightline/io/file.h>
 #include <sightline/kernel/vectors.h>
+#include <sightline/own_leaves.h>
 
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace sightline::python {
@@ -19,13 +23,24 @@ struct Level {
   std::shared_ptr<const Level_cells> cells;
 };
 
-/// The cells of a scene, within even boxes where `grid` has three counts.
-Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, const py::list& grid,
+/// The tree of the compiled level that a scene was read from. Errors: ValueError where it was not.
+Space_tree own_tree(const Model& model) {
+  const std::string& file = model.soup().file;
+  if (std::filesystem::is_regular_file(file))
+    if (const std::string bytes = read_bytes(file); looks_like_quake_level(bytes))
+      return space_tree(read_quake_level({file, bytes}), file);
+  throw py::value_error("leaves are of a level that is compiled (.bsp, version 29) and was read; this scene is none");
+}
+
+/// The cells of a scene, within even boxes where `grid` has three counts, or within the leaves of its file.
+Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, const py::list& grid, bool leaves,
                const Question& question) {
   std::vector<std::uint32_t> counts;
   for (const py::handle count : grid) counts.push_back(py::cast<std::uint32_t>(count));
+  Space_tree own = leaves ? own_tree(model) : Space_tree();
   return answer_to(question, [&](const Asking& asking) {
     Cell_options options;
+    options.tree = std::move(own);
     options.candidates = candidates;
     options.seed = seed;
     options.threads = asking.threads;
@@ -124,7 +139,7 @@ void add_levels(py::module_& module) {
       .def("outside", of_cells([](const Level_cell& cell) { return cell.is_outside ? 1 : 0; }))
       .def("windings", of_cells([](const Level_cell& cell) { return cell.winding; }))
       .def("regions", of_cells([](const Level_cell& cell) { return cell.region; }))
-      .def("boxes", of_cells([](const Level_cell& cell) { return cell.leaf; }))
+      .def("leaves", of_cells([](const Level_cell& cell) { return cell.leaf; }))
       .def(
           "faces", [](const Level& level, Cell_id cell) { return ids(cell_of(level, cell).faces); }, py::arg("cell"))
       .def(
@@ -153,7 +168,7 @@ void add_levels(py::module_& module) {
           },
           py::arg("point"));
   module.def("cells", &level_of, py::arg("model"), py::arg("candidates"), py::arg("seed"), py::arg("grid"),
-             py::arg("question"));
+             py::arg("leaves"), py::arg("question"));
   for (const auto& [name, ask] : {std::pair("faces_seen", &faces_seen), {"cells_seen", &cells_seen}})
     module.def(name, ask, py::arg("level"), py::arg("seed"), py::arg("outside"), py::arg("question"));
 }

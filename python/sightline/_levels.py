@@ -59,8 +59,13 @@ class Cell:
         grid = self.cells.grid
         if grid is None:
             return None
-        number = int(self.cells._level.boxes()[self.id])
+        number = int(self.cells._level.leaves()[self.id])
         return number % grid[0], number // grid[0] % grid[1], number // grid[0] // grid[1]
+
+    @property
+    def leaf(self) -> Optional[int]:
+        """The leaf of the compiled level that it is in, by the file's number; None without `leaves`."""
+        return int(self.cells._level.leaves()[self.id]) if self.cells.within_leaves else None
 
     @property
     def faces(self) -> Ids:
@@ -94,9 +99,15 @@ class Cells(Sequence[Cell]):
     """
 
     def __init__(
-        self, scene: "Scene", level: "_sightline.Level", grid: Optional[Tuple[int, int, int]], seed: int
+        self,
+        scene: "Scene",
+        level: "_sightline.Level",
+        grid: Optional[Tuple[int, int, int]],
+        leaves: bool,
+        seed: int,
     ) -> None:
         self.scene = scene
+        self.within_leaves = leaves  #: whether cells lie within the leaves of a compiled level
         self.grid = grid  #: the even boxes along each axis that cells lie within; None: there are none
         self.solid: NDArray[np.bool_] = level.solid().astype(bool)
         self.outside: NDArray[np.bool_] = level.outside().astype(bool)
