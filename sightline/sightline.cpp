@@ -491,8 +491,10 @@ std::vector<Nearest_face> nearest(const Model& model, std::span<const Double_ray
 
 // ---- Solids
 
-Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside) {
+Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside,
+                 const Asking& asking) {
   Set_options options;
+  options.progress = progress_within_budget(asking);
   const auto named = [](std::string_view word, auto& chosen, const auto& all) {
     std::string names;
     for (const auto one : all) {
@@ -511,11 +513,13 @@ Combined combine(std::string_view operation, const std::vector<Model>& solids, s
   std::vector<Polygon_soup> soups;
   for (const Model& solid : solids) soups.push_back(solid.soup());
   const Operands operands(soups);
+  if (options.progress) options.progress(0, 1);
   if (const std::vector<Operand_flaw> wrong = flaws(operands); !wrong.empty())
     throw std::invalid_argument(
         "solid " + std::to_string(wrong[0].operand) + " bounds no solid: face " + std::to_string(wrong[0].face) +
         (wrong[0].why.empty() ? " has an edge without an opposite; close its surface" : " is " + wrong[0].why));
-  Set_result result = set_operation(operands, options);
+  Set_result result;
+  run_with_threads(asking.threads, [&] { result = set_operation(operands, options); });
   const Rational volume = sightline::volume(result.soup);
   std::vector<std::pair<std::uint32_t, Face_id>> sources;
   for (const Result_face& face : result.faces) sources.emplace_back(face.operand, face.face);

@@ -226,7 +226,8 @@ struct Combined {
 /// "symmetric-difference" (in an odd number of them). A solid is where its faces wind round a point a "positive",
 /// "nonzero" or "odd" number of times. Errors: std::invalid_argument for other words, and for a model that bounds no
 /// solid. Exact: yes.
-Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside = "positive");
+Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside = "positive",
+                 const Asking& asking = {});
 
 /// What a checker says that shares no code with what made the certificate.
 struct Checked {

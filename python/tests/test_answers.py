@@ -244,11 +244,44 @@ def test_what_progress_raises_ends_the_question():
     assert scene.see((-3, -5, 50)).certificate().text  # and the scene is as it was
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_interrupts_end_a_question_at_once():
+def tangle(count):
+    """Tetrahedra that nearly all go through each other: what is made of them takes long."""
+    V = np.random.default_rng(1).integers(-1000, 1000, (count, 4, 3))
+    turned = np.linalg.det((V[:, 1:] - V[:, :1]).astype(float)) < 0
+    V[turned] = V[turned][:, [0, 2, 1, 3]]
+    F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    return sightline.Scene(V.reshape(-1, 3), (F + 4 * np.arange(count)[:, None, None]).reshape(-1, 3))
+
+
+def slow_question(name):
+    """As a function of keyword arguments, made ready but for what takes long."""
+    if name == "boolean":
+        solid = tangle(300)
+        return lambda **asked: sightline.boolean("union", solid, **asked)
+    if name == "space":
+        return sightline.generate("triangles_between_squares", size=800).scene.shadow((-3, -5, 50)).space
     scene = slow_scene()
     scene.weakly_visible(0, budget=1e-9)  # what is made when first asked for
-    sent = []
+    if name == "see_along":
+        return lambda **asked: scene.see_along((-3, -5, 50), (3, 5, -50), **asked)
+    return lambda **asked: scene.weakly_visible(0, **asked)
+
+
+@pytest.mark.parametrize("name", ["space", "boolean"])
+def test_budget_and_progress_of_what_is_made_of_solids(name):
+    ask, told = slow_question(name), []
+    with pytest.raises(sightline.OutOfBudget):
+        ask(threads=1, budget=1, progress=lambda done, of: told.append(done / of))
+    assert told == sorted(told) and 0 <= told[0] and told[-1] < 1
+    small = tangle(6)
+    one, four = (sightline.boolean("union", small, threads=n) for n in (1, 4))
+    assert one.volume == four.volume and one.sources.tolist() == four.sources.tolist()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.parametrize("name", ["weakly_visible", "see_along", "space", "boolean"])
+def test_interrupts_end_a_question_at_once(name):
+    ask, sent = slow_question(name), []
 
     def interrupt():
         sent.append(time.perf_counter())
@@ -257,7 +290,7 @@ def test_interrupts_end_a_question_at_once():
     timer = threading.Timer(0.3, interrupt)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        scene.weakly_visible(0, budget=60)
+        ask(budget=60)
     assert time.perf_counter() - sent[0] < 5
 
 

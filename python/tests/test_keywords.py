@@ -77,13 +77,13 @@ commands = {
     ),
     "boolean": (
         sightline.boolean,
-        {"out": "Scene.write()", "threads": "one for each processor", **dict.fromkeys(("round", "snap"), "Scene.write() says what its format cannot hold")},
+        {"out": "Scene.write()", **dict.fromkeys(("round", "snap"), "Scene.write() says what its format cannot hold")},
     ),
     "verify": (Scene.verify, dict.fromkeys(("sample", "solid", "result"), program_alone)),
     "generate": (sightline.generate, {"query": "Generated", "out": "Scene.write()"}),
 }
 #: Keywords that are no options: arguments of the program, and what a terminal has anyway.
-of_python = {"self", "progress", "eye", "source", "start", "end", "certificate", "operation", "solids",
+of_python = {"self", "progress", "budget", "eye", "source", "start", "end", "certificate", "operation", "solids",
              "origins", "directions", "family"}  # fmt: skip
 
 

@@ -321,6 +321,7 @@ TEST(Answers, say_that_the_budget_ran_out) {
   EXPECT_THROW(order(model, {0, 0, 10}, hasty), Out_of_budget);
   EXPECT_THROW(see(model, {0, 0, 10}, hasty), Out_of_budget);
   EXPECT_THROW(see_along(model, {0, 0, 10}, {0, 0, 2}, hasty), Out_of_budget);
+  EXPECT_THROW(combine("union", {cube(), cube()}, "positive", hasty), Out_of_budget);
   const Weak_visibility open = weakly_visible(model, 2, hasty);
   EXPECT_EQ(open.visible.size() + open.hidden.size() + open.undecided.size(), 3u);
   EXPECT_FALSE(open.undecided.empty());
@@ -351,6 +352,7 @@ TEST(Answers, what_progress_throws_ends_the_question) {
   EXPECT_THROW(order(model, {0, 0, 10}, impatient), Enough);
   EXPECT_THROW(see(model, {0, 0, 10}, impatient), Enough);
   EXPECT_THROW(see_along(model, {0, 0, 10}, {0, 0, 2}, impatient), Enough);
+  EXPECT_THROW(combine("union", {cube(), cube()}, "positive", impatient), Enough);
   EXPECT_THROW(weakly_visible(model, 2, impatient), Enough);
   EXPECT_EQ(order(model, {0, 0, 10}).parts.size(), 3u);  // and the model is as it was
 }
