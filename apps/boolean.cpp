@@ -118,6 +118,8 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   options.operation = named(operations, a.operation);
   options.inside = named(inside_rules, a.inside);
   options.keep_fragments = !a.certificate.empty();
+  Progress progress(a.operation);
+  options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
   Set_result result;
   double prepare_seconds = 0;
   std::optional<Operands> operands;
@@ -130,6 +132,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
     result = set_operation(*operands, options);
   });
   const double seconds = watch.seconds();
+  progress.clear();
 
   // 3. What is written.
   const Hole_free flat = without_holes(result.soup);

@@ -254,9 +254,13 @@ static Exit run(const Shadow_arguments& arguments) {
   if (!arguments.volume.empty()) {
     const Stopwatch since;
     Shadow_volume made;
+    Progress progress("the space in shadow");
+    const auto report = common.within_budget([&](std::size_t done, std::size_t of) { progress(done, of); });
     run_with_threads(common.threads, [&] {
-      made = lights[0].is_sun ? shadow_volume(scene, Sun{lights[0].at}) : shadow_volume(scene, lights[0].at);
+      made = lights[0].is_sun ? shadow_volume(scene, Sun{lights[0].at}, report)
+                              : shadow_volume(scene, lights[0].at, report);
     });
+    progress.clear();
     const Polygon_soup flat = without_holes(made.soup).soup;
     const auto rounding = write_solid(flat, arguments.volume, false, true);
     const Rational size = volume(made.soup);

@@ -13,6 +13,8 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
+#include <sightline/algorithms/weak_visibility/along/along.h>
+#include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
@@ -408,6 +410,34 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
   return weakly_visible(model, sources, asking);
 }
 
+// ---- Along a path
+
+Seen_along see_along(const Model& model, const Exact_point& from, const Exact_point& to, const Asking& asking) {
+  const std::shared_ptr<const Model::Inside> inside = model.inside();
+  Along_options options;
+  options.two_sided = asking.two_sided;
+  options.threads = asking.threads;
+  options.progress = progress_within_budget(asking);
+  Visible_along found = visible_along(inside->occluders(), from, to, options);
+  Seen_along answer;
+  for (Along_event& event : found.events) {
+    Seen_along::Event& told = answer.events.emplace_back(Seen_along::Event{std::move(event.t), {}});
+    for (Along_event::Change& change : event.changes)
+      told.changes.push_back(
+          {change.face, change.before, change.at, change.after, name(change.kind), std::move(change.edges)});
+  }
+  answer.at_start = std::move(found.at_start);
+  answer.at_end = std::move(found.at_end);
+  answer.visible = std::move(found.visible);
+  options.progress = {};
+  options.with_proofs = true;
+  answer.certificate_ = [inside, from, to, options] {
+    const Visible_along proved = visible_along(inside->occluders(), from, to, options);
+    return certificate_text(along_certificate(inside->scene, proved, from, to, options.two_sided));
+  };
+  return answer;
+}
+
 // ---- Rays
 
 namespace {
@@ -461,8 +491,10 @@ std::vector<Nearest_face> nearest(const Model& model, std::span<const Double_ray
 
 // ---- Solids
 
-Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside) {
+Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside,
+                 const Asking& asking) {
   Set_options options;
+  options.progress = progress_within_budget(asking);
   const auto named = [](std::string_view word, auto& chosen, const auto& all) {
     std::string names;
     for (const auto one : all) {
@@ -481,11 +513,13 @@ Combined combine(std::string_view operation, const std::vector<Model>& solids, s
   std::vector<Polygon_soup> soups;
   for (const Model& solid : solids) soups.push_back(solid.soup());
   const Operands operands(soups);
+  if (options.progress) options.progress(0, 1);
   if (const std::vector<Operand_flaw> wrong = flaws(operands); !wrong.empty())
     throw std::invalid_argument(
         "solid " + std::to_string(wrong[0].operand) + " bounds no solid: face " + std::to_string(wrong[0].face) +
         (wrong[0].why.empty() ? " has an edge without an opposite; close its surface" : " is " + wrong[0].why));
-  Set_result result = set_operation(operands, options);
+  Set_result result;
+  run_with_threads(asking.threads, [&] { result = set_operation(operands, options); });
   const Rational volume = sightline::volume(result.soup);
   std::vector<std::pair<std::uint32_t, Face_id>> sources;
   for (const Result_face& face : result.faces) sources.emplace_back(face.operand, face.face);
@@ -499,6 +533,7 @@ Checked verify(const Model& model, const std::string& certificate, const Asking&
   std::istringstream in(certificate);
   const Certificate claim = read_certificate(in);
   Verify_options options;
+  options.threads = asking.threads;
   options.progress = progress_within_budget(asking);
   const Polygon_soup& soup = model.soup();
   struct Check {

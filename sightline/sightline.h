@@ -3,6 +3,7 @@
 // and exact points in the file's coordinates. What stands behind it is in kernel/, algorithms/ and io/.
 
 #include <sightline/algorithms/rays/ray.h>
+#include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
@@ -29,7 +30,7 @@ struct Asking {
                                                                     ///< question, and comes out of it
   double budget = 0;  ///< seconds; 0: none. What weak visibility has not decided then is undecided; other questions
                       ///< throw Out_of_budget
-  bool two_sided = false;  ///< of weak visibility: faces seen from behind count too
+  bool two_sided = false;  ///< of weak visibility, and along a path: faces seen from behind count too
 };
 
 /// The budget of a question ran out before there was an answer.
@@ -171,6 +172,29 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
 Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                                const Asking& asking = {});
 
+/// What an eye sees that moves straight from one point to another: at the moment t, from 0 to 1, it is at
+/// from + t (to - from).
+struct Seen_along : Answer {
+  /// A face that changes, whether it is seen just before, then, and just after, and why: "horizon", the eye is in its
+  /// plane; "contact", on some face; "edge and vertex", in a plane of two edges; "triple", three edges look concurrent.
+  struct Change {
+    Face_id face;
+    bool before, at, after;
+    std::string kind;
+    std::vector<std::array<std::uint32_t, 2>> edges;  ///< that one ray of the eye meets: a place in Model::parts(), and
+                                                      ///< the corner there that the edge begins at
+  };
+  struct Event {
+    Quadratic_root t;
+    std::vector<Change> changes;  ///< by face
+  };
+  std::vector<Event> events;                       ///< in order: all moments at which what is seen changes, exactly
+  std::vector<Face_id> at_start, at_end, visible;  ///< at 0, at 1, at some moment between them; sorted
+};
+/// Its certificate says when each face is seen, and takes more than twice the time of the answer. Errors:
+/// std::invalid_argument where the path has no length.
+Seen_along see_along(const Model& model, const Exact_point& from, const Exact_point& to, const Asking& asking = {});
+
 /// What each ray meets first: the hits of the least t, by face, none where nothing is met. Faces are closed and met
 /// from both sides; a face that holds the origin is passed over, unless `start` is closed. Errors: std::domain_error
 /// for a direction that is zero.
@@ -202,7 +226,8 @@ struct Combined {
 /// "symmetric-difference" (in an odd number of them). A solid is where its faces wind round a point a "positive",
 /// "nonzero" or "odd" number of times. Errors: std::invalid_argument for other words, and for a model that bounds no
 /// solid. Exact: yes.
-Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside = "positive");
+Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside = "positive",
+                 const Asking& asking = {});
 
 /// What a checker says that shares no code with what made the certificate.
 struct Checked {

@@ -58,7 +58,7 @@ class Caster {
  public:
   Caster(const Scene& scene, const Exact_point& light, bool is_sun) : scene_(scene), light_(light), is_sun_(is_sun) {}
 
-  Shadow_volume cast() {
+  Shadow_volume cast(const std::function<void(std::size_t, std::size_t)>& progress) {
     Shadow_volume volume;
     const std::optional<Box> box = box_around(scene_);
     if (!box) return volume;
@@ -67,6 +67,7 @@ class Caster {
     // All frusta are one operand: where it winds round at all, some face is in the light's way.
     Set_options options;
     options.operation = Set_operation::intersect;
+    options.progress = progress;
     const std::vector<Polygon_soup> both{std::move(frusta_), box_soup(*box)};
     Set_result result = set_operation(Operands(both), options);
     volume.soup = std::move(result.soup);
@@ -129,7 +130,13 @@ class Caster {
 
 }  // namespace
 
-Shadow_volume shadow_volume(const Scene& scene, const Exact_point& light) { return Caster(scene, light, false).cast(); }
-Shadow_volume shadow_volume(const Scene& scene, const Sun& sun) { return Caster(scene, sun.direction, true).cast(); }
+Shadow_volume shadow_volume(const Scene& scene, const Exact_point& light,
+                            const std::function<void(std::size_t, std::size_t)>& progress) {
+  return Caster(scene, light, false).cast(progress);
+}
+Shadow_volume shadow_volume(const Scene& scene, const Sun& sun,
+                            const std::function<void(std::size_t, std::size_t)>& progress) {
+  return Caster(scene, sun.direction, true).cast(progress);
+}
 
 }  // namespace sightline

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 
 namespace sightline {
 
@@ -22,9 +23,11 @@ struct Shadow_volume {
 /// each piece's own shadow, which is a frustum from the piece on, cut at the box, which is the scene's, larger by a
 /// quarter of its longest side all around. Points on its boundary are in it or not.
 /// Degenerate: faces in whose plane the light is cast none; both sides of others do; a scene without faces has an
-/// empty one. Pre: a sun's direction is not 0. Cost: a set operation on n frusta, all of which may meet: O(n log n + k
-/// log k), k up to n^2. Exact: yes. Proof: P-118
-Shadow_volume shadow_volume(const Scene& scene, const Exact_point& light);
-Shadow_volume shadow_volume(const Scene& scene, const Sun& sun);
+/// empty one. `progress` is that of the set operation. Pre: a sun's direction is not 0. Cost: a set operation on n
+/// frusta, all of which may meet: O(n log n + k log k), k up to n^2. Exact: yes. Proof: P-118
+Shadow_volume shadow_volume(const Scene& scene, const Exact_point& light,
+                            const std::function<void(std::size_t done, std::size_t all)>& progress = {});
+Shadow_volume shadow_volume(const Scene& scene, const Sun& sun,
+                            const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace sightline

@@ -259,12 +259,14 @@ class Assembler {
         lines_(operands) {}
 
   void assemble(const std::vector<Kept_fragment>& kept,
-                const std::vector<std::pair<std::uint32_t, Fragment_mark>>& marks) {
+                const std::vector<std::pair<std::uint32_t, Fragment_mark>>& marks,
+                const std::function<void(std::size_t, std::size_t)>& progress) {
     // 1. Which are faces by themselves; edges of all others.
     std::vector<std::uint32_t> alone;  // places in kept
     for (std::uint32_t i = 0; i < kept.size(); ++i) {
       if (kept[i].corners.empty() && is_whole_face(kept[i].piece)) alone.push_back(i);
       else add_edges(kept[i]);
+      if (progress) progress(i, 2 * kept.size());
     }
     // 2. What bounds a group, line by line; and which vertices it turns at.
     for (const auto& [piece, mark] : marks) {
@@ -286,6 +288,7 @@ class Assembler {
       for (; next < alone.size() && operands_.pieces()[kept[alone[next]].piece].face < group.face; ++next)
         add_whole(kept[alone[next]]);
       add_faces(group);
+      if (progress) progress(groups_.size() + static_cast<std::size_t>(&group - groups_.data()), 2 * groups_.size());
     }
     for (; next < alone.size(); ++next) add_whole(kept[alone[next]]);
     find_crowded();
@@ -500,8 +503,9 @@ class Assembler {
 }  // namespace
 
 void assemble(const Operands& operands, const std::vector<Kept_fragment>& kept,
-              const std::vector<std::pair<std::uint32_t, Fragment_mark>>& marks, Set_result& result) {
-  Assembler(operands, result).assemble(kept, marks);
+              const std::vector<std::pair<std::uint32_t, Fragment_mark>>& marks, Set_result& result,
+              const std::function<void(std::size_t, std::size_t)>& progress) {
+  Assembler(operands, result).assemble(kept, marks, progress);
 }
 
 }  // namespace sightline

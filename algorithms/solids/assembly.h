@@ -4,7 +4,9 @@
 #include <sightline/algorithms/solids/fragments.h>
 #include <sightline/algorithms/solids/set_operation.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace sightline {
@@ -17,8 +19,9 @@ struct Kept_fragment {
 };
 
 /// Faces, points, and edges of other than two faces of a result. `marks`, by piece: where others end on its edges.
-/// Pre: kept is in the order of pieces. Exact: yes. Proof: P-114
+/// What `progress` throws is thrown. Pre: kept is in the order of pieces. Exact: yes. Proof: P-114
 void assemble(const Operands& operands, const std::vector<Kept_fragment>& kept,
-              const std::vector<std::pair<std::uint32_t, Fragment_mark>>& marks, Set_result& result);
+              const std::vector<std::pair<std::uint32_t, Fragment_mark>>& marks, Set_result& result,
+              const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace sightline

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <optional>
 
 namespace sightline {
@@ -284,15 +285,20 @@ std::vector<std::size_t> gathered(const std::vector<Leaf_contacts>& leaves, std:
 
 }  // namespace
 
-Contacts contacts(const Operands& operands, const Box_tree& tree) {
+Contacts contacts(const Operands& operands, const Box_tree& tree,
+                  const std::function<void(std::size_t, std::size_t)>& progress) {
   // 1. All pairs, by leaves of the tree.
   constexpr std::size_t together = 64;
   const Near_pieces near(operands);
   std::vector<Leaf_contacts> found((tree.leaf_count() + together - 1) / together);
+  std::atomic<std::size_t> done = 0;
   parallel_for(found.size(), [&](std::size_t chunk) {
     Pair_finder finder(operands, near, found[chunk]);
-    for (std::size_t leaf = together * chunk; leaf < std::min(together * (chunk + 1), tree.leaf_count()); ++leaf)
+    for (std::size_t leaf = together * chunk; leaf < std::min(together * (chunk + 1), tree.leaf_count()); ++leaf) {
       tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { finder.look_at(i, j); });
+      ++done;
+      if (progress) progress(done, tree.leaf_count());
+    }
   });
 
   // 2. By piece, in an order that is the leaves'.

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -60,7 +61,8 @@ struct Contacts {
 
 /// Looks at all pairs of pieces whose boxes meet, of one operand too. The same for any number of threads.
 /// Degenerate: pieces that share a corner or an edge, touch, or lie in one plane are the main case; see Contacts.
-/// Cost: O(n log n + pairs). Exact: yes. Proof: P-110
-Contacts contacts(const Operands& operands, const Box_tree& tree);
+/// `progress` may be called by any thread; what it throws is thrown. Cost: O(n log n + pairs). Exact: yes. Proof: P-110
+Contacts contacts(const Operands& operands, const Box_tree& tree,
+                  const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace sightline

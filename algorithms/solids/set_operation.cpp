@@ -8,6 +8,7 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <optional>
 
@@ -99,13 +100,21 @@ bool is_in_result(Set_operation operation, Inside_rule rule, std::span<const Win
 }
 
 Set_result set_operation(const Operands& operands, const Set_options& options) {
+  // Of three stages, each as much of the way as another: what meets, cutting it, putting it together.
+  const auto stage = [&](std::size_t number) {
+    return [&options, number](std::size_t done, std::size_t all) {
+      constexpr std::size_t parts = 1000;
+      if (options.progress) options.progress(parts * number + parts * done / all, 3 * parts);
+    };
+  };
   Set_result result;
   const Predicates predicates = operands.predicates();
   const auto pieces = static_cast<std::uint32_t>(operands.pieces().size());
 
   // 1. What meets what.
   const Box_tree tree(operands);
-  const Contacts found = contacts(operands, tree);
+  stage(0)(0, 1);
+  const Contacts found = contacts(operands, tree, stage(0));
 
   // 2. Pieces that meet no other, in patches; each of them has the winding numbers of its least piece.
   Patches patches(pieces);
@@ -125,8 +134,12 @@ Set_result set_operation(const Operands& operands, const Set_options& options) {
   std::vector<std::vector<Fragment_verdict>> verdicts(touched.size());
   std::vector<Fragment_verdict> of_heads(heads.size());
   Per_thread<Predicate_counts> counts;
+  std::atomic<std::size_t> begun = 0;
   parallel_for(heads.size() + touched.size(), [&](std::size_t i) {
     Predicate_counts& own = counts.local();
+    const std::size_t done = begun++;
+    const auto tell = [&] { stage(1)(done, heads.size() + touched.size()); };
+    tell();
     if (i < heads.size()) {
       of_heads[i] = verdict_on(operands, options,
                                sides_of(operands, predicates, tree, whole(operands, predicates, heads[i]), own));
@@ -134,8 +147,10 @@ Set_result set_operation(const Operands& operands, const Set_options& options) {
     }
     i -= heads.size();
     cut[i] = cut_piece(operands, predicates, found, touched[i], own);
-    for (const Solid_fragment& fragment : cut[i].fragments)
+    for (const Solid_fragment& fragment : cut[i].fragments) {
       verdicts[i].push_back(verdict_on(operands, options, sides_of(operands, predicates, tree, fragment, own)));
+      tell();  // a piece may have very many
+    }
   });
 
   // 4. What bounds the result.
@@ -168,7 +183,8 @@ Set_result set_operation(const Operands& operands, const Set_options& options) {
       for (const Fragment_mark& mark : cut[t].marks) marks.emplace_back(i, mark);
     ++t;
   }
-  assemble(operands, kept, marks, result);
+  assemble(operands, kept, marks, result, stage(2));
+  stage(2)(1, 1);
 
   Set_counters& c = result.counters;
   c.faces = operands.counters().faces;

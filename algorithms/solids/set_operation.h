@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -33,6 +34,8 @@ struct Set_options {
   Set_operation operation = Set_operation::unite;
   Inside_rule inside = Inside_rule::positive;
   bool keep_fragments = false;  ///< for a certificate
+  /// Called from any thread; what it throws ends the operation, and comes out of it.
+  std::function<void(std::size_t done, std::size_t all)> progress = {};
 };
 
 /// A face of the result: part of a face of an operand, turned round where it bounds a hole that this one cuts.

@@ -21,31 +21,15 @@ std::array<Exact_point, 2> path_of(const std::string& text) {
   return {points[0], points[1]};
 }
 
-const char* name_of(Along_kind kind) {
-  switch (kind) {
-    case Along_kind::plane: return "horizon";
-    case Along_kind::contact: return "contact";
-    case Along_kind::edge_vertex: return "edge and vertex";
-    case Along_kind::triple: return "triple";
-  }
-  return "";
-}
-
 /// A fraction, or a quadratic and fractions between which it has this root alone.
 Json moment_json(const Quadratic_root& t) {
   if (const std::optional<Rational> root = t.rational()) return {{"root", to_string(*root)}, {"near", t.near()}};
   const Quadratic f = t.polynomial();
-  for (unsigned long count = 60;; count *= 2) {
-    const Integer k = t.bits(count);
-    Rational low(Integer(k - 1), Integer(1) << count), high(Integer(k + 2), Integer(1) << count);
-    low.canonicalize();
-    high.canonicalize();
-    if (f.sign(low) * f.sign(high) >= 0) continue;  // both roots are between them
-    return {{"quadratic", {to_string(f.c[2]), to_string(f.c[1]), to_string(f.c[0])}},
-            {"low", to_string(low)},
-            {"high", to_string(high)},
-            {"near", t.near()}};
-  }
+  const auto [low, high] = t.bounds();
+  return {{"quadratic", {to_string(f.c[2]), to_string(f.c[1]), to_string(f.c[0])}},
+          {"low", to_string(low)},
+          {"high", to_string(high)},
+          {"near", t.near()}};
 }
 
 struct Change_lists {
@@ -72,12 +56,12 @@ Json event_json(const Scene& scene, const Along_event& event) {
       edges.push_back(
           {{"face", scene.pieces()[piece].face}, {"piece", scene.pieces()[piece].number}, {"corner", corner}});
     changes.push_back({{"face", change.face},
-                       {"kind", name_of(change.kind)},
+                       {"kind", name(change.kind)},
                        {"visible", {change.before, change.at, change.after}},
                        {"edges", std::move(edges)}});
   }
   return {{"t", moment_json(event.t)},
-          {"kind", same ? name_of(event.changes[0].kind) : "several"},
+          {"kind", same ? name(event.changes[0].kind) : "several"},
           {"appear", lists.appear},
           {"disappear", lists.disappear},
           {"momentary", {{"visible", lists.seen_now}, {"hidden", lists.hidden_now}}},
@@ -172,7 +156,7 @@ Exit run_along(const Common& common, const Along_arguments& arguments) {
     const std::optional<Rational> root = event.t.rational();
     const Change_lists lists = lists_of(event);
     std::string text = root && to_string(*root).size() <= 12 ? to_string(*root) : fmt::format("{:.9g}", event.t.near());
-    text += fmt::format("{}, {}", root ? "" : " (quadratic)", name_of(event.changes[0].kind));
+    text += fmt::format("{}, {}", root ? "" : " (quadratic)", name(event.changes[0].kind));
     if (!lists.appear.empty()) text += "; appear" + listed(lists.appear);
     if (!lists.disappear.empty()) text += "; disappear" + listed(lists.disappear);
     if (!lists.seen_now.empty()) text += "; just now seen" + listed(lists.seen_now);

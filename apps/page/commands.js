@@ -457,7 +457,8 @@ commands.compare = () => {
     const face = polygons.faces[k];
     return !chosen || !chosen.said ? (visible.has(face) ? 0 : 1) : chosen.missing.has(face) ? 2 : chosen.extra.has(face) ? 3 : visible.has(face) ? 0 : 1;
   };
-  const errorsOf = one => Object.entries(one.errors || {}).filter(([, value]) => typeof value === 'number' && value !== 0).map(([key, value]) => `${key.replaceAll('_', ' ')} ${Number(value.toPrecision(3))}`).join(', ');
+  const judged = new Set(['pairs', 'sides_asked']);  // how many, right or wrong
+  const errorsOf = one => Object.entries(one.errors || {}).filter(([key, value]) => typeof value === 'number' && value !== 0 && !judged.has(key)).map(([key, value]) => `${key.replaceAll('_', ' ')} ${Number(value.toPrecision(3))}`).join(', ');
   const where = element('p', {id: 'method'});
   const saidOf = one => one.status !== 'done' ? one.status : `${one.seconds.toPrecision(2)} s, ${(one.peak_bytes / 1e6).toFixed(1)} MB${errorsOf(one) ? '; ' + errorsOf(one) : ''}`;
   const list = listOf(methods, one => `${one.name}: ${saidOf(one)}`, one => choose(one));

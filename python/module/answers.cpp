@@ -55,6 +55,33 @@ py::tuple weak_from(const Model& model, const py::object& source, const Question
   return py::make_tuple(ids(found.visible), ids(found.hidden), ids(found.undecided), certifier(found));
 }
 
+py::tuple moment(const Quadratic_root& t) {
+  const std::optional<Rational> root = t.rational();
+  const Quadratic f = t.polynomial();
+  const auto [low, high] = t.bounds();
+  const auto whole = [](const Integer& x) { return py::int_(py::str(to_string(x))); };
+  return py::make_tuple(root ? fraction(*root) : py::object(py::none()),
+                        py::make_tuple(whole(f.c[2]), whole(f.c[1]), whole(f.c[0])),
+                        py::make_tuple(fraction(low), fraction(high)), t.near());
+}
+
+py::tuple seen_along(const Model& model, const py::object& start, const py::object& end, const Question& question) {
+  const Exact_point from = point_of(start, "start"), to = point_of(end, "end");
+  const Seen_along found =
+      answer_to(question, [&](const Asking& asking) { return see_along(model, from, to, asking); });
+  py::list events;
+  for (const Seen_along::Event& event : found.events) {
+    py::list changes;
+    for (const Seen_along::Change& change : event.changes) {
+      py::list edges;
+      for (const auto& [part, corner] : change.edges) edges.append(py::make_tuple(part, corner));
+      changes.append(py::make_tuple(change.face, change.before, change.at, change.after, change.kind, edges));
+    }
+    events.append(py::make_tuple(moment(event.t), changes));
+  }
+  return py::make_tuple(events, ids(found.at_start), ids(found.at_end), ids(found.visible), certifier(found));
+}
+
 py::tuple verdict_on(const Model& model, const std::string& certificate, const Question& question) {
   const Checked checked = answer_to(question, [&](const Asking& asking) { return verify(model, certificate, asking); });
   return py::make_tuple(checked.accepted, checked.why);
@@ -80,6 +107,7 @@ void add_answers(py::module_& module) {
   module.def("graph", &graph_of, py::arg("model"), py::arg("question"));
   module.def("see", &seen_by, py::arg("model"), py::arg("eye"), py::arg("question"));
   module.def("weakly_visible", &weak_from, py::arg("model"), py::arg("source"), py::arg("question"));
+  module.def("see_along", &seen_along, py::arg("model"), py::arg("start"), py::arg("end"), py::arg("question"));
   module.def("verify", &verdict_on, py::arg("model"), py::arg("certificate"), py::arg("question"));
 }
 

@@ -8,9 +8,13 @@
 #include <sightline/algorithms/levels/grid.h>
 #include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/levels/volumes.h>
+#include <sightline/io/file.h>
 #include <sightline/kernel/vectors.h>
+#include <sightline/own_leaves.h>
 
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace sightline::python {
@@ -22,14 +26,25 @@ struct Level {
   std::uint32_t volumes = 0;  // that they are within
 };
 
+/// The tree of the compiled level that a scene was read from. Errors: ValueError where it was not.
+Space_tree own_tree(const Model& model) {
+  const std::string& file = model.soup().file;
+  if (std::filesystem::is_regular_file(file))
+    if (const std::string bytes = read_bytes(file); looks_like_quake_level(bytes))
+      return space_tree(read_quake_level({file, bytes}), file);
+  throw py::value_error("leaves are of a level that is compiled (.bsp, version 29) and was read; this scene is none");
+}
+
 /// The cells of a scene, within even boxes where `grid` has three counts, or within the polyhedra of `volumes`, a model
-/// or nullptr.
+/// or nullptr, or within the leaves of its file.
 Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, const py::list& grid, const Model* volumes,
-               const Question& question) {
+               bool leaves, const Question& question) {
   std::vector<std::uint32_t> counts;
   for (const py::handle count : grid) counts.push_back(py::cast<std::uint32_t>(count));
+  Space_tree own = leaves ? own_tree(model) : Space_tree();
   return answer_to(question, [&](const Asking& asking) {
     Cell_options options;
+    options.tree = std::move(own);
     options.candidates = candidates;
     options.seed = seed;
     options.threads = asking.threads;
@@ -172,7 +187,7 @@ void add_levels(py::module_& module) {
           },
           py::arg("point"));
   module.def("cells", &level_of, py::arg("model"), py::arg("candidates"), py::arg("seed"), py::arg("grid"),
-             py::arg("volumes").none(true), py::arg("question"));
+             py::arg("volumes").none(true), py::arg("leaves"), py::arg("question"));
   for (const auto& [name, ask] : {std::pair("faces_seen", &faces_seen), {"cells_seen", &cells_seen}})
     module.def(name, ask, py::arg("level"), py::arg("seed"), py::arg("outside"), py::arg("question"));
 }

@@ -59,8 +59,10 @@ py::tuple dark_space_of(const Model& model, const py::object& at, bool is_sun, c
   const auto [space, holds, box] = answer_to(question, [&](const Asking& asking) {
     const Scene scene(model.soup());
     Shadow_volume made;
-    run_with_threads(asking.threads,
-                     [&] { made = is_sun ? shadow_volume(scene, Sun{place}) : shadow_volume(scene, place); });
+    const auto progress = progress_within_budget(asking);
+    run_with_threads(asking.threads, [&] {
+      made = is_sun ? shadow_volume(scene, Sun{place}, progress) : shadow_volume(scene, place, progress);
+    });
     Rational size = volume(made.soup);
     return std::tuple(Model(std::move(made.soup)), std::move(size), std::move(made.box));
   });

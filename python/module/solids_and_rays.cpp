@@ -110,11 +110,12 @@ py::tuple firsts_of(const Exact_hits& found) {
   return columns.tuple();
 }
 
-py::tuple combined(const std::string& operation, const py::list& solids, const std::string& inside) {
+py::tuple combined(const std::string& operation, const py::list& solids, const std::string& inside,
+                   const Question& question) {
   std::vector<Model> models;
   for (const py::handle solid : solids) models.push_back(py::cast<Model>(solid));
   const Combined found =
-      answer_to(Question{0, py::none(), 0, false}, [&](const Asking&) { return combine(operation, models, inside); });
+      answer_to(question, [&](const Asking& asking) { return combine(operation, models, inside, asking); });
   py::array_t<std::int64_t> sources({static_cast<py::ssize_t>(found.faces.size()), py::ssize_t{2}});
   for (std::size_t f = 0; f < found.faces.size(); ++f) {
     sources.mutable_at(static_cast<py::ssize_t>(f), 0) = found.faces[f].first;
@@ -134,7 +135,7 @@ void add_solids_and_rays(py::module_& module) {
              py::arg("question"));
   module.def("traced", &traced, py::arg("model"), py::arg("origins"), py::arg("directions"), py::arg("all"),
              py::arg("closed"), py::arg("question"));
-  module.def("combine", &combined, py::arg("operation"), py::arg("solids"), py::arg("inside"));
+  module.def("combine", &combined, py::arg("operation"), py::arg("solids"), py::arg("inside"), py::arg("question"));
 }
 
 }  // namespace sightline::python

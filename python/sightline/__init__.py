@@ -6,6 +6,7 @@
 array([0])
 """
 
+from ._along import Change, Event, Moment, SeenAlong
 from ._answers import Answer, Certificate, Graph, Order, Part, Parts, Tracker, Verdict, View, WeakView
 from ._errors import InputError, OutOfBudget
 from ._judging import Failure, FuzzReport, Generated, Report, families, fuzz, generate, judge
@@ -22,13 +23,16 @@ __all__ = [
     "CellPairs",
     "Cells",
     "Certificate",
+    "Change",
     "DarkSpace",
+    "Event",
     "Failure",
     "FuzzReport",
     "Generated",
     "Hit",
     "Graph",
     "InputError",
+    "Moment",
     "Order",
     "OutOfBudget",
     "Part",
@@ -37,6 +41,7 @@ __all__ = [
     "Rays",
     "Report",
     "Scene",
+    "SeenAlong",
     "Shadow",
     "Solid",
     "Tracker",

@@ -69,6 +69,11 @@ class Cell:
         return number if number < self.cells._level.volumes else None
 
     @property
+    def leaf(self) -> Optional[int]:
+        """The leaf of the compiled level that it is in, by the file's number; None without `leaves`."""
+        return int(self.cells._leaves[self.id]) if self.cells.within_leaves else None
+
+    @property
     def faces(self) -> Ids:
         """Ids of the faces that look into it, sorted."""
         return self.cells._level.faces(self.id)
@@ -100,9 +105,15 @@ class Cells(Sequence[Cell]):
     """
 
     def __init__(
-        self, scene: "Scene", level: "_sightline.Level", grid: Optional[Tuple[int, int, int]], seed: int
+        self,
+        scene: "Scene",
+        level: "_sightline.Level",
+        grid: Optional[Tuple[int, int, int]],
+        leaves: bool,
+        seed: int,
     ) -> None:
         self.scene = scene
+        self.within_leaves = leaves  #: whether cells lie within the leaves of a compiled level
         self.grid = grid  #: the even boxes along each axis that cells lie within; None: there are none
         self.solid: NDArray[np.bool_] = level.solid().astype(bool)
         self.outside: NDArray[np.bool_] = level.outside().astype(bool)

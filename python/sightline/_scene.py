@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _sightline
+from ._along import SeenAlong
 from ._answers import Certificate, Graph, Order, Parts, Tracker, Verdict, View, WeakView
 from ._levels import Cells, PotentiallyVisible, counts_of
 from ._progress import Progress, followed
@@ -195,6 +196,29 @@ class Scene:
                 self, *_sightline.weakly_visible(self._model, source, _question(threads, told, budget, two_sided))
             )
 
+    def see_along(
+        self,
+        start: Any,
+        end: Any,
+        *,
+        two_sided: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> SeenAlong:
+        """What an eye sees that moves straight from one point to another, and exactly when that changes.
+
+        two_sided: faces seen from behind count too. The program's `weak --along`.
+
+        >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> walk = lid.see_along((0, 0, -1), (0, 0, 2))
+        >>> [(event.t.root, event.appear) for event in walk.events]
+        [(Fraction(1, 3), [0]), (Fraction(2, 3), [1]), (Fraction(7, 9), [0])]
+        """
+        with followed(progress, "along the path") as told:
+            question = _question(threads, told, budget, two_sided)
+            return SeenAlong(self, start, end, *_sightline.see_along(self._model, start, end, question))
+
     def shadow(
         self,
         light: Any = None,
@@ -229,6 +253,7 @@ class Scene:
         *,
         grid: Any = None,
         volumes: Optional["Scene"] = None,
+        leaves: bool = False,
         candidates: int = 5,
         seed: int = 1,
         threads: int = 0,
@@ -238,8 +263,9 @@ class Scene:
         """The convex cells that the faces' planes divide space into, the walls between them, what is solid, and leaks.
 
         grid: (nx, ny, nz), even boxes that cells lie within, along each axis of the box about the scene. volumes: the
-        same for given rooms, the convex closed polyhedra of a scene, each with points of its own. candidates: planes
-        tried for each node of the tree, by the seed's choice.
+        same for given rooms, the convex closed polyhedra of a scene, each with points of its own. leaves: of a compiled
+        level that was read (.bsp), cells lie within its own. candidates: planes tried for each node of the tree, by the
+        seed's choice.
 
         >>> cells = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0]], [[0, 1, 2]]).cells()
         >>> cells.at((1, 1, "1/9")).faces, cells.at((1, 1, "-1/9")).faces
@@ -250,19 +276,20 @@ class Scene:
         if not 0 <= operator.index(seed) < 2**64:
             raise ValueError(f"seed is {seed}; give 0 to 2**64 - 1")
         counts = counts_of(grid)
-        if counts is not None and volumes is not None:
-            raise ValueError("grid and volumes each say what cells lie within; give one of them")
+        if sum((counts is not None, volumes is not None, bool(leaves))) > 1:
+            raise ValueError("grid, volumes and leaves each say what cells lie within; give one of them")
         rooms = None if volumes is None else volumes._model
         with followed(progress, "cells") as told:
             question = _question(threads, told, budget)
-            level = _sightline.cells(self._model, candidates, seed, list(counts or ()), rooms, question)
-        return Cells(self, level, counts, seed)
+            level = _sightline.cells(self._model, candidates, seed, list(counts or ()), rooms, leaves, question)
+        return Cells(self, level, counts, leaves, seed)
 
     def pvs(
         self,
         *,
         grid: Any = None,
         volumes: Optional["Scene"] = None,
+        leaves: bool = False,
         candidates: int = 5,
         seed: int = 1,
         outside: bool = False,
@@ -275,7 +302,13 @@ class Scene:
         What `budget`, which is of looking, leaves open is undecided. Other arguments: as of cells(), and Cells.pvs().
         """
         cells = self.cells(
-            grid=grid, volumes=volumes, candidates=candidates, seed=seed, threads=threads, progress=progress
+            grid=grid,
+            volumes=volumes,
+            leaves=leaves,
+            candidates=candidates,
+            seed=seed,
+            threads=threads,
+            progress=progress,
         )
         return cells.pvs(outside=outside, threads=threads, progress=progress, budget=budget)
 
@@ -314,7 +347,12 @@ class Scene:
             return Rays(self, o, d, hits.firsts(), hits, closed)
 
     def verify(
-        self, certificate: Union[Certificate, str, "os.PathLike[str]"], *, progress: Progress = None, budget: float = 0
+        self,
+        certificate: Union[Certificate, str, "os.PathLike[str]"],
+        *,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
     ) -> Verdict:
         """Checks a certificate, its text, or the file of a path, by code that shares nothing with what made it."""
         if isinstance(certificate, os.PathLike):
@@ -323,7 +361,7 @@ class Scene:
         else:
             text = certificate.text if isinstance(certificate, Certificate) else certificate
         with followed(progress, "verify") as told:
-            return Verdict(*_sightline.verify(self._model, text, _question(0, told, budget)))
+            return Verdict(*_sightline.verify(self._model, text, _question(threads, told, budget)))
 
 
 def read(path: Path, *, coordinates: str = "exact", flip: bool = False) -> Scene:

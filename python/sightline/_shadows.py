@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from . import _sightline
 from ._answers import Ids, Parts, Point
+from ._progress import Progress, followed
 
 if TYPE_CHECKING:
     from ._scene import Scene
@@ -53,13 +54,14 @@ class Shadow:
         """Of each face the area that others shadow, (faces,); 0 for faces that are `away`."""
         return self._by_face(self.by >= 0)
 
-    def space(self, *, threads: int = 0) -> DarkSpace:
+    def space(self, *, threads: int = 0, progress: Progress = None, budget: float = 0) -> DarkSpace:
         """What the faces keep the light from, exactly, within a box about the scene; both sides of faces shadow."""
         from ._scene import Scene, _question
 
-        model, volume, box = _sightline.dark_space(
-            self.scene._model, self._at, self._is_sun, _question(threads, None, 0)
-        )
+        with followed(progress, "the space in shadow") as told:
+            model, volume, box = _sightline.dark_space(
+                self.scene._model, self._at, self._is_sun, _question(threads, told, budget)
+            )
         return DarkSpace(Scene._of(model), volume, box)
 
     def __repr__(self) -> str:

@@ -5,7 +5,8 @@ from typing import NamedTuple
 
 from . import _sightline
 from ._answers import Ids
-from ._scene import Scene
+from ._progress import Progress, followed
+from ._scene import Scene, _question
 
 
 class Solid(NamedTuple):
@@ -16,7 +17,14 @@ class Solid(NamedTuple):
     volume: Fraction
 
 
-def boolean(operation: str, *solids: Scene, inside: str = "positive") -> Solid:
+def boolean(
+    operation: str,
+    *solids: Scene,
+    inside: str = "positive",
+    threads: int = 0,
+    progress: Progress = None,
+    budget: float = 0,
+) -> Solid:
     """A set operation on closed surfaces, exactly.
 
     operation: "union", "intersection", "difference" (the first less all others) or "symmetric-difference" (in an odd
@@ -28,5 +36,7 @@ def boolean(operation: str, *solids: Scene, inside: str = "positive") -> Solid:
     >>> boolean("intersection", cube, other).volume
     Fraction(1, 8)
     """
-    model, sources, volume = _sightline.combine(operation, [solid._model for solid in solids], inside)
+    with followed(progress, operation) as told:
+        question = _question(threads, told, budget)
+        model, sources, volume = _sightline.combine(operation, [solid._model for solid in solids], inside, question)
     return Solid(Scene._of(model), sources, volume)

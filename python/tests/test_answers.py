@@ -101,12 +101,48 @@ def test_the_program_says_the_same(tmp_path):
     assert [[str(x) for x in p] for p in info["box"]] == said["box"]
 
 
+@pytest.mark.parametrize("two_sided", [False, True])
+def test_the_program_says_the_same_of_a_path(tmp_path, two_sided):
+    file = tmp_path / "triangles.off"
+    sightline.generate("triangles_between_squares", size=20, seed=3).scene.write(file)
+    scene, start, end = sightline.read(file), (-5, -4, 3), (6, "5", 4)
+    walk = scene.see_along(start, end, two_sided=two_sided)
+    options = ["--two-sided"] if two_sided else []
+    said = by_program(tmp_path, "weak", file, "--along", "-5,-4,3 6,5,4", *options)["along"]
+    assert walk.at_start.tolist() == said["visible_at_start"] and walk.at_end.tolist() == said["visible_at_end"]
+    assert walk.visible.tolist() == said["visible"] and len(walk.events) == len(said["events"]) > 20
+    parts, irrational = scene.parts, 0
+    for event, of in zip(walk.events, said["events"]):
+        assert event.appear == of["appear"] and event.disappear == of["disappear"]
+        assert event.momentary == sorted(of["momentary"]["visible"] + of["momentary"]["hidden"])
+        assert float(event.t) == of["t"]["near"]
+        if event.t.root is None:
+            a, b, c = event.t.quadratic
+            low, high = event.t.bounds
+            assert [[str(a), str(b), str(c)], str(low), str(high)] == [of["t"][k] for k in ("quadratic", "low", "high")]
+            assert (a * low**2 + b * low + c) * (a * high**2 + b * high + c) < 0
+            irrational += 1
+        else:
+            assert str(event.t.root) == of["t"]["root"] and event.t.bounds == (event.t.root,) * 2
+        for change, other in zip(event.changes, of["changes"], strict=True):
+            assert [change.face, change.kind] == [other["face"], other["kind"]]
+            assert [change.before, change.at, change.after] == other["visible"]
+            edges = [(parts[part].face, parts[part].piece, corner) for part, corner in change.edges]
+            assert edges == [(edge["face"], edge["piece"], edge["corner"]) for edge in other["edges"]]
+    assert irrational > 0 and walk.certificate().verify()
+    with pytest.raises(ValueError):
+        scene.see_along(start, start)
+    with pytest.raises(sightline.OutOfBudget):
+        scene.see_along(start, end, budget=1e-9)
+
+
 def test_the_program_takes_the_certificates(tmp_path):
     if not program.is_file():
         pytest.skip("the program is not built here")
     file = corpus / "two_rooms.off"
     scene = sightline.read(file)
-    for answer in (scene.see((1, 1, 2)), scene.order((1, 1, 2)), scene.weakly_visible(0), scene.graph()):
+    walk = scene.see_along((1, 1, 1), (7, 2, 1))
+    for answer in (scene.see((1, 1, 2)), scene.order((1, 1, 2)), scene.weakly_visible(0), scene.graph(), walk):
         answer.certificate().save(tmp_path / "certificate.json")
         subprocess.run([program, "verify", file, tmp_path / "certificate.json"], check=True, capture_output=True)
         assert sightline.verify(scene, tmp_path / "certificate.json")
@@ -208,11 +244,44 @@ def test_what_progress_raises_ends_the_question():
     assert scene.see((-3, -5, 50)).certificate().text  # and the scene is as it was
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="signals")
-def test_interrupts_end_a_question_at_once():
+def tangle(count):
+    """Tetrahedra that nearly all go through each other: what is made of them takes long."""
+    V = np.random.default_rng(1).integers(-1000, 1000, (count, 4, 3))
+    turned = np.linalg.det((V[:, 1:] - V[:, :1]).astype(float)) < 0
+    V[turned] = V[turned][:, [0, 2, 1, 3]]
+    F = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
+    return sightline.Scene(V.reshape(-1, 3), (F + 4 * np.arange(count)[:, None, None]).reshape(-1, 3))
+
+
+def slow_question(name):
+    """As a function of keyword arguments, made ready but for what takes long."""
+    if name == "boolean":
+        solid = tangle(300)
+        return lambda **asked: sightline.boolean("union", solid, **asked)
+    if name == "space":
+        return sightline.generate("triangles_between_squares", size=800).scene.shadow((-3, -5, 50)).space
     scene = slow_scene()
     scene.weakly_visible(0, budget=1e-9)  # what is made when first asked for
-    sent = []
+    if name == "see_along":
+        return lambda **asked: scene.see_along((-3, -5, 50), (3, 5, -50), **asked)
+    return lambda **asked: scene.weakly_visible(0, **asked)
+
+
+@pytest.mark.parametrize("name", ["space", "boolean"])
+def test_budget_and_progress_of_what_is_made_of_solids(name):
+    ask, told = slow_question(name), []
+    with pytest.raises(sightline.OutOfBudget):
+        ask(threads=1, budget=1, progress=lambda done, of: told.append(done / of))
+    assert told == sorted(told) and 0 <= told[0] and told[-1] < 1
+    small = tangle(6)
+    one, four = (sightline.boolean("union", small, threads=n) for n in (1, 4))
+    assert one.volume == four.volume and one.sources.tolist() == four.sources.tolist()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+@pytest.mark.parametrize("name", ["weakly_visible", "see_along", "space", "boolean"])
+def test_interrupts_end_a_question_at_once(name):
+    ask, sent = slow_question(name), []
 
     def interrupt():
         sent.append(time.perf_counter())
@@ -221,7 +290,7 @@ def test_interrupts_end_a_question_at_once():
     timer = threading.Timer(0.3, interrupt)
     timer.start()
     with pytest.raises(KeyboardInterrupt):
-        scene.weakly_visible(0, budget=60)
+        ask(budget=60)
     assert time.perf_counter() - sent[0] < 5
 
 

@@ -174,6 +174,28 @@ def test_the_program_says_the_same_of_cells_and_pvs(tmp_path):
     assert sum(map(len, pairs.visible.values())) == 2 * result["pairs_of_cells"]["visible"] > 0
 
 
+def test_leaves_of_a_compiled_level(tmp_path):
+    if not program.is_file():
+        pytest.skip("the program is not built here")
+    file, out = corpus.parent / "robust" / "tiny_level.bsp", tmp_path / "cells.json"
+    subprocess.run([program, "cells", file, "--leaves", "--out", out], check=True, capture_output=True)
+    said, level = json.loads(out.read_text()), sightline.read(file)
+    cells = level.cells(leaves=True)
+    assert [cell.leaf for cell in cells] == [cell["leaf"] for cell in said["cells"]]
+    assert len({cell.leaf for cell in cells}) > 1 and {cell.leaf for cell in level.cells()} == {None}
+    table = tmp_path / "pvs.json"
+    subprocess.run([program, "pvs", file, "--leaves", "--out", table], check=True, capture_output=True)
+    pvs = level.pvs(leaves=True)
+    assert [(cell, seen.tolist()) for cell, seen in pvs.visible.items()] == [
+        (row["cell"], row["visible"]) for row in json.loads(table.read_text())["cells"]
+    ]
+    with pytest.raises(ValueError, match="leave out one"):
+        level.cells(leaves=True, grid=(1, 1, 1))
+    for scene in (two_rooms(), sightline.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])):
+        with pytest.raises(ValueError, match="compiled"):
+            scene.pvs(leaves=True)
+
+
 @pytest.mark.parametrize("grid", [None, (2, 2, 1)])
 def test_a_cell_sees_what_eyes_in_it_see(grid):
     scene = two_rooms()

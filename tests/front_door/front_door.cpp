@@ -1,5 +1,6 @@
 // The front door: answers agree with what stands behind it, with definitions, and with arithmetic done by hand.
 
+#include <sightline/harness/generate/families.h>
 #include <sightline/sightline.h>
 
 #include <gtest/gtest.h>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -215,6 +217,54 @@ TEST(Weak, counts_backs_where_both_sides_count_and_is_proved) {
   EXPECT_TRUE(verify(model, seen.certificate()).accepted);
 }
 
+TEST(Along, between_its_events_sees_what_see_sees_there_and_is_proved) {
+  generate::Family_parameters parameters;
+  parameters.seed = 3;
+  parameters.size = 20;
+  const Model model(generate::family("triangles_between_squares").make(parameters).soup);
+  const Exact_point from{-5, -4, 3}, to{6, 5, 4};
+  for (const bool two_sided : {false, true}) {
+    Asking asking;
+    asking.two_sided = two_sided;
+    const auto seen_at = [&](const Rational& t) {
+      Exact_point eye;
+      for (std::size_t k = 0; k < 3; ++k) eye[k] = from[k] + t * (to[k] - from[k]);
+      const Seen seen = see(model, eye);
+      std::set<Face_id> faces(seen.visible.begin(), seen.visible.end());
+      if (two_sided) faces.insert(seen.from_behind.begin(), seen.from_behind.end());
+      return faces;
+    };
+    const Seen_along along = see_along(model, from, to, asking);
+    std::set<Face_id> now(along.at_start.begin(), along.at_start.end()), ever;
+    EXPECT_EQ(now, seen_at(0));
+    Rational last = 0;
+    std::size_t irrational = 0;
+    for (const Seen_along::Event& event : along.events) {
+      const auto [low, high] = event.t.bounds();
+      irrational += low < high;
+      EXPECT_NEAR(nearest_double(low), event.t.near(), 1e-15);
+      EXPECT_NEAR(nearest_double(high), event.t.near(), 1e-15);
+      EXPECT_EQ(now, seen_at((last + low) / 2));
+      ever.insert(now.begin(), now.end());
+      for (const Seen_along::Change& change : event.changes) {
+        EXPECT_EQ(now.contains(change.face), change.before);
+        if (change.after) now.insert(change.face);
+        else now.erase(change.face);
+        EXPECT_FALSE(change.kind.empty());
+      }
+      last = high;
+    }
+    ever.insert(now.begin(), now.end());
+    EXPECT_GT(along.events.size(), 20u);
+    EXPECT_GT(irrational, 0u);
+    EXPECT_EQ(now, seen_at((last + 1) / 2));
+    EXPECT_EQ((std::set<Face_id>(along.at_end.begin(), along.at_end.end())), seen_at(1));
+    EXPECT_EQ(along.visible, std::vector<Face_id>(ever.begin(), ever.end()));
+    EXPECT_TRUE(verify(model, along.certificate()).accepted);
+  }
+  EXPECT_THROW(see_along(model, from, from), std::invalid_argument);
+}
+
 TEST(Trace, meets_the_lid_before_the_floor_and_passes_over_what_it_leaves) {
   const Model model = lamp_and_lid();
   const std::vector<Exact_ray> rays{{{0, 0, 2}, {0, 0, -1}},
@@ -270,6 +320,8 @@ TEST(Answers, say_that_the_budget_ran_out) {
   hasty.budget = 1e-9;
   EXPECT_THROW(order(model, {0, 0, 10}, hasty), Out_of_budget);
   EXPECT_THROW(see(model, {0, 0, 10}, hasty), Out_of_budget);
+  EXPECT_THROW(see_along(model, {0, 0, 10}, {0, 0, 2}, hasty), Out_of_budget);
+  EXPECT_THROW(combine("union", {cube(), cube()}, "positive", hasty), Out_of_budget);
   const Weak_visibility open = weakly_visible(model, 2, hasty);
   EXPECT_EQ(open.visible.size() + open.hidden.size() + open.undecided.size(), 3u);
   EXPECT_FALSE(open.undecided.empty());
@@ -299,6 +351,8 @@ TEST(Answers, what_progress_throws_ends_the_question) {
   const Model model = lamp_and_lid();
   EXPECT_THROW(order(model, {0, 0, 10}, impatient), Enough);
   EXPECT_THROW(see(model, {0, 0, 10}, impatient), Enough);
+  EXPECT_THROW(see_along(model, {0, 0, 10}, {0, 0, 2}, impatient), Enough);
+  EXPECT_THROW(combine("union", {cube(), cube()}, "positive", impatient), Enough);
   EXPECT_THROW(weakly_visible(model, 2, impatient), Enough);
   EXPECT_EQ(order(model, {0, 0, 10}).parts.size(), 3u);  // and the model is as it was
 }

@@ -23,6 +23,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace {
@@ -313,6 +314,41 @@ TEST(Rounding, says_what_it_breaks) {
   sheets.add_face({3, 4, 5});
   EXPECT_TRUE(rounded(sheets, Rounding::to_double).crossing.empty());
   EXPECT_EQ(rounded(sheets, Rounding::to_float).crossing, (std::vector<std::pair<Face_id, Face_id>>{{0, 1}}));
+}
+
+TEST(Progress, of_an_operation_goes_on_to_its_end_and_what_it_throws_ends_it_anywhere) {
+  std::vector<Polygon_soup> solids;  // a row of boxes, low and high by turns, each a quarter in the next
+  for (int k = 0; k < 20; ++k) solids.push_back(box({3 * k, 0, 0}, {3 * k + 4, 1, 1 + k % 2}));
+  const Operands operands(solids);
+  std::vector<std::pair<std::size_t, std::size_t>> told;
+  Set_options options;
+  options.progress = [&](std::size_t done, std::size_t all) { told.emplace_back(done, all); };
+  Set_result result;
+  run_with_threads(1, [&] { result = set_operation(operands, options); });
+  EXPECT_EQ(volume(result.soup), 10 * 8 + 3 + 9 * 2);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  ASSERT_FALSE(told.empty());
+  EXPECT_EQ(told.back().first, told.back().second);
+  // Pairs, cuts, edges of faces, faces: each is told of as it goes on.
+  std::array<std::set<std::size_t>, 6> within;
+  for (const auto& [done, all] : told) {
+    EXPECT_EQ(all, told.back().second);
+    if (6 * done % all != 0) within[6 * done / all].insert(done);
+  }
+  for (const auto& places : within) EXPECT_GT(places.size(), 5u);
+  const auto is_cutting = [](const auto& at) { return 3 * at.first >= at.second && 3 * at.first < 2 * at.second; };
+  EXPECT_GT(std::count_if(told.begin(), told.end(), is_cutting), static_cast<long>(result.counters.fragments));
+  struct Enough {};
+  for (std::size_t until = 0; until < told.size(); ++until) {
+    std::size_t calls = 0;
+    options.progress = [&](std::size_t, std::size_t) {
+      if (calls++ == until) throw Enough();
+    };
+    EXPECT_THROW(run_with_threads(1, [&] { set_operation(operands, options); }), Enough) << until;
+    EXPECT_EQ(calls, until + 1);
+  }
+  options.progress = [](std::size_t, std::size_t) { throw Enough(); };
+  EXPECT_THROW(run_with_threads(4, [&] { set_operation(operands, options); }), Enough);
 }
 
 TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {

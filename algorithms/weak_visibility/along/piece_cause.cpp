@@ -71,6 +71,16 @@ std::optional<Along_cause> met_together(const Piece_view& view, const Quadratic_
 
 }  // namespace
 
+const char* name(Along_kind kind) {
+  switch (kind) {
+    case Along_kind::plane: return "horizon";
+    case Along_kind::contact: return "contact";
+    case Along_kind::edge_vertex: return "edge and vertex";
+    case Along_kind::triple: break;
+  }
+  return "triple";
+}
+
 Along_cause cause_of(const Piece_view& view, const Quadratic_root& t,
                      std::span<const std::array<std::uint32_t, 3>> zero) {
   std::optional<Along_cause> best;

@@ -17,6 +17,9 @@ enum class Along_kind : std::uint8_t {
   edge_vertex,  ///< two of the edges are in a plane
   triple        ///< three edges, no two in a plane
 };
+/// "horizon", "contact", "edge and vertex", "triple"
+const char* name(Along_kind kind);
+
 /// Why something changes: edges that the eye sees through one point, each a piece and a corner.
 struct Along_cause {
   Along_kind kind = Along_kind::plane;

@@ -66,6 +66,18 @@ Quadratic Quadratic_root::polynomial() const {
   return f;
 }
 
+std::array<Rational, 2> Quadratic_root::bounds() const {
+  if (const std::optional<Rational> root = rational()) return {*root, *root};
+  const Quadratic f = polynomial();
+  for (unsigned long count = 60;; count *= 2) {
+    const Integer k = bits(count);
+    Rational low(Integer(k - 1), Integer(1) << count), high(Integer(k + 2), Integer(1) << count);
+    low.canonicalize();
+    high.canonicalize();
+    if (f.sign(low) * f.sign(high) < 0) return {low, high};  // else both roots are between them
+  }
+}
+
 void append_roots(const Quadratic& f, const Parameter_range& range, std::vector<Quadratic_root>& roots) {
   if (f.is_zero() || f.certain_sign() != 0) return;
   const auto keep = [&](const Quadratic_root& root) {

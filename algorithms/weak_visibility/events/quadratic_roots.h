@@ -41,6 +41,8 @@ class Quadratic_root {
   /// The quadratic with integer coefficients without a common factor that has this root; of rational ones a multiple of
   /// the square of the linear one. Exact: yes
   Quadratic polynomial() const;
+  /// Fractions between which it is, and no other root of polynomial(); where it is a fraction, twice that. Exact: yes
+  std::array<Rational, 2> bounds() const;
 
   friend int compare(const Quadratic_root& a, const Quadratic_root& b) {
     if (are_apart(a.key_, b.key_)) return a.key_ < b.key_ ? -1 : 1;
