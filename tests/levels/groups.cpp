@@ -179,6 +179,7 @@ TEST(Convex_regions, of_boxes_are_put_together_again) {
     else regions = std::max(regions, all[c] + 1);
   }
   EXPECT_EQ(solid, 1u);
+  EXPECT_EQ(level.counters().covered, 6u);
   EXPECT_EQ(regions, 6u);
   EXPECT_EQ(std::set<std::uint32_t>(none.begin(), none.end()).size(), level.cells().size());
 }
