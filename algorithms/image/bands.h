@@ -14,6 +14,16 @@
 
 namespace sightline::image_detail {
 
+/// Runs work on as many threads as the options say. Where they do not say, a small picture of few pieces is one
+/// thread's: it is done before another one has woken up.
+template <class Work>
+void run_with_threads_for(const Image_options& options, const Pixel_view& pixels, std::size_t pieces,
+                          const Work& work) {
+  constexpr std::size_t small = 8192;
+  const bool is_small = std::size_t{pixels.width} * pixels.height <= small && pieces <= small / 16;
+  run_with_threads(options.threads == 0 && is_small ? 1 : options.threads, work);
+}
+
 /// Rows [top, bottom), and the cones that may reach them, in their order.
 struct Band {
   std::int64_t top, bottom;

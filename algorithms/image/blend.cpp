@@ -3,7 +3,6 @@
 #include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/image_faces.h>
 #include <sightline/algorithms/image/painted_cones.h>
-#include <sightline/kernel/threads.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,7 +85,7 @@ Blended_image blended_centres(const Exact_view& view, const Pixel_view& pixels, 
   check_tints(tints, view.scene().pieces().size());
   Blended_image image = Blended_image::empty(pixels);
   image.tied.assign(image.layers.size(), 0);
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, view.scene().pieces().size(), [&] {
     const Image_faces faces(view, pixels);
     const Pixel_cones& cones = faces.cones();
     image.counters = faces.counters();
@@ -117,7 +116,7 @@ Blended_image blended_painting(const std::vector<Painted_polygon>& polygons, con
   check_tints(tints, pieces);
   Blended_image image = Blended_image::empty(pixels);
   const Pixel_centres centres(pixels);
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, polygons.size(), [&] {
     const Painted_cones painted(polygons, centres, kernel);
     image.counters = painted.paint(Painted_cones::Border::half, options, [&](std::size_t at, std::uint32_t piece) {
       image.layers[at].put_before(tints[piece]);

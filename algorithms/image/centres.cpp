@@ -2,7 +2,6 @@
 
 #include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/image_faces.h>
-#include <sightline/kernel/threads.h>
 
 #include <vector>
 
@@ -59,8 +58,9 @@ Piece_image image_at_centres(const Image_faces& faces, const Image_options& opti
 
 Piece_image centres(const Exact_view& view, const Pixel_view& pixels, const Image_options& options) {
   Piece_image image;
-  run_with_threads(options.threads,
-                   [&] { image = image_detail::image_at_centres(image_detail::Image_faces(view, pixels), options); });
+  image_detail::run_with_threads_for(options, pixels, view.scene().pieces().size(), [&] {
+    image = image_detail::image_at_centres(image_detail::Image_faces(view, pixels), options);
+  });
   return image;
 }
 

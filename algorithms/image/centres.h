@@ -11,7 +11,7 @@
 namespace sightline {
 
 struct Image_options {
-  int threads = 0;  ///< 0: as many as there are processors; the result is the same for any number
+  int threads = 0;  ///< 0: as many as there are processors, or one for little; the result is the same for any number
   std::function<void(std::size_t done, std::size_t all)> progress = {};  ///< called from any thread
 };
 

@@ -1,5 +1,6 @@
 #include <sightline/algorithms/image/means.h>
 
+#include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/blend.h>
 #include <sightline/algorithms/image/layers.h>
 #include <sightline/algorithms/image/pixel_cones.h>
@@ -235,7 +236,7 @@ void visible_means(const Exact_view& view, const Visible_surface<Exact_view>& su
                    const std::function<Colour(std::uint32_t piece)>& colour,
                    const std::function<void(const Mean_row&)>& visit, const Image_options& options) {
   using namespace image_detail;
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, view.scene().pieces().size(), [&] {
     Image_parts parts(view, pixels);
     parts.add(surface, [&](std::size_t i) { return Layer{colour(surface.parts[i].piece), 1}; });
     parts.draw(visit, options);
@@ -248,7 +249,7 @@ void blended_means(const Exact_view& view, const Pixel_view& pixels, const std::
   check_tints(tints, view.scene().pieces().size());
   std::vector<double> alpha;
   for (const Tint& tint : tints) alpha.push_back(tint.alpha);
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, view.scene().pieces().size(), [&] {
     Image_parts parts(view, pixels);
     const auto add = [&](const Visible_layer& layer) {
       parts.add(layer.surface, [&](std::size_t i) {

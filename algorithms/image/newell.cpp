@@ -1,5 +1,6 @@
 #include <sightline/algorithms/image/newell.h>
 
+#include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/number_cones.h>
 #include <sightline/algorithms/image/pixel_cones.h>
 #include <sightline/kernel/number.h>
@@ -590,7 +591,7 @@ Newell_order newell_order(const Scene& scene, const Pixel_view& pixels, Image_ke
   using namespace image_detail;
   const Pixel_centres checked(pixels);
   Newell_order order;
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, scene.pieces().size(), [&] {
     order = kernel == Image_kernel::float_numbers    ? Newell<float>(scene, pixels, options).order()
             : kernel == Image_kernel::double_numbers ? Newell<double>(scene, pixels, options).order()
                                                      : Newell<Integer>(scene, pixels, options).order();

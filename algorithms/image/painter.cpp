@@ -1,9 +1,9 @@
 #include <sightline/algorithms/image/painter.h>
 
+#include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/number_cones.h>
 #include <sightline/algorithms/image/painted_cones.h>
 #include <sightline/kernel/number.h>
-#include <sightline/kernel/threads.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -56,13 +56,14 @@ std::vector<std::uint32_t> sorted(const Scene& scene, const Pixel_view& pixels, 
 
 }  // namespace image_detail
 
-/// What shows if the cones that `make` gives are painted in their order.
+/// What shows if the cones that `make` gives, some `count`, are painted in their order.
 template <class Make>
-static Piece_image painted(const image_detail::Pixel_centres& centres, const Image_options& options, Make make) {
+static Piece_image painted(const image_detail::Pixel_centres& centres, std::size_t count, const Image_options& options,
+                           Make make) {
   const Pixel_view& pixels = centres.view();
   Piece_image image{pixels.width, pixels.height, {}, {}, {}};
   image.pieces.assign(std::size_t{pixels.width} * pixels.height, Piece_image::nothing);
-  run_with_threads(options.threads, [&] {
+  image_detail::run_with_threads_for(options, pixels, count, [&] {
     const image_detail::Painted_cones cones = make();
     image.counters = cones.paint(image_detail::Painted_cones::Border::whole, options,
                                  [&](std::size_t at, std::uint32_t piece) { image.pieces[at] = piece; });
@@ -73,13 +74,15 @@ static Piece_image painted(const image_detail::Pixel_centres& centres, const Ima
 Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view& pixels, Image_kernel kernel,
                   const Image_options& options) {
   const image_detail::Pixel_centres centres(pixels);
-  return painted(centres, options, [&] { return image_detail::Painted_cones(polygons, centres, kernel); });
+  return painted(centres, polygons.size(), options,
+                 [&] { return image_detail::Painted_cones(polygons, centres, kernel); });
 }
 
 Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                   const Image_options& options) {
   const image_detail::Pixel_centres centres(pixels);
-  return painted(centres, options, [&] { return image_detail::Painted_cones(view, surface, centres); });
+  return painted(centres, surface.parts.size(), options,
+                 [&] { return image_detail::Painted_cones(view, surface, centres); });
 }
 
 std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view& pixels, Painter_key key,

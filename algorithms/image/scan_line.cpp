@@ -2,7 +2,6 @@
 
 #include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/image_faces.h>
-#include <sightline/kernel/threads.h>
 
 #include <algorithm>
 #include <array>
@@ -233,7 +232,7 @@ Image_counters draw_spans(const Image_faces& faces, const Image_options& options
 Piece_image scan_line(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel, const Image_options& options) {
   using namespace image_detail;
   Piece_image image;
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, scene.pieces().size(), [&] {
     const Image_faces faces(scene, pixels, kernel);
     image = faces.empty_image();
     image.counters +=
@@ -247,7 +246,7 @@ Blended_image blended_scan_line(const Scene& scene, const Pixel_view& pixels, Im
   using namespace image_detail;
   check_tints(tints, scene.pieces().size());
   Blended_image image = Blended_image::empty(pixels);
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, scene.pieces().size(), [&] {
     const Image_faces faces(scene, pixels, kernel);
     image.counters = faces.counters();
     image.counters += draw_spans(faces, options,

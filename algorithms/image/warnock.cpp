@@ -1,5 +1,6 @@
 #include <sightline/algorithms/image/warnock.h>
 
+#include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/image_faces.h>
 #include <sightline/kernel/threads.h>
 
@@ -172,7 +173,7 @@ class Warnock {
 Piece_image warnock(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel, const Image_options& options) {
   using namespace image_detail;
   Piece_image image;
-  run_with_threads(options.threads, [&] {
+  run_with_threads_for(options, pixels, scene.pieces().size(), [&] {
     const Image_faces faces(scene, pixels, kernel);
     image = faces.empty_image();
     image.counters += Warnock(faces, options, image).draw();

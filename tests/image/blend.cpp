@@ -72,7 +72,7 @@ TEST_P(Blend, layers_are_what_rays_meet) {
           tied += stack.tied;
         }
         EXPECT_EQ(colour_errors(image, spans).wrong, 0u);
-        const Blended_image again = blended_centres(view, pixels, tints, {.threads = 4});
+        const Blended_image again = blended_centres(view, pixels, tints, {.threads = 2});
         EXPECT_TRUE(std::equal(again.layers.begin(), again.layers.end(), image.layers.begin(),
                                [](const Layer& a, const Layer& b) { return same(a, b, 0); }));
         // What hides all makes the image of what is first.

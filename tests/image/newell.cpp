@@ -35,7 +35,7 @@ TEST_P(Newell, exact_is_what_rays_meet_but_for_ties) {
         EXPECT_EQ(image_test::difference(image, truth, [&](std::size_t i) { return !truth.tied[i]; }), "") << label;
         EXPECT_EQ(image.counters.edge_on, truth.counters.edge_on) << label;
         EXPECT_EQ(image.counters.unordered, 0u) << label;
-        const Piece_image again = newell(scene, pixels, Image_kernel::exact, {.threads = 4});
+        const Piece_image again = newell(scene, pixels, Image_kernel::exact, {.threads = 2});
         EXPECT_EQ(again.pieces, image.pieces) << label;
         Image_counters::each([&](const char* key, auto member) {
           EXPECT_EQ(again.counters.*member, image.counters.*member) << label << ": " << key;
@@ -59,7 +59,7 @@ TEST_P(Newell, rounded_numbers_make_an_image) {
       EXPECT_TRUE(std::all_of(image.pieces.begin(), image.pieces.end(), [&](std::uint32_t piece) {
         return piece == Piece_image::nothing || piece < scene.pieces().size();
       })) << label;
-      EXPECT_EQ(newell(scene, pixels, kernel, {.threads = 4}).pieces, image.pieces) << label;
+      EXPECT_EQ(newell(scene, pixels, kernel, {.threads = 2}).pieces, image.pieces) << label;
     }
   });
 }

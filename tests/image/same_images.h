@@ -73,7 +73,7 @@ inline Image_counters expect_exact_images(view_scenes::Family family, Method met
     EXPECT_EQ(difference(image, truth), "") << label;
     EXPECT_EQ(image.counters.edge_on, truth.counters.edge_on) << label;
     EXPECT_EQ(image.counters.drawn, truth.counters.drawn) << label;
-    const Piece_image again = method(scene, pixels, Image_kernel::exact, {.threads = 4});
+    const Piece_image again = method(scene, pixels, Image_kernel::exact, {.threads = 2});
     EXPECT_EQ(again.pieces, image.pieces) << label;
     Image_counters::each([&](const char* key, auto member) {
       EXPECT_EQ(again.counters.*member, image.counters.*member) << label << ": " << key;
@@ -100,7 +100,7 @@ inline void expect_images(view_scenes::Family family, Method method) {
       EXPECT_TRUE(std::all_of(image.pieces.begin(), image.pieces.end(), [&](std::uint32_t piece) {
         return piece == Piece_image::nothing || piece < scene.pieces().size();
       })) << label;
-      EXPECT_EQ(method(scene, pixels, kernel, {.threads = 4}).pieces, image.pieces) << label;
+      EXPECT_EQ(method(scene, pixels, kernel, {.threads = 2}).pieces, image.pieces) << label;
     }
   });
 }

@@ -13,7 +13,7 @@ using view_scenes::Family;
 
 Visible_surface<Exact_view> by_clip_polygons(const Exact_view& view, Cones<Exact_view> cones) {
   Visible_surface<Exact_view> alone = weiler_atherton(view, cones, {.threads = 1});
-  const Visible_surface<Exact_view> several = weiler_atherton(view, std::move(cones), {.threads = 4});
+  const Visible_surface<Exact_view> several = weiler_atherton(view, std::move(cones), {.threads = 2});
   EXPECT_EQ(alone.parts.size(), several.parts.size());
   for (std::size_t i = 0; i < std::min(alone.parts.size(), several.parts.size()); ++i)
     EXPECT_EQ(alone.parts[i].piece, several.parts[i].piece);
