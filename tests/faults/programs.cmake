@@ -16,7 +16,7 @@ function(add_programs_with_faults name library root sources)
 
   add_executable(sightline_${name} EXCLUDE_FROM_ALL tests/faults/program/main.cpp
                  apps/fuzz/fuzz.cpp apps/fuzz/case_watch.cpp apps/fuzz/io.cpp apps/support/query.cpp apps/support/common.cpp
-                 apps/support/files.cpp apps/support/options.cpp)
+                 apps/support/files.cpp apps/support/options.cpp apps/support/shard.cpp)
   target_link_libraries(sightline_${name} PRIVATE CLI11::CLI11 fmt::fmt)
   add_executable(fuzz_targets_${name} EXCLUDE_FROM_ALL tests/fuzz/program/main.cpp)
   target_link_libraries(fuzz_targets_${name} PRIVATE GTest::gtest rapidcheck)

@@ -146,6 +146,33 @@ bool drops_a_reason(Claim& claim, const Posed_scene&, Bytes& bytes) {
   return remove_any(claim.set_aside, bytes);
 }
 
+/// Two triangles of a face that share an edge, on the other diagonal of what they are together.
+template <class Claim>
+bool on_the_other_diagonal(Claim& claim, const Posed_scene&, Bytes& bytes) {
+  struct Pair {
+    Order_fragment *one, *other;
+    Points together;  // from one end of the diagonal
+  };
+  std::vector<Pair> pairs;
+  for (Order_fragment& one : claim.fragments)
+    for (Order_fragment& other : claim.fragments) {
+      const Points &a = one.vertices, &b = other.vertices;
+      if (&one >= &other || one.face != other.face || a.size() != 3 || b.size() != 3) continue;
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          if (a[i] == b[(k + 1) % 3] && a[(i + 1) % 3] == b[k])
+            pairs.push_back({&one, &other, {a[i], b[(k + 2) % 3], b[k], a[(i + 2) % 3]}});
+    }
+  if (pairs.empty()) return false;
+  const auto& [one, other, loop] = pairs[any_of_first(pairs, bytes)];
+  one->vertices = {loop[0], loop[1], loop[3]};
+  other->vertices = {loop[1], loop[2], loop[3]};
+  for (Covering::Piece& piece : claim.pieces)
+    for (const Order_fragment* fragment : {one, other})
+      if (piece.face == fragment->face && piece.piece == fragment->piece) piece.vertices = fragment->vertices;
+  return true;
+}
+
 template <class Claim>
 std::vector<Lie<Claim>> with_lies_about_fragments(std::vector<Lie<Claim>> lies) {
   lies.insert(lies.end(), {{"a fragment that is no polygon", is_no_polygon<Claim>},
@@ -153,6 +180,7 @@ std::vector<Lie<Claim>> with_lies_about_fragments(std::vector<Lie<Claim>> lies) 
                            {"fragments that cancel", cancels<Claim>},
                            {"a corner elsewhere", corner_elsewhere<Claim>},
                            {"faces exchanged", face_exchanged<Claim>},
+                           {"the other diagonal", on_the_other_diagonal<Claim>},
                            {"a set-aside face left out", drops_a_reason<Claim>}});
   return lies;
 }

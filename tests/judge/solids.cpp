@@ -279,6 +279,29 @@ TEST(Solids, are_judged_at_points_of_every_cell) {
   EXPECT_GT(outside, 100u);
 }
 
+TEST(Solids, are_judged_at_points_anywhere_too) {
+  const Asked_solids of = asked(corner_box, other_box, Set_operation::unite);
+  std::size_t anywhere = 0;  // the others are off a face along an axis
+  for (const Judged_point& point : solid_truth(of.soup, of.query).points) {
+    std::size_t apart = 0;
+    for (std::size_t k = 0; k < 3; ++k) apart += point.at[k] != point.on[k];
+    anywhere += apart > 1;
+  }
+  EXPECT_GE(anywhere, 8u);
+}
+
+TEST(Solids, keep_the_holes_of_their_faces) {
+  Polygon_soup frame;
+  for (const long size : {3, 1})
+    for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) frame.add_point(size * x, size * y, 0);
+  frame.add_face({0, 1, 2, 3}), frame.add_hole({7, 6, 5, 4});
+  const std::array<Polygon_soup, 2> solids = solids_of(joined(std::array{frame, frame}), 1);
+  for (const Polygon_soup& solid : solids) {
+    ASSERT_EQ(solid.face_count(), 1u);
+    EXPECT_EQ(solid.loop_count(0), 2u);
+  }
+}
+
 TEST(Solids, that_are_wrong_are_explained_and_guessed_about) {
   const Asked_solids of = asked(corner_box, other_box, Set_operation::subtract);
   Answer answer;

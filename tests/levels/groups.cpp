@@ -5,6 +5,7 @@
 #include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/volumes.h>
 #include <sightline/harness/generate/polygons.h>
+#include <sightline/harness/generate/transform.h>
 
 #include <algorithm>
 #include <initializer_list>
@@ -103,6 +104,35 @@ TEST(Volumes, are_parted_by_planes_along_an_edge_of_each) {
   EXPECT_NE(refusal_of(with_gap(-1)), "");
 }
 
+/// A box below a slanted side of a tetrahedron; mirrored, the tetrahedron comes first.
+TEST(Volumes, are_parted_by_a_side_of_one_alone) {
+  for (const long sign : {1, -1}) {
+    Polygon_soup soup = boxes_with_own_points({{{{0, 0, 0}, {10, 10, 10}}}});
+    for (const Exact_point& p :
+         {Exact_point{2, 1, 22}, Exact_point{2, 31, 2}, Exact_point{65, 1, 1}, Exact_point{60, 60, 60}})
+      soup.add_point(p[0], p[1], p[2]);
+    for (const auto& [a, b, c] :
+         std::initializer_list<std::array<Point_id, 3>>{{8, 9, 10}, {9, 8, 11}, {10, 11, 8}, {11, 10, 9}})
+      soup.add_face({a, b, c});
+    EXPECT_EQ(refusal_of(generate::mapped(
+                  soup,
+                  [&](Point_id, const Exact_point& p) {
+                    return Exact_point{Rational(sign * p[0]), Rational(sign * p[1]), Rational(sign * p[2])};
+                  })),
+              "");
+  }
+}
+
+/// The sides at the inner corner of a room first: the room is on both sides of their planes alone.
+TEST(Volumes, that_are_not_convex_at_their_first_faces_are_none) {
+  Polygon_soup room;
+  for (const long z : {0, 1})
+    for (const auto& [x, y] : {std::pair(0, 0), {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}) room.add_point(x, y, z);
+  for (const Point_id i : {2u, 3u, 0u, 1u, 4u, 5u}) room.add_face({i, (i + 1) % 6, (i + 1) % 6 + 6, i + 6});
+  room.add_face({5, 4, 3, 2, 1, 0}), room.add_face({6, 7, 8, 9, 10, 11});
+  EXPECT_NE(refusal_of(room).find("both sides"), std::string::npos) << refusal_of(room);
+}
+
 TEST(Volumes, that_are_none_are_told_with_a_face) {
   const auto without = [](const Polygon_soup& soup, Face_id left_out) {
     Polygon_soup rest;
@@ -149,6 +179,7 @@ TEST(Convex_regions, of_boxes_are_put_together_again) {
     else regions = std::max(regions, all[c] + 1);
   }
   EXPECT_EQ(solid, 1u);
+  EXPECT_EQ(level.counters().covered, 6u);
   EXPECT_EQ(regions, 6u);
   EXPECT_EQ(std::set<std::uint32_t>(none.begin(), none.end()).size(), level.cells().size());
 }
@@ -162,15 +193,32 @@ Cell_options quarters(const Rational& z, const Rational& x) {
   return options;
 }
 
-TEST(Convex_regions, have_no_face_inside) {
-  Polygon_soup sheet;
-  for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) sheet.add_point(x, y, 0);
-  sheet.add_face({0, 1, 2, 3});
-  const Level_cells level(sheet, quarters(0, {3, 2}));  // the narrow open wall beside it comes last
+TEST(Convex_regions, are_as_many_as_are_asked_for) {
+  const Level_cells level(Polygon_soup{}, quarters(0, 0));
   ASSERT_EQ(level.cells().size(), 4u);
-  const std::vector<std::uint32_t> regions = convex_regions(level, 1);
-  EXPECT_EQ((std::set<std::uint32_t>(regions.begin(), regions.end())), (std::set<std::uint32_t>{0, 1}));
-  for (const long z : {1, -1}) EXPECT_EQ(regions[level.at({0, 0, z})], regions[level.at({Rational(7, 4), 0, z})]);
+  for (const std::size_t most : {1u, 2u, 3u, 4u}) {
+    const std::vector<std::uint32_t> regions = convex_regions(level, most);
+    EXPECT_EQ(std::set<std::uint32_t>(regions.begin(), regions.end()).size(), most);
+  }
+}
+
+TEST(Convex_regions, have_no_face_inside) {
+  // The narrow open wall beside the sheet comes last; its front is that of the covered one, or not.
+  const Cell_options one_way = quarters(0, {3, 2});
+  Cell_options both_ways = one_way;
+  both_ways.tree.nodes = {{{1, 0, 0, Rational(-3, 2)}, {1, 2}}, {{0, 0, 1, 0}, {-1, -2}}, {{0, 0, -1, 0}, {-3, -4}}};
+  for (const Cell_options& options : {one_way, both_ways})
+    for (const bool is_turned : {false, true}) {
+      Polygon_soup sheet;
+      for (const auto& [x, y] : {std::pair(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) sheet.add_point(x, y, 0);
+      if (is_turned) sheet.add_face({3, 2, 1, 0});
+      else sheet.add_face({0, 1, 2, 3});
+      const Level_cells level(sheet, options);
+      ASSERT_EQ(level.cells().size(), 4u);
+      const std::vector<std::uint32_t> regions = convex_regions(level, 1);
+      EXPECT_EQ((std::set<std::uint32_t>(regions.begin(), regions.end())), (std::set<std::uint32_t>{0, 1}));
+      for (const long z : {1, -1}) EXPECT_EQ(regions[level.at({0, 0, z})], regions[level.at({Rational(7, 4), 0, z})]);
+    }
 }
 
 TEST(Convex_regions, are_put_together_once_their_neighbours_are) {

@@ -42,8 +42,8 @@ struct Walls {
     certificate.proofs.push_back({1, false, {0, 1}, {}, {{false, {}, 0}}});
   }
   static Path_moment rational(const Rational& t) { return {{}, t, t}; }
-  void add(long x, long half) {
-    const Points loop{at(x, -half, -half), at(x, -half, half), at(x, half, half), at(x, half, -half)};
+  void add(long x, long half) { add({at(x, -half, -half), at(x, -half, half), at(x, half, half), at(x, half, -half)}); }
+  void add(const Points& loop) {
     std::vector<Point_id> ids;
     for (const Exact_point& p : loop) ids.push_back(soup.add_point(p[0], p[1], p[2]));
     certificate.fragments.push_back({soup.add_face(ids), 0, loop});
@@ -172,6 +172,9 @@ TEST(Verify_along, what_is_not_so_is_refused) {
   refused("face 1 is listed twice", [](Walls& w) { w.certificate.faces.push_back({1, {}}); });
   refused("faces name face 7, which is not drawn", [](Walls& w) { w.certificate.faces.push_back({7, {}}); });
   refused("the path has no length", [](Walls& w) { w.certificate.to = w.certificate.from; });
+  const Rational halves(Integer(0), Integer(2));  // not in lowest terms
+  refused("the path is not in canonical numbers", [&](Walls& w) { w.certificate.from[0] = halves; });
+  refused("the path is not in canonical numbers", [&](Walls& w) { w.certificate.to[0] = halves; });
 }
 
 TEST(Verify_along, proofs_hold_where_nothing_changes_and_no_farther) {
@@ -202,6 +205,14 @@ TEST(Verify_along, cones_and_leaves_that_are_none) {
   refused("has a cut with all of its cone on one side", [](Walls& w) {
     w.hidden().tree = {{true, {edge, 0, 3, 1}, 0}, {false, {}, 0}, {false, {}, 0}};
   });
+  refused("its plane holds the path", [](Walls& w) {
+    w.add({at(3, -9, 0), at(ratio(7, 2), -9, 0), at(ratio(7, 2), 9, 0), at(3, 9, 0)});
+    w.hidden().tree[0].blocked = 2;
+  });
+  refused("fragment 2 is not shown to be beside", [](Walls& w) {  // the eye passes its plane
+    w.add({at(1, 1, -1), at(1, 1, 1), at(ratio(3, 2), 1, 1), at(ratio(3, 2), 1, -1)});
+    std::swap(w.certificate.proofs[0], w.certificate.proofs[1]);
+  });
   refused("has not either a cone or a tree", [](Walls& w) { w.hidden().tree.clear(); });
   refused("names fragment 2, which there is not", [](Walls& w) { w.hidden().tree[0].blocked = 2; });
   refused("names a corner that fragment 0 has not", [](Walls& w) { w.certificate.proofs[0].cone[0].corner = 4; });
@@ -222,6 +233,8 @@ TEST(Verify_along, moments_that_are_none) {
   refused(no_root, with_moment({{ratio(-1, 2), 0, 1}, ratio(3, 4), ratio(1, 2)}));  // ends exchanged
   refused("moment 1 is not told to be after the one before it", with_moment({{ratio(-1, 2), 0, 1}, 0, ratio(3, 4)}));
   refused("moment 2 is not told to be after", with_moment(Walls::rational(2)));
+  refused("the moments do not go from 0 to 1",
+          [](Walls& w) { w.certificate.moments[0] = Walls::rational(ratio(1, 8)); });
   refused("the moments do not go from 0 to 1", [](Walls& w) { w.certificate.moments.pop_back(); });
   refused("the moments do not go from 0 to 1", [](Walls& w) { w.certificate.moments = {}; });
 }
@@ -279,6 +292,17 @@ TEST(Verify_along_moments, a_double_root_between_is_no_sign_but_never_negative) 
   EXPECT_EQ(moments.sign(0, 1, apart), 1);
   EXPECT_EQ(moments.sign(0, 1, {0, 1, -1}), 1);
   EXPECT_FALSE(moments.never_negative(0, 1, {0, -1, 1}));
+  EXPECT_EQ(moments.sign(0, 1, {1, -2, 1}), 1);  // the root is the last moment
+}
+
+/// The root of 1/2, told apart by fractions far from it.
+TEST(Verify_along_moments, are_compared_with_fractions_between_theirs) {
+  const std::vector<Path_moment> list{Walls::rational(0), {{-1, 0, 2}, ratio(1, 8), ratio(7, 8)}, Walls::rational(1)};
+  const Moments moments(list);
+  EXPECT_EQ(moments.compare(1, ratio(1, 2)), 1);
+  EXPECT_EQ(moments.compare(1, ratio(3, 4)), -1);
+  EXPECT_EQ(moments.sign_at(1, {-3, 5, 0}), 1);
+  EXPECT_EQ(moments.sign_at(1, {-4, 5, 0}), -1);
 }
 
 }  // namespace
