@@ -184,6 +184,8 @@ void add_compare(Command program) {
       "pvs. Pairs of a cell and a face that a method hides wrongly, or has too many; the file's table: of a compiled "
       "level, for the leaves that a cell lies in; each pair that it hides is shown by an exact sightline.\n"
       "Example: sightline compare level.bsp pvs --rays 1000,10000\n"
+      "A folder of scenes, in shards, with one row a scene and method: sightline report FOLDER --questions see --shard "
+      "0/8 --json part0.json; report --merge puts the parts together.\n"
       "--budget is for each kernel or method. Threads: 1 unless given. Exit code 1: one that claims to be exact was "
       "not.");
   command.set_action([a, kernels] {

@@ -7,6 +7,7 @@
 #include "../support/tints.h"
 
 #include <sightline/harness/compare/process_memory.h>
+#include <sightline/harness/judge/protocol.h>
 
 namespace sightline::app {
 
@@ -26,8 +27,9 @@ struct Compare_arguments {
   View_arguments view;
   Tint_arguments tints;
   std::string ray_file;
-  std::size_t random = 1000;  ///< rays of each kind
-  bool says = false;          ///< order, see, weak: rows hold the answer too, as "said"
+  std::size_t random = 1000;           ///< rays of each kind
+  std::optional<judge::Query> solids;  ///< of report's question boolean: what is asked of the scene's two solids
+  bool says = false;                   ///< order, see, weak: rows hold the answer too, as "said"
 };
 
 /// A row of the table: who is asked, and how to judge the answer, in a process of its own.

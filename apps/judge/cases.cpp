@@ -40,7 +40,7 @@ judge::Query query_of(const std::string& file, judge::Question question) {
   } catch (const std::exception& error) {
     throw Usage_error("--ask " + file + ": no query: " + printable(error.what(), 400, true));
   }
-  if (query.question != question) throw Usage_error("--ask " + file + ": another question than --query");
+  if (query.question != question) throw Usage_error("--ask " + file + ": another question than is asked here");
   return query;
 }
 

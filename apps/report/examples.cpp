@@ -76,11 +76,12 @@ class Witness {
       return fmt::format("sightline judge --program {} --query {} --contract exact --scenes {}.off --ask {}.json",
                          shell_word(program_->command), row_.who.question, stem, stem);
     const std::string options = question_.again(arguments(asked), name);
-    return fmt::format("sightline {} {}.off {} --seed {}", options.starts_with("--") ? "report" : "compare", stem,
-                       options, row_.smallest->seed);
+    return fmt::format("sightline {} {}.off {}{} --seed {}", options.starts_with("--") ? "report" : "compare", stem,
+                       options, asks_by_file() ? " --ask " + stem + ".json" : "", row_.smallest->seed);
   }
 
-  bool is_program() const { return program_ != nullptr; }
+  /// Whether what is asked stands in a file beside the scene.
+  bool asks_by_file() const { return program_ != nullptr || row_.who.question == "boolean"; }
 
  private:
   const report::Row& row_;
@@ -94,6 +95,7 @@ judge::Answer answer_of(judge::Question question, std::size_t faces, const Json&
   judge::Answer answer;
   if (question == judge::Question::trace)
     return judge::read_answer(Json{{"first", said}}.dump(), question, faces, said.size());
+  if (question == judge::Question::boolean) return judge::read_answer(said.get<std::string>(), question, faces);
   if (question != judge::Question::order) {
     answer.visible = said.get<std::vector<Face_id>>();
     return answer;
@@ -127,7 +129,8 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   const Witness witness(row, options);
   const Case_options as_programs_get_it{case_question(row.who.question), false, true};
   const auto case_of_smaller = [&](const generate::Posed_scene& smaller) {
-    const judge::Query query{as_programs_get_it.question, smaller.eye, smaller.source, false, asked.query.rays};
+    judge::Query query = asked.query;
+    query.question = as_programs_get_it.question, query.eye = smaller.eye, query.source = smaller.source;
     return std::make_shared<const Judge_case>(case_of(smaller.soup, query, as_programs_get_it));
   };
   const bool repeats = repeats_a_point(asked.soup);
@@ -170,7 +173,7 @@ std::optional<report::Example> example_of(const report::Row& row, const Judge_ca
   write_scene(left->soup, text, Format::off);
   example.file = stem + ".off";
   example.scene = text.str();
-  if (witness.is_program()) example.query = judge::to_json(left->query).dump() + "\n";
+  if (witness.asks_by_file()) example.query = judge::to_json(left->query).dump() + "\n";
   example.again = witness.again(*left, name, stem);
   explain_case(*left, last.said, example);
   return example;

@@ -2,7 +2,10 @@
 
 #include "questions.h"
 
+#include <sightline/io/off.h>
+
 #include <limits>
+#include <sstream>
 
 namespace sightline::app {
 
@@ -158,6 +161,21 @@ std::string pvs_again(const Compare_arguments&, const Json& name) {
   return name.contains("rays") ? fmt::format("pvs --rays {}", name["rays"].get<std::size_t>()) : "pvs --rays 100";
 }
 
+// ---- boolean
+
+Compare_arguments boolean_arguments(const Judge_case& asked, const Report_effort&) {
+  Compare_arguments a;
+  a.solids = asked.query;
+  return a;
+}
+Verdict boolean_judged(const Json& row, std::size_t) {
+  const Json& e = row["errors"];
+  return {e["wrong"] == true ? Verdict::wrong : Verdict::right, e["share"].get<double>()};
+}
+std::string boolean_again(const Compare_arguments&, const Json&) {
+  return "--questions boolean --cases 1 --reduce 1 --json -";
+}
+
 }  // namespace
 
 Report_effort report_effort(bool quick) {
@@ -184,7 +202,11 @@ const std::vector<Report_question>& report_questions() {
        any_size, cutset_arguments, cutset_trial, cutset_judged, cutset_again},
       {"pvs",
        "share of the pairs of a cell and a face that are said to be visible and are hidden, or hidden and are visible",
-       0, pvs_arguments, pvs_trial, pvs_judged, pvs_again}};
+       0, pvs_arguments, pvs_trial, pvs_judged, pvs_again},
+      {"boolean",
+       "share of the points about the result that it holds and ought not, or the other way round, or of its volume or "
+       "area that is too much or missing, the largest of them",
+       0, boolean_arguments, boolean_trial, boolean_judged, boolean_again}};
   return all;
 }
 
@@ -195,10 +217,11 @@ const Report_question& report_question(const std::string& name) {
 }
 
 judge::Question case_question(const std::string& name) {
-  return name == "order"   ? judge::Question::order
-         : name == "weak"  ? judge::Question::weak
-         : name == "trace" ? judge::Question::trace
-                           : judge::Question::see;
+  return name == "order"     ? judge::Question::order
+         : name == "weak"    ? judge::Question::weak
+         : name == "trace"   ? judge::Question::trace
+         : name == "boolean" ? judge::Question::boolean
+                             : judge::Question::see;
 }
 
 std::string method_of(const Json& name) {
@@ -243,11 +266,12 @@ std::string Report_program::name() const {
 Report_program report_program(const std::string& text, const Report_limits& limits) {
   const std::size_t equals = text.find('=');
   const std::string question = text.substr(0, equals);
-  const bool is_asked = question == "order" || question == "see" || question == "weak" || question == "trace";
+  const bool is_asked =
+      question == "order" || question == "see" || question == "weak" || question == "trace" || question == "boolean";
   if (equals == std::string::npos || !is_asked)
     throw Usage_error(
         "--program " + text +
-        ": write QUESTION=COMMAND, the question one of order, see, weak, trace, as in see=\"python3 mine.py "
+        ": write QUESTION=COMMAND, the question one of order, see, weak, trace, boolean, as in see=\"python3 mine.py "
         "{scene} {query} {answer}\"");
   Court_options options;
   options.program = text.substr(equals + 1);
@@ -258,6 +282,11 @@ Report_program report_program(const std::string& text, const Report_limits& limi
 
 /// An answer as rows of `compare` have it.
 static Json said_json(const judge::Answer& answer) {
+  if (answer.surface) {
+    std::ostringstream text;
+    write_qoff(*answer.surface, text);
+    return text.str();
+  }
   Json all = Json::array();
   for (const std::optional<Face_id>& face : answer.first) all.push_back(face ? Json(*face) : Json());
   if (!answer.first.empty()) {
@@ -290,16 +319,19 @@ Contestant contestant_of(const Report_program& program, std::shared_ptr<const Ju
               }
               return Verdict::right;
             }();
-            const bool of_rays = asked->query.question == judge::Question::trace;
+            const bool of_rays = asked->query.question == judge::Question::trace,
+                       of_solids = asked->query.question == judge::Question::boolean;
             const auto wrong = static_cast<double>(of_rays ? grade.wrong_rays.size()
                                                            : grade.wrong_visible.size() + grade.wrong_hidden.size());
             const std::size_t least = of_rays ? 1 : asked->soup.face_count();
-            return Json{{"status", "done"},
-                        {"kind", static_cast<int>(kind)},
-                        {"seconds", judged.seconds},
-                        {"peak_bytes", judged.bytes},
-                        {"said", said_json(judged.answer)},
-                        {"error", wrong / std::max(1.0, static_cast<double>(std::max(grade.judged, least)))}};
+            return Json{
+                {"status", "done"},
+                {"kind", static_cast<int>(kind)},
+                {"seconds", judged.seconds},
+                {"peak_bytes", judged.bytes},
+                {"said", said_json(judged.answer)},
+                {"error", of_solids ? solid_error(grade)
+                                    : wrong / std::max(1.0, static_cast<double>(std::max(grade.judged, least)))}};
           }};
 }
 

@@ -54,7 +54,7 @@ struct Report_question {
   /// of this command.
   std::string (*again)(const Compare_arguments& arguments, const Json& name);
 };
-/// order, see, render, weak, trace, cutset, pvs.
+/// order, see, render, weak, trace, cutset, pvs, boolean.
 const std::vector<Report_question>& report_questions();
 const Report_question& report_question(const std::string& name);
 /// What `judge` asks of the same cases, so that programs stand beside the methods; of other questions an eye is enough.
@@ -63,6 +63,12 @@ judge::Question case_question(const std::string& name);
 /// The cut-set along a path of viewpoints that follows from the scene and the seed: by trackers, and face by face in
 /// several numbers.
 std::unique_ptr<Trial> cutset_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+
+/// Set operations on the two solids of a case: the exact surface, and that with its points rounded to doubles and
+/// floats, as most formats hold them; judged as programs are.
+std::unique_ptr<Trial> boolean_trial(const Compare_arguments& arguments, const Polygon_soup& soup);
+/// In one figure how wrong a solid is: the largest of the errors of its volume and area and the share of wrong points.
+double solid_error(const judge::Grade& grade);
 
 /// What tells a contender from others of its question, in words: "depth buffer 256, 24 bit".
 std::string method_of(const Json& name);

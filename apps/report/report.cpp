@@ -26,7 +26,7 @@ struct Report_arguments {
   std::vector<std::string> scenes;
   std::vector<std::string> questions, families, distances, programs, parts;
   std::vector<std::size_t> sizes;
-  std::string json, html, svg, keep, shard;
+  std::string ask, json, html, svg, keep, shard;
   bool quick = false, resume = false, quiet = false;  // quiet: an output takes standard output
   std::uint64_t cases = 0, seed = 1, memory = 1024, reduce = 0;
   double limit = 0, budget = 0;
@@ -34,6 +34,9 @@ struct Report_arguments {
 };
 
 // ---- What is asked
+
+/// The distance of scenes of files.
+constexpr const char* as_given = "as given";
 
 /// What is chosen where an option is not given.
 struct Usual {
@@ -63,6 +66,7 @@ struct Unit {
   const Report_question* question;
   std::size_t size;
   Case_group group;
+  bool is_of_a_folder = false;  ///< a scene that nobody named: what cannot be read is passed over
 };
 
 std::size_t faces_of(const generate::Family& family, std::size_t size) {
@@ -95,8 +99,8 @@ std::vector<Unit> units_of(const Report_arguments& a) {
   for (const std::string& name : a.questions) {
     const Report_question& question = report_question(name);
     const Case_options options{case_question(name), false, true};
-    const auto add = [&](std::size_t size, Case_group group) {
-      units.push_back({units.size(), &question, size, std::move(group)});
+    const auto add = [&](std::size_t size, Case_group group, bool is_of_a_folder = false) {
+      units.push_back({units.size(), &question, size, std::move(group), is_of_a_folder});
     };
     for (const std::string& family : a.families)
       for (const std::string& distance : a.distances)
@@ -119,9 +123,10 @@ std::vector<Unit> units_of(const Report_arguments& a) {
     for (const std::string& scene : a.scenes) {
       Case_choice choice;
       choice.scenes = scene;
+      choice.ask = a.ask;
       for (Case_group& group : groups_of(choice, options)) {
-        group.distance = "as given";
-        add(0, std::move(group));
+        group.distance = as_given;
+        add(0, std::move(group), fs::is_directory(scene));
       }
     }
   }
@@ -130,8 +135,8 @@ std::vector<Unit> units_of(const Report_arguments& a) {
 
 Json asked_json(const Report_arguments& a) {
   return {{"questions", a.questions}, {"families", a.families}, {"distances", a.distances}, {"sizes", a.sizes},
-          {"scenes", a.scenes},       {"programs", a.programs}, {"cases", a.cases},         {"seed", a.seed},
-          {"limit", a.limit},         {"memory", a.memory},     {"quick", a.quick}};
+          {"scenes", a.scenes},       {"ask", a.ask},           {"programs", a.programs},   {"cases", a.cases},
+          {"seed", a.seed},           {"limit", a.limit},       {"memory", a.memory},       {"quick", a.quick}};
 }
 
 // ---- Asking
@@ -203,11 +208,20 @@ Answered answered(const Unit& unit, const Report_arguments& a, const Report_effo
                   const std::vector<Report_program>& programs) {
   Answered answers;
   Table table(unit, a.seed);
-  const auto leave_out = [&](const std::string& why) {
+  const std::string scene = unit.group.distance == as_given ? unit.group.family + ": " : "";
+  const auto leave_out = [&](const std::string& reason) {
+    const std::string why = scene + reason;
     answers.not_asked[why] = answers.not_asked.value(why, std::size_t{0}) + 1;
   };
   for (std::uint64_t seed = a.seed; seed < a.seed + a.cases; ++seed) {
-    const auto asked = std::make_shared<const Judge_case>(unit.group.make(seed));
+    std::shared_ptr<const Judge_case> asked;
+    try {
+      asked = std::make_shared<const Judge_case>(unit.group.make(seed));
+    } catch (const Input_error& error) {
+      if (!unit.is_of_a_folder) throw;
+      leave_out(error.what());
+      continue;
+    }
     if (!asked->not_asked.empty()) {
       leave_out(asked->not_asked);
       continue;
@@ -374,6 +388,8 @@ Exit run(const Report_arguments& given) {
   }
   if (given.resume && (given.json.empty() || given.json == "-"))
     throw Usage_error("--resume keeps what is done beside an output: name it with --json FILE");
+  if (!given.ask.empty() && (given.scenes.empty() || given.questions.size() != 1))
+    throw Usage_error("--ask wants a scene, and its one question in --questions");
   const Report_arguments a = completed(given);
   const Report_limits limits{a.limit, a.memory << 20};
   const Report_effort effort = report_effort(a.quick);
@@ -462,7 +478,14 @@ void add_report(Command program) {
   std::vector<std::string> questions;
   for (const Report_question& question : report_questions()) questions.push_back(question.name);
   command
-      .add_option("SCENES", a->scenes, "scenes, or folders of them, instead of families; with --families beside them")
+      .add_option(
+          "SCENES", a->scenes,
+          "scenes, or folders of them, instead of families; with --families beside them. What of a folder cannot be "
+          "read is told, and passed over")
+      .reads_file();
+  command
+      .add_option("--ask", a->ask,
+                  "of scenes: a file with the query to ask, as --keep writes it, and one question in --questions")
       .reads_file();
   command.add_option("--html", a->html, "write the page to look at").writes_file().check(ending(".html"));
   command.add_option("--json", a->json, "write all rows as JSON to this file, - for standard output").writes_file();
@@ -487,10 +510,9 @@ void add_report(Command program) {
                   "with --quick 0,20")
       .delimiter(',')
       .check(whole_number() & range(0, 1'000'000));
-  command.add_option(
-      "--program", a->programs,
-      "somebody's program beside the methods: QUESTION=COMMAND, the question order, see, weak or trace, and the "
-      "command as `sightline judge` takes it; may be repeated");
+  command.add_option("--program", a->programs,
+                     "somebody's program beside the methods: QUESTION=COMMAND, the question order, see, weak, trace or "
+                     "boolean, and the command as `sightline judge` takes it; may be repeated");
   command.add_option("--cases", a->cases, "scenes of each family, distance and size; 0: 3, with --quick 1")
       .check(whole_number())
       .show_default();

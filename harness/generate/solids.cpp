@@ -5,6 +5,7 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -32,6 +33,46 @@ Polygon_soup any_solid(const Points& base, const Exact_point& apex, const Exact_
   return outwards(base, [&](Polygon_soup& solid, const Points& b) {
     cone ? add_cone(solid, b, apex) : add_prism(solid, b, along);
   });
+}
+
+/// The lowest and the highest coordinates. Pre: there is a point.
+std::array<Exact_point, 2> box_of(const Polygon_soup& soup) {
+  Exact_point low = soup.point(0), high = low;
+  for (Point_id p = 0; p < soup.point_count(); ++p)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], soup.point(p)[k]);
+      high[k] = std::max(high[k], soup.point(p)[k]);
+    }
+  return {low, high};
+}
+
+/// The power of two not above the longest side of the box.
+int side_bits(const Polygon_soup& soup) {
+  const auto [low, high] = box_of(soup);
+  const Exact_point sides = minus(high, low);
+  const double longest = nearest_double(*std::max_element(sides.begin(), sides.end()));
+  return longest > 0 ? std::ilogb(longest) : 0;
+}
+
+struct Corner_of_face {
+  Exact_point at, normal;
+};
+/// Of a planar piece of any face; after some tries, without a normal.
+Corner_of_face any_corner(const Polygon_soup& soup, Random& random) {
+  constexpr int tries = 100;
+  Corner_of_face corner{soup.point(0), {0, 0, 0}};
+  for (int k = 0; k < tries && soup.face_count() > 0 && is_zero(corner.normal); ++k) {
+    const Scene face(face_alone(soup, static_cast<Face_id>(random.below(soup.face_count()))));
+    if (face.pieces().empty()) continue;
+    const auto corners = face.corners(face.pieces()[0]);
+    const auto at = [&](std::size_t i) { return face.position(corners[i].point); };
+    corner = {at(0), cross(minus(at(1), at(0)), minus(at(2), at(0)))};
+  }
+  return corner;
+}
+
+Exact_point axes_exchanged(const Exact_point& p, std::size_t times) {
+  return {p[times % 3], p[(times + 1) % 3], p[(times + 2) % 3]};
 }
 
 }  // namespace
@@ -112,12 +153,8 @@ Solid_pair pair_of_solids(const Posed_scene& scene, Random& random) {
 
 Solid_pair pair_of_copies(const Polygon_soup& soup, Random& random) {
   if (soup.face_count() == 0) return {};
-  Exact_point low = soup.point(0), high = low, step{0, 0, 0};
-  for (Point_id p = 0; p < soup.point_count(); ++p)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], soup.point(p)[k]);
-      high[k] = std::max(high[k], soup.point(p)[k]);
-    }
+  const auto [low, high] = box_of(soup);
+  Exact_point step{0, 0, 0};
   const bool near = random.chance(1, 4);
   for (std::size_t k = 0; k < 3; ++k) {
     const Rational unit = near ? ulps_of_size(1, size_bits(soup)) : Rational((high[k] - low[k]) / 4);
@@ -125,6 +162,28 @@ Solid_pair pair_of_copies(const Polygon_soup& soup, Random& random) {
     if (random.chance(1, 3)) step[k] = 0;
   }
   return {soup, translated(soup, step)};
+}
+
+Solid_pair pair_on_a_plane(const Polygon_soup& a, const Polygon_soup& b, Random& random) {
+  // 1. A corner on a corner, with the axis along which both faces may be told from it.
+  const Corner_of_face to = any_corner(a, random), from = any_corner(b, random);
+  std::size_t turns = 0, axis = 3;
+  while (axis == 3 && turns < 3) {
+    const Exact_point normal = axes_exchanged(from.normal, turns);
+    for (std::size_t k = 0; k < 3 && axis == 3; ++k)
+      if (to.normal[k] != 0 && normal[k] != 0) axis = k;
+    if (axis == 3) ++turns;
+  }
+  const Exact_point normal = axes_exchanged(from.normal, turns);
+  const Rational scale = power_of_two(side_bits(a) - side_bits(b));
+  // 2. Along the axis, what is on the one plane goes to the other.
+  return {a, mapped(b, [&](Point_id, const Exact_point& p) {
+            const Exact_point away = axes_exchanged(minus(p, from.at), turns);
+            Exact_point q = along(to.at, scale, away);
+            if (axis < 3)
+              q[axis] += scale * (dot(normal, away) / normal[axis] - dot(to.normal, away) / to.normal[axis]);
+            return q;
+          })};
 }
 
 }  // namespace sightline::generate

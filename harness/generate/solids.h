@@ -36,4 +36,11 @@ Solid_pair pair_of_solids(const Posed_scene& scene, Random& random);
 /// planes of faces meet.
 Solid_pair pair_of_copies(const Polygon_soup& soup, Random& random);
 
+/// Two surfaces, the second scaled by a power of two to about the size of the first, its axes exchanged in turn where
+/// that helps, and sheared along one of them, by which volumes are kept, so that a face of each lies in one plane and
+/// a corner of each in one place. Where faces are parallel, it is moved only. Pre: both have points; coordinates within
+/// the range of doubles. Degenerate: of faces without area, corner on corner is all; one that is not planar may be cut
+/// otherwise then. Exact: yes.
+Solid_pair pair_on_a_plane(const Polygon_soup& a, const Polygon_soup& b, Random& random);
+
 }  // namespace sightline::generate

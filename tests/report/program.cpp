@@ -3,6 +3,7 @@
 #include "../program/program.h"
 
 #include <map>
+#include <set>
 
 namespace program {
 
@@ -124,6 +125,7 @@ TEST_F(Report_command, of_shards_and_resumed_is_the_same) {
 }
 
 TEST_F(Report_command, says_what_to_do_about_bad_input) {
+  const std::string cube = (corpus / "general" / "cube.off").string();
   const std::string torn = file("torn.json", "{\"command\": \"rep"),
                     other = file("other.json", "{\"command\": \"see\"}");
   const std::string json = path("x.json").string();
@@ -138,7 +140,10 @@ TEST_F(Report_command, says_what_to_do_about_bad_input) {
       {{"report", "--json", json, "--distances", "near"}, usage},
       {{"report", "--json", json, "--questions", "what"}, usage},
       {{"report", "--json", json, "--program", program}, usage},
-      {{"report", "--json", json, "--program", "boolean=" + program}, usage},
+      {{"report", "--json", json, "--program", "pvs=" + program}, usage},
+      {{"report", "--json", json, "--ask", other}, usage},
+      {{"report", "--json", json, "--ask", other, "--questions", "see,order", cube}, usage},
+      {{"report", "--json", json, "--ask", other, "--questions", "see", cube}, usage},
       {{"report", "--json", json, "--program", "see=sh x"}, usage},
       {{"report", "--json", json, "--questions", "order", "--program", "see=" + program}, usage},
       {words({"--json", json, "--program", "see=/none/there {scene} {query} {answer}"}), usage},
@@ -182,6 +187,84 @@ TEST_F(Report_command, asks_programs_what_rays_meet) {
     EXPECT_EQ(again(example["again"], "").code, disagreement) << example["again"];
   }
   EXPECT_TRUE(is_shown) << result["examples"];
+}
+
+TEST_F(Report_command, asks_programs_for_set_operations) {
+  // It gives both solids as they are, which wind twice round what they share, and have all that is inside either.
+  const std::string both = file("both.sh", "cp \"$1\" \"$2\"\n");
+  const Outcome r = run({"report", "--questions", "boolean", "--quick", "--families", "boxes,leaves", "--distances",
+                         "0,far", "--cases", "4", "--reduce", "10", "--keep", path("kept").string(), "--json", "-",
+                         "--program", "boolean=sh " + both + " {scene} {answer} {query}"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  std::map<std::string, Json> sums;
+  for (const Json& s : result["summaries"]) sums[s["kernel"]] = s;
+  EXPECT_GE(sums.at("exact")["cases"], 8) << sums.at("exact");
+  EXPECT_EQ(sums.at("exact")["wrong"], 0);
+  EXPECT_EQ(sums.at("exact")["error"], 0);
+  EXPECT_EQ(sums.at("float")["cases"], sums.at("exact")["cases"]);
+  EXPECT_GT(sums.at("float")["error"], sums.at("double")["error"]);
+  EXPECT_GE(sums.at("float")["wrong"], 1) << "what is an ulp thin is nothing in floats";
+  EXPECT_GE(sums.at("program")["wrong"], 2) << sums.at("program");
+  EXPECT_GT(sums.at("program")["error"], 0.1);
+  std::set<std::string> shown;
+  for (const Json& example : result["examples"]) {
+    shown.insert(example["kernel"]);
+    EXPECT_NE(example["why"].get<std::string>().find("the answer winds round it"), std::string::npos) << example["why"];
+    const Outcome asked = again(example["again"], "");
+    if (example["kernel"] == "program") {
+      EXPECT_EQ(asked.code, disagreement) << example["again"];
+      continue;
+    }
+    ASSERT_EQ(asked.code, done) << example["again"];
+    for (const Json& s : asked.json()["result"]["summaries"])
+      if (s["kernel"] == "exact" || s["kernel"] == example["kernel"]) {
+        EXPECT_EQ(s["wrong"], s["kernel"] == "exact" ? 0 : 1) << s;
+      }
+  }
+  EXPECT_EQ(shown.count("program") + shown.count("float"), 2u) << result["examples"];
+}
+
+/// What `compare` says of one scene, of a folder, in shards: together they are what one run is.
+TEST_F(Report_command, of_a_folder_passes_over_what_cannot_be_read_and_shards_add_up) {
+  const fs::path folder = path("folder");
+  fs::create_directories(folder / "more");
+  for (const char* name : {"cube.off", "two_rooms.off"})
+    fs::copy_file(corpus / "general" / name, folder / "more" / name);
+  std::ofstream(folder / "torn.off") << "OFF 8";
+  const auto ask = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"report",           folder.string(), "--questions", "see,boolean,order",
+                                 "--quick",          "--reduce",      "1",           "--json",
+                                 path(name).string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  ASSERT_EQ(ask("whole.json", {}).code, done);
+  const nlohmann::json whole = lasting(read_file(path("whole.json")));
+  EXPECT_EQ(whole["units"], 9);
+  std::map<std::string, int> rows;
+  for (const auto& row : whole["result"]["rows"])
+    ++rows[row["question"].get<std::string>() + " of " + row["family"].get<std::string>()];
+  EXPECT_EQ(rows["boolean of cube.off"], 3) << whole["result"];
+  EXPECT_GT(rows["see of cube.off"], 3);
+  EXPECT_GT(rows["see of two_rooms.off"], 3);
+  EXPECT_EQ(rows["boolean of two_rooms.off"], 0);
+  std::string not_asked = whole["result"]["not_asked"].dump();
+  EXPECT_NE(not_asked.find("torn.off:1"), std::string::npos) << not_asked;
+  EXPECT_NE(not_asked.find("two_rooms.off: a solid"), std::string::npos) << not_asked;
+  std::vector<std::string> merge{"report", "--json", path("merged.json").string(), "--merge"};
+  for (int k = 0; k < 8; ++k) {
+    const std::string part = "part" + std::to_string(k) + ".json";
+    ASSERT_EQ(ask(part, {"--shard", std::to_string(k) + "/8"}).code, done);
+    merge.push_back(path(part).string());
+  }
+  const Outcome merged = run(merge);
+  ASSERT_EQ(merged.code, done) << merged;
+  EXPECT_EQ(lasting(read_file(path("merged.json"))), whole);
+  // A scene that is named has to be one.
+  const Outcome named = run({"report", (folder / "torn.off").string(), "--quick", "--questions", "see", "--json", "-"});
+  EXPECT_EQ(named.code, bad_input) << named;
+  EXPECT_TRUE(named.one_line_of_error()) << named;
 }
 
 TEST_F(Report_command, asks_about_scenes_and_counts_what_it_cannot_ask) {

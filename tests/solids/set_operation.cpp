@@ -12,9 +12,11 @@
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/harness/generate/shapes.h>
+#include <sightline/harness/generate/solids.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/fuzz.h>
 #include <sightline/harness/laws/solids.h>
+#include <sightline/io/format.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 #include <sightline/kernel/threads.h>
@@ -382,19 +384,52 @@ TEST(Certificates, are_read_as_they_were_written_and_what_is_none_is_refused) {
   EXPECT_THROW(read_solid_certificate(broken), std::invalid_argument);
 }
 
-TEST(Set_operations, of_real_solids_and_copies_moved_along_a_face_add_up) {
-  const std::filesystem::path folder = std::string(SIGHTLINE_SCENES_DIR).empty() ? "" : SIGHTLINE_SCENES_DIR;
-  std::size_t found = 0;
-  for (const char* name : {"d_hard/cg_star.off", "c_convex/cg_P.off", "d_hard/cg_cross.off", "d_hard/cg_3torus.off"}) {
-    const std::filesystem::path file = folder / name;
-    if (folder.empty() || !std::filesystem::exists(file)) continue;
-    ++found;
-    const Polygon_soup solid = read_scene(file);
-    const Exact_point p = solid.point(solid.loop(0)[0]), q = solid.point(solid.loop(0)[1]);
-    const Polygon_soup moved = generate::translated(solid, {(q[0] - p[0]) / 2, (q[1] - p[1]) / 2, (q[2] - p[2]) / 2});
-    EXPECT_EQ(harness::flaw_by_volumes({solid, moved}), "") << name;
+/// The closed scenes of the collection with so many faces at most, of files that such may have; none where it is not
+/// there.
+std::vector<std::pair<std::string, Polygon_soup>> closed_scenes(std::size_t most_faces) {
+  std::vector<std::pair<std::string, Polygon_soup>> closed;
+  const std::filesystem::path folder = SIGHTLINE_SCENES_DIR;
+  if (folder.empty()) return closed;
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.is_regular_file() && format_of_ending(entry.path()) && entry.file_size() < 256 * most_faces)
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  for (const std::filesystem::path& file : files) {
+    Polygon_soup soup = read_scene(file);
+    if (soup.face_count() == 0 || soup.face_count() > most_faces) continue;
+    if (flaws(Operands(std::span(&soup, 1))).empty())
+      closed.emplace_back(file.lexically_relative(folder).string(), std::move(soup));
   }
-  if (found == 0) GTEST_SKIP() << "the collection of scenes is not there";
+  return closed;
+}
+
+/// Whether faces of both are in one plane, or some are in none: moved, they may be cut otherwise.
+bool may_share_a_plane(const std::vector<Polygon_soup>& solids) {
+  const Operands operands(solids);
+  if (!operands.non_planar().empty()) return true;
+  std::array<std::set<std::uint32_t>, 2> planes;
+  for (std::size_t piece = 0; piece < operands.pieces().size(); ++piece)
+    planes[operands.operand_of_piece(piece)].insert(operands.pieces()[piece].support.id());
+  return std::any_of(planes[0].begin(), planes[0].end(),
+                     [&](std::uint32_t plane) { return planes[1].count(plane) > 0; });
+}
+
+TEST(Set_operations, of_real_solids_in_pairs_with_a_plane_in_common_add_up) {
+  const auto scenes = closed_scenes(300);
+  if (scenes.empty()) GTEST_SKIP() << "the collection of scenes is not there";
+  generate::Random random(1);
+  std::size_t meeting = 0, pairs = 0;
+  for (std::size_t i = 0; i < scenes.size(); ++i)
+    for (std::size_t j = i; j < scenes.size(); j += test_scenes::is_sanitized() ? 20 : 3) {
+      const generate::Solid_pair pair = generate::pair_on_a_plane(scenes[i].second, scenes[j].second, random);
+      const std::vector<Polygon_soup> solids(pair.begin(), pair.end());
+      EXPECT_TRUE(may_share_a_plane(solids)) << scenes[i].first << " and " << scenes[j].first;
+      EXPECT_EQ(harness::flaw_by_volumes(solids), "") << scenes[i].first << " and " << scenes[j].first;
+      ++pairs;
+      meeting += volume(of(Set_operation::intersect, solids).soup) != 0;
+    }
+  EXPECT_GT(meeting, pairs / 4);
 }
 
 TEST(Operands, that_are_open_are_refused_with_their_edges) {
