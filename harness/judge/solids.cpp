@@ -7,6 +7,7 @@
 #include <sightline/algorithms/verify/solids.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/random.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/solid_oracle.h>
 #include <sightline/io/exact_text.h>
@@ -30,8 +31,9 @@ Set_result set_result_of(const Operands& operands, Set_operation operation) {
   return set_operation(operands, options);
 }
 
-double middle_area(const Polygon_soup& soup) {
-  const auto [low, high] = area(soup);
+/// In squares of a unit, or doubles might not hold it.
+double middle_area(const Polygon_soup& soup, const Rational& unit) {
+  const auto [low, high] = area(generate::scaled(soup, 1 / unit));
   return (low + high) / 2;
 }
 
@@ -231,10 +233,13 @@ Solid_truth solid_truth(const Polygon_soup& soup, const Query& query, int thread
   add_points_of_fragments(soup, tracer, result, query.operation, truth.points);
   add_points_anywhere(soup, tracer, query, solids, truth.points);
   // 3. How large it is.
+  const Rational size = size_of(soup);
+  truth.unit = generate::power_of_two(static_cast<int>(bit_length(size.get_num())) -
+                                      static_cast<int>(bit_length(size.get_den())));
   truth.volume_scale = truth.volume = volume(result.soup);
-  truth.area_scale = truth.area = middle_area(result.soup);
+  truth.area_scale = truth.area = middle_area(result.soup, truth.unit);
   if (truth.volume == 0)
-    truth.volume_scale = volume(solids[0]) + volume(solids[1]), truth.area_scale = middle_area(soup);
+    truth.volume_scale = volume(solids[0]) + volume(solids[1]), truth.area_scale = middle_area(soup, truth.unit);
   return truth;
 }
 
@@ -268,7 +273,7 @@ Grade grade_solid(const Solid_truth& truth, const Answer& answer) {
   grade.wrong_hidden.assign(hidden.begin(), hidden.end());
   // 3. Volume and area.
   grade.volume_error = nearest_double((volume(surface) - truth.volume) / truth.volume_scale);
-  grade.area_error = (middle_area(surface) - truth.area) / truth.area_scale;
+  grade.area_error = (middle_area(surface, truth.unit) - truth.area) / truth.area_scale;
   return grade;
 }
 

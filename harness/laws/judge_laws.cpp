@@ -3,6 +3,7 @@
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
+#include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/solids.h>
 #include <sightline/harness/judge/rays.h>
 #include <sightline/harness/judge/solids.h>
@@ -27,6 +28,48 @@ Polygon_soup surface_of(std::span<const Polygon_soup> solids, Set_operation oper
   Set_options options;
   options.operation = operation;
   return without_holes(set_operation(Operands(solids), options).soup).soup;
+}
+
+/// Where no point is judged, so that volume and area alone can tell what is there.
+Exact_point beyond(const Polygon_soup& soup) {
+  Rational most = 0;
+  for (Point_id p = 0; p < soup.point_count(); ++p)
+    for (const Rational& x : soup.point(p)) most = std::max(most, Rational(abs(x)));
+  return {8 * most, 8 * most, 8 * most};
+}
+
+Polygon_soup with_faces(Polygon_soup soup, const generate::Faces& faces) {
+  for (const generate::Points& face : faces) soup.add_face(generate::added(soup, face));
+  return soup;
+}
+
+/// What the judge says of a result with an island, one turned inside out, and a wall of no thickness beyond it: too
+/// much, too little, or too large a surface; and of an island so small that it passes for a rounding error.
+template <class Graded>
+std::string flaw_of_limits(const Polygon_soup& result, const Polygon_soup& solids, const judge::Solid_truth& truth,
+                           Graded graded) {
+  const Exact_point low = beyond(solids);
+  const auto island = [&](const Rational& side) { return generate::box(low, generate::along(low, side, {1, 1, 1})); };
+  // 1. As much again.
+  Rational side = low[0];
+  generate::Faces faces = island(side);
+  if (!graded(with_faces(result, faces)).too_large()) return "an island is not too much for the judge";
+  for (generate::Points& face : faces) std::reverse(face.begin(), face.end());
+  if (!graded(with_faces(result, faces)).too_small()) return "an island turned inside out is not too little";
+  // 2. A wall.
+  const generate::Points& face = faces[0];
+  const judge::Grade wall = graded(with_faces(result, {face, generate::reversed(face)}));
+  if (wall.volume_error != 0 || !wall.wrong()) return "a wall of no thickness is no surface too much";
+  // 3. A quarter of what is allowed.
+  const Rational allowed = exact(judge::Grade::largest_error / 4);
+  const auto is_allowed = [&](const Rational& length) {
+    const Rational square = length * length;
+    return square * length <= allowed * truth.volume_scale &&
+           6 * square <= allowed * exact(truth.area_scale) * truth.unit * truth.unit;
+  };
+  while (!is_allowed(side)) side /= 2;
+  if (graded(with_faces(result, island(side))).wrong()) return "an island as small as a rounding error is one too much";
+  return {};
 }
 
 Outcome judge_solids(const Posed_scene& posed, Random& random) {
@@ -57,7 +100,9 @@ Outcome judge_solids(const Posed_scene& posed, Random& random) {
   // 2. Both as they are, which wind twice round what they share.
   if (volume(surface_of(solids, Set_operation::intersect)) != 0 && graded(both).wrong_points.empty())
     return Outcome::failed("the judge finds no point that both solids wind round twice, though they overlap");
-  // 3. An open surface.
+  // 3. Volume and area by themselves.
+  if (const std::string flaw = flaw_of_limits(exact, both, truth, graded); !flaw.empty()) return Outcome::failed(flaw);
+  // 4. An open surface.
   if (exact.face_count() == 0) return {};
   Polygon_soup open;
   open.coordinates = exact.coordinates;

@@ -164,6 +164,10 @@ TEST(Solids, are_surfaces_that_wind_once) {
   EXPECT_EQ(walls.volume_error, 0);
   EXPECT_DOUBLE_EQ(walls.area_error, 0.5);
   EXPECT_TRUE(walls.wrong());
+  const Rational huge = generate::power_of_two(900);  // no double holds its square
+  const Polygon_soup corner = generate::scaled(corner_box, huge);
+  const Asked_solids far = asked(corner, corner, Set_operation::intersect);
+  EXPECT_DOUBLE_EQ(graded_surface(far, generate::scaled(halves, huge)).area_error, 0.5);
   // One face of many corners, its neighbours of fewer: edges are matched in parts.
   Polygon_soup junctions;
   for (Face_id f = 0; f < 6; ++f) {
