@@ -64,11 +64,12 @@ commands = {
     ),
     "shadow": (Scene.shadow, {"eye": picture, "volume": "Shadow.space()"}),
     "trace": (Scene.trace, {"rays": "origins, directions", "method": "doubles where they suffice"}),
-    "cells": (Scene.cells, {"seal": "Cells.way_out()", "out": "Cells"}),
+    "cells": (Scene.cells, {"seal": "Cells.way_out()", "coarse": "Cells.coarse()", "out": "Cells"}),
     "pvs": (
         Scene.pvs,
         {
             "cells-too": "Cells.pairs()",
+            "coarse": "Cells.coarse()",
             "show": "visible[cell]",
             "eye": picture,
             "out": "table()",

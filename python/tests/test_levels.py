@@ -189,7 +189,7 @@ def test_leaves_of_a_compiled_level(tmp_path):
     assert [(cell, seen.tolist()) for cell, seen in pvs.visible.items()] == [
         (row["cell"], row["visible"]) for row in json.loads(table.read_text())["cells"]
     ]
-    with pytest.raises(ValueError, match="leave out one"):
+    with pytest.raises(ValueError, match="give one of them"):
         level.cells(leaves=True, grid=(1, 1, 1))
     for scene in (two_rooms(), sightline.Scene([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])):
         with pytest.raises(ValueError, match="compiled"):
