@@ -6,9 +6,9 @@
 
 namespace sightline {
 
-/// A polygon file format; Quake's two (map, bsp) and glTF (glb, gltf) are read only. A PLY file says itself whether it is
-/// text or binary, and an STL file shows it: for reading, ply and ply_binary are the same, and so for writing they are
-/// not.
+/// A polygon file format; Quake's two (map, bsp) and glTF (glb, gltf) are read only. A PLY file says itself whether it
+/// is text or binary, and an STL file shows it: for reading, ply and ply_binary are the same, and so for writing they
+/// are not.
 enum class Format { obj, off, qoff, ply, ply_binary, stl, map, bsp, glb, gltf };
 
 /// What write_scene knows, and what read_scene knows beside it, for messages.

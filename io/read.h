@@ -26,8 +26,8 @@ Polygon_soup read_scene(std::string_view bytes, Format format, const std::string
                         const Read_options& options = {});
 
 /// Reads a scene from a file, whose format its ending says (.obj .off .qoff .ply .stl .map .bsp .glb .gltf, in upper or
-/// lower case), or else its content. Throws Input_error, also where the file cannot be read or its format is unknown. Exact:
-/// yes. Cost: one pass.
+/// lower case), or else its content. Throws Input_error, also where the file cannot be read or its format is unknown.
+/// Exact: yes. Cost: one pass.
 Polygon_soup read_scene(const std::filesystem::path& path, const Read_options& options = {});
 
 }  // namespace sightline
