@@ -388,6 +388,7 @@ def test_pixels_have_the_colour_of_what_a_ray_meets_there(open_page, town):
     page = open_page("order", town, eye)
     for _ in ("from the eye", "from outside"):
         right, wrong = page.js("""
+            sightline.draw();  // the canvas has its size from then on
             const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, pixel = new Uint8Array(4);
             sightline.drawing.outlines = false;
             sightline.draw();
@@ -465,6 +466,7 @@ def test_outlines_are_the_sides_of_polygons_and_nothing_else(open_page, tmp_path
         """Whether edges darken what is there, or beside it."""
         points = [[(x - m) / frame["size"] for x, m in zip((*place, 0), frame["middle"])] for place in places]
         return page.js("""
+            sightline.draw();  // the canvas has its size from then on
             const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, pictures = [];
             for (const outlines of [false, true]) {
               sightline.drawing.outlines = outlines;
@@ -506,6 +508,7 @@ def test_a_painter_needs_an_order_and_a_depth_buffer_does_not(open_page):
         if outside:  # where no order is claimed
             page.press("e")
         seen, wrong = page.js("""
+            sightline.draw();  // the canvas has its size from then on
             const view = document.getElementById('view'), gl = view.getContext('webgl2'), scale = view.width / view.clientWidth, pixel = new Uint8Array(4), met = [];
             sightline.drawing.painter = arguments[0];
             sightline.draw();
