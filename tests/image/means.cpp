@@ -141,7 +141,10 @@ class Blended_means : public testing::TestWithParam<Family> {};
 
 TEST_P(Blended_means, are_those_of_all_regions_of_the_image_in_rationals) {
   std::size_t deep = 0;
-  for (std::uint64_t seed = 0; seed < test_scenes::sample(20u); ++seed) {
+  const auto is_enough = [&](std::uint64_t seed) {
+    return seed >= test_scenes::sample(20u) && (seed >= 20 || deep > test_scenes::least(20u));
+  };
+  for (std::uint64_t seed = 0; !is_enough(seed); ++seed) {
     const view_scenes::Case made = view_scenes::make(GetParam(), seed)[0];
     const Scene scene(made.soup);
     const oracle::Flats flats = oracle::flats_of(scene);
