@@ -1,11 +1,11 @@
 #include <sightline/algorithms/levels/coarse.h>
 
+#include <sightline/kernel/scene/exact_plane.h>
+#include <sightline/kernel/union_find.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -16,8 +16,8 @@ namespace levels_detail {
 /// Convex polyhedra that grow, each known by one of its cells.
 class Region_merger {
  public:
-  explicit Region_merger(const Level_cells& level) : level_(level), up_(level.cells().size()), regions_(up_.size()) {
-    std::iota(up_.begin(), up_.end(), 0);
+  explicit Region_merger(const Level_cells& level)
+      : level_(level), sets_(level.cells().size()), regions_(level.cells().size()) {
     for (std::uint32_t w = 0; w < level.walls().size(); ++w) add_wall(w);
     std::stable_sort(open_.begin(), open_.end(),
                      [&](std::uint32_t v, std::uint32_t w) { return areas_[v] > areas_[w]; });
@@ -39,10 +39,8 @@ class Region_merger {
     }
   }
 
-  Cell_id region_of(Cell_id c) {
-    while (up_[c] != c) c = up_[c] = up_[up_[c]];
-    return c;
-  }
+  /// The least of the cells that it is together with.
+  Cell_id region_of(Cell_id c) { return sets_.find(c); }
 
  private:
   /// A plane, and whether it is positive where the region is.
@@ -57,18 +55,13 @@ class Region_merger {
     // 1. Its plane, by one name whatever its front, and its area, squared and times four.
     const Cell_wall& wall = level_.walls()[w];
     const std::vector<Exact_point> corners = level_.polygon(wall.corners);
-    Exact_point normal{};
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
-      const Exact_point part = cross(minus(corners[i], corners[0]), minus(corners[i + 1], corners[0]));
-      for (std::size_t k = 0; k < 3; ++k) normal[k] += part[k];
-    }
+    const Exact_plane own = exact_plane(corners);
+    const Exact_point normal{own[0], own[1], own[2]};
     areas_.push_back(dot(normal, normal));
-    const Rational first = sgn(normal[0]) != 0 ? normal[0] : sgn(normal[1]) != 0 ? normal[1] : normal[2];
-    for (Rational& x : normal) x /= first;
-    const std::array<Rational, 4> plane{normal[0], normal[1], normal[2], -dot(normal, corners[0])};
+    const auto [plane, is_turned] = unoriented(own);
     const auto [at, is_new] = ids_.try_emplace(plane, static_cast<std::uint32_t>(planes_.size()));
     if (is_new) planes_.push_back(plane);
-    sides_.emplace_back(at->second, sgn(first) > 0);
+    sides_.emplace_back(at->second, !is_turned);
 
     // 2. What it is to its cells.
     const bool is_inner =
@@ -79,7 +72,7 @@ class Region_merger {
       if (cell == no_cell) continue;
       Region& region = regions_[cell];
       region.corners.insert(wall.corners.begin(), wall.corners.end());
-      region.sides.insert({at->second, (sgn(first) > 0) == (cell == wall.front)});
+      region.sides.insert({at->second, is_turned != (cell == wall.front)});
       if (is_inner && !is_open) region.covered.push_back(w);
     }
   }
@@ -88,10 +81,8 @@ class Region_merger {
   bool fits(Cell_id a, Cell_id other, std::uint32_t but) const {
     for (const auto& [plane, is_positive] : regions_[other].sides) {
       if (plane == but) continue;
-      const std::array<Rational, 4>& h = planes_[plane];
       for (const std::uint32_t corner : regions_[a].corners) {
-        const Exact_point& p = level_.points()[corner];
-        const int side = sgn(Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]));
+        const int side = sgn(exact_height(planes_[plane], level_.points()[corner]));
         if (is_positive ? side < 0 : side > 0) return false;
       }
     }
@@ -113,14 +104,14 @@ class Region_merger {
     for (const bool is_positive : {false, true}) one.sides.erase({between, is_positive});
     one.covered.insert(one.covered.end(), other.covered.begin(), other.covered.end());
     other = {};
-    up_[std::max(a, b)] = std::min(a, b);
+    sets_.join(a, b);
   }
 
   const Level_cells& level_;
-  std::vector<Cell_id> up_;
+  Union_find sets_;
   std::vector<Region> regions_;  // by the least of their cells
-  std::map<std::array<Rational, 4>, std::uint32_t> ids_;
-  std::vector<std::array<Rational, 4>> planes_;
+  std::map<Exact_plane, std::uint32_t> ids_;
+  std::vector<Exact_plane> planes_;
   std::vector<Side> sides_;          // by wall: of the cell in front
   std::vector<Rational> areas_;      // by wall
   std::vector<std::uint32_t> open_;  // walls that no face covers some of, the largest first

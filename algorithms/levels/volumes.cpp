@@ -1,7 +1,9 @@
 #include <sightline/algorithms/levels/volumes.h>
 
 #include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
+#include <sightline/kernel/union_find.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -19,22 +21,20 @@ namespace sightline {
 
 namespace levels_detail {
 
-using Volume_plane = std::array<Rational, 4>;
-
 /// A convex polyhedron, its planes with the inside behind them.
 struct Convex_volume {
   std::string name;  // for messages: a face of it
-  std::vector<Volume_plane> planes;
+  std::vector<Exact_plane> planes;
   std::vector<Exact_point> corners;     // sorted
   std::vector<Exact_point> directions;  // of edges, some of which are parallel
   std::array<Exact_point, 2> box;
 };
 
 /// The least and the largest side of corners to a plane.
-std::array<int, 2> sides_to(const Volume_plane& h, const std::vector<Exact_point>& corners) {
+std::array<int, 2> sides_to(const Exact_plane& h, const std::vector<Exact_point>& corners) {
   std::array<int, 2> sides{1, -1};
   for (const Exact_point& p : corners) {
-    const int side = sgn(Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]));
+    const int side = sgn(exact_height(h, p));
     sides = {std::min(sides[0], side), std::max(sides[1], side)};
   }
   return sides;
@@ -42,20 +42,15 @@ std::array<int, 2> sides_to(const Volume_plane& h, const std::vector<Exact_point
 
 /// The faces of each component, by shared points; components by their first faces.
 std::vector<std::vector<Face_id>> components_of(const Polygon_soup& soup) {
-  std::vector<Point_id> up(soup.point_count());
-  std::iota(up.begin(), up.end(), 0);
-  const auto top = [&](Point_id p) {
-    while (up[p] != p) p = up[p] = up[up[p]];
-    return p;
-  };
+  Union_find sets(soup.point_count());
   for (Face_id f = 0; f < soup.face_count(); ++f)
     for (std::size_t l = 0; l < soup.loop_count(f); ++l)
-      for (const Point_id p : soup.loop(f, l)) up[top(p)] = top(soup.loop(f)[0]);
+      for (const Point_id p : soup.loop(f, l)) sets.join(p, soup.loop(f)[0]);
   std::map<Point_id, std::size_t> places;
   std::vector<std::vector<Face_id>> components;
   for (Face_id f = 0; f < soup.face_count(); ++f) {
     if (soup.loop(f).empty()) continue;
-    const auto [at, is_new] = places.try_emplace(top(soup.loop(f)[0]), components.size());
+    const auto [at, is_new] = places.try_emplace(sets.find(soup.loop(f)[0]), components.size());
     if (is_new) components.emplace_back();
     components[at->second].push_back(f);
   }
@@ -116,15 +111,10 @@ Convex_volume convex_volume(const Polygon_soup& soup, const std::vector<Face_id>
   }
   if (inside == 0) throw std::invalid_argument(volume.name + " has no area; leave it out");
   if (inside > 0)
-    for (Volume_plane& h : volume.planes)
+    for (Exact_plane& h : volume.planes)
       for (Rational& x : h) x = -x;
 
-  volume.box = {volume.corners[0], volume.corners[0]};
-  for (const Exact_point& p : volume.corners)
-    for (std::size_t k = 0; k < 3; ++k) {
-      volume.box[0][k] = std::min(volume.box[0][k], p[k]);
-      volume.box[1][k] = std::max(volume.box[1][k], p[k]);
-    }
+  volume.box = exact_box(volume.corners);
   return volume;
 }
 
@@ -134,7 +124,7 @@ bool are_apart(const Convex_volume& a, const Convex_volume& b) {
     if (a.box[1][k] <= b.box[0][k] || b.box[1][k] <= a.box[0][k]) return true;
   const auto is_beyond = [](const Convex_volume& of, const Convex_volume& other) {
     return std::any_of(of.planes.begin(), of.planes.end(),
-                       [&](const Volume_plane& h) { return sides_to(h, other.corners)[0] >= 0; });
+                       [&](const Exact_plane& h) { return sides_to(h, other.corners)[0] >= 0; });
   };
   if (is_beyond(a, b) || is_beyond(b, a)) return true;
   const auto extent = [](const Convex_volume& of, const Exact_point& direction) {
@@ -175,11 +165,11 @@ void check_apart(const std::vector<Convex_volume>& volumes) {
 class Volume_divider {
  public:
   explicit Volume_divider(const std::vector<Convex_volume>& volumes) : volumes_(volumes) {
-    std::map<Volume_plane, std::uint32_t> ids;
+    std::map<Exact_plane, std::uint32_t> ids;
     for (const Convex_volume& volume : volumes_) {
       std::vector<std::uint32_t>& own = own_.emplace_back();
-      for (const Volume_plane& h : volume.planes) {
-        const auto [at, is_new] = ids.try_emplace(canonical(h), static_cast<std::uint32_t>(planes_.size()));
+      for (const Exact_plane& h : volume.planes) {
+        const auto [at, is_new] = ids.try_emplace(unoriented(h).plane, static_cast<std::uint32_t>(planes_.size()));
         if (is_new) planes_.push_back(at->first);
         own.push_back(at->second);
       }
@@ -226,13 +216,6 @@ class Volume_divider {
     std::vector<std::uint32_t> planes;
   };
 
-  /// One name of a plane whichever side is its front.
-  static Volume_plane canonical(Volume_plane h) {
-    const Rational first = sgn(h[0]) != 0 ? h[0] : sgn(h[1]) != 0 ? h[1] : h[2];
-    for (Rational& x : h) x /= first;
-    return h;
-  }
-
   /// The number of the node to come; or below 0 a leaf, where nothing is left, or one volume is all.
   std::int32_t made_of(const std::vector<Left>& left) const {
     if (left.empty()) return -1 - static_cast<std::int32_t>(volumes_.size());
@@ -270,7 +253,7 @@ class Volume_divider {
   }
 
   const std::vector<Convex_volume>& volumes_;
-  std::vector<Volume_plane> planes_;
+  std::vector<Exact_plane> planes_;
   std::vector<std::vector<std::uint32_t>> own_;  // by volume
   Space_tree tree_;
 };

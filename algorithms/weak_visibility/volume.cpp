@@ -3,6 +3,7 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/query.h>
 #include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/sign.h>
 #include <sightline/kernel/traits/exact_traits.h>
@@ -18,36 +19,11 @@ namespace sightline {
 namespace {
 
 using Polygon = std::vector<Exact_point>;
-using Exact_plane = std::array<Rational, 4>;
 
 Bsp_options one_thread() {
   Bsp_options options;
   options.threads = 1;
   return options;
-}
-
-Rational height(const Exact_plane& h, const Exact_point& p) {
-  return Rational(h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3]);
-}
-
-Exact_plane plane_of(const Polygon& polygon) {  // Newell's normal
-  Exact_plane h{0, 0, 0, 0};
-  for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
-    const Exact_point part = cross(minus(polygon[i], polygon[0]), minus(polygon[i + 1], polygon[0]));
-    for (std::size_t k = 0; k < 3; ++k) h[k] += part[k];
-  }
-  for (std::size_t k = 0; k < 3; ++k) h[3] -= h[k] * polygon[0][k];
-  return h;
-}
-
-std::array<Exact_point, 2> box_of(const Polygon& polygon) {
-  std::array<Exact_point, 2> box{polygon[0], polygon[0]};
-  for (const Exact_point& p : polygon)
-    for (std::size_t k = 0; k < 3; ++k) {
-      box[0][k] = std::min(box[0][k], p[k]);
-      box[1][k] = std::max(box[1][k], p[k]);
-    }
-  return box;
 }
 
 bool apart(const std::array<Exact_point, 2>& a, const std::array<Exact_point, 2>& b) {
@@ -62,7 +38,7 @@ Polygon clipped(const Polygon& polygon, const Exact_plane& h, int sign) {
   bool beyond = false;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Exact_point &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-    const Rational at = sign * height(h, p), after = sign * height(h, q);
+    const Rational at = sign * exact_height(h, p), after = sign * exact_height(h, q);
     beyond |= sgn(at) > 0;
     if (sgn(at) >= 0) part.push_back(p);
     if (sgn(at) * sgn(after) >= 0) continue;
@@ -96,19 +72,19 @@ Weak_volume::Weak_volume(const Polygon_soup& soup) : space_(std::make_unique<con
     Polygon& polygon = polygons_.emplace_back();
     for (const Piece_corner& corner : scene.corners(piece)) polygon.push_back(scene.position(corner.point));
     planes_.push_back(scene.file_coefficients(piece.support));
-    boxes_.push_back(box_of(polygon));
+    boxes_.push_back(exact_box(polygon));
   }
   Polygon corners;
   for (const std::array<Exact_point, 2>& box : boxes_) corners.insert(corners.end(), box.begin(), box.end());
-  box_ = box_of(corners);
+  box_ = exact_box(corners);
   for (std::size_t k = 0; k < polygons_.size(); ++k) add_surface(polygons_[k], planes_[k]);
   if (surface_.empty())
     throw std::invalid_argument("the faces of a volume enclose nothing; give those of a closed polyhedron");
 }
 
 bool Weak_volume::sees_from_within(const std::vector<Exact_point>& polygon, bool behind) const {
-  if (apart(box_of(polygon), box_)) return false;
-  const Exact_plane plane = plane_of(polygon);
+  if (apart(exact_box(polygon), box_)) return false;
+  const Exact_plane plane = exact_plane(polygon);
   const std::vector<Polygon> parts = parts_of(polygon);
   return std::any_of(parts.begin(), parts.end(),
                      [&](const Polygon& part) { return is_inside_beside(part, plane, behind ? -1 : 1); });
@@ -116,7 +92,7 @@ bool Weak_volume::sees_from_within(const std::vector<Exact_point>& polygon, bool
 
 std::vector<Weak_volume::Polygon> Weak_volume::parts_of(const Polygon& polygon) const {
   std::vector<Polygon> parts{polygon};
-  const std::array<Exact_point, 2> box = box_of(polygon);
+  const std::array<Exact_point, 2> box = exact_box(polygon);
   for (std::size_t k = 0; k < polygons_.size(); ++k) {
     if (apart(box, boxes_[k])) continue;
     std::vector<Polygon> cut;
@@ -141,7 +117,7 @@ bool Weak_volume::is_inside_beside(const Polygon& part, const Exact_plane& plane
   }
   Rational step = 1;
   for (const Exact_plane& h : planes_) {
-    const Rational at = height(h, mean), slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
+    const Rational at = exact_height(h, mean), slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
     if (sgn(at) * sgn(slope) < 0) step = std::min(step, Rational(-at / (2 * slope)));
   }
   for (Predicate_counts counts;; step /= 2) {

@@ -3,6 +3,7 @@
 
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/kernel/number.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -39,7 +40,6 @@ class Weak_volume {
 
  private:
   using Polygon = std::vector<Exact_point>;
-  using Exact_plane = std::array<Rational, 4>;
 
   /// A polygon in parts between which the surface may pass, cut by the planes of faces whose boxes meet its own. On
   /// each part, all points right in front are inside, or none; likewise right behind.

@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/harness/generate/transform.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
 
 #include <algorithm>
@@ -37,13 +38,9 @@ Polygon_soup any_solid(const Points& base, const Exact_point& apex, const Exact_
 
 /// The lowest and the highest coordinates. Pre: there is a point.
 std::array<Exact_point, 2> box_of(const Polygon_soup& soup) {
-  Exact_point low = soup.point(0), high = low;
-  for (Point_id p = 0; p < soup.point_count(); ++p)
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], soup.point(p)[k]);
-      high[k] = std::max(high[k], soup.point(p)[k]);
-    }
-  return {low, high};
+  Points points;
+  for (Point_id p = 0; p < soup.point_count(); ++p) points.push_back(soup.point(p));
+  return exact_box(points);
 }
 
 /// The power of two not above the longest side of the box.

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/level_checks.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -46,7 +47,7 @@ std::array<Exact_point, 2> box_about_cells(const std::vector<Cell_of_level>& cel
   Points corners;
   for (const Cell_of_level& cell : cells)
     for (const Points& wall : cell.walls) corners.insert(corners.end(), wall.begin(), wall.end());
-  return box_about(corners);
+  return exact_box(corners);
 }
 
 /// Whether some corner of a face is in front of a polygon's plane.
@@ -130,7 +131,7 @@ std::optional<Said> forged(const Level_cells& level, Cell_id cell, const Said& t
       return said;
     }
     default: {  // the whole world
-      const auto [low, high] = box_about(level.points());
+      const auto [low, high] = exact_box(level.points());
       walls = generate::box(low, high);
       sources.clear();
       said.cell.within.clear();
@@ -177,7 +178,7 @@ Outcome of_all(const Posed_scene& posed, const Level_cells& level, Random& rando
     if (way == 1) said.push_back(cell);  // twice
     if (way == 2) {                      // the whole box once more
       if (said.size() == 1) continue;
-      const auto [low, high] = box_about(level.points());
+      const auto [low, high] = exact_box(level.points());
       said.push_back({said.size(), generate::box(low, high), false, {}});
     }
     if (way == 3) {  // a face beyond it

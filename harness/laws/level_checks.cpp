@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/levels/ways.h>
 #include <sightline/algorithms/weak_visibility/volume.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -47,22 +48,12 @@ Space_tree any_tree(const Polygon_soup& soup, Random& random) {
   return tree;
 }
 
-std::array<Exact_point, 2> box_about(const Points& points) {
-  std::array<Exact_point, 2> box{points[0], points[0]};
-  for (const Exact_point& p : points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      box[0][k] = std::min(box[0][k], p[k]);
-      box[1][k] = std::max(box[1][k], p[k]);
-    }
-  return box;
-}
-
 std::array<Exact_point, 2> box_of_corners(const Polygon_soup& soup) {
   Points corners;
   for (Face_id f = 0; f < soup.face_count(); ++f)
     for (std::size_t l = 0; l < soup.loop_count(f); ++l)
       for (const Point_id p : soup.loop(f, l)) corners.push_back(soup.point(p));
-  return corners.empty() ? std::array<Exact_point, 2>{} : box_about(corners);
+  return corners.empty() ? std::array<Exact_point, 2>{} : exact_box(corners);
 }
 
 Polygon_soup polyhedron(const Level_cells& level, const std::vector<Cell_id>& cells) {

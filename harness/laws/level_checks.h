@@ -24,8 +24,6 @@ Pvs_options options_of(Random& random);
 /// A tree of planes along axes and through points of the scene: some miss what those above leave, some come twice.
 Space_tree any_tree(const Polygon_soup& soup, Random& random);
 
-/// The box about points. Pre: there is one.
-std::array<Exact_point, 2> box_about(const generate::Points& points);
 /// The box about all corners of faces.
 std::array<Exact_point, 2> box_of_corners(const Polygon_soup& soup);
 

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/levels/volumes.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/level_checks.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
@@ -108,7 +109,7 @@ Outcome boxes_as_volumes(const Posed_scene& posed, Random& random) {
   Cell_options division;
   division.tree = even_boxes(posed.soup, counts);
   const Level_cells boxes(posed.soup, division);
-  const std::array<Exact_point, 2> world = box_about(boxes.points());
+  const std::array<Exact_point, 2> world = exact_box(boxes.points());
   Polygon_soup volumes;
   for (std::uint32_t number = 0; number < counts[0] * counts[1] * counts[2]; ++number) {
     const std::array<std::uint32_t, 3> place{number % counts[0], number / counts[0] % counts[1],

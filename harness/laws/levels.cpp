@@ -13,6 +13,7 @@
 #include <sightline/harness/laws/level_certificates.h>
 #include <sightline/harness/laws/level_checks.h>
 #include <sightline/harness/laws/level_groups.h>
+#include <sightline/kernel/scene/exact_plane.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/vectors.h>
 
@@ -85,7 +86,7 @@ Exact_point any_direction(Random& random) {
 
 /// Cells are convex, with their points inside, and fill a box.
 Outcome fill(const Level_cells& level) {
-  const auto [low, high] = box_about(level.points());
+  const auto [low, high] = exact_box(level.points());
   Rational volume = 0;
   for (Cell_id c = 0; c < level.cells().size(); ++c) {
     const Exact_point inside = level.inside(c);

@@ -4,46 +4,16 @@
 #include <sightline/kernel/plane_table.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/face_mesh.h>
+#include <sightline/kernel/union_find.h>
 #include <sightline/kernel/vertex.h>
 
 #include <OpenMesh/Core/System/omstream.hh>
 
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 
 namespace sightline {
-
-namespace {
-
-struct Union_find {
-  std::vector<std::uint32_t> parent;
-  explicit Union_find(std::size_t n) : parent(n) { std::iota(parent.begin(), parent.end(), 0u); }
-  std::uint32_t find(std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-  }
-  void join(std::uint32_t i, std::uint32_t j) {
-    i = find(i);
-    j = find(j);
-    parent[std::max(i, j)] = std::min(i, j);
-  }
-  /// Numbers of the sets, in the order of their first members.
-  std::vector<std::uint32_t> numbers(std::vector<std::uint32_t>& first) {
-    std::vector<std::uint32_t> number(parent.size());
-    for (std::uint32_t i = 0; i < parent.size(); ++i) {
-      const std::uint32_t root = find(i);
-      if (root == i) {
-        number[i] = static_cast<std::uint32_t>(first.size());
-        first.push_back(i);
-      } else number[i] = number[root];
-    }
-    return number;
-  }
-};
-
-}  // namespace
 
 struct Face_graph::Builder {
   explicit Builder(Face_graph& graph) : graph_(graph), scene_(graph.scene_) {}

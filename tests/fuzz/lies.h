@@ -174,6 +174,15 @@ bool on_the_other_diagonal(Claim& claim, const Posed_scene&, Bytes& bytes) {
 }
 
 template <class Claim>
+bool of_the_true_eye(Claim& claim, const Posed_scene& truth, Bytes&) {
+  return std::exchange(claim.eye, truth.eye) != truth.eye;
+}
+template <class Claim>
+bool nudges_the_eye(Claim& claim, const Posed_scene&, Bytes& bytes) {
+  return nudge(claim.eye, bytes);
+}
+
+template <class Claim>
 std::vector<Lie<Claim>> with_lies_about_fragments(std::vector<Lie<Claim>> lies) {
   lies.insert(lies.end(), {{"a fragment that is no polygon", is_no_polygon<Claim>},
                            {"a fragment without area", has_no_area<Claim>},
@@ -190,9 +199,8 @@ std::vector<Lie<Claim>> with_lies_about_fragments(std::vector<Lie<Claim>> lies) 
 inline const std::vector<Lie<Order_certificate>>& lies_in(const Order_certificate&) {
   using Claim = Order_certificate;
   static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
-      {{"of the true eye", [](Claim& claim, const Posed_scene& truth,
-                              Bytes&) { return std::exchange(claim.eye, truth.eye) != truth.eye; }},
-       {"the eye nudged", [](Claim& claim, const Posed_scene&, Bytes& bytes) { return nudge(claim.eye, bytes); }},
+      {{"of the true eye", of_the_true_eye<Claim>},
+       {"the eye nudged", nudges_the_eye<Claim>},
        {"the eye at a point",
         [](Claim& claim, const Posed_scene& truth, Bytes& bytes) {
           claim.eye = truth.soup.point(
@@ -294,9 +302,8 @@ inline bool is_of_another_in_its_plane(Visible_certificate& claim, const Posed_s
 inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certificate&) {
   using Claim = Visible_certificate;
   static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
-      {{"of the true eye", [](Claim& claim, const Posed_scene& truth,
-                              Bytes&) { return std::exchange(claim.eye, truth.eye) != truth.eye; }},
-       {"the eye nudged", [](Claim& claim, const Posed_scene&, Bytes& bytes) { return nudge(claim.eye, bytes); }},
+      {{"of the true eye", of_the_true_eye<Claim>},
+       {"the eye nudged", nudges_the_eye<Claim>},
        {"a ray nudged", [](Claim& claim, const Posed_scene&, Bytes& bytes) { return nudge_any(claim.rays, bytes); }},
        {"an empty cone nudged",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {

@@ -2,6 +2,7 @@
 // What a forger has: the right certificate of another scene, told as one of the scene at hand.
 
 #include "certificate.h"
+#include "truth.h"
 
 #include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
@@ -33,8 +34,6 @@ struct Pretence {
   static constexpr const char* as_it_was = "the right one";
   bool is_true() const { return name == as_it_was; }
 };
-
-inline Asking in_one_thread() { return {1, {}}; }
 
 // ---- Other scenes
 

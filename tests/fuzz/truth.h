@@ -15,6 +15,8 @@
 
 namespace fuzz {
 
+inline Asking in_one_thread() { return {1, {}}; }
+
 inline Known_scene known(const Polygon_soup& soup) {
   const Scene scene(soup);
   Known_scene all{soup, std::vector<std::vector<Flat>>(soup.face_count()), std::vector<bool>(soup.face_count()),
@@ -42,25 +44,23 @@ class Truth {
   const Model model;
 
   const Priority& graph() {
-    if (!graph_) graph_ = priority_graph(model, one_thread());
+    if (!graph_) graph_ = priority_graph(model, in_one_thread());
     return *graph_;
   }
   const Seen& seen(const Exact_point& eye) {
     const auto found = seen_.find(eye);
-    return found != seen_.end() ? found->second : seen_.emplace(eye, see(model, eye, one_thread())).first->second;
+    return found != seen_.end() ? found->second : seen_.emplace(eye, see(model, eye, in_one_thread())).first->second;
   }
   const Weak_visibility& weak(const std::vector<Points>& sources, bool two_sided) {
     const auto question = std::pair(sources, two_sided);
     const auto found = weak_.find(question);
     if (found != weak_.end()) return found->second;
-    Asking asking = one_thread();
+    Asking asking = in_one_thread();
     asking.two_sided = two_sided;
     return weak_.emplace(question, weakly_visible(model, sources, asking)).first->second;
   }
 
  private:
-  static Asking one_thread() { return {1, {}}; }
-
   std::optional<Priority> graph_;
   std::map<Exact_point, Seen> seen_;
   std::map<std::pair<std::vector<Points>, bool>, Weak_visibility> weak_;

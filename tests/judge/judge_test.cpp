@@ -109,14 +109,19 @@ TEST(Protocol, reads_answers_as_json_and_as_lines) {
   EXPECT_EQ((order.order[1].part.at(0) == Exact_point{0, Rational(1, 2), Rational(1, 3)}), true);
 }
 
+/// What reading an answer says is wrong; "nothing" where it says nothing.
+std::string refusal_of(const std::function<void()>& reading) {
+  try {
+    reading();
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "nothing";
+}
+
 TEST(Protocol, says_what_is_wrong_with_an_answer) {
   const auto what = [](const char* text, Question question = Question::see) {
-    try {
-      read_answer(text, question, 3);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing");
+    return refusal_of([&] { read_answer(text, question, 3); });
   };
   EXPECT_EQ(what("{\"visible\": [0"), "begins with { but is not JSON");
   EXPECT_EQ(what("{\"visble\": [0]}"), "has no \"visible\": write {\"visible\": [0, 4, 7]}");
@@ -571,14 +576,7 @@ TEST(Rays, are_answered_a_line_each) {
   }
   for (const char* text : {"abstained all\n", R"({"abstained": "all"})"})
     EXPECT_EQ(read(text).abstained, (Faces{0, 1, 2, 3})) << text;
-  const auto what = [&](const std::string& text) {
-    try {
-      read(text);
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
-    return std::string("nothing");
-  };
+  const auto what = [&](const std::string& text) { return refusal_of([&] { read(text); }); };
   const std::string count = "it is of 1 rays, and 4 are asked about; write a line for each: a face, none or abstained";
   EXPECT_EQ(what("1\n"), count);
   EXPECT_EQ(what(R"({"first": [1]})"), count);
