@@ -28,22 +28,14 @@ struct Boolean_arguments {
   int threads = 0;
 };
 
-constexpr std::array<std::pair<const char*, Set_operation>, 4> operations{
-    {{"union", Set_operation::unite},
-     {"intersection", Set_operation::intersect},
-     {"difference", Set_operation::subtract},
-     {"symmetric-difference", Set_operation::differ}}};
-constexpr std::array<std::pair<const char*, Inside_rule>, 3> inside_rules{
-    {{"positive", Inside_rule::positive}, {"nonzero", Inside_rule::nonzero}, {"odd", Inside_rule::odd}}};
-
 template <class List>
 auto named(const List& list, const std::string& name) {
-  return std::find_if(list.begin(), list.end(), [&](const auto& entry) { return entry.first == name; })->second;
+  return *std::find_if(list.begin(), list.end(), [&](auto one) { return sightline::name(one) == name; });
 }
 template <class List>
 std::vector<std::string> names_of(const List& list) {
   std::vector<std::string> names;
-  for (const auto& entry : list) names.emplace_back(entry.first);
+  for (const auto one : list) names.emplace_back(name(one));
   return names;
 }
 
@@ -115,7 +107,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   const double read_seconds = watch.seconds();
   watch = {};
   Set_options options;
-  options.operation = named(operations, a.operation);
+  options.operation = named(set_operations, a.operation);
   options.inside = named(inside_rules, a.inside);
   options.keep_fragments = !a.certificate.empty();
   Progress progress(a.operation);
@@ -218,7 +210,7 @@ void add_boolean(Command program) {
                   "union, intersection, difference (the first less all others) or symmetric-difference (in an odd "
                   "number of them)")
       .required()
-      .check(one_of(names_of(operations)));
+      .check(one_of(names_of(set_operations)));
   command
       .add_option("SOLIDS", a->solids, "two closed surfaces or more: .obj .off .ply .stl .qoff; fronts look outwards")
       .required()

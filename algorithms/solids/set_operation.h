@@ -18,9 +18,12 @@
 namespace sightline {
 
 enum class Set_operation { unite, intersect, subtract, differ };  ///< subtract: the first less all others
+inline constexpr std::array<Set_operation, 4> set_operations{Set_operation::unite, Set_operation::intersect,
+                                                             Set_operation::subtract, Set_operation::differ};
 
 /// Where an operand is: by its winding number.
 enum class Inside_rule { positive, nonzero, odd };
+inline constexpr std::array<Inside_rule, 3> inside_rules{Inside_rule::positive, Inside_rule::nonzero, Inside_rule::odd};
 
 /// "union", "intersection", "difference", "symmetric-difference"
 const char* name(Set_operation operation);

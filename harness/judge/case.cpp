@@ -98,11 +98,9 @@ void prepare(Case& made, const Case_options& options) {
 
 /// Two solids, and any operation on them.
 void pose_solids(Case& made, const generate::Solid_pair& solids, generate::Random& random) {
-  constexpr std::array<Set_operation, 4> operations{Set_operation::unite, Set_operation::intersect,
-                                                    Set_operation::subtract, Set_operation::differ};
   made.soup = joined(solids);
   made.query.first = solids[0].face_count();
-  made.query.operation = operations[random.below(4)];
+  made.query.operation = set_operations[random.below(4)];
 }
 
 /// Runs `make`; what cannot be made, or is beyond the range of doubles, is not asked.

@@ -246,13 +246,11 @@ std::optional<Polygon_soup> surface_of(const std::string& text) {
 }
 
 Set_operation operation_of(const nlohmann::json& name) {
-  for (const Set_operation operation : {Set_operation::unite, Set_operation::intersect, Set_operation::subtract})
+  for (const Set_operation operation : set_operations)
     if (name == sightline::name(operation)) return operation;
-  if (name != sightline::name(Set_operation::differ))
-    fail(
-        "query: \"operation\" is neither \"union\" nor \"intersection\" nor \"difference\" nor "
-        "\"symmetric-difference\"");
-  return Set_operation::differ;
+  fail(
+      "query: \"operation\" is neither \"union\" nor \"intersection\" nor \"difference\" nor "
+      "\"symmetric-difference\"");
 }
 
 }  // namespace protocol_detail

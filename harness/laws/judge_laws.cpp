@@ -73,14 +73,12 @@ std::string flaw_of_limits(const Polygon_soup& result, const Polygon_soup& solid
 }
 
 Outcome judge_solids(const Posed_scene& posed, Random& random) {
-  constexpr std::array<Set_operation, 4> operations{Set_operation::unite, Set_operation::intersect,
-                                                    Set_operation::subtract, Set_operation::differ};
   const generate::Solid_pair solids = generate::pair_of_solids(posed, random);
   const Polygon_soup both = judge::joined(solids);
   judge::Query query;
   query.question = judge::Question::boolean;
   query.first = solids[0].face_count();
-  query.operation = operations[random.below(4)];
+  query.operation = set_operations[random.below(4)];
   if (!judge::flaw_of_solids(both, query.first).empty()) return Outcome::not_applicable();
   const judge::Solid_truth truth = judge::solid_truth(both, query);
   const auto graded = [&](const Polygon_soup& surface) {
@@ -90,7 +88,7 @@ Outcome judge_solids(const Posed_scene& posed, Random& random) {
   };
   // 1. Results of any operation.
   const Polygon_soup exact = surface_of(solids, query.operation);
-  for (const Set_operation said : operations) {
+  for (const Set_operation said : set_operations) {
     const Polygon_soup surface = surface_of(solids, said);
     const bool differs = volume(surface_of(std::array{exact, surface}, Set_operation::differ)) != 0;
     if (graded(surface).wrong() != differs)

@@ -31,10 +31,7 @@ namespace solids_subject {
 
 using generate::add_cone, generate::add_prism, generate::any_step, generate::base_of, generate::face_alone;
 
-constexpr std::array<Set_operation, 4> all_operations{Set_operation::unite, Set_operation::intersect,
-                                                      Set_operation::subtract, Set_operation::differ};
 constexpr std::array<const char*, 4> operation_names{"union", "intersection", "difference", "symmetric difference"};
-constexpr std::array<Inside_rule, 3> all_rules{Inside_rule::positive, Inside_rule::nonzero, Inside_rule::odd};
 
 Set_result result_of(const std::vector<Polygon_soup>& solids, Set_operation operation,
                      Inside_rule rule = Inside_rule::positive, bool keep_fragments = false) {
@@ -248,7 +245,7 @@ std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random) {
 }
 
 std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t points, Random& random) {
-  const Inside_rule rule = all_rules[random.below(3)];
+  const Inside_rule rule = inside_rules[random.below(3)];
   std::vector<Solid_oracle> operands;
   std::vector<Exact_point> corners;
   for (const Polygon_soup& solid : solids) {
@@ -257,7 +254,7 @@ std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t 
   }
   if (corners.empty()) return {};
   for (std::size_t k = 0; k < 4; ++k) {
-    const Set_result result = result_of(solids, all_operations[k], rule);
+    const Set_result result = result_of(solids, set_operations[k], rule);
     const Solid_oracle oracle(result.soup);
     std::vector<Exact_point> places = corners;
     for (const Exact_point& p : corners_of(result.soup)) places.push_back(p);
@@ -267,7 +264,7 @@ std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t 
       if (std::any_of(operands.begin(), operands.end(), [&](const auto& one) { return one.is_on_a_face(p); })) continue;
       std::vector<bool> inside;
       for (const Solid_oracle& one : operands) inside.push_back(is_inside_by(rule, one.winding(p, random)));
-      const int expected = is_in(all_operations[k], inside) ? 1 : 0, found = oracle.winding(p, random);
+      const int expected = is_in(set_operations[k], inside) ? 1 : 0, found = oracle.winding(p, random);
       if (found != expected)
         return std::string(operation_names[k]) + ": " + text_of(p) + " is wound round " + std::to_string(found) +
                " times, not " + std::to_string(expected);
@@ -303,7 +300,7 @@ std::string flaw_by_volumes(const std::vector<Polygon_soup>& solids) {
 
 std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids) {
   for (std::size_t k = 0; k < 4; ++k) {
-    const std::string flaw = flaw_of_surface(result_of(solids, all_operations[k]));
+    const std::string flaw = flaw_of_surface(result_of(solids, set_operations[k]));
     if (!flaw.empty()) return std::string(operation_names[k]) + ": " + flaw;
   }
   return {};
@@ -311,8 +308,8 @@ std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids) {
 
 std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random& random) {
   Set_options options;
-  options.operation = all_operations[random.below(4)];
-  options.inside = all_rules[random.below(3)];
+  options.operation = set_operations[random.below(4)];
+  options.inside = inside_rules[random.below(3)];
   options.keep_fragments = true;
   const Operands operands(solids);
   const Set_result result = set_operation(operands, options);
@@ -365,7 +362,7 @@ std::string flaw_of_certificate(const std::vector<Polygon_soup>& solids, Random&
 }
 
 std::string flaw_of_rounding(const std::vector<Polygon_soup>& solids, Random& random) {
-  const Set_result result = result_of(solids, all_operations[random.below(4)]);
+  const Set_result result = result_of(solids, set_operations[random.below(4)]);
   const Rational far = generate::power_of_two(static_cast<long>(random.below(22)));
   const Polygon_soup exact = without_holes(generate::translated(result.soup, {far, far / 3, 0})).soup;
   std::vector<Rounded_surface> both;

@@ -19,10 +19,6 @@ namespace fuzz {
 
 using Solids = std::vector<Polygon_soup>;
 
-inline constexpr std::array<Set_operation, 4> set_operations{Set_operation::unite, Set_operation::intersect,
-                                                             Set_operation::subtract, Set_operation::differ};
-inline constexpr std::array<Inside_rule, 3> inside_rules{Inside_rule::positive, Inside_rule::nonzero, Inside_rule::odd};
-
 inline Verdict verdict_on(const Solids& solids, const Solid_certificate& claim) {
   return verify_solids(solids, claim, nullptr, {1, {}});
 }

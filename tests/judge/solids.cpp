@@ -26,9 +26,6 @@ using namespace sightline::judge;
 using test_solids::add_box;
 using test_solids::box;
 
-constexpr std::array<Set_operation, 4> every_operation{Set_operation::unite, Set_operation::intersect,
-                                                       Set_operation::subtract, Set_operation::differ};
-
 struct Asked_solids {
   Polygon_soup soup;
   Query query;
@@ -112,8 +109,8 @@ TEST(Solids, that_bound_nothing_are_not_asked_about) {
 }
 
 TEST(Solids, of_two_boxes_are_right_for_one_operation_alone) {
-  for (const Set_operation operation : every_operation)
-    for (const Set_operation said : every_operation) {
+  for (const Set_operation operation : set_operations)
+    for (const Set_operation said : set_operations) {
       const Asked_solids of = asked(corner_box, other_box, operation);
       const Grade grade = graded_surface(of, result_of(of, said));
       EXPECT_EQ(grade.wrong(), said != operation) << name(operation) << " answered by " << name(said);
@@ -239,7 +236,7 @@ TEST(Solids, of_families_are_right_iff_they_differ_by_nothing) {
     const Asked_solids of{made.soup, made.query};
     const auto truth = solid_truth(of.soup, of.query);
     const Polygon_soup exact = result_of(of, of.query.operation);
-    for (const Set_operation said : every_operation) {
+    for (const Set_operation said : set_operations) {
       Answer answer;
       answer.surface = result_of(of, said);
       const std::array<Polygon_soup, 2> both{exact, *answer.surface};
