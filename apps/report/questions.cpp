@@ -217,11 +217,9 @@ const Report_question& report_question(const std::string& name) {
 }
 
 judge::Question case_question(const std::string& name) {
-  return name == "order"     ? judge::Question::order
-         : name == "weak"    ? judge::Question::weak
-         : name == "trace"   ? judge::Question::trace
-         : name == "boolean" ? judge::Question::boolean
-                             : judge::Question::see;
+  const auto place = std::find(judge::question_names.begin(), judge::question_names.end(), name);
+  if (place == judge::question_names.end()) return judge::Question::see;
+  return static_cast<judge::Question>(place - judge::question_names.begin());
 }
 
 std::string method_of(const Json& name) {
@@ -266,13 +264,12 @@ std::string Report_program::name() const {
 Report_program report_program(const std::string& text, const Report_limits& limits) {
   const std::size_t equals = text.find('=');
   const std::string question = text.substr(0, equals);
-  const bool is_asked =
-      question == "order" || question == "see" || question == "weak" || question == "trace" || question == "boolean";
-  if (equals == std::string::npos || !is_asked)
+  const auto place = std::find(judge::question_names.begin(), judge::question_names.end(), question);
+  if (equals == std::string::npos || place == judge::question_names.end())
     throw Usage_error(
-        "--program " + text +
-        ": write QUESTION=COMMAND, the question one of order, see, weak, trace, boolean, as in see=\"python3 mine.py "
-        "{scene} {query} {answer}\"");
+        fmt::format("--program {}: write QUESTION=COMMAND, the question one of {}, as in see=\"python3 "
+                    "mine.py {{scene}} {{query}} {{answer}}\"",
+                    text, fmt::join(judge::question_names, ", ")));
   Court_options options;
   options.program = text.substr(equals + 1);
   options.limits = {limits.seconds, limits.bytes};
