@@ -7,9 +7,10 @@
 #include <sightline/algorithms/levels/coarse.h>
 #include <sightline/algorithms/levels/grid.h>
 #include <sightline/algorithms/levels/pvs.h>
+#include <sightline/algorithms/levels/stated_cell.h>
 #include <sightline/algorithms/levels/volumes.h>
+#include <sightline/algorithms/solids/measure.h>
 #include <sightline/io/file.h>
-#include <sightline/kernel/vectors.h>
 #include <sightline/own_leaves.h>
 
 #include <filesystem>
@@ -77,20 +78,16 @@ py::tuple wall_of(const Level& level, std::size_t i) {
                         ids(wall.faces_behind));
 }
 
-/// Pyramids from a point of its inside to its walls.
 Rational volume_of(const Level& level, Cell_id cell) {
-  const Exact_point apex = level.cells->inside(cell);
-  Rational six = 0;
-  for (const std::uint32_t w : cell_of(level, cell).walls) {
-    const Cell_wall& wall = level.cells->walls()[w];
-    const std::vector<Exact_point> corners = level.cells->polygon(wall.corners);
-    Rational part = 0;
-    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
-      part += dot(minus(corners[0], apex), cross(minus(corners[k], apex), minus(corners[k + 1], apex)));
-    if (wall.front == cell) six -= part;  // counterclockwise as seen from within
-    else six += part;
+  cell_of(level, cell);
+  Polygon_soup surface;
+  std::vector<Point_id> loop;
+  for (const std::vector<Exact_point>& wall : stated_cell(*level.cells, cell).walls) {
+    loop.clear();
+    for (const Exact_point& p : wall) loop.push_back(surface.add_point(p[0], p[1], p[2]));
+    surface.add_face(loop);
   }
-  return six / 6;
+  return volume(surface);
 }
 
 /// How the cells of a level are asked what they see.
