@@ -55,6 +55,33 @@ TEST(Pages, have_examples_that_are_compiled_and_run_by_tests) {
   }
 }
 
+/// The lines of a page that are not in a block of code.
+std::vector<std::string> prose_of(const fs::path& page) {
+  std::vector<std::string> lines;
+  std::istringstream text(read(page));
+  bool is_code = false;
+  for (std::string line; std::getline(text, line);) {
+    if (line.starts_with("```")) is_code = !is_code;
+    lines.push_back(is_code ? "" : line);
+  }
+  return lines;
+}
+
+/// Cells of a table's line, none elsewhere.
+std::size_t cells_of(const std::string& line) {
+  return line.starts_with("|") ? static_cast<std::size_t>(std::count(line.begin(), line.end(), '|')) - 1 : 0;
+}
+
+TEST(Pages, have_tables_with_as_many_dashes_as_heads) {
+  // Else it is no table, and shown as a paragraph.
+  for (const fs::path& page : pages()) {
+    const std::vector<std::string> lines = prose_of(page);
+    for (std::size_t i = 1; i < lines.size(); ++i)
+      if (lines[i].starts_with("| --") && lines[i].find_first_not_of("|-: ") == std::string::npos)
+        EXPECT_EQ(cells_of(lines[i]), cells_of(lines[i - 1])) << page << ": " << lines[i - 1];
+  }
+}
+
 TEST(Pages, name_headers_and_pictures_that_are_there) {
   for (const fs::path& page : pages()) {
     const std::string text = read(page);
