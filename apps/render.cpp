@@ -127,6 +127,8 @@ static Exit run(const Render_arguments& arguments) {
     throw Usage_error(fmt::format("--method {} has its own numbers: leave out --kernel", arguments.method));
   if (arguments.samples > 1 && arguments.method != "rays")
     throw Usage_error("--samples is for --method rays; exact shows means without samples");
+  if (arguments.bits != Render_arguments{}.bits && arguments.method != "depth" && arguments.method != "weighted")
+    throw Usage_error("--bits is for --method depth and weighted");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const View view = aimed(arguments.view.view(eye, scene), scene);
@@ -210,7 +212,7 @@ void add_render(Command program) {
   command.add_option("--kernel", a->kernel, "arithmetic of the painters, newell, scan-line, warnock and bsp")
       .check(one_of({"exact", "double", "float"}))
       .show_default();
-  command.add_option("--bits", a->bits, "of a depth: 1 to 31, or 32 for floats; for --method depth")
+  command.add_option("--bits", a->bits, "of a depth: 1 to 31, or 32 for floats; for --method depth and weighted")
       .check(range(1, 32))
       .show_default();
   command.add_option("--samples", a->samples, "n x n rays a pixel; for --method rays")

@@ -37,6 +37,10 @@ namespace {
 
 constexpr std::uint32_t packet = 8;  // rays that are traced together: neighbours in a row
 
+/// Whether Embree takes a number of a ray: beyond these it ends the program.
+bool is_taken(double x) { return std::fabs(x) < 1.8e18; }
+bool are_taken(const std::array<double, 3>& v) { return std::all_of(v.begin(), v.end(), is_taken); }
+
 using Floats = std::array<float, 3>;
 
 Floats rounded(const Exact_point& p) {
@@ -100,14 +104,15 @@ void Traced_scene::Handles::trace(const Pixel_view& pixels, std::uint32_t y, Hit
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   const Floats eye = rounded(pixels.eye);
+  const bool is_eye_taken = are_taken({eye[0], eye[1], eye[2]});
   for (std::uint32_t first = 0; first < pixels.width; first += packet) {
-    // 1. Neighbours in a row, those beyond its end switched off.
+    // 1. Neighbours in a row; those beyond its end, and what Embree does not take, switched off.
     alignas(64) std::array<int, packet> valid{};
     RTCRayHit8 rays{};
     const std::uint32_t count = std::min(packet, pixels.width - first);
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::array<double, 3> d = pixels.ray(first + k, y);
-      valid[k] = -1;
+      valid[k] = is_eye_taken && are_taken(d) ? -1 : 0;
       rays.ray.org_x[k] = eye[0];
       rays.ray.org_y[k] = eye[1];
       rays.ray.org_z[k] = eye[2];
@@ -127,9 +132,7 @@ void Traced_scene::Handles::trace(const Pixel_view& pixels, std::uint32_t y, Hit
 }
 
 Traced_hit Traced_scene::first(const Double_ray& ray) const {
-  constexpr double most = 1.8e18;  // of what Embree takes
-  for (std::size_t k = 0; k < 3; ++k)
-    if (!(std::fabs(ray.origin[k]) < most && std::fabs(ray.direction[k]) < most)) return {};
+  if (!are_taken(ray.origin) || !are_taken(ray.direction)) return {};
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit hit{};

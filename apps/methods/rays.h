@@ -39,7 +39,7 @@ class Traced_scene {
 
   /// What one ray meets first, at t > 0. Nothing where its numbers are 1.8e18 or more, which Embree does not take.
   Traced_hit first(const Double_ray& ray) const;
-  /// What rays through pixel centres meet first, from an eye and directions in floats.
+  /// What rays through pixel centres meet first, from an eye and directions in floats. Degenerate: as first().
   Piece_image image(const Pixel_view& pixels, const Image_options& options) const;
   /// The mean of n x n rays a pixel, through the centres of so many squares of it.
   Mean_image means(const Pixel_view& pixels, unsigned n, const std::function<Colour(std::uint32_t piece)>& colour,

@@ -15,8 +15,9 @@ namespace sightline::app {
 
 void Common::add_to(Command of) {
   command = of;
-  of.add_option("SCENE", scene,
-                "a scene: .obj .off .ply .stl .qoff .map .bsp; - for standard input, whose content shows the format")
+  of.add_option(
+        "SCENE", scene,
+        "a scene: .obj .off .ply .stl .gltf .glb .qoff .map .bsp; - for standard input, whose content shows the format")
       .required()
       .reads_file();
   of.add_option("--json", json, "write everything as JSON to this file, - for standard output").writes_file();

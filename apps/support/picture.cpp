@@ -19,6 +19,22 @@ static Direction3 difference(const Exact_point& a, const Exact_point& b) {
   return {nearest_double(Rational(a[0] - b[0])), nearest_double(Rational(a[1] - b[1])),
           nearest_double(Rational(a[2] - b[2]))};
 }
+/// `way`, from an eye to a point; or where doubles do not hold that well, another one of its direction. Degenerate:
+/// zero where they are one.
+static Direction3 towards(const Exact_point& p, const Exact_point& eye, const Direction3& way) {
+  const double size = std::max({std::fabs(way[0]), std::fabs(way[1]), std::fabs(way[2])});
+  if (size > 1e-300 && size < 1e300) return way;
+  Exact_point exact_way;
+  Rational longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    exact_way[k] = p[k] - eye[k];
+    longest = std::max(longest, Rational(abs(exact_way[k])));
+  }
+  if (longest == 0) return {};
+  for (Rational& x : exact_way) x /= longest;
+  return difference(exact_way, {});
+}
+static Direction3 towards(const Exact_point& p, const Exact_point& eye) { return towards(p, eye, difference(p, eye)); }
 
 static Direction3 parse_direction(const std::string& text, const std::string& option) {
   const Exact_point p = parse_point(text, option);
@@ -195,7 +211,7 @@ View View_arguments::view(const Exact_point& eye, const Scene& scene, const std:
   // 2. The direction: to the middle of what is shown, which each step brings nearer.
   std::vector<Direction3> rays;
   for (const Exact_point& p : shown)
-    if (const Direction3 ray = unit(difference(p, eye)); ray != Direction3{}) rays.push_back(ray);
+    if (const Direction3 ray = unit(towards(p, eye)); ray != Direction3{}) rays.push_back(ray);
   if (rays.empty()) return aimed(view, scene);
   const bool to_aim = look.empty();
   if (to_aim) view.look = middle_of(rays);
@@ -240,7 +256,7 @@ View aimed(View view, const Scene& scene) {
     const auto box = scene.box();
     Exact_point centre;
     for (std::size_t k = 0; k < 3; ++k) centre[k] = (box[0][k] + box[1][k]) / 2;
-    view.look = difference(centre, view.eye);
+    view.look = towards(centre, view.eye);
     if (view.look == Direction3{}) view.look = {1, 0, 0};
   }
   view.look = unit(view.look);
@@ -290,7 +306,7 @@ static Flat_point projected(const View& view, const Axes& axes, const Direction3
   return {view.width / 2.0 + scale * dot(v, axes.right) / depth, view.height / 2.0 - scale * dot(v, axes.up) / depth};
 }
 Flat_point projected(const View& view, const Exact_point& p) {
-  return projected(view, axes_of(view), difference(p, view.eye));
+  return projected(view, axes_of(view), towards(p, view.eye));
 }
 
 // ---- Polygons
@@ -329,15 +345,19 @@ Look pale_look(const Drawn& item, double shade) {
 }
 
 /// The unit normal of a polygon, of whatever size: arms from its first corner are scaled before they are multiplied.
+/// Degenerate: zero of what is flat, or beyond doubles.
 static Direction3 normal_of(const std::vector<Direction3>& corners) {
   std::vector<Direction3> arms;
   double size = 0;
   for (const Direction3& corner : corners) {
     arms.push_back(minus(corner, corners[0]));
-    for (const double x : arms.back()) size = std::max(size, std::fabs(x));
+    for (const double x : arms.back()) {
+      if (!std::isfinite(x)) return {};
+      size = std::max(size, std::fabs(x));
+    }
   }
   Direction3 normal{};
-  if (!(size > 0) || !std::isfinite(size)) return normal;
+  if (!(size > 0)) return normal;
   for (Direction3& arm : arms)
     for (double& x : arm) x /= size;
   for (std::size_t i = 2; i < arms.size(); ++i) {
@@ -364,7 +384,7 @@ void paint(Svg& svg, const View& view, const std::vector<Drawn>& drawn, bool out
     std::vector<Direction3> corners;
     for (const Exact_point& p : item.fragment.vertices) {
       corners.push_back(difference(p, view.eye));
-      points.push_back(projected(view, axes, corners.back()));
+      points.push_back(projected(view, axes, towards(p, view.eye, corners.back())));
     }
     const auto [fill, title] = look(item, view.lit ? shade_of(corners) : 0);
     svg.polygon(std::move(points), fill, outlines ? "#00000055" : fill, outlines ? 0.5 : 0.4,

@@ -113,13 +113,21 @@ TEST_F(Pictures, are_filled_by_a_flat_scene_far_from_the_origin) {
 }
 
 TEST_F(Pictures, of_coordinates_from_tiny_to_huge_hold_numbers_alone) {
-  const std::string scene = path("exponents.qoff").string();
+  const auto expect_numbers = [&](const std::vector<std::string>& words) {
+    const std::string text = drawn(words).text;
+    for (const char* none : {"nan", "inf"})
+      EXPECT_EQ(text.find(none), std::string::npos) << testing::PrintToString(words) << " draws " << none;
+  };
+  const std::string scene = path("exponents.qoff").string(), huge = (corpus / "robust" / "huge.off").string();
   for (const char* seed : {"2", "3", "8"}) {
     ASSERT_EQ(run({"generate", "exponents", "--seed", seed, "--out", scene}).code, done);
-    const std::string text = drawn({"see", scene}).text;
-    EXPECT_EQ(text.find("nan"), std::string::npos) << seed;
-    EXPECT_EQ(text.find("inf"), std::string::npos) << seed;
+    expect_numbers({"see", scene});
   }
+  expect_numbers({"order", huge});
+  expect_numbers({"see", huge, "--lines"});
+  expect_numbers({"weak", huge, "--from-face", "0"});
+  expect_numbers({"order", cube, "--eye", "1e400,0,0"});
+  expect_filled(drawn({"order", huge}));
 }
 
 TEST_F(Pictures, keep_what_is_given_of_direction_and_field) {

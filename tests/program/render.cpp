@@ -26,6 +26,12 @@ class Render : public Program {
     for (const Json& entry : made["result"]["faces"]) faces[entry["face"]] = entry["pixels"];
     return faces;
   }
+  /// Whether the program was built with Embree; without it, it says so.
+  bool has_rays() {
+    const Outcome rays = run({"render", cube, "--method", "rays", "--json", "-"});
+    if (rays.code == usage) EXPECT_NE(rays.err.find("without Embree"), std::string::npos) << rays;
+    return rays.code != usage;
+  }
   /// What a picture that cannot be made says.
   std::string refusal(std::vector<std::string> arguments, int code) {
     const fs::path png = path("refused.png");
@@ -49,14 +55,27 @@ TEST_F(Render, shows_the_same_faces_of_a_cube_by_every_method) {
   const std::map<int, int> faces = shown(truth);
   EXPECT_EQ(faces.size(), 3u);
   EXPECT_EQ(truth["counters"]["tied"], 0);
-  for (const char* method : {"depth", "scan-line", "warnock", "bsp", "graph"})
+  for (const char* method : {"depth", "weighted", "weiler-atherton", "bsp2d", "graph"})
     EXPECT_EQ(shown(with({"--method", method})), faces) << method;
   for (const char* kernel : {"float", "double", "exact"})
-    for (const char* method : {"scan-line", "warnock", "bsp", "painter-mean"})
+    for (const char* method : {"newell", "scan-line", "warnock", "bsp", "painter-min", "painter-max", "painter-mean"})
       EXPECT_EQ(shown(with({"--method", method, "--kernel", kernel})), faces) << method << ", " << kernel;
-  const Outcome rays = run({"render", cube, "--method", "rays", "--eye", "3,-4,5", "--json", "-"});
-  if (rays.code == usage) EXPECT_NE(rays.err.find("without Embree"), std::string::npos) << rays;
-  else EXPECT_EQ(shown(with({"--method", "rays"})), faces);
+  if (has_rays()) EXPECT_EQ(shown(with({"--method", "rays"})), faces);
+}
+
+TEST_F(Render, from_beyond_floats_and_doubles_is_a_picture) {
+  std::vector<std::string> methods{"exact",     "centres", "depth",           "weighted", "painter-mean", "newell",
+                                   "scan-line", "warnock", "weiler-atherton", "bsp2d",    "bsp",          "graph"};
+  if (has_rays()) methods.push_back("rays");
+  const std::string huge = (corpus / "robust" / "huge.off").string();
+  for (const std::string& method : methods) {
+    for (const char* eye : {"1e20,0,0", "1e400,0,0"}) {
+      const Json made = render({cube, "--eye", eye, "--field", "60", "--method", method});
+      if (method != "exact") EXPECT_TRUE(shown(made).empty()) << method << " from " << eye;
+    }
+    render({huge, "--method", method});
+  }
+  EXPECT_FALSE(shown(render({huge, "--method", "centres"})).empty());
 }
 
 TEST_F(Render, writes_pictures_of_their_size) {
@@ -136,6 +155,7 @@ TEST_F(Render, of_wrong_arguments_says_what_to_do_and_leaves_no_file) {
   EXPECT_TRUE(says(refusal({cube, "--look", "0,0,0"}, usage), "--look"));
   EXPECT_TRUE(says(refusal({cube, "--method", "depth", "--kernel", "double"}, usage), "leave out --kernel"));
   EXPECT_TRUE(says(refusal({cube, "--method", "centres", "--samples", "4"}, usage), "--samples is for --method rays"));
+  EXPECT_TRUE(says(refusal({cube, "--method", "newell", "--bits", "16"}, usage), "--bits is for --method depth"));
   EXPECT_TRUE(says(refusal({cube, "--method", "warnock", "--alpha", "0.5"}, usage), "shows only what is first"));
   EXPECT_TRUE(says(refusal({cube, "--alpha", "1.5"}, usage), "--alpha"));
   EXPECT_TRUE(says(refusal({cube, "--alpha", "nan"}, usage), "--alpha"));
