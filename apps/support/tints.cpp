@@ -56,7 +56,7 @@ static std::vector<std::optional<Own_tint>> own_tints(const Tint_arguments& argu
                  if (n.size() == 4) tint.alpha = nearest_double(n[3]);
                  return true;
                });
-    if (tints.size() < faces)
+    if (tints.size() != faces)
       throw Input_error::of_file(
           arguments.colours, fmt::format("{} colours for {} faces; write a line for each face", tints.size(), faces));
   }

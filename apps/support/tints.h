@@ -22,7 +22,7 @@ struct Tint_arguments {
 };
 
 /// The tint of each piece as the eye sees it, lighter towards the light where they are lit. Errors: Usage_error for
-/// materials of what is no OBJ; Input_error for files, also where a list has fewer lines than there are faces.
+/// materials of what is no OBJ; Input_error for files, also where a list has fewer or more lines than there are faces.
 std::vector<Tint> tints_of(const Tint_arguments& arguments, const std::string& scene_file, const Exact_view& view,
                            bool lit);
 /// Whether any of them lets something through.

@@ -160,6 +160,10 @@ TEST_F(Render, of_wrong_arguments_says_what_to_do_and_leaves_no_file) {
   EXPECT_TRUE(says(refusal({cube, "--alpha", "1.5"}, usage), "--alpha"));
   EXPECT_TRUE(says(refusal({cube, "--alpha", "nan"}, usage), "--alpha"));
   EXPECT_TRUE(says(refusal({cube, "--colours", file("few.csv", "1,2,3\n")}, bad_input), "1 colours for 6 faces"));
+  EXPECT_TRUE(
+      says(refusal({cube, "--colours", file("many.csv", "r,g,b\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n1,2,3\n")},
+                   bad_input),
+           "7 colours for 6 faces"));
   EXPECT_TRUE(says(refusal({cube, "--colours", file("nan.csv", "1,2,3\n4,nan,5\n")}, bad_input), "nan.csv:2:"));
   EXPECT_TRUE(says(refusal({cube, "--colours", file("far.csv", "1,2,300\n")}, bad_input), "far.csv:1:"));
   EXPECT_TRUE(says(refusal({cube, "--colours", path("none.csv").string()}, bad_input), "none.csv"));
