@@ -17,6 +17,8 @@
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
+#include <sightline/algorithms/priority/eye_order.h>
+#include <sightline/algorithms/priority/tree.h>
 #include <sightline/algorithms/verify/visible.h>
 #include <sightline/harness/generate/pixel_views.h>
 #include <sightline/harness/laws/laws.h>
@@ -176,6 +178,12 @@ Outcome by_surface(const Seen& seen) {
   return same(seen.pixels, seen.truth(), paint(view, inside, seen.pixels, serial()), "the method", false);
 }
 
+Painted_polygon painted(const Exact_traits& traits, const Convex_polygon<Exact_traits>& polygon) {
+  Painted_polygon made{polygon.piece, {}};
+  for (const Corner<Exact_traits>& corner : polygon) made.corners.push_back(traits.position(*corner.vertex));
+  return made;
+}
+
 /// The tree's fragments, farthest first.
 std::vector<Painted_polygon> tree_order(const Seen& seen) {
   const Exact_traits traits(seen.scene);
@@ -183,17 +191,26 @@ std::vector<Painted_polygon> tree_order(const Seen& seen) {
   options.threads = 1;
   const auto tree = build_bsp(traits, options);
   std::vector<Painted_polygon> polygons;
-  traverse(traits, tree, traits.eye(seen.pixels.eye), Direction::back_to_front, [&](const auto& fragment, Sign) {
-    Painted_polygon& painted = polygons.emplace_back(Painted_polygon{fragment.polygon.piece, {}});
-    for (const Corner<Exact_traits>& corner : fragment.polygon)
-      painted.corners.push_back(traits.position(*corner.vertex));
-  });
+  traverse(traits, tree, traits.eye(seen.pixels.eye), Direction::back_to_front,
+           [&](const auto& fragment, Sign) { polygons.push_back(painted(traits, fragment.polygon)); });
   return polygons;
 }
 
-Outcome by_tree(const Seen& seen) {
-  return same(seen.pixels, seen.truth(), paint(tree_order(seen), seen.pixels, Image_kernel::exact, serial()),
-              "the tree", false);
+/// Faces from both sides by the priority graph, farthest first.
+std::vector<Painted_polygon> graph_order(const Seen& seen) {
+  const Exact_traits traits(seen.scene);
+  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {true, false, {}});
+  std::vector<Painted_polygon> polygons;
+  for (const Convex_polygon<Exact_traits>& polygon : back_to_front(traits, tree, seen.pixels.eye).polygons)
+    polygons.push_back(painted(traits, polygon));
+  return polygons;
+}
+
+/// An order, painted.
+template <std::vector<Painted_polygon> (*order)(const Seen&)>
+Outcome by_order(const Seen& seen) {
+  return same(seen.pixels, seen.truth(), paint(order(seen), seen.pixels, Image_kernel::exact, serial()), "the order",
+              false);
 }
 
 /// A method that decides at centres, by the same rule where faces are tied, or, not `ties`, by whatever is painted
@@ -229,7 +246,7 @@ Blended_image by_surfaces_behind(const Seen& seen, const std::vector<Tint>& tint
   return image;
 }
 
-/// Layers that let light through, by spans, the tree, surfaces and newell, against those that rays meet.
+/// Layers that let light through, by spans, the tree, the graph, surfaces and newell, against those that rays meet.
 Outcome by_layers(const Seen& seen) {
   const std::vector<Tint> tints = glass(seen.scene);
   const Blended_image truth = blended_centres(Exact_view(seen.scene, seen.pixels.eye), seen.pixels, tints, serial());
@@ -250,6 +267,9 @@ Outcome by_layers(const Seen& seen) {
   const Outcome tree =
       check(blended_painting(tree_order(seen), seen.pixels, Image_kernel::exact, tints, serial()), "the tree", false);
   if (tree.state != Outcome::State::passed) return tree;
+  const Outcome graph =
+      check(blended_painting(graph_order(seen), seen.pixels, Image_kernel::exact, tints, serial()), "the graph", false);
+  if (graph.state != Outcome::State::passed) return graph;
   const Outcome surfaces = check(by_surfaces_behind(seen, tints), "surfaces behind one another", false);
   if (surfaces.state != Outcome::State::passed) return surfaces;
   const Newell_order sorted = newell_order(seen.scene, seen.pixels, Image_kernel::exact, serial());
@@ -302,7 +322,9 @@ Subject render() {
   subject.answer = shown;
   subject.checks = {
       check_of("see", "a pixel's centre shows what the part of see around it shows", see),
-      check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_tree),
+      check_of("bsp", "the tree's fragments, painted, show what exact rays do", by_order<tree_order>),
+      check_of("graph", "faces in the order of the priority graph, painted, show what exact rays do",
+               by_order<graph_order>),
       check_of("newell", "polygons sorted, compared and cut show what exact rays do", by_method<newell, false>),
       check_of("scan_line", "spans of rows show what exact rays do", by_method<scan_line>),
       check_of("warnock", "windows cut into four show what exact rays do", by_method<warnock>),
