@@ -2,6 +2,7 @@
 
 #include <sightline/kernel/vectors.h>
 
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -98,6 +99,10 @@ Pixel_form::Pixel_form(const Pixel_centres& centres, const Approximate_eye_plane
   b = dot(plane.normal, view.up);
   c = dot(plane.normal, view.look);
   bound = centres.size() * (3 * plane.error + 0x1p-48 * plane.size) + 0x1p-960 * (1 + centres.size() + plane.size);
+  // Where products are too large for doubles, their sum may not be: the form says nothing.
+  if (std::fabs(a) + std::fabs(b) + std::fabs(c) < 0x1p1000 && std::isfinite(bound)) return;
+  a = b = c = 0;
+  bound = std::numeric_limits<double>::infinity();
 }
 
 void Pixel_span::narrow(const Pixel_centres& centres, const Pixel_form& form, double k) {

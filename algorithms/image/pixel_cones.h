@@ -58,7 +58,7 @@ class Pixel_centres {
 };
 
 /// A linear form of directions at places of the image: a across + b upwards + c, up to `bound` for all of them, the
-/// rounding of that line included.
+/// rounding of that line included; infinite, and the rest 0, where doubles cannot hold it. Proof: P-80
 struct Pixel_form {
   double a, b, c, bound;
 

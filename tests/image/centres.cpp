@@ -5,8 +5,10 @@
 #include "../sample.h"
 
 #include <sightline/algorithms/image/centres.h>
+#include <sightline/algorithms/image/pixel_cones.h>
 
 #include <sightline/harness/generate/pixel_views.h>
+#include <sightline/kernel/vectors.h>
 
 #include <gtest/gtest.h>
 
@@ -78,5 +80,31 @@ TEST_P(Centres, are_those_of_brute_force) {
 }
 INSTANTIATE_TEST_SUITE_P(All, Centres, testing::ValuesIn(view_scenes::families),
                          [](const auto& family) { return view_scenes::name(family.param); });
+
+TEST(Pixel_forms, of_products_beyond_doubles_leave_sides_to_integers) {
+  // -2^1024 + 1.5 x 2^1023 + 1.5 x 2^1023 is 2^1023, and minus infinity in doubles.
+  const double r = 0x1p900;
+  const Pixel_view pixels{{0, 0, 0}, {0, 0, 1}, {r, r, r}, {1, 0, 0}, 6, 5};
+  const std::array<double, 3> n{-0x1p124, 1.5 * 0x1p123, 1.5 * 0x1p123};
+  const Exact_point exactly{exact(n[0]), exact(n[1]), exact(n[2])};
+  const image_detail::Pixel_centres image(pixels);
+  image_detail::Pixel_cones cones(image, [&](std::uint32_t, std::uint32_t) {
+    return std::array<Integer, 3>{exactly[0].get_num(), exactly[1].get_num(), exactly[2].get_num()};
+  });
+  ASSERT_TRUE(cones.add({{0, 0, 1}}));
+  cones.add_edge(image_detail::Pixel_form(image, {n, 0x1p126, 0}));
+  Image_counters counters;
+  for (std::uint32_t y = 0; y < pixels.height; ++y) {
+    std::int64_t inside = 0;
+    for (std::uint32_t x = 0; x < pixels.width; ++x) {
+      const int side = sgn(dot(exactly, pixels.centre(x, y)));
+      EXPECT_EQ(cones.side(0, 0, x, y, counters), side) << x << ' ' << y;
+      inside += side >= 0;
+    }
+    const auto [first, last] = cones.columns(0, y, counters);
+    EXPECT_EQ(last - first, inside) << y;
+    EXPECT_EQ(inside, 3);
+  }
+}
 
 }  // namespace
