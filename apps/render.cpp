@@ -149,7 +149,8 @@ static Exit run(const Render_arguments& arguments) {
               {"up", direction_json(pixels.up)},
               {"width", pixels.width},
               {"height", pixels.height}};
-  Json counters{{"kernel", arguments.kernel}};
+  const std::string own = is_true_method(arguments.method) ? "exact" : "float";
+  Json counters{{"kernel", has_image_kernels(arguments.method) ? arguments.kernel : own}};
   if (rendered.outcome.pieces) {
     const Piece_image& image = *rendered.outcome.pieces;
     result["faces"] = faces_json(scene, image, shown);

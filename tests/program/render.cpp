@@ -55,8 +55,11 @@ TEST_F(Render, shows_the_same_faces_of_a_cube_by_every_method) {
   const std::map<int, int> faces = shown(truth);
   EXPECT_EQ(faces.size(), 3u);
   EXPECT_EQ(truth["counters"]["tied"], 0);
-  for (const char* method : {"depth", "weighted", "weiler-atherton", "bsp2d", "graph"})
-    EXPECT_EQ(shown(with({"--method", method})), faces) << method;
+  for (const char* method : {"depth", "weighted", "weiler-atherton", "bsp2d", "graph"}) {
+    const Json made = with({"--method", method});
+    EXPECT_EQ(shown(made), faces) << method;
+    EXPECT_EQ(made["counters"]["kernel"], made["counters"].contains("bits") ? "float" : "exact") << method;
+  }
   for (const char* kernel : {"float", "double", "exact"})
     for (const char* method : {"newell", "scan-line", "warnock", "bsp", "painter-min", "painter-max", "painter-mean"})
       EXPECT_EQ(shown(with({"--method", method, "--kernel", kernel})), faces) << method << ", " << kernel;
