@@ -1,0 +1,141 @@
+#pragma once
+// Lies about what an eye sees, each by a name.
+
+#include "lies.h"
+
+#include <sightline/kernel/vectors.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace fuzz {
+
+inline bool is_of_another_in_its_plane(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  if (claim.parts.empty()) return false;
+  std::size_t& own = claim.parts[any_of_first(claim.parts, bytes)].fragment;
+  const std::vector<Flat> fragments = flats(claim);
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < fragments.size(); ++i)
+    if (i != own && fragments[i].is_in_plane_of(fragments[own])) others.push_back(i);
+  if (others.empty()) return false;
+  own = others[any_of_first(others, bytes)];
+  return true;
+}
+
+/// One side of a cone of rays: where their product with `outwards` is not positive. Nothing where no inside is left.
+inline Points clipped_cone(const Points& rays, const Exact_point& outwards) {
+  Points left;
+  const auto height = [&](const Exact_point& ray) -> Rational { return dot(outwards, ray); };
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const Exact_point &p = rays[i], &q = rays[(i + 1) % rays.size()];
+    const Rational at_p = height(p), at_q = height(q);
+    if (sgn(at_p) <= 0) left.push_back(p);
+    if (sgn(at_p) * sgn(at_q) >= 0) continue;
+    Exact_point& between = left.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) between[k] = abs(at_q) * p[k] + abs(at_p) * q[k];
+  }
+  return left.size() < 3 || is_flat_cone(left) ? Points() : left;
+}
+
+/// A part is cut along the edges of another fragment, and what they have in common is said to be of that one: which is
+/// behind it, wherever the certificate is right.
+inline bool shows_what_is_behind(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  if (claim.parts.empty()) return false;
+  const std::size_t k = any_of_first(claim.parts, bytes), other = any_of_first(claim.fragments, bytes);
+  const Visible_certificate::Part cut = claim.parts[k];
+  // 1. The cone of the other fragment; it has an inside, as the eye sees it.
+  Points outline;
+  for (const Exact_point& p : claim.fragments[other].vertices) outline.push_back(minus(p, claim.eye));
+  if (cut.fragment == other || is_flat_cone(outline)) return false;
+  Exact_point inside = outline[0];
+  for (std::size_t i = 1; i < outline.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) inside[axis] += outline[i][axis];
+  // 2. What is outside of one of its edges after the other, and what is left.
+  Points left = rays_of(claim, cut);
+  std::vector<Points> beside;
+  for (std::size_t i = 0; i < outline.size() && !left.empty(); ++i) {
+    Exact_point outwards = cross(outline[i], outline[(i + 1) % outline.size()]);
+    const int sense = sgn(dot(outwards, inside));
+    if (sense == 0) continue;  // a straight corner
+    Exact_point inwards = outwards;
+    for (Rational& x : sense > 0 ? outwards : inwards) x = -x;
+    if (Points part = clipped_cone(left, inwards); !part.empty()) beside.push_back(std::move(part));
+    left = clipped_cone(left, outwards);
+  }
+  if (left.empty()) return false;
+  // 3. The parts.
+  const auto add = [&](std::size_t fragment, const Points& rays) {
+    Visible_certificate::Part part;
+    part.fragment = fragment;
+    for (const Exact_point& ray : rays) {
+      part.rays.push_back(static_cast<std::uint32_t>(claim.rays.size()));
+      claim.rays.push_back(ray);
+    }
+    claim.parts.push_back(std::move(part));
+  };
+  claim.parts.erase(claim.parts.begin() + static_cast<std::ptrdiff_t>(k));
+  for (const Points& rays : beside) add(cut.fragment, rays);
+  add(other, left);
+  return true;
+}
+
+inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certificate&) {
+  using Claim = Visible_certificate;
+  static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
+      {{"of the true eye", of_the_true_eye<Claim>},
+       {"the eye nudged", nudges_the_eye<Claim>},
+       {"a ray nudged", [](Claim& claim, const Posed_scene&, Bytes& bytes) { return nudge_any(claim.rays, bytes); }},
+       {"an empty cone nudged",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          return !claim.empty.empty() && nudge_any(claim.empty[any_of_first(claim.empty, bytes)], bytes);
+        }},
+       {"parts exchanged",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          return exchange(claim.parts, bytes, &Visible_certificate::Part::fragment);
+        }},
+       {"a part of another fragment",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.parts.empty()) return false;
+          const std::size_t fragment = any_of_first(claim.fragments, bytes);
+          return std::exchange(claim.parts[any_of_first(claim.parts, bytes)].fragment, fragment) != fragment;
+        }},
+       {"a part of another fragment in its plane", is_of_another_in_its_plane},
+       {"what is behind is seen", shows_what_is_behind},
+       {"what is seen is called empty",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.parts.empty()) return false;
+          const std::size_t k = any_of_first(claim.parts, bytes);
+          claim.empty.push_back(rays_of(claim, claim.parts[k]));
+          claim.parts.erase(claim.parts.begin() + static_cast<std::ptrdiff_t>(k));
+          return true;
+        }},
+       {"what is empty is seen",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.empty.empty() || claim.fragments.empty()) return false;
+          const std::size_t k = any_of_first(claim.empty, bytes);
+          Visible_certificate::Part part;
+          part.fragment = any_of_first(claim.fragments, bytes);
+          for (const Exact_point& ray : claim.empty[k]) {
+            part.rays.push_back(static_cast<std::uint32_t>(claim.rays.size()));
+            claim.rays.push_back(ray);
+          }
+          claim.parts.push_back(std::move(part));
+          claim.empty.erase(claim.empty.begin() + static_cast<std::ptrdiff_t>(k));
+          return true;
+        }},
+       {"one part, in a field",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.parts.empty()) return false;
+          claim.field = rays_of(claim, claim.parts[any_of_first(claim.parts, bytes)]);
+          claim.parts = {claim.parts[any_of_first(claim.parts, bytes)]};
+          claim.empty.clear();
+          return true;
+        }},
+       {"a part left out",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) { return remove_any(claim.parts, bytes); }},
+       {"an empty cone left out",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) { return remove_any(claim.empty, bytes); }}});
+  return all;
+}
+
+}  // namespace fuzz
