@@ -146,6 +146,24 @@ bool drops_a_reason(Claim& claim, const Posed_scene&, Bytes& bytes) {
   return remove_any(claim.set_aside, bytes);
 }
 
+/// A face that is set aside is drawn, as a fan of triangles: they may cover all that it winds around, as often.
+template <class Claim>
+bool draws_what_is_set_aside(Claim& claim, const Posed_scene& truth, Bytes& bytes) {
+  if (claim.set_aside.empty() || claim.fragments.empty()) return false;
+  const std::size_t k = any_of_first(claim.set_aside, bytes);
+  const Face_id face = claim.set_aside[k].face;
+  if (face >= truth.soup.face_count() || truth.soup.loop_count(face) != 1) return false;
+  claim.set_aside.erase(claim.set_aside.begin() + static_cast<std::ptrdiff_t>(k));
+  Points loop;
+  for (const Point_id p : truth.soup.loop(face, 0)) loop.push_back(truth.soup.point(p));
+  std::rotate(loop.begin(), loop.begin() + static_cast<std::ptrdiff_t>(bytes.below(loop.size())), loop.end());
+  for (std::size_t i = 2; i < loop.size(); ++i) {
+    const Points triangle{loop[0], loop[i - 1], loop[i]};
+    if (!is_flat(triangle)) add_beside(claim, any_of_first(claim.fragments, bytes), {face, 0, triangle});
+  }
+  return true;
+}
+
 /// Two triangles of a face that share an edge, on the other diagonal of what they are together.
 template <class Claim>
 bool on_the_other_diagonal(Claim& claim, const Posed_scene&, Bytes& bytes) {
@@ -190,7 +208,8 @@ std::vector<Lie<Claim>> with_lies_about_fragments(std::vector<Lie<Claim>> lies) 
                            {"a corner elsewhere", corner_elsewhere<Claim>},
                            {"faces exchanged", face_exchanged<Claim>},
                            {"the other diagonal", on_the_other_diagonal<Claim>},
-                           {"a set-aside face left out", drops_a_reason<Claim>}});
+                           {"a set-aside face left out", drops_a_reason<Claim>},
+                           {"a set-aside face drawn", draws_what_is_set_aside<Claim>}});
   return lies;
 }
 
@@ -216,6 +235,15 @@ inline const std::vector<Lie<Order_certificate>>& lies_in(const Order_certificat
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {
           claim.on_view = true;
           return remove_any(claim.fragments, bytes);
+        }},
+       {"on-view, one twice",
+        [](Claim& claim, const Posed_scene&, Bytes& bytes) {
+          if (claim.fragments.empty()) return false;
+          claim.on_view = true;
+          const std::size_t k = any_of_first(claim.fragments, bytes);
+          const Order_fragment again = claim.fragments[k];
+          add_beside(claim, k, again);
+          return true;
         }},
        {"neighbours swapped", swap_neighbours<Claim>},
        {"one drawn elsewhere", [](Claim& claim, const Posed_scene&, Bytes& bytes) {

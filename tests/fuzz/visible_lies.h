@@ -37,45 +37,78 @@ inline Points clipped_cone(const Points& rays, const Exact_point& outwards) {
   return left.size() < 3 || is_flat_cone(left) ? Points() : left;
 }
 
+/// A cone of rays cut along the edges of another one: what is in both, and what is beside it.
+struct Cut_cone {
+  Points inside;
+  std::vector<Points> beside;
+};
+inline Cut_cone cut_cone(Points rays, const Points& along) {
+  Exact_point middle = along[0];
+  for (std::size_t i = 1; i < along.size(); ++i)
+    for (std::size_t axis = 0; axis < 3; ++axis) middle[axis] += along[i][axis];
+  std::vector<Points> beside;
+  for (std::size_t i = 0; i < along.size() && !rays.empty(); ++i) {
+    Exact_point outwards = cross(along[i], along[(i + 1) % along.size()]);
+    const int sense = sgn(dot(outwards, middle));
+    if (sense == 0) continue;  // a straight corner
+    Exact_point inwards = outwards;
+    for (Rational& x : sense > 0 ? outwards : inwards) x = -x;
+    if (Points part = clipped_cone(rays, inwards); !part.empty()) beside.push_back(std::move(part));
+    rays = clipped_cone(rays, outwards);
+  }
+  return {std::move(rays), std::move(beside)};
+}
+
+/// The rays to a fragment's corners.
+inline Points outline_of(const Visible_certificate& claim, std::size_t fragment) {
+  Points outline;
+  for (const Exact_point& p : claim.fragments[fragment].vertices) outline.push_back(minus(p, claim.eye));
+  return outline;
+}
+inline void add_part(Visible_certificate& claim, std::size_t fragment, const Points& rays) {
+  Visible_certificate::Part& part = claim.parts.emplace_back();
+  part.fragment = fragment;
+  for (const Exact_point& ray : rays) {
+    part.rays.push_back(static_cast<std::uint32_t>(claim.rays.size()));
+    claim.rays.push_back(ray);
+  }
+}
+
 /// A part is cut along the edges of another fragment, and what they have in common is said to be of that one: which is
 /// behind it, wherever the certificate is right.
 inline bool shows_what_is_behind(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
   if (claim.parts.empty()) return false;
-  const std::size_t k = any_of_first(claim.parts, bytes), other = any_of_first(claim.fragments, bytes);
-  const Visible_certificate::Part cut = claim.parts[k];
-  // 1. The cone of the other fragment; it has an inside, as the eye sees it.
-  Points outline;
-  for (const Exact_point& p : claim.fragments[other].vertices) outline.push_back(minus(p, claim.eye));
-  if (cut.fragment == other || is_flat_cone(outline)) return false;
-  Exact_point inside = outline[0];
-  for (std::size_t i = 1; i < outline.size(); ++i)
-    for (std::size_t axis = 0; axis < 3; ++axis) inside[axis] += outline[i][axis];
-  // 2. What is outside of one of its edges after the other, and what is left.
-  Points left = rays_of(claim, cut);
-  std::vector<Points> beside;
-  for (std::size_t i = 0; i < outline.size() && !left.empty(); ++i) {
-    Exact_point outwards = cross(outline[i], outline[(i + 1) % outline.size()]);
-    const int sense = sgn(dot(outwards, inside));
-    if (sense == 0) continue;  // a straight corner
-    Exact_point inwards = outwards;
-    for (Rational& x : sense > 0 ? outwards : inwards) x = -x;
-    if (Points part = clipped_cone(left, inwards); !part.empty()) beside.push_back(std::move(part));
-    left = clipped_cone(left, outwards);
+  const std::size_t k = any_of_first(claim.parts, bytes), count = claim.fragments.size();
+  const Visible_certificate::Part part = claim.parts[k];
+  // 1. Another fragment that the eye would see there.
+  std::size_t other = any_of_first(claim.fragments, bytes);
+  Cut_cone cut;
+  for (std::size_t tried = 0; tried < count && cut.inside.empty(); ++tried) {
+    other = (other + 1) % count;
+    const Points outline = outline_of(claim, other);
+    if (other != part.fragment && !is_flat_cone(outline)) cut = cut_cone(rays_of(claim, part), outline);
   }
-  if (left.empty()) return false;
-  // 3. The parts.
-  const auto add = [&](std::size_t fragment, const Points& rays) {
-    Visible_certificate::Part part;
-    part.fragment = fragment;
-    for (const Exact_point& ray : rays) {
-      part.rays.push_back(static_cast<std::uint32_t>(claim.rays.size()));
-      claim.rays.push_back(ray);
-    }
-    claim.parts.push_back(std::move(part));
-  };
+  if (cut.inside.empty()) return false;
+  // 2. The parts.
   claim.parts.erase(claim.parts.begin() + static_cast<std::ptrdiff_t>(k));
-  for (const Points& rays : beside) add(cut.fragment, rays);
-  add(other, left);
+  for (const Points& rays : cut.beside) add_part(claim, part.fragment, rays);
+  add_part(claim, other, cut.inside);
+  return true;
+}
+
+/// A fragment of which something is seen is seen whole: one part, and all that was there is cut away.
+inline bool shows_all_of_one(Visible_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  if (claim.parts.empty()) return false;
+  const std::size_t whole = claim.parts[any_of_first(claim.parts, bytes)].fragment;
+  const Points outline = outline_of(claim, whole);
+  if (is_flat_cone(outline)) return false;
+  const std::vector<Visible_certificate::Part> parts = std::exchange(claim.parts, {});
+  const std::vector<Points> empty = std::exchange(claim.empty, {});
+  for (const Visible_certificate::Part& part : parts)
+    for (const Points& rays : cut_cone(rays_of(claim, part), outline).beside) add_part(claim, part.fragment, rays);
+  for (const Points& cone : empty)
+    for (Points& rays : cut_cone(cone, outline).beside) claim.empty.push_back(std::move(rays));
+  add_part(claim, whole, outline);
   return true;
 }
 
@@ -101,6 +134,7 @@ inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certif
         }},
        {"a part of another fragment in its plane", is_of_another_in_its_plane},
        {"what is behind is seen", shows_what_is_behind},
+       {"one fragment is seen whole", shows_all_of_one},
        {"what is seen is called empty",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {
           if (claim.parts.empty()) return false;
@@ -113,13 +147,7 @@ inline const std::vector<Lie<Visible_certificate>>& lies_in(const Visible_certif
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {
           if (claim.empty.empty() || claim.fragments.empty()) return false;
           const std::size_t k = any_of_first(claim.empty, bytes);
-          Visible_certificate::Part part;
-          part.fragment = any_of_first(claim.fragments, bytes);
-          for (const Exact_point& ray : claim.empty[k]) {
-            part.rays.push_back(static_cast<std::uint32_t>(claim.rays.size()));
-            claim.rays.push_back(ray);
-          }
-          claim.parts.push_back(std::move(part));
+          add_part(claim, any_of_first(claim.fragments, bytes), claim.empty[k]);
           claim.empty.erase(claim.empty.begin() + static_cast<std::ptrdiff_t>(k));
           return true;
         }},
