@@ -172,8 +172,8 @@ const std::vector<Family>& families() {
         faces, 0, 40, [](const Family_parameters& parameters, Random& random) {
           return nudged(view_drafts::with_some_eyes(touching_faces(random), random), parameters, random);
         });
-    add("tangle", "faces on a tiny lattice, also concave, non-planar, repeated and without area", faces, 0, 41,
-        [](const Family_parameters& parameters, Random& random) {
+    add("tangle", "faces on a tiny lattice, also concave, crossing themselves, non-planar, repeated and without area",
+        faces, 0, 41, [](const Family_parameters& parameters, Random& random) {
           return nudged(view_drafts::with_some_eyes(tangle(random), random), parameters, random);
         });
     add("twisted_holes",

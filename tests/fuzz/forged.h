@@ -1,6 +1,6 @@
 #pragma once
 // Certificates forged by meaning, on scenes of all families: the right certificate of another scene (pretences.h), or
-// one that lies about what is shown (lies.h), as one of the scene at hand. What a checker accepts nevertheless has to
+// one that lies about what is shown (lies.h and its like), as one of the scene at hand. What a checker accepts nevertheless has to
 // be true: where brute force tries it (claims.h), and by what the engines answer (truth.h).
 
 #include "certificate.h"
@@ -12,6 +12,8 @@
 #include "solid_forgeries.h"
 #include "tallies.h"
 #include "truth.h"
+#include "visible_lies.h"
+#include "weak_lies.h"
 
 #include <sightline/harness/generate/families.h>
 #include <sightline/harness/generate/transform.h>
