@@ -5,7 +5,7 @@
 #include "support/picture.h"
 
 #include <sightline/algorithms/point_visibility/certificate.h>
-#include <sightline/algorithms/point_visibility/hidden_lines.h>
+#include <sightline/algorithms/point_visibility/line_drawing.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/kernels.h>
@@ -27,14 +27,6 @@ struct See_arguments {
   View_arguments view;
   std::string eye, kernel = "exact", certificate, svg, html, mesh;
   bool two_sided = false, frustum = false, lines = false;
-};
-
-/// A line of the drawing: an edge of the scene, or where two faces cross.
-struct Drawn_line {
-  std::array<Exact_point, 2> ends;
-  const char* kind;
-  std::vector<Face_id> faces;
-  std::vector<Line_part> parts;
 };
 
 /// What a kernel saw, in exact numbers.
@@ -82,29 +74,6 @@ Seen seen_by(const V& view, const Visible_surface<V>& surface, const Wanted& wan
   return seen;
 }
 
-/// Edges of the scene that are in the view, and where faces cross in it.
-std::vector<Drawn_line> lines_of(const Exact_view& view, const Visible_surface<Exact_view>& surface,
-                                 const Piece_boxes& boxes, int threads) {
-  static constexpr const char* names[] = {"boundary", "silhouette", "smooth", "crease"};
-  const Scene& scene = view.scene();
-  std::vector<Drawn_line> lines;
-  for (Drawn_edge& drawn : hidden_lines(view, surface, threads)) {
-    if (drawn.parts.empty()) continue;
-    Drawn_line& line = lines.emplace_back(Drawn_line{{scene.position(drawn.edge.p), scene.position(drawn.edge.q)},
-                                                     names[static_cast<std::size_t>(drawn.kind)],
-                                                     {},
-                                                     std::move(drawn.parts)});
-    for (const std::uint32_t piece : drawn.edge.pieces) line.faces.push_back(scene.pieces()[piece].face);
-  }
-  for (Drawn_crossing& crossing : visible_crossings(view, surface, boxes, threads))
-    lines.push_back({crossing.ends, "intersection", std::move(crossing.faces), {{0, 1, Line_part::nothing}}});
-  return lines;
-}
-Exact_point point_on(const Drawn_line& line, const Rational& at) {
-  Exact_point p;
-  for (std::size_t k = 0; k < 3; ++k) p[k] = line.ends[0][k] + at * (line.ends[1][k] - line.ends[0][k]);
-  return p;
-}
 Json lines_json(const Scene& scene, const std::vector<Drawn_line>& lines) {
   Json all = Json::array();
   for (const Drawn_line& line : lines) {
@@ -115,7 +84,7 @@ Json lines_json(const Scene& scene, const std::vector<Drawn_line>& lines) {
                                             {"visible", part.hidden_by == Line_part::nothing}});
       if (part.hidden_by != Line_part::nothing)
         entry["hidden_by"] = {scene.pieces()[part.hidden_by].face, scene.pieces()[part.hidden_by].number};
-      entry["vertices"] = {point_json(point_on(line, part.from)), point_json(point_on(line, part.to))};
+      entry["vertices"] = {point_json(line.at(part.from)), point_json(line.at(part.to))};
     }
     all.push_back({{"class", line.kind},
                    {"faces", line.faces},
@@ -154,8 +123,7 @@ void draw(Svg& svg, const View& view, const Seen& seen) {
                          : is_near(line)                      ? Pass::dashed
                                                               : Pass::behind;
         if (its != pass) continue;
-        const Flat_point from = projected(view, point_on(line, part.from)),
-                         to = projected(view, point_on(line, part.to));
+        const Flat_point from = projected(view, line.at(part.from)), to = projected(view, line.at(part.to));
         if (pass == Pass::visible)
           svg.line(from, to, kind == "intersection" ? "#b0281c" : "#1c1c1c",
                    kind == "boundary" || kind == "silhouette" ? 1.6 : 1);
@@ -206,7 +174,7 @@ void write_page(const See_arguments& arguments, const Scene& scene, const Exact_
           static_cast<std::size_t>(std::find(names.begin(), names.end(), line.kind) - names.begin());
       if (kind == names.size()) names.emplace_back(line.kind);
       for (const Line_part& part : line.parts) {
-        const Exact_point from = point_on(line, part.from), to = point_on(line, part.to);
+        const Exact_point from = line.at(part.from), to = line.at(part.to);
         page.append_place(ends, from);
         page.append_place(ends, to);
         edges.push_back(i);
@@ -275,7 +243,7 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
       });
     if (wanted.lines) {
       const Stopwatch more;
-      seen.lines = lines_of(view, surface, boxes, options.threads);
+      seen.lines = line_drawing(view, surface, boxes, options.threads);
       seen.line_seconds = more.seconds();
     }
   } else if (kernel == "double") {

@@ -35,7 +35,7 @@ Json face_json(const Scene& scene, const Divided_face& divided) {
     for (const Light_partition::Cell& cell : partition.cells) {
       Json& added = cells.emplace_back(Json{{"piece", piece},
                                             {"light", name_of(cell.light)},
-                                            {"point", point_json(point_at(partition, cell.at[0], cell.at[1]))},
+                                            {"point", point_json(partition.point(cell.at[0], cell.at[1]))},
                                             {"area", bounded_json(cell.area)}});
       for (const auto& of_source : cell.edges) {
         Json edges = Json::array();

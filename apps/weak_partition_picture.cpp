@@ -144,12 +144,6 @@ std::vector<Flat_point> pixels_of(const Picture_frame& frame, const Light_partit
 
 }  // namespace
 
-Exact_point point_at(const Light_partition& partition, const Rational& x, const Rational& y) {
-  Exact_point p = partition.chart[0];
-  for (std::size_t k = 0; k < 3; ++k) p[k] += x * partition.chart[1][k] + y * partition.chart[2][k];
-  return p;
-}
-
 Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divided,
                           const std::vector<Weak_source>& sources, std::size_t rays, std::uint64_t seed) {
   constexpr int in_a_square = 16;
@@ -202,7 +196,7 @@ Sampled_face sampled_face(const Occluders& occluders, const Divided_face& divide
             return found;
           };
           const Rational x = place(i, count[0]), y = place(j, count[1]);
-          const Exact_point p = point_at(partition, x, y);
+          const Exact_point p = partition.point(x, y);
           if (!is_inside(scene, scene.pieces()[partition.piece], p)) continue;
           ++asked;
           free += reaches(located(p));

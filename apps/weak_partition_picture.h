@@ -16,9 +16,6 @@ struct Divided_face {
   std::array<Bounded, lights> shares;
 };
 
-/// A point of a piece's chart, in the file's coordinates.
-Exact_point point_at(const Light_partition& partition, const Rational& x, const Rational& y);
-
 /// What rays say of a face: squares of each piece's chart, lit where all rays from there reach a source.
 struct Sampled_face {
   struct Square {

@@ -5,17 +5,21 @@
 #include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/point_visibility/certificate.h>
+#include <sightline/algorithms/point_visibility/line_drawing.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/priority/certificate.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/rays/tracer.h>
+#include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/verify/certificate_json.h>
 #include <sightline/algorithms/verify/certificate_writer.h>
+#include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/algorithms/weak_visibility/along/along.h>
 #include <sightline/algorithms/weak_visibility/along/certificate.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
+#include <sightline/algorithms/weak_visibility/conservative.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
@@ -216,6 +220,7 @@ std::size_t Model::face_count() const { return inside_->soup.face_count(); }
 const std::vector<Left_out>& Model::left_out() const { return inside_->left_out; }
 const std::vector<Part>& Model::parts() const { return inside_->parts(); }
 const Polygon_soup& Model::soup() const { return inside_->soup; }
+const Scene& Model::scene() const { return inside_->scene; }
 const std::shared_ptr<const Model::Inside>& Model::inside() const { return inside_; }
 
 Facts Model::facts() const { return inside_->facts(); }
@@ -327,14 +332,19 @@ std::vector<Face_id> Tracker::on_view() const {
 
 // ---- What is seen from a point
 
-Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
+namespace {
+
+/// All around where there is no field.
+Seen seen_from(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
+               const Asking& asking) {
   const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const auto view = std::make_shared<const Exact_view>(inside->scene, eye);
+  const auto view = field.empty() ? std::make_shared<const Exact_view>(inside->scene, eye)
+                                  : std::make_shared<const Exact_view>(inside->scene, eye, field_of(field));
   Visible_options options;
   options.threads = asking.threads;
   options.progress = progress_within_budget(asking);
-  const auto surface =
-      std::make_shared<const Visible_surface<Exact_view>>(visible_surface(*view, inside->boxes(), options));
+  const auto surface = std::make_shared<const Visible_surface<Exact_view>>(
+      visible_surface(*view, inside->boxes(), field.empty() ? whole_sphere(*view) : field_of_view(*view), options));
   Seen answer;
   answer.eye = eye;
   answer.visible = surface->visible;
@@ -348,12 +358,33 @@ Seen see(const Model& model, const Exact_point& eye, const Asking& asking) {
     seen.corners = vertices(*view, *surface, part);
     seen.from_front = view->eye_side(part.piece) == CGAL::POSITIVE;
   }
-  answer.certificate_ = [inside, view, surface, eye] {
+  answer.certificate_ = [inside, view, surface, eye, field] {
     std::ostringstream out;
-    write_visible_certificate(out, *view, *surface, eye);
+    write_visible_certificate(out, *view, *surface, eye, field);
     return std::move(out).str();
   };
+  answer.lines_ = [inside, view, surface, threads = asking.threads] {
+    std::vector<Seen::Line> lines;
+    for (Drawn_line& drawn : line_drawing(*view, *surface, inside->boxes(), threads)) {
+      Seen::Line& line = lines.emplace_back(Seen::Line{drawn.ends, drawn.kind, std::move(drawn.faces), {}});
+      for (const Line_part& part : drawn.parts) {
+        Seen::Line::Stretch& stretch = line.stretches.emplace_back(Seen::Line::Stretch{part.from, part.to, {}});
+        if (part.hidden_by != Line_part::nothing) stretch.hidden_by = inside->scene.pieces()[part.hidden_by].face;
+      }
+    }
+    return lines;
+  };
   return answer;
+}
+
+}  // namespace
+
+Seen see(const Model& model, const Exact_point& eye, const Asking& asking) { return seen_from(model, eye, {}, asking); }
+
+Seen see_in_field(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
+                  const Asking& asking) {
+  if (field.size() < 3) throw std::invalid_argument("a field of view has three rays or more");
+  return seen_from(model, eye, field, asking);
 }
 
 double Seen::area(Face_id face) const {
@@ -372,12 +403,34 @@ double Seen::solid_angle(Face_id face) const {
 
 // ---- Weak visibility
 
-Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
-                               const Asking& asking) {
-  const std::shared_ptr<const Model::Inside> inside = model.inside();
-  const Occluders& occluders = inside->occluders();
+namespace {
+
+std::vector<Weak_source> weak_sources(const Occluders& occluders,
+                                      const std::vector<std::vector<Exact_point>>& sources) {
   std::vector<Weak_source> polygons;
   for (const std::vector<Exact_point>& source : sources) polygons.push_back(weak_source(occluders, source));
+  return polygons;
+}
+
+/// What was found of faces, with its certificate.
+Weak_visibility weak_answer(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
+                            const Asking& asking, std::shared_ptr<const Weakly_visible> found) {
+  Weak_visibility answer;
+  answer.visible = found->visible;
+  answer.hidden = found->hidden;
+  answer.undecided = found->undecided;
+  answer.certificate_ = [inside = model.inside(), sources, found, two_sided = asking.two_sided] {
+    return certificate_text(weak_certificate(inside->scene, sources, two_sided, *found));
+  };
+  return answer;
+}
+
+}  // namespace
+
+Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
+                               const Asking& asking) {
+  const Occluders& occluders = model.inside()->occluders();
+  const std::vector<Weak_source> polygons = weak_sources(occluders, sources);
   Weak_options options;
   options.threads = asking.threads;
   options.progress = asking.progress;
@@ -391,23 +444,32 @@ Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector
   events.out_of_time = options.search.out_of_time;
   settle_by_events(occluders, polygons, usual_event_edges, events, *found);
   decide_the_rest(occluders, polygons, options, usual_event_edges, events, *found);
-  Weak_visibility answer;
-  answer.visible = found->visible;
-  answer.hidden = found->hidden;
-  answer.undecided = found->undecided;
-  answer.certificate_ = [inside, sources, found, two_sided = asking.two_sided] {
-    return certificate_text(weak_certificate(inside->scene, sources, two_sided, *found));
-  };
-  return answer;
+  return weak_answer(model, sources, asking, found);
 }
 
 Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking& asking) {
+  return weakly_visible(model, sources_of(model, source), asking);
+}
+
+Weak_visibility possibly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
+                                 const Asking& asking) {
+  const Occluders& occluders = model.inside()->occluders();
+  Conservative_options options;
+  options.two_sided = asking.two_sided;
+  options.threads = asking.threads;
+  options.progress = progress_within_budget(asking);
+  return weak_answer(
+      model, sources, asking,
+      std::make_shared<Weakly_visible>(possibly_visible(occluders, weak_sources(occluders, sources), options)));
+}
+
+std::vector<std::vector<Exact_point>> sources_of(const Model& model, Face_id face) {
   std::vector<std::vector<Exact_point>> sources;
   for (const Part& part : model.parts())
-    if (part.face == source) sources.push_back(part.corners);
+    if (part.face == face) sources.push_back(part.corners);
   if (sources.empty())
-    throw std::out_of_range("face " + std::to_string(source) + " is not there, or was left out: see left_out()");
-  return weakly_visible(model, sources, asking);
+    throw std::out_of_range("face " + std::to_string(face) + " is not there, or was left out: see left_out()");
+  return sources;
 }
 
 // ---- Along a path
@@ -491,6 +553,16 @@ std::vector<Nearest_face> nearest(const Model& model, std::span<const Double_ray
 
 // ---- Solids
 
+namespace {
+
+std::vector<Polygon_soup> soups_of(const std::vector<Model>& models) {
+  std::vector<Polygon_soup> soups;
+  for (const Model& model : models) soups.push_back(model.soup());
+  return soups;
+}
+
+}  // namespace
+
 Combined combine(std::string_view operation, const std::vector<Model>& solids, std::string_view inside,
                  const Asking& asking) {
   Set_options options;
@@ -510,8 +582,7 @@ Combined combine(std::string_view operation, const std::vector<Model>& solids, s
   using enum Inside_rule;
   named(operation, options.operation, std::array{unite, intersect, subtract, differ});
   named(inside, options.inside, std::array{positive, nonzero, odd});
-  std::vector<Polygon_soup> soups;
-  for (const Model& solid : solids) soups.push_back(solid.soup());
+  const std::vector<Polygon_soup> soups = soups_of(solids);
   const Operands operands(soups);
   if (options.progress) options.progress(0, 1);
   if (const std::vector<Operand_flaw> wrong = flaws(operands); !wrong.empty())
@@ -524,7 +595,17 @@ Combined combine(std::string_view operation, const std::vector<Model>& solids, s
   std::vector<std::pair<std::uint32_t, Face_id>> sources;
   for (const Result_face& face : result.faces) sources.emplace_back(face.operand, face.face);
   result.soup.file = std::string(operation);
-  return {Model(std::move(result.soup)), std::move(sources), volume};
+  options.progress = {};
+  options.keep_fragments = true;
+  const auto certificate = [solids, options, threads = asking.threads] {
+    const Operands again(soups_of(solids));
+    std::ostringstream out;
+    run_with_threads(threads, [&] {
+      write_solid_certificate(out, solid_certificate(again, options, set_operation(again, options)));
+    });
+    return std::move(out).str();
+  };
+  return {{certificate}, Model(std::move(result.soup)), std::move(sources), volume};
 }
 
 // ---- Checking
@@ -546,6 +627,16 @@ Checked verify(const Model& model, const std::string& certificate, const Asking&
     Verdict operator()(const Along_certificate& c) const { return verify_along(soup, c, options); }
   };
   const Verdict verdict = std::visit(Check{soup, options}, claim);
+  return {verdict.accepted, verdict.why};
+}
+
+Checked verify(const std::vector<Model>& solids, const Model& result, const std::string& certificate,
+               const Asking& asking) {
+  const Solid_certificate claim = read_solid_certificate(certificate);
+  Verify_options options;
+  options.threads = asking.threads;
+  options.progress = progress_within_budget(asking);
+  const Verdict verdict = verify_solids(soups_of(solids), claim, &result.soup(), options);
   return {verdict.accepted, verdict.why};
 }
 

@@ -23,6 +23,8 @@
 
 namespace sightline {
 
+class Scene;
+
 /// How a question is asked. The answer is the same at any number of threads.
 struct Asking {
   int threads = 0;                                                  ///< 0: as many as there are processors
@@ -92,7 +94,8 @@ class Model {
   const std::vector<Part>& parts() const;  ///< what is modelled: each kept face in convex parts, in order
   double area(Face_id face) const;         ///< of all its parts; 0 for one that was left out
   const Polygon_soup& soup() const;
-  Facts facts() const;  ///< Cost: O(edges), once
+  const Scene& scene() const;  ///< for questions that this header does not ask; as long as a copy of the model is there
+  Facts facts() const;         ///< Cost: O(edges), once
 
   struct Inside;
   const std::shared_ptr<const Inside>& inside() const;  ///< for what is behind the door
@@ -144,7 +147,7 @@ class Tracker {
 };
 Tracker track(const Model& model);
 
-/// What is seen from a point, all around.
+/// What is seen from a point.
 struct Seen : Answer {
   Exact_point eye;
   std::vector<Face_id> visible;      ///< from their front, sorted
@@ -157,8 +160,27 @@ struct Seen : Answer {
   std::vector<Visible_part> parts;
   double area(Face_id face) const;         ///< of its parts that are seen from its front
   double solid_angle(Face_id face) const;  ///< the same in steradians, of 4 pi
+
+  /// An edge of the scene, or a line where faces cross, in the drawing of what is seen.
+  struct Line {
+    std::array<Exact_point, 2> ends;
+    std::string kind;            ///< "boundary", "silhouette", "smooth", "crease"; "intersection": faces cross there
+    std::vector<Face_id> faces;  ///< that it bounds; that cross there
+    struct Stretch {
+      Rational from, to;  ///< from ends[0] + from (ends[1] - ends[0])
+      std::optional<Face_id> hidden_by;
+    };
+    std::vector<Stretch> stretches;  ///< from end to end
+  };
+  /// Edges of which something is in the view, and what is seen of lines where faces cross. Made when asked for.
+  std::vector<Line> lines() const { return lines_(); }
+  std::function<std::vector<Line>()> lines_;
 };
 Seen see(const Model& model, const Exact_point& eye, const Asking& asking = {});
+/// The same within the cone of some rays: each three in this order turn one way, and all are within less than a half
+/// space. Errors: std::invalid_argument for other rays.
+Seen see_in_field(const Model& model, const Exact_point& eye, const std::vector<Exact_point>& field,
+                  const Asking& asking = {});
 
 /// The faces some point of which is seen from some point of the sources. Every kept face is in one list; lists are
 /// sorted. It goes on until nothing is undecided, or the budget is spent; what `progress` throws ends it.
@@ -171,6 +193,12 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
 /// which says what to do, for one that is not planar, not convex or has no area.
 Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                                const Asking& asking = {});
+/// A quick answer that leaves out nothing: a face is hidden only where one part alone hides it, or it looks away; all
+/// others count as visible, and of these there is no certificate. Errors: as weakly_visible().
+Weak_visibility possibly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
+                                 const Asking& asking = {});
+/// The convex parts of a face as sources. Errors: std::out_of_range where the model has no such face.
+std::vector<std::vector<Exact_point>> sources_of(const Model& model, Face_id face);
 
 /// What an eye sees that moves straight from one point to another: at the moment t, from 0 to 1, it is at
 /// from + t (to - from).
@@ -216,8 +244,8 @@ struct Nearest_face {
 std::vector<Nearest_face> nearest(const Model& model, std::span<const Double_ray> rays,
                                   Ray_start start = Ray_start::open, const Asking& asking = {});
 
-/// A solid made of others, and where its faces come from.
-struct Combined {
+/// A solid made of others, and where its faces come from. Its certificate takes the time of the answer again.
+struct Combined : Answer {
   Model model;                                           ///< closed, fronts outwards; faces may have holes
   std::vector<std::pair<std::uint32_t, Face_id>> faces;  ///< of each face: which solid it was of, and which face there
   Rational volume;
@@ -236,5 +264,8 @@ struct Checked {
 };
 /// Errors: std::invalid_argument for a text that is no certificate.
 Checked verify(const Model& model, const std::string& certificate, const Asking& asking = {});
+/// The same of a set operation on solids: that it is proved, and that this is the result.
+Checked verify(const std::vector<Model>& solids, const Model& result, const std::string& certificate,
+               const Asking& asking = {});
 
 }  // namespace sightline

@@ -32,26 +32,48 @@ py::tuple graph_of(const Model& model, const Question& question) {
   return py::make_tuple(components, found.cyclic, certifier(found));
 }
 
-py::tuple seen_by(const Model& model, const py::object& at, const Question& question) {
-  const Exact_point eye = point_of(at, "eye");
-  const auto found =
-      answer_to(question, [&](const Asking& asking) { return std::make_shared<const Seen>(see(model, eye, asking)); });
-  Parts parts = parts_in(found);
-  parts.from_front = [found](std::size_t i) { return found->parts[i].from_front; };
-  return py::make_tuple(ids(found->visible), ids(found->from_behind), std::move(parts), certifier(*found));
+/// A drawing that is made when it is asked for.
+struct Drawing {
+  std::function<std::vector<Seen::Line>()> lines;
+};
+
+py::list lines_of(const Drawing& drawing) {
+  const std::vector<Seen::Line> lines =
+      answer_to(Question{0, py::none(), 0, false}, [&](const Asking&) { return drawing.lines(); });
+  py::list all;
+  for (const Seen::Line& line : lines) {
+    py::list stretches;
+    for (const Seen::Line::Stretch& part : line.stretches)
+      stretches.append(py::make_tuple(fraction(part.from), fraction(part.to),
+                                      part.hidden_by ? py::object(py::int_(*part.hidden_by)) : py::object(py::none())));
+    py::list faces;
+    for (const Face_id face : line.faces) faces.append(face);
+    all.append(
+        py::make_tuple(line.kind, py::make_tuple(fractions(line.ends[0]), fractions(line.ends[1])), faces, stretches));
+  }
+  return all;
 }
 
-/// From a face of that number, or from polygons.
-py::tuple weak_from(const Model& model, const py::object& source, const Question& question) {
-  const bool is_face = py::isinstance<py::int_>(source);
-  const auto polygons = is_face ? std::vector<std::vector<Exact_point>>() : polygons_of(source, "source");
-  if (is_face && (py::cast<std::int64_t>(source) < 0 || py::cast<std::uint64_t>(source) >= model.face_count()))
-    throw std::out_of_range("face " + std::string(py::str(source)) + " is not there: there are " +
-                            std::to_string(model.face_count()) + ", counted from 0");
-  const Weak_visibility found =
-      answer_to(question, [&, face = is_face ? py::cast<Face_id>(source) : 0](const Asking& asking) {
-        return is_face ? weakly_visible(model, face, asking) : weakly_visible(model, polygons, asking);
-      });
+/// All around, or in the cone of some rays.
+py::tuple seen_by(const Model& model, const py::object& at, const py::object& frustum, const Question& question) {
+  const Exact_point eye = point_of(at, "eye");
+  std::vector<Exact_point> field;
+  for (const py::handle ray : frustum) field.push_back(point_of(ray, "frustum: ray " + std::to_string(field.size())));
+  const auto found = answer_to(question, [&](const Asking& asking) {
+    return std::make_shared<const Seen>(field.empty() ? see(model, eye, asking)
+                                                      : see_in_field(model, eye, field, asking));
+  });
+  Parts parts = parts_in(found);
+  parts.from_front = [found](std::size_t i) { return found->parts[i].from_front; };
+  return py::make_tuple(ids(found->visible), ids(found->from_behind), std::move(parts), Drawing{found->lines_},
+                        certifier(*found));
+}
+
+py::tuple weak_from(const Model& model, const py::object& source, bool conservative, const Question& question) {
+  const std::vector<std::vector<Exact_point>> sources = sources_of(model, source);
+  const Weak_visibility found = answer_to(question, [&](const Asking& asking) {
+    return conservative ? possibly_visible(model, sources, asking) : weakly_visible(model, sources, asking);
+  });
   return py::make_tuple(ids(found.visible), ids(found.hidden), ids(found.undecided), certifier(found));
 }
 
@@ -82,12 +104,29 @@ py::tuple seen_along(const Model& model, const py::object& start, const py::obje
   return py::make_tuple(events, ids(found.at_start), ids(found.at_end), ids(found.visible), certifier(found));
 }
 
+py::tuple verdict_on_solids(const py::list& solids, const Model& result, const std::string& certificate,
+                            const Question& question) {
+  std::vector<Model> models;
+  for (const py::handle solid : solids) models.push_back(py::cast<Model>(solid));
+  const Checked checked =
+      answer_to(question, [&](const Asking& asking) { return verify(models, result, certificate, asking); });
+  return py::make_tuple(checked.accepted, checked.why);
+}
+
 py::tuple verdict_on(const Model& model, const std::string& certificate, const Question& question) {
   const Checked checked = answer_to(question, [&](const Asking& asking) { return verify(model, certificate, asking); });
   return py::make_tuple(checked.accepted, checked.why);
 }
 
 }  // namespace
+
+std::vector<std::vector<Exact_point>> sources_of(const Model& model, const py::object& source) {
+  if (!py::isinstance<py::int_>(source)) return polygons_of(source, "source");
+  if (py::cast<std::int64_t>(source) < 0 || py::cast<std::uint64_t>(source) >= model.face_count())
+    throw std::out_of_range("face " + std::string(py::str(source)) + " is not there: there are " +
+                            std::to_string(model.face_count()) + ", counted from 0");
+  return sightline::sources_of(model, py::cast<Face_id>(source));
+}
 
 void add_answers(py::module_& module) {
   py::class_<Certifier>(module, "Certifier").def("text", [](const Certifier& certifier) {
@@ -105,9 +144,13 @@ void add_answers(py::module_& module) {
 
   module.def("order", &order_of, py::arg("model"), py::arg("eye"), py::arg("question"));
   module.def("graph", &graph_of, py::arg("model"), py::arg("question"));
-  module.def("see", &seen_by, py::arg("model"), py::arg("eye"), py::arg("question"));
-  module.def("weakly_visible", &weak_from, py::arg("model"), py::arg("source"), py::arg("question"));
+  py::class_<Drawing>(module, "Drawing").def("lines", &lines_of);
+  module.def("see", &seen_by, py::arg("model"), py::arg("eye"), py::arg("frustum"), py::arg("question"));
+  module.def("weakly_visible", &weak_from, py::arg("model"), py::arg("source"), py::arg("conservative"),
+             py::arg("question"));
   module.def("see_along", &seen_along, py::arg("model"), py::arg("start"), py::arg("end"), py::arg("question"));
+  module.def("verify_solids", &verdict_on_solids, py::arg("solids"), py::arg("result"), py::arg("certificate"),
+             py::arg("question"));
   module.def("verify", &verdict_on, py::arg("model"), py::arg("certificate"), py::arg("question"));
 }
 

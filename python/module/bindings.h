@@ -46,10 +46,15 @@ py::array points_of(const Polygon_soup& soup, bool exact);
 /// Its faces: corners one loop after the other, where loops begin, and where faces begin among loops.
 py::tuple faces_of(const Polygon_soup& soup);
 
+/// The convex polygons that look: of a face of that number, or as given. Errors: IndexError where there is no such
+/// face.
+std::vector<std::vector<Exact_point>> sources_of(const Model& model, const py::object& source);
+
 void add_scene(py::module_& module);
 void add_answers(py::module_& module);
 void add_solids_and_rays(py::module_& module);
 void add_shadows(py::module_& module);
+void add_pictures(py::module_& module);
 void add_levels(py::module_& module);
 void add_harness(py::module_& module);
 

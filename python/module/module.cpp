@@ -32,6 +32,7 @@ PYBIND11_MODULE(_sightline, module) {
   add_answers(module);
   add_solids_and_rays(module);
   add_shadows(module);
+  add_pictures(module);
   add_levels(module);
   add_harness(module);
 }

@@ -7,15 +7,17 @@ array([0])
 """
 
 from ._along import Change, Event, Moment, SeenAlong
-from ._answers import Answer, Certificate, Graph, Order, Part, Parts, Tracker, Verdict, View, WeakView
+from ._answers import Answer, Certificate, Graph, Line, Order, Part, Parts, Stretch, Tracker, Verdict, View, WeakView
 from ._errors import InputError, OutOfBudget
 from ._judging import Failure, FuzzReport, Generated, Report, families, fuzz, generate, judge
 from ._levels import Cell, CellPairs, Cells, PotentiallyVisible, Wall
+from ._partition import Chart, LightBorder, LightCell, LightPartition
+from ._pictures import Picture
 from ._rays import Hit, Rays
 from ._scene import Scene, read, verify
 from ._shadows import DarkSpace, Shadow
 from ._sightline import version as __version__
-from ._solids import Solid, boolean
+from ._solids import Solid, SolidCertificate, boolean
 
 __all__ = [
     "Answer",
@@ -24,6 +26,7 @@ __all__ = [
     "Cells",
     "Certificate",
     "Change",
+    "Chart",
     "DarkSpace",
     "Event",
     "Failure",
@@ -32,11 +35,16 @@ __all__ = [
     "Hit",
     "Graph",
     "InputError",
+    "LightBorder",
+    "LightCell",
+    "LightPartition",
+    "Line",
     "Moment",
     "Order",
     "OutOfBudget",
     "Part",
     "Parts",
+    "Picture",
     "PotentiallyVisible",
     "Rays",
     "Report",
@@ -44,6 +52,8 @@ __all__ = [
     "SeenAlong",
     "Shadow",
     "Solid",
+    "SolidCertificate",
+    "Stretch",
     "Tracker",
     "Verdict",
     "View",

@@ -3,7 +3,7 @@
 import json
 import os
 from fractions import Fraction
-from typing import TYPE_CHECKING, Any, Dict, Iterator, List, Optional, Sequence, Tuple, Union, overload
+from typing import TYPE_CHECKING, Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple, Union, overload
 
 import numpy as np
 from numpy.typing import NDArray
@@ -196,8 +196,25 @@ class Graph(Answer):
         return f"<Graph: {len(self.components)} components, {self.cyclic} of them cycles>"
 
 
+class Stretch(NamedTuple):
+    """A part of a line, from ends[0] + start (ends[1] - ends[0])."""
+
+    start: Fraction
+    end: Fraction
+    hidden_by: Optional[int]  #: a face that hides it; None: it is seen
+
+
+class Line(NamedTuple):
+    """An edge of the scene, or a line where faces cross, in the drawing of what is seen."""
+
+    kind: str  #: "boundary", "silhouette", "smooth", "crease"; "intersection": faces cross there
+    ends: Tuple[Point, Point]
+    faces: List[int]  #: that it bounds; that cross there
+    stretches: List[Stretch]  #: from end to end
+
+
 class View(Answer):
-    """What is seen from a point, all around."""
+    """What is seen from a point, all around or in a frustum."""
 
     def __init__(
         self,
@@ -207,6 +224,7 @@ class View(Answer):
         fronts: Ids,
         from_behind: Ids,
         parts: "_sightline.Parts",
+        drawing: "_sightline.Drawing",
         certifier: "_sightline.Certifier",
     ) -> None:
         super().__init__(scene, certifier)
@@ -215,6 +233,14 @@ class View(Answer):
         self.from_behind = from_behind  #: ids of faces of which a back is seen, sorted
         self.parts = Parts(parts)  #: what is seen of them, backs too; they do not overlap
         self._two_sided = two_sided
+        self._drawing = drawing
+
+    def lines(self) -> List[Line]:
+        """The scene's edges, and lines where faces cross: what is seen of each, and what hides the rest."""
+        return [
+            Line(kind, ends, faces, [Stretch(*stretch) for stretch in stretches])
+            for kind, ends, faces, stretches in self._drawing.lines()
+        ]
 
     def _by_face(self, measures: NDArray[np.float64]) -> NDArray[np.float64]:
         counted = np.ones(len(self.parts), bool) if self._two_sided else self.parts.fronts

@@ -2,6 +2,7 @@
 
 import operator
 import warnings
+from fractions import Fraction
 from typing import Any, List, Optional, Sequence, Set, Tuple
 
 import numpy as np
@@ -42,6 +43,13 @@ def _whole(numbers: NDArray[Any], name: str) -> NDArray[Any]:
     if numbers.dtype in (np.int64, np.int32, np.uint32, np.uint64) and numbers.dtype.isnative:
         return numbers
     return numbers.astype(np.uint64 if numbers.dtype.kind == "u" else np.int64)
+
+
+def rounded_point(point: Any) -> NDArray[np.float64]:
+    """A point that a question takes, rounded."""
+    coordinates = point.split(",") if isinstance(point, str) else point
+    rounded: NDArray[np.float64] = np.array([float(Fraction(x) if isinstance(x, str) else x) for x in coordinates])
+    return rounded
 
 
 def is_index(x: Any) -> bool:

@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any, Dict, List, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ._arrays import rounded_point
+
 if TYPE_CHECKING:
     from ._answers import Parts, View
     from ._scene import Scene
@@ -76,15 +78,7 @@ def draw_view(view: "View", ax: Any, style: Dict[str, Any]) -> Any:
     """What an eye sees, coloured by face."""
     ax = _axes(ax)
     colors = importlib.import_module("matplotlib").colormaps["tab20"](view.parts.faces % 20)
-    return _paint(ax, _polygons(view.parts), colors, _doubles(view.eye), style)
-
-
-def _doubles(point: Any) -> Doubles:
-    """A point that a question took, rounded."""
-    coordinates = point.split(",") if isinstance(point, str) else point
-    fractions = importlib.import_module("fractions")
-    rounded: Doubles = np.array([float(fractions.Fraction(x) if isinstance(x, str) else x) for x in coordinates])
-    return rounded
+    return _paint(ax, _polygons(view.parts), colors, rounded_point(view.eye), style)
 
 
 def _outside(scene: "Scene") -> Doubles:
@@ -98,7 +92,7 @@ def _outside(scene: "Scene") -> Doubles:
 def draw_faces(scene: "Scene", groups: Dict[str, NDArray[np.int64]], eye: Any, ax: Any, style: Dict[str, Any]) -> Any:
     """The fronts of faces, each group in its colour, in the exact order in which a painter paints them."""
     ax = _axes(ax)
-    at = _outside(scene) if eye is None else _doubles(eye)
+    at = _outside(scene) if eye is None else rounded_point(eye)
     order = scene.order(at).parts
     to_rgb = importlib.import_module("matplotlib.colors").to_rgb
     of_face = np.ones((scene.face_count, 3))

@@ -12,6 +12,8 @@ from . import _arrays, _sightline
 from ._along import SeenAlong
 from ._answers import Certificate, Graph, Order, Parts, Tracker, Verdict, View, WeakView
 from ._levels import Cells, PotentiallyVisible, counts_of
+from ._partition import LightPartition
+from ._pictures import Picture, axes_of, size_of
 from ._progress import Progress, followed
 from ._rays import Rays, as_doubles, pairs
 from ._shadows import Shadow
@@ -166,9 +168,18 @@ class Scene:
         return Tracker(self)
 
     def see(
-        self, eye: Any, *, two_sided: bool = False, threads: int = 0, progress: Progress = None, budget: float = 0
+        self,
+        eye: Any,
+        *,
+        frustum: Any = (),
+        two_sided: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
     ) -> View:
-        """What is seen from a point, all around; two_sided: faces seen from behind count as visible too.
+        """What is seen from a point, all around, or in a frustum; two_sided: faces seen from behind count as visible.
+
+        frustum: the directions of its edges, (k, 3), in their order around it, all within less than a half space.
 
         >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
         >>> seen = lid.see((0, 0, 2))
@@ -176,25 +187,100 @@ class Scene:
         (array([0, 1]), array([6. , 0.5]))
         """
         with followed(progress, "see") as told:
-            found = _sightline.see(self._model, eye, _question(threads, told, budget))
+            found = _sightline.see(self._model, eye, frustum, _question(threads, told, budget))
         return View(self, eye, two_sided, *found)
 
+    def render(
+        self,
+        eye: Any,
+        *,
+        look: Any = None,
+        up: Any = (0, 0, 1),
+        field: float = 60,
+        size: Tuple[int, int] = (640, 480),
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> Picture:
+        """Which face each pixel of an image shows, by an exact ray through its centre: the truth for renderers.
+
+        look: the direction to look in; by default to the middle of the scene. field: degrees, of the image's width.
+        size: width, height. Picture.means() has exact means over pixels' squares.
+
+        >>> lid = Scene([[0, 0, 0], [4, 0, 0], [0, 4, 0], [0, 0, 1], [1, 0, 1], [0, 1, 1]], [[0, 1, 2], [3, 4, 5]])
+        >>> lid.render((1, 1, 4), look=(0, 0, -1), up=(0, 1, 0), field=70, size=(6, 4)).faces
+        array([[-1, -1,  0,  0, -1, -1],
+               [-1, -1,  0,  0,  0, -1],
+               [-1, -1,  0,  0,  0,  0],
+               [-1, -1, -1, -1, -1, -1]])
+        """
+        pixels = size_of(size)
+        if look is None:
+            box = self.info()["box"]
+            at = _arrays.rounded_point(eye)
+            look = np.asarray(box, dtype=float).mean(axis=0) - at if box is not None else np.array([0.0, 1.0, 0.0])
+            if not np.any(look):
+                raise ValueError("the eye is in the middle of the scene; give look, the direction to look in")
+        axes = axes_of(look, up, field, pixels)
+        with followed(progress, "render") as told:
+            found = _sightline.centres(self._model, eye, axes, *pixels, _question(threads, told, budget))
+        return Picture(self, eye, axes, pixels, *found)
+
+    @staticmethod
+    def _source(source: Any) -> Any:
+        if _arrays.is_index(source):
+            return int(source)
+        return [source] if len(source) > 0 and np.ndim(source[0][0]) == 0 else source
+
     def weakly_visible(
-        self, source: Any, *, two_sided: bool = False, threads: int = 0, progress: Progress = None, budget: float = 0
+        self,
+        source: Any,
+        *,
+        two_sided: bool = False,
+        conservative: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
     ) -> WeakView:
         """The faces some point of which is seen from some point of the source.
 
         source: the id of a face that looks to its front; a convex polygon, (k, 3), counterclockwise as seen from the
-        side that it looks to; or a list of polygons. What `budget` leaves open is undecided.
+        side that it looks to; or a list of polygons. What `budget` leaves open is undecided. conservative: a quick
+        answer that leaves out nothing; what it calls visible may be hidden by several faces together.
         """
-        if _arrays.is_index(source):
-            source = int(source)
-        elif len(source) > 0 and np.ndim(source[0][0]) == 0:
-            source = [source]
         with followed(progress, "weak") as told:
+            question = _question(threads, told, budget, two_sided)
             return WeakView(
-                self, *_sightline.weakly_visible(self._model, source, _question(threads, told, budget, two_sided))
+                self, *_sightline.weakly_visible(self._model, self._source(source), conservative, question)
             )
+
+    def partition(
+        self,
+        source: Any,
+        face: int,
+        *,
+        all_borders: bool = False,
+        threads: int = 0,
+        progress: Progress = None,
+        budget: float = 0,
+    ) -> LightPartition:
+        """What of a face is lit by a source, in penumbra and in umbra, and where the borders run, exactly.
+
+        source: as of weakly_visible(). all_borders: also those between parts that see the source bounded by different
+        edges. What `budget` leaves open is undecided. The program's `weak --partition`.
+
+        >>> scene = Scene([[0, 0, 0], [4, 0, 0], [4, 4, 0], [0, 4, 0], [1, 0, 1], [1, 4, 1], [1, 4, 0], [1, 0, 0]],
+        ...               [[0, 1, 2, 3], [4, 5, 6, 7]])
+        >>> lamp = [(2, 1, 3), (2, 3, 3), (3, 3, 3), (3, 1, 3)]  # counterclockwise from where it looks to
+        >>> scene.partition(lamp, 0)
+        <LightPartition of face 0: lit 0.750000, penumbra 0.125000, umbra 0.125000; 3 cells>
+        """
+        if not _arrays.is_index(face) or not 0 <= face < self.face_count:
+            raise IndexError(f"face {face!r} is not there: there are {self.face_count}, counted from 0")
+        with followed(progress, "partition") as told:
+            question = _question(threads, told, budget)
+            found = _sightline.partition(self._model, self._source(source), int(face), all_borders, question)
+        return LightPartition(self, int(face), *found)
 
     def see_along(
         self,

@@ -1,20 +1,49 @@
 """Set operations on solids."""
 
 from fractions import Fraction
-from typing import NamedTuple
+from typing import Tuple
 
 from . import _sightline
-from ._answers import Ids
+from ._answers import Certificate, Ids, Verdict
 from ._progress import Progress, followed
 from ._scene import Scene, _question
 
 
-class Solid(NamedTuple):
+class SolidCertificate(Certificate):
+    """What a set operation can show for itself: text that the program's `verify --solid ... --result` reads."""
+
+    def __init__(self, scene: Scene, solids: Tuple[Scene, ...], text: str) -> None:
+        super().__init__(scene, text)
+        self._solids = solids
+
+    def verify(self) -> Verdict:
+        """Checks that it proves the operation, and that the scene is its result, by code of its own."""
+        models = [solid._model for solid in self._solids]
+        return Verdict(*_sightline.verify_solids(models, self._scene._model, self.text, _question(0, None, 0)))
+
+
+class Solid:
     """A solid made of others."""
 
-    scene: Scene  #: its surface, closed, fronts outwards; faces may have holes
-    sources: Ids  #: of each face, (faces, 2): which solid it was of, and which face there
-    volume: Fraction
+    def __init__(
+        self,
+        solids: Tuple[Scene, ...],
+        model: "_sightline.Model",
+        sources: Ids,
+        volume: Fraction,
+        certifier: "_sightline.Certifier",
+    ) -> None:
+        self.scene = Scene._of(model)  #: its surface, closed, fronts outwards; faces may have holes
+        self.sources = sources  #: of each face, (faces, 2): which solid it was of, and which face there
+        self.volume = volume
+        self._solids, self._certifier = solids, certifier
+
+    def certificate(self) -> SolidCertificate:
+        """What the answer can show for itself. It takes the time of the answer again."""
+        return SolidCertificate(self.scene, self._solids, self._certifier.text())
+
+    def __repr__(self) -> str:
+        return f"<Solid: {self.scene.face_count} faces around {float(self.volume):.6g}>"
 
 
 def boolean(
@@ -35,8 +64,10 @@ def boolean(
     >>> other = Scene(cube.points() + [0.5, 0.5, 0.5], cube.faces())
     >>> boolean("intersection", cube, other).volume
     Fraction(1, 8)
+    >>> boolean("union", cube, other).certificate().verify().accepted
+    True
     """
     with followed(progress, operation) as told:
         question = _question(threads, told, budget)
-        model, sources, volume = _sightline.combine(operation, [solid._model for solid in solids], inside, question)
-    return Solid(Scene._of(model), sources, volume)
+        found = _sightline.combine(operation, [solid._model for solid in solids], inside, question)
+    return Solid(solids, *found)

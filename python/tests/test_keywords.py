@@ -50,16 +50,28 @@ commands = {
     ),
     "see": (
         Scene.see,
-        {"kernel": "exact alone", **dict.fromkeys(("frustum", "lines"), program_alone)},
+        {"kernel": "exact alone", "lines": "View.lines()"},
     ),
     "weak": (
         Scene.weakly_visible,
         {
             **dict.fromkeys(("from-face", "from"), "source"),
-            **dict.fromkeys(("from-volume", "from-faces", "partition", "all-borders", "beside-rays"), program_alone),
+            **dict.fromkeys(("from-volume", "from-faces", "beside-rays"), program_alone),
+            **dict.fromkeys(("partition", "all-borders"), "Scene.partition()"),
             "along": "Scene.see_along()",
-            **dict.fromkeys(("method", "conservative", "rays", "cells", "event-edges", "surfaces"), program_alone),
+            **dict.fromkeys(("method", "rays", "cells", "event-edges", "surfaces"), program_alone),
             "eye": "plot(eye=)",
+        },
+    ),
+    "render": (
+        Scene.render,
+        {
+            "method": "centres; Picture.means() is exact",
+            "kernel": "exact alone",
+            **dict.fromkeys(("bits", "samples"), "of methods of the program"),
+            "png": "faces, sides: arrays",
+            "colours": "Picture.means(values)",
+            "alpha": program_alone,
         },
     ),
     "shadow": (Scene.shadow, {"eye": picture, "volume": "Shadow.space()"}),
@@ -80,7 +92,10 @@ commands = {
         sightline.boolean,
         {"out": "Scene.write()", **dict.fromkeys(("round", "snap"), "Scene.write() says what its format cannot hold")},
     ),
-    "verify": (Scene.verify, dict.fromkeys(("sample", "solid", "result"), program_alone)),
+    "verify": (
+        Scene.verify,
+        {"sample": program_alone, **dict.fromkeys(("solid", "result"), "SolidCertificate.verify()")},
+    ),
     "generate": (sightline.generate, {"query": "Generated", "out": "Scene.write()"}),
 }
 #: Keywords that are no options: arguments of the program, and what a terminal has anyway.
@@ -118,7 +133,6 @@ def test_each_command_has_a_function_or_is_no_question():
     of_program = set(re.findall(r"^  (\w+)  ", said.split("Subcommands:")[1], re.MULTILINE))
     others = {
         "bsp": "order() makes it",
-        "render": "pictures",
         "compare": "judge() is for one's own function",
         "fuzz": "sightline.fuzz() is for one's own function",
         "judge": "sightline.judge() is for one's own function",

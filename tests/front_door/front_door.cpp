@@ -308,10 +308,58 @@ TEST(Combine, has_the_volumes_of_two_cubes_that_share_one) {
     EXPECT_TRUE(found.model.facts().closed) << operation;
     ASSERT_EQ(found.faces.size(), found.model.face_count());
     for (const auto& [solid, face] : found.faces) EXPECT_TRUE(solid < 2 && face < 6);
+    const Checked checked = verify({one, other}, found.model, found.certificate());
+    EXPECT_TRUE(checked.accepted) << operation << ": " << checked.why;
+    EXPECT_FALSE(verify({other, one}, one, found.certificate()).accepted) << operation;
   }
   EXPECT_THROW(combine("minus", {one, other}), std::invalid_argument);
   EXPECT_THROW(combine("union", {one, other}, "even"), std::invalid_argument);
   EXPECT_THROW(combine("union", {one, lamp_and_lid()}), std::invalid_argument);
+}
+
+TEST(See, in_a_field_sees_what_is_within_it) {
+  const Model model = lamp_and_lid();
+  const std::vector<Exact_point> down{{-1, -1, -4}, {-1, 1, -4}, {1, 1, -4}, {1, -1, -4}};  // the lid covers it
+  const Seen seen = see_in_field(model, {0, 0, 2}, down);
+  EXPECT_EQ(seen.visible, std::vector<Face_id>{1});
+  EXPECT_DOUBLE_EQ(seen.area(1), 0.25);
+  EXPECT_TRUE(verify(model, seen.certificate()).accepted);
+  EXPECT_THROW(see_in_field(model, {0, 0, 2}, {down[3], down[2], down[1], down[0]}), std::invalid_argument);
+  EXPECT_THROW(see_in_field(model, {0, 0, 2}, {down[0], down[1]}), std::invalid_argument);
+}
+
+TEST(See, draws_lines_with_what_hides_them) {
+  const Model model = lamp_and_lid();
+  const std::vector<Seen::Line> lines = see(model, {0, 0, 2}).lines();
+  ASSERT_EQ(lines.size(), 12u);
+  std::size_t hidden = 0;
+  for (const Seen::Line& line : lines) {
+    EXPECT_EQ(line.kind, "boundary");
+    EXPECT_EQ(line.faces.size(), 1u);
+    EXPECT_EQ(line.stretches.front().from, 0);
+    EXPECT_EQ(line.stretches.back().to, 1);
+    for (const auto& stretch : line.stretches) hidden += stretch.hidden_by.has_value();
+  }
+  EXPECT_EQ(hidden, 0u);  // the lid's shadow ends within the floor
+  const std::vector<Seen::Line> below = see(model, {0, 0, -1}).lines();
+  ASSERT_EQ(below.size(), 12u);
+  hidden = 0;
+  for (const Seen::Line& line : below)
+    for (const auto& stretch : line.stretches)
+      if (stretch.hidden_by) {
+        EXPECT_EQ(*stretch.hidden_by, 0u);
+        ++hidden;
+      }
+  EXPECT_EQ(hidden, 8u);  // the floor hides lid and lamp
+}
+
+TEST(Weak_visibility, is_possible_at_least_where_it_is) {
+  const Model model = lamp_and_lid();
+  const Weak_visibility sure = weakly_visible(model, 2), quick = possibly_visible(model, sources_of(model, 2));
+  EXPECT_TRUE(std::includes(quick.visible.begin(), quick.visible.end(), sure.visible.begin(), sure.visible.end()));
+  EXPECT_EQ(quick.visible.size() + quick.hidden.size(), 3u);
+  EXPECT_TRUE(verify(model, quick.certificate()).accepted);
+  EXPECT_THROW(sources_of(model, 3), std::out_of_range);
 }
 
 TEST(Answers, say_that_the_budget_ran_out) {

@@ -36,6 +36,12 @@ Exact_point area_vector(const Scene& scene, const Piece& piece) {
 
 }  // namespace
 
+Exact_point Light_partition::point(const Rational& x, const Rational& y) const {
+  Exact_point p = chart[0];
+  for (std::size_t k = 0; k < 3; ++k) p[k] += x * chart[1][k] + y * chart[2][k];
+  return p;
+}
+
 std::array<Bounded, lights> Light_partition::shares() const {
   std::array<Share, lights> sums{0, 0, 0, 0};
   for (const Cell& cell : cells) sums[static_cast<std::size_t>(cell.light)] += Share(cell.area.low, cell.area.high);

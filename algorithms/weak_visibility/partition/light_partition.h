@@ -63,7 +63,8 @@ struct Light_partition {
   /// Points of borders, a part of one in each.
   std::vector<std::vector<std::array<double, 2>>> border_lines;
 
-  std::array<Bounded, lights> shares() const;  ///< of the piece
+  Exact_point point(const Rational& x, const Rational& y) const;  ///< of the chart, in the file's coordinates
+  std::array<Bounded, lights> shares() const;                     ///< of the piece
   /// The cell that a point is in. `none`: outside of the piece, on a border, or straight above or below an end of one
   /// as far as doubles tell. Pre: no cell is undecided. Cost: all borders. Exact: yes
   std::size_t cell_at(const Rational& x, const Rational& y) const;
