@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -57,7 +58,11 @@ class Traced_scene {
   }
 
   /// The face that a ray hits first beyond some t, if it does so from the front, or from behind where that counts.
+  /// Nothing where a number is 1.8e18 or more: there Embree would end the program.
   std::optional<Face_id> hit(const Vector& from, const Vector& direction, bool two_sided, float least_t) const {
+    const auto is_taken = [](double x) { return std::fabs(x) < 1.8e18; };
+    if (!std::all_of(from.begin(), from.end(), is_taken) || !std::all_of(direction.begin(), direction.end(), is_taken))
+      return std::nullopt;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     RTCRayHit query{};
