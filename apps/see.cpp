@@ -4,6 +4,8 @@
 #include "support/page.h"
 #include "support/picture.h"
 
+#include <sightline/algorithms/image/bsp2d.h>
+#include <sightline/algorithms/image/weiler_atherton.h>
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/line_drawing.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
@@ -25,7 +27,7 @@ namespace {
 struct See_arguments {
   Common common;
   View_arguments view;
-  std::string eye, kernel = "exact", certificate, svg, html, mesh;
+  std::string eye, kernel = "exact", method = "regions", certificate, svg, html, mesh;
   bool two_sided = false, frustum = false, lines = false;
 };
 
@@ -43,8 +45,9 @@ struct Seen {
 /// What a run is asked for.
 struct Wanted {
   bool two_sided = false, corners = false;
-  std::string certificate;  ///< the file to write it to, or none; exact only
-  bool lines = false;       ///< exact only
+  std::string method = "regions";  ///< exact only, if another
+  std::string certificate;         ///< the file to write it to, or none; exact only
+  bool lines = false;              ///< exact only
 };
 
 template <sightline::View V>
@@ -218,6 +221,19 @@ std::size_t fronts_of(const Seen& seen) {
   return seen.visible.size() - behind;
 }
 
+/// By one of the methods that share directions out exactly.
+Visible_surface<Exact_view> surface_by(const std::string& method, const Exact_view& view, const Piece_boxes& boxes,
+                                       Cones<Exact_view> cones, const Visible_options& options) {
+  if (method == "weiler-atherton") return weiler_atherton(view, std::move(cones), options);
+  if (method == "regions") return visible_surface(view, boxes, std::move(cones), options);
+  Bsp2d_options trees;
+  trees.threads = options.threads;
+  trees.progress = options.progress;
+  Bsp2d found = bsp2d(view, std::move(cones), trees);
+  found.surface.counters.predicates = found.counters.predicates;
+  return std::move(found.surface);
+}
+
 /// The whole sphere, or the given field of view.
 Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, const std::vector<Exact_point>& field,
          const Wanted& wanted, const Visible_options& options) {
@@ -233,7 +249,7 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
   if (kernel == "exact") {
     const Exact_view view(scene, eye, field.empty() ? std::vector<std::array<Integer, 3>>() : field_of(field));
     const auto surface =
-        visible_surface(view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), options);
+        surface_by(wanted.method, view, boxes, field.empty() ? whole_sphere(view) : field_of_view(view), options);
     const double seconds = watch.seconds();
     seen = seen_by(view, surface, wanted);
     seen.seconds = seconds;
@@ -266,8 +282,9 @@ static Exit run(const See_arguments& arguments) {
   arguments.view.check_usage();
   if (arguments.kernel != "exact" &&
       (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty() || !arguments.mesh.empty() ||
-       arguments.frustum || arguments.lines))
-    throw Usage_error("--certificate, --svg, --html, --mesh, --lines and --frustum are exact: leave out --kernel");
+       arguments.frustum || arguments.lines || arguments.method != "regions"))
+    throw Usage_error(
+        "--method, --certificate, --svg, --html, --mesh, --lines and --frustum are exact: leave out --kernel");
   const Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
   const bool has_view = !arguments.svg.empty() || arguments.frustum;
@@ -281,13 +298,14 @@ static Exit run(const See_arguments& arguments) {
   const Seen seen =
       see(scene, eye, arguments.kernel, field,
           {arguments.two_sided, !common.json.empty() || !arguments.html.empty() || !arguments.mesh.empty(),
-           arguments.certificate, arguments.lines},
+           arguments.method, arguments.certificate, arguments.lines},
           options);
 
   if (!arguments.svg.empty()) {
     Svg svg = empty_picture(view);
     if (!empty) {
-      const Seen picture = see(scene, eye, "exact", corner_rays(view), {true, true, "", arguments.lines}, options);
+      const Seen picture =
+          see(scene, eye, "exact", corner_rays(view), {true, true, arguments.method, "", arguments.lines}, options);
       paint(svg, view, picture.parts, false, arguments.lines ? pale_look : look_by_face);
       if (arguments.lines) draw(svg, view, picture);
     }
@@ -296,7 +314,8 @@ static Exit run(const See_arguments& arguments) {
 
   if (!arguments.html.empty()) {
     std::optional<Seen> doubles;  // of the whole sphere
-    if (field.empty()) doubles = see(scene, eye, "double", field, {arguments.two_sided, false, "", false}, options);
+    if (field.empty())
+      doubles = see(scene, eye, "double", field, {arguments.two_sided, false, "regions", "", false}, options);
     write_page(arguments, scene, eye, seen, doubles ? &*doubles : nullptr);
   }
   if (!arguments.mesh.empty()) write_mesh(arguments.mesh, scene, seen);
@@ -317,7 +336,8 @@ static Exit run(const See_arguments& arguments) {
                       {"vertices", std::move(corners)}});
   }
   const Visible_counters& c = seen.counters;
-  Json counters{{"kernel", arguments.kernel}, {"pieces", c.pieces}, {"edge_on", seen.edge_on}};
+  Json counters{
+      {"kernel", arguments.kernel}, {"method", arguments.method}, {"pieces", c.pieces}, {"edge_on", seen.edge_on}};
   append_counters(counters, c);
   counters["parts"] = seen.parts.size();
   counters["not_finite"] = seen.not_finite;
@@ -345,11 +365,13 @@ static Exit run(const See_arguments& arguments) {
         fmt::format("{} of the {} faces that are seen show their backs: the eye is on their wrong side, or they are "
                     "turned round; --flip turns the scene, --two-sided counts backs",
                     backs, fronts + backs));
-  row("looked at",
-      fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others",
-                  c.looked_at, c.opened, c.hidden, c.hidden_boxes));
-  row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again", c.regions,
-                             c.splits, c.crossings, c.merged));
+  if (arguments.method != "bsp2d") {
+    row("looked at",
+        fmt::format("{} pieces, counted once a region, in {} boxes; {} pieces and {} boxes dropped behind others",
+                    c.looked_at, c.opened, c.hidden, c.hidden_boxes));
+    row("regions", fmt::format("{} after {} cuts, {} of them where pieces cross; {} pairs put together again",
+                               c.regions, c.splits, c.crossings, c.merged));
+  }
   if (arguments.lines) {
     std::size_t whole = 0, hidden = 0, crossing = 0;
     for (const Drawn_line& line : seen.lines) {
@@ -366,7 +388,8 @@ static Exit run(const See_arguments& arguments) {
   if (seen.not_finite > 0) row("lost", fmt::format("{} parts are not finite", seen.not_finite));
   row("predicates", fmt::format("{} by names, {} by doubles, {} by fixed width, {} by GMP", c.predicates.combinatorial,
                                 c.predicates.filtered, c.predicates.fixed, c.predicates.gmp));
-  row("seconds", fmt::format("{:.4f} ({})", seen.seconds, arguments.kernel));
+  row("seconds",
+      fmt::format("{:.4f} ({})", seen.seconds, arguments.method == "regions" ? arguments.kernel : arguments.method));
   return Exit::done;
 }
 
@@ -379,6 +402,13 @@ void add_see(Command program) {
       .check(not_empty());
   command.add_option("--kernel", a->kernel, "arithmetic")
       .check(one_of({"exact", "epeck", "gmpq", "double", "float"}))
+      .show_default();
+  command
+      .add_option("--method", a->method,
+                  "how directions are shared out, exactly, each in parts of its own: regions, cut by what is nearest "
+                  "in them; weiler-atherton: along the edges of the nearest polygon; bsp2d: near to far by a tree, "
+                  "clipped by another one of what is covered")
+      .check(one_of({"regions", "weiler-atherton", "bsp2d"}))
       .show_default();
   command.add_flag("--two-sided", a->two_sided,
                    "count faces seen from behind too (they hide what is behind them anyway)");

@@ -50,7 +50,7 @@ commands = {
     ),
     "see": (
         Scene.see,
-        {"kernel": "exact alone", "lines": "View.lines()"},
+        {"kernel": "exact alone", "method": program_alone, "lines": "View.lines()"},
     ),
     "weak": (
         Scene.weakly_visible,

@@ -150,6 +150,35 @@ TEST_F(See, is_the_same_with_any_number_of_threads_and_in_every_exact_kernel) {
     EXPECT_GT(see({city, "--eye", "0,0,1", "--kernel", kernel})["result"]["visible"].size(), 0u) << kernel;
 }
 
+TEST_F(See, shows_the_same_by_each_exact_method_in_parts_of_its_own) {
+  const std::string rooms = (corpus / "general" / "two_rooms.off").string();
+  const auto is_the_same = [](Json a, Json b) {
+    for (Json* lines : {&a, &b}) {
+      for (Json& line : (*lines)["lines"])
+        for (Json& part : line["parts"]) part.erase("hidden_by");  // one of those that hide it
+      lines->erase("pieces");
+    }
+    return a == b;
+  };
+  for (const std::string& scene : {crossing, rooms})
+    for (const std::vector<std::string>& field : {std::vector<std::string>{}, {"--frustum", "--field", "40"}}) {
+      std::vector<std::string> words{scene, "--eye", "5,-7/2,3", "--lines", "--two-sided"};
+      words.insert(words.end(), field.begin(), field.end());
+      const Json by_regions = see(words);
+      EXPECT_GT(by_regions["result"]["pieces"].size(), 0u);
+      for (const char* method : {"weiler-atherton", "bsp2d"}) {
+        std::vector<std::string> own = words;
+        own.insert(own.end(), {"--method", method});
+        const Json found = see(own);
+        EXPECT_EQ(found["counters"]["method"], method);
+        EXPECT_TRUE(is_the_same(found["result"], by_regions["result"])) << method << ' ' << scene;
+        expect(done, scene, certificate(scene, {own.begin() + 1, own.end()}));
+      }
+    }
+  EXPECT_EQ(run({"see", cube, "--method", "bsp2d", "--kernel", "double"}).code, usage);
+  EXPECT_EQ(run({"see", cube, "--method", "painter"}).code, usage);
+}
+
 TEST_F(See, refuses_what_is_no_eye_and_what_is_not_exact) {
   for (const char* eye : {"1,2", "1,2,3,4", "a,b,c", "1,,3", "nan,0,0", "1/0,0,0", ""}) {
     const Outcome r = run({"see", cube, "--eye", eye});
