@@ -9,6 +9,7 @@
 #include <iostream>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 namespace sightline::app {
 
@@ -28,12 +29,17 @@ enum Kind : char {
 
 std::string message_of(Kind kind, std::string_view rest = {}) { return std::string(1, kind) + std::string(rest); }
 
-/// Whether there are processes besides this one, as mpirun and its like say in the environment. What they all set tells
-/// no number: then MPI will.
+/// Whether there are processes besides this one, as mpirun and its like say in the environment. PMIx itself tells no
+/// number: where Slurm does not either, MPI will.
 bool may_be_several() {
-  for (const char* size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-    if (const char* const text = std::getenv(size)) return std::strtoul(text, nullptr, 10) > 1;
-  return std::getenv("PMIX_RANK") != nullptr;
+  for (const auto& [is_there, size] : {std::pair("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_SIZE"),
+                                       {"PMI_SIZE", "PMI_SIZE"},
+                                       {"PMIX_RANK", "SLURM_STEP_NUM_TASKS"}}) {
+    if (std::getenv(is_there) == nullptr) continue;
+    const char* const text = std::getenv(size);
+    return text == nullptr || std::strtoul(text, nullptr, 10) > 1;
+  }
+  return false;
 }
 
 /// The module, which stands beside the program, or where it is installed.
