@@ -21,6 +21,8 @@ libgtest-dev|gtest/gtest.h|tests
 librapidcheck-dev|rapidcheck.h|tests of laws on random input
 libembree-dev|embree3/rtcore.h|render --method rays, and an adapter of judge; their tests say that they are skipped where it is missing
 clang-format-14|clang-format-14|a test that every file has the format of .clang-format; skipped where it is missing
+libopenmpi-dev|mpi.h|mpirun sightline pvs, which shares its work among processes; its tests are skipped where this or what follows is missing
+openmpi-bin|mpirun|mpirun sightline pvs
 z3|z3|a second opinion on weak visibility; tests skip what needs it where it is missing
 python3-dev|python3-config|the Python module; its tests are skipped where this or what follows is missing
 pybind11-dev|pybind11-config|the Python module

@@ -9,8 +9,10 @@
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/algorithms/verify/solids_json.h>
 #include <sightline/io/exact_text.h>
+#include <sightline/io/file.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
+#include <sightline/io/quake_map.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/threads.h>
@@ -68,6 +70,16 @@ void refuse_flaws(const Operands& operands, const std::vector<std::string>& file
   throw Input_error::of_file(files[operand], what + "; close the surface first");
 }
 
+/// By face of a level of brushes the numbers of its entity and brush; of other solids nothing.
+std::vector<Json> brushes_of_faces(const std::string& file, const Read_options& reading) {
+  std::vector<Json> brushes;
+  if (file == "-" || format_of_ending(file) != Format::map) return brushes;
+  const std::string bytes = read_bytes(file);
+  for (const Map_brush& brush : read_map_brushes({file, bytes}, reading))
+    brushes.insert(brushes.end(), brush.faces, Json::array({brush.entity, brush.brush}));
+  return brushes;
+}
+
 /// The result, each face in the colour of the solid that it is of.
 void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_result& result) {
   const Scene scene(flat.soup);
@@ -98,6 +110,8 @@ void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_res
 Exit run(const Boolean_arguments& a, const Command& command) {
   if (a.snap && (a.out.empty() || format_of_ending(a.out) == Format::qoff))
     throw Usage_error("--snap is for rounded points: give --out a format that rounds, .obj .off .ply .stl");
+  if (a.solids.size() < 2 && a.operation != name(Set_operation::unite))
+    throw Usage_error(a.operation + " is of two solids or more: name another one; a union may be of one");
   // 1. The solids.
   Stopwatch watch;
   Read_options reading;
@@ -145,11 +159,17 @@ Exit run(const Boolean_arguments& a, const Command& command) {
                             {"faces", edge.faces}});
   if (!a.json.empty()) {
     const std::array<double, 2> surface = area(result.soup);
-    Json provenance = Json::array(), turned = Json::array();
+    Json provenance = Json::array(), turned = Json::array(), brushes = Json::array();
+    std::vector<std::vector<Json>> brushes_of;  // by operand and face
+    bool is_level = false;
+    for (const std::string& file : a.solids)
+      is_level |= !brushes_of.emplace_back(brushes_of_faces(file, reading)).empty();
     for (std::size_t f = 0; f < faces_written; ++f) {
       const Result_face& face = result.faces[flat.face_of[before(f)]];
       provenance.push_back({face.operand, face.face});
       if (face.turned) turned.push_back(f);
+      const std::vector<Json>& of_operand = brushes_of[face.operand];
+      brushes.push_back(of_operand.empty() ? Json() : of_operand[face.face]);
     }
     Json document;
     document["command"] = "boolean";
@@ -175,6 +195,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
                           {"not_manifold", not_manifold},
                           {"provenance", std::move(provenance)},
                           {"turned", std::move(turned)}};
+    if (is_level) document["result"]["brushes"] = std::move(brushes);
     if (rounding) document["result"]["rounding"] = rounding_json(*rounding);
     document["counters"] = counters_json(result.counters);
     document["seconds"] = {{"read", read_seconds}, {"prepare", prepare_seconds}, {"boolean", seconds}};
@@ -212,9 +233,12 @@ void add_boolean(Command program) {
       .required()
       .check(one_of(names_of(set_operations)));
   command
-      .add_option("SOLIDS", a->solids, "two closed surfaces or more: .obj .off .ply .stl .qoff; fronts look outwards")
+      .add_option(
+          "SOLIDS", a->solids,
+          "two closed surfaces or more, of a union also one: .obj .off .ply .stl .qoff; fronts look outwards. A .map "
+          "of brushes is one: what is in any of them")
       .required()
-      .expected(2, 1 << 20)
+      .expected(1, 1 << 20)
       .reads_file();
   command
       .add_option(
@@ -252,6 +276,7 @@ void add_boolean(Command program) {
       .show_default();
   command.footer(
       "Example: sightline boolean difference block.off drill.off --out bored.qoff --json -\n"
+      "         sightline boolean union level.map --out level.qoff\n"
       "What has no volume is left out. A surface that is not closed is refused with its open edges, exit code 3.");
   command.set_action([a, command] { return run(*a, command); });
 }

@@ -7,6 +7,7 @@
 #include "support/leaves.h"
 #include "support/page.h"
 #include "support/picture.h"
+#include "support/ranks.h"
 #include "support/shard.h"
 
 #include <sightline/algorithms/levels/cell_pvs.h>
@@ -15,6 +16,7 @@
 #include <sightline/algorithms/verify/certificate_writer.h>
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/harness/generate/transform.h>
+#include <sightline/io/binary.h>
 #include <sightline/io/file.h>
 #include <sightline/io/visibility_table.h>
 
@@ -24,6 +26,7 @@
 #include <iostream>
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace sightline::app {
 
@@ -31,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t blocks = 64;  // parts that --resume saves what is done in
+constexpr std::uint32_t blocks = 64;  // parts that --resume saves what is done in, and that processes share
 
 using Row = Visibility_table::Row;
 
@@ -118,45 +121,41 @@ class Table_maker {
   }
 
   /// Of all faces, and lower cells of pairs, whose id is shard modulo shards.
-  Visibility_table make(std::uint32_t shard, std::uint32_t shards) {
-    const Pvs pvs = search_.ask(shard, shards);
-    counters_ += pvs.counters;
-    Visibility_table table{question_, std::vector<bool>(level_.cells().size()), std::vector<bool>(faces_), {}};
-    for (std::size_t f = shard; f < faces_; f += shards) table.faces[f] = true;
-    for (Cell_id c = 0; c < level_.cells().size(); ++c)
-      if (pvs.is_asked[c] != 0) {
-        table.cells[c] = true;
-        table.rows.push_back({pvs.visible[c], pvs.undecided[c]});
-      }
-    if (cell_search_) add_cells(table, shard, shards);
-    return table;
-  }
+  Visibility_table make(const Shard& own) { return counted(part(own)); }
 
-  /// The same block by block, each kept in a folder beside the output until all are there.
-  Visibility_table resumed(std::uint32_t shard, std::uint32_t shards) {
-    const fs::path folder = arguments_.out + ".parts";
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error)
-      throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another --out");
-    std::vector<Visibility_table> parts;
+  /// The same in blocks, each made by whoever is free of the processes that share the work, and with --resume kept in a
+  /// folder beside the output until all are there. In the first process; in others nothing.
+  Visibility_table make_in_blocks(const Shard& own, Ranks& ranks) {
+    // 1. What was made before.
+    const bool keep = arguments_.resume && ranks.is_first();
+    const fs::path folder = keep ? kept_folder() : fs::path();
+    std::vector<Visibility_table> parts(blocks);
     std::vector<std::string> names;
+    std::vector<std::uint32_t> missing;
+    const auto shard_of_block = [&](std::uint32_t b) { return Shard{own.shard + own.shards * b, own.shards * blocks}; };
     for (std::uint32_t b = 0; b < blocks; ++b) {
-      const fs::path path = folder / fmt::format("{}-of-{}.pvs", shard + shards * b, shards * blocks);
-      std::optional<Visibility_table> part = kept(path);
-      if (!part) {
-        part = make(shard + shards * b, shards * blocks);
-        const bool whole = std::all_of(part->rows.begin(), part->rows.end(), [](const Row& row) {
-          return row.undecided.empty() && row.cells_undecided.empty();
-        });
-        if (whole) write_bytes(path, table_bytes(*part));  // what time left open is asked again
-      } else {
-        ++blocks_kept_;
-      }
-      parts.push_back(std::move(*part));
-      names.push_back(path.string());
+      const auto [shard, shards] = shard_of_block(b);
+      names.push_back((folder / fmt::format("{}-of-{}.pvs", shard, shards)).string());
+      std::optional<Visibility_table> before = keep ? kept(names[b]) : std::nullopt;
+      if (before) parts[b] = *std::move(before);
+      else missing.push_back(b);
     }
-    return joined(parts, names);
+    blocks_kept_ = blocks - static_cast<std::uint32_t>(missing.size());
+    block_count_ = blocks_left_ = missing.size();
+
+    // 2. The others.
+    ranks.share(
+        fmt::format("{}, shard {}/{}", question_, own.shard, own.shards), missing,
+        [&](std::uint32_t b) { return bytes_of(part(shard_of_block(b))); },
+        [&](std::uint32_t b, const std::string& answer) {
+          parts[b] = counted(read_part(names[b], answer));
+          --blocks_left_;
+          const bool whole = std::all_of(parts[b].rows.begin(), parts[b].rows.end(), [](const Row& row) {
+            return row.undecided.empty() && row.cells_undecided.empty();
+          });
+          if (keep && whole) write_bytes(names[b], table_bytes(parts[b]));  // what time left open is asked again
+        });
+    return ranks.is_first() ? joined(parts, names) : Visibility_table{};
   }
   /// To be called when the table is written: an end before that would lose what is kept.
   void remove_kept() const {
@@ -164,28 +163,79 @@ class Table_maker {
     fs::remove_all(arguments_.out + ".parts", error);
   }
   void clear() { progress_.clear(); }
-  const Pvs_counters& counters() const { return counters_; }
-  const Cell_pvs_counters& cell_counters() const { return cell_counters_; }
-  double cell_seconds() const { return cell_seconds_; }
+  const Pvs_counters& counters() const { return counts_.faces; }
+  const Cell_pvs_counters& cell_counters() const { return counts_.cells; }
+  double cell_seconds() const { return counts_.cell_seconds; }
   std::uint32_t blocks_kept() const { return blocks_kept_; }
 
  private:
+  struct Counts {
+    Pvs_counters faces;
+    Cell_pvs_counters cells;
+    double cell_seconds = 0;
+  };
+  struct Part {
+    Visibility_table table;
+    Counts counts;
+  };
+
+  Part part(const Shard& own) {
+    const auto [shard, shards] = own;
+    const Pvs pvs = search_.ask(shard, shards);
+    Part part{{question_, std::vector<bool>(level_.cells().size()), std::vector<bool>(faces_), {}}, {pvs.counters, {}}};
+    for (std::size_t f = shard; f < faces_; f += shards) part.table.faces[f] = true;
+    for (Cell_id c = 0; c < level_.cells().size(); ++c)
+      if (pvs.is_asked[c] != 0) {
+        part.table.cells[c] = true;
+        part.table.rows.push_back({pvs.visible[c], pvs.undecided[c]});
+      }
+    if (cell_search_) add_cells(part, shard, shards);
+    return part;
+  }
+  Visibility_table counted(Part part) {
+    counts_.faces += part.counts.faces;
+    counts_.cells += part.counts.cells;
+    counts_.cell_seconds += part.counts.cell_seconds;
+    return std::move(part.table);
+  }
+
+  /// A part as a message: its counters, then its table.
+  static std::string bytes_of(const Part& part) {
+    std::string bytes;
+    store_counters(bytes, part.counts.faces);
+    store_counters(bytes, part.counts.cells);
+    store(bytes, part.counts.cell_seconds);
+    return bytes + table_bytes(part.table);
+  }
+  static Part read_part(const std::string& name, std::string_view bytes) {
+    Part part;
+    load_counters(bytes, part.counts.faces);
+    load_counters(bytes, part.counts.cells);
+    part.counts.cell_seconds = load<double>(bytes, 0, std::endian::little);
+    bytes.remove_prefix(sizeof(double));
+    part.table = read_table({name, bytes});
+    return part;
+  }
+
   Pvs_options options() {
     Pvs_options options;
     options.outside = arguments_.outside;
     options.threads = arguments_.common.threads;
     options.search.seed = arguments_.common.seed;
-    options.progress = [this](std::size_t done, std::size_t all) { progress_(done, all); };
+    options.progress = [this](std::size_t done, std::size_t all) {
+      progress_((block_count_ - blocks_left_) * all + done, block_count_ * all);
+    };
     if (const double budget = arguments_.common.budget; budget > 0)
       options.search.out_of_time = [this, budget] { return watch_.seconds() > budget; };
     return options;
   }
 
   /// Of pairs of cells whose lower one is shard modulo shards.
-  void add_cells(Visibility_table& table, std::uint32_t shard, std::uint32_t shards) {
+  void add_cells(Part& part, std::uint32_t shard, std::uint32_t shards) {
     const Stopwatch watch;
     const Cell_pvs pvs = cell_search_->ask(shard, shards);
-    cell_counters_ += pvs.counters;
+    part.counts.cells = pvs.counters;
+    Visibility_table& table = part.table;
     table.lower_cells.resize(table.cells.size());
     for (std::size_t c = shard; c < table.cells.size(); c += shards) table.lower_cells[c] = true;
     std::size_t r = 0;
@@ -194,9 +244,18 @@ class Table_maker {
       table.rows[r].cells = pvs.visible[c];
       table.rows[r++].cells_undecided = pvs.undecided[c];
     }
-    cell_seconds_ += watch.seconds();
+    part.counts.cell_seconds = watch.seconds();
   }
 
+  /// Where parts are kept. Errors: std::runtime_error where it cannot be made.
+  fs::path kept_folder() const {
+    const fs::path folder = arguments_.out + ".parts";
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+      throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another --out");
+    return folder;
+  }
   /// A part that was made before; nothing where there is none, or it is of another question.
   std::optional<Visibility_table> kept(const fs::path& path) const {
     if (!fs::exists(path)) return std::nullopt;
@@ -216,10 +275,9 @@ class Table_maker {
   Pvs_search search_;
   std::optional<Cell_pvs_search> cell_search_;
   std::string question_;
-  Pvs_counters counters_;
-  Cell_pvs_counters cell_counters_;
-  double cell_seconds_ = 0;
+  Counts counts_;
   std::uint32_t blocks_kept_ = 0;
+  std::size_t block_count_ = 1, blocks_left_ = 1;
 };
 
 Json table_json(const Visibility_table& table) {
@@ -393,43 +451,63 @@ void state_walls(Json& entry, const Cell_statement& statement) {
   entry["walls"] = std::move(walls);
 }
 
-/// A certificate for each cell that is asked about, of what its portals see outwards; and an index that states all
-/// cells.
-void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table) {
+/// What the portals of a cell see outwards: faces that nothing is proved of, then the certificate.
+std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& level, const Occluders& occluders,
+                           Cell_id cell) {
+  Sources sources;
+  for (const std::vector<Exact_point>& portal : portals_of(level, cell)) {
+    sources.polygons.push_back(weak_source(occluders, portal));
+    sources.points.push_back(portal);
+  }
+  Weakly_visible found;
+  if (!sources.polygons.empty()) {
+    Weak_task task;
+    task.threads = arguments.common.threads;
+    task.seed = arguments.common.seed;
+    found = run_weak_method("lines", occluders, sources, task).found;
+  }
+  std::string bytes;
+  store(bytes, static_cast<std::uint32_t>(found.unproved.size()));
+  for (const Face_id face : found.unproved) store(bytes, face);
+  std::ostringstream certificate;
+  write_certificate(certificate, weak_certificate(level.scene(), sources.points, false, found));
+  return bytes + std::move(certificate).str();
+}
+
+/// A certificate for each cell that is asked about, made by whoever is free; and an index that states all cells, as the
+/// table of the first process has them.
+void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
+                        Ranks& ranks) {
   const fs::path folder = arguments.certificates;
   std::error_code error;
-  fs::create_directories(folder, error);
+  if (ranks.is_first()) fs::create_directories(folder, error);
   if (error)
     throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another folder");
   const Occluders occluders(level.scene());
   Progress progress("proving");
+  std::vector<Cell_id> asked;
+  for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
+    if (table.cells[cell]) asked.push_back(cell);
+  std::map<Cell_id, std::vector<Face_id>> unproved;
+  const auto name_of = [](Cell_id cell) { return fmt::format("cell-{}.json", cell); };
+  ranks.share(
+      "certificates", asked, [&](Cell_id cell) { return certificate_of(arguments, level, occluders, cell); },
+      [&](Cell_id cell, const std::string& answer) {
+        std::vector<Face_id>& faces = unproved[cell];
+        progress(unproved.size(), asked.size());
+        faces.resize(load<std::uint32_t>(answer, 0, std::endian::little));
+        for (std::size_t i = 0; i < faces.size(); ++i)
+          faces[i] = load<std::uint32_t>(answer, 4 * (i + 1), std::endian::little);
+        write_file((folder / name_of(cell)).string(), std::string_view(answer).substr(4 * (faces.size() + 1)));
+      });
+  if (!ranks.is_first()) return;
   Json index = Json::array(), rest = Json::array();
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell) {
-    progress(cell, table.cells.size());
     const Cell_statement statement = stated_cell(level, cell);
-    if (!table.cells[cell]) {
-      state_walls(rest.emplace_back(Json{{"cell", cell}}), statement);
-      continue;
-    }
-    Sources sources;
-    for (const std::vector<Exact_point>& portal : portals_of(level, cell)) {
-      sources.polygons.push_back(weak_source(occluders, portal));
-      sources.points.push_back(portal);
-    }
-    const std::string name = fmt::format("cell-{}.json", cell);
-    Weakly_visible found;
-    if (!sources.polygons.empty()) {
-      Weak_task task;
-      task.threads = arguments.common.threads;
-      task.seed = arguments.common.seed;
-      found = run_weak_method("lines", occluders, sources, task).found;
-    }
-    write_file((folder / name).string(), [&](std::ostream& out) {
-      write_certificate(out, weak_certificate(level.scene(), sources.points, false, found));
-    });
-    state_walls(index.emplace_back(Json{
-                    {"cell", cell}, {"within", statement.within}, {"certificate", name}, {"unproved", found.unproved}}),
-                statement);
+    Json entry{{"cell", cell}};
+    if (table.cells[cell])
+      entry.update({{"within", statement.within}, {"certificate", name_of(cell)}, {"unproved", unproved[cell]}});
+    state_walls((table.cells[cell] ? index : rest).emplace_back(std::move(entry)), statement);
   }
   progress.clear();
   write_file((folder / "index.json").string(), to_text({{"format", "sightline pvs certificates 3"},
@@ -514,13 +592,17 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   return exit;
 }
 
-Exit run_pvs(const Pvs_arguments& arguments) {
+Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   const Common& common = arguments.common;
+  if (!ranks.is_alone() && arguments.out.ends_with(".bsp"))
+    throw Usage_error("--out FILE.bsp is asked of one process: call it without mpirun");
   if (arguments.out.ends_with(".bsp")) return run_into_level(arguments);
-  const auto [shard, shards] = shard_of(arguments.shard);
+  if (!ranks.is_alone() && common.scene == "-")
+    throw Usage_error("of several processes one alone has a standard input: name a file that all can read");
+  const Shard own = shard_of(arguments.shard);
   if (arguments.resume && (arguments.out.empty() || arguments.out == "-"))
     throw Usage_error("--resume keeps what is done beside an output: name it with --out FILE");
-  if (shards > 1 && (!arguments.show.empty() || !arguments.certificates.empty()))
+  if (own.shards > 1 && (!arguments.show.empty() || !arguments.certificates.empty()))
     throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
   if (arguments.show.empty() && (!arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty()))
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
@@ -537,8 +619,13 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   const double cells_seconds = watch.seconds();
 
   Table_maker maker(arguments, division.question, soup, level);
-  const Visibility_table table = arguments.resume ? maker.resumed(shard, shards) : maker.make(shard, shards);
+  const bool in_blocks = arguments.resume || !ranks.is_alone();
+  const Visibility_table table = in_blocks ? maker.make_in_blocks(own, ranks) : maker.make(own);
   maker.clear();
+  if (!ranks.is_first()) {
+    if (!arguments.certificates.empty()) write_certificates(arguments, level, table, ranks);
+    return Exit::done;
+  }
   const double seconds = watch.seconds() - cells_seconds;
   for (const Cell_id cell : arguments.show)
     if (table.row_of(cell) == nullptr)
@@ -550,7 +637,7 @@ Exit run_pvs(const Pvs_arguments& arguments) {
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
-  if (!arguments.certificates.empty()) write_certificates(arguments, level, table);
+  if (!arguments.certificates.empty()) write_certificates(arguments, level, table, ranks);
 
   const std::size_t visible = count_of(table, &Row::visible), undecided = count_of(table, &Row::undecided),
                     cells_visible = count_of(table, &Row::cells) / 2,
@@ -683,10 +770,11 @@ void add_pvs(Command program) {
       "Example: sightline pvs level.map --out level.pvs\n"
       "         for i in 0 1 2 3; do sightline pvs level.map --shard $i/4 --out part$i.pvs --resume & done; wait\n"
       "         sightline merge part?.pvs --out level.pvs\n"
+      "         mpirun -n 3 sightline pvs level.map --threads 1 --resume --out level.pvs\n"
       "         sightline pvs level.bsp --out better.bsp\n"
       "Cells are those of `sightline cells` with the same --candidates, --seed, --leaves, --grid and --volumes. Exit "
       "code 4: pairs are undecided; in a .bsp their leaves see each other.");
-  command.set_action([a] { return run_pvs(*a); });
+  command.set_action([a] { return Ranks::together([&](Ranks& ranks) { return run_pvs(*a, ranks); }); });
 }
 
 void add_merge(Command program) {

@@ -272,6 +272,7 @@ std::map<std::string, Json> results() {
                {"not_manifold", list_of(object({{"from", named("point")}, {"to", named("point")}, {"faces", count}}))},
                {"provenance", list_of(tuple_of(count, 2))},
                {"turned", list_of(count)},
+               {"brushes?", list_of(any_of({type("null"), tuple_of(count, 2)}))},
                {"rounding?", named("rounding")}})},
       {"fuzz", object({{"subject", type("string")},
                        {"seed", count},

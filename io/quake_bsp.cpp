@@ -247,11 +247,12 @@ bool looks_like_quake_level(std::string_view bytes) {
 std::vector<std::size_t> Quake_level::seen_from(std::size_t leaf) const {
   std::vector<std::size_t> seen;
   const std::int32_t begin = leaves[leaf].visible_at;
-  const std::vector<bool> row = begin < 0
-                                    ? std::vector<bool>(visible_leaves, true)
-                                    : unpacked_row(visibility, static_cast<std::size_t>(begin), visible_leaves)->row;
-  for (std::size_t l = 0; l < row.size(); ++l)
-    if (row[l]) seen.push_back(l + 1);
+  if (begin < 0) {
+    for (std::size_t l = 1; l <= visible_leaves; ++l) seen.push_back(l);
+    return seen;
+  }
+  const Unpacked_row row = *unpacked_row(visibility, static_cast<std::size_t>(begin), visible_leaves);
+  for (const std::uint32_t one : row.ones) seen.push_back(one + 1);
   return seen;
 }
 

@@ -95,8 +95,13 @@ class Map_reader {
     for (std::string_view word = next_word(); !word.empty(); word = next_word()) {
       if (word != "{") text_.fail(word, "unexpected " + quoted(word) + "; an entity begins with {");
       read_entity();
+      ++entity_;
     }
     return std::move(soup_);
+  }
+  std::vector<Map_brush> read_brushes() {
+    read();
+    return std::move(brushes_);
   }
   std::vector<Map_place> read_places() {
     are_places_wanted_ = true;
@@ -140,7 +145,7 @@ class Map_reader {
         }
         text_.finish_line();
       } else if (word == "{") {
-        brushes.push_back(read_brush(word));
+        brushes.push_back(read_brush(word, brushes.size()));
       } else {
         text_.fail(word, "unexpected " + quoted(word) + "; write \"KEY\" \"VALUE\", { or } here");
       }
@@ -174,10 +179,11 @@ class Map_reader {
 
   struct Brush {
     std::string_view at;  // its brace, for messages
+    std::size_t number;   // in its entity
     std::vector<Side> sides;
   };
-  Brush read_brush(std::string_view brace) {
-    Brush brush{brace, {}};
+  Brush read_brush(std::string_view brace, std::size_t number) {
+    Brush brush{brace, number, {}};
     for (;;) {
       const std::string_view word = next_word("( or }");
       if (word == "}") return brush;
@@ -236,13 +242,17 @@ class Map_reader {
         return std::any_of(p.begin(), p.end(), [&](const Rational& x) { return 2 * abs(x) >= reach; });
       };
       if (std::any_of(face.begin(), face.end(), is_far))
-        text_.fail(brush.at, "this brush has no end; add the sides that bound it");
+        text_.fail(brush.at, named(brush) + " has no end; add the sides that bound it");
       if (!face.empty()) faces.push_back(std::move(face));
     }
     if (faces.size() < 4)
       text_.fail(brush.at,
-                 "this brush has no volume; give its sides' points clockwise as seen from outside, or remove it");
+                 named(brush) + " has no volume; give its sides' points clockwise as seen from outside, or remove it");
+    brushes_.push_back({entity_, brush.number, static_cast<Face_id>(soup_.face_count()), faces.size()});
     for (const std::vector<Exact_point>& face : faces) add_face(face);
+  }
+  std::string named(const Brush& brush) const {
+    return "brush " + std::to_string(brush.number) + " of entity " + std::to_string(entity_);
   }
   static std::vector<Exact_point> face_of(const std::vector<Side>& sides, std::size_t i, const Integer& reach) {
     std::vector<Exact_point> face = square_in(sides[i], reach);
@@ -270,6 +280,8 @@ class Map_reader {
   const Read_options& options_;
   bool are_places_wanted_ = false;  // and no faces
   std::vector<Map_place> places_;
+  std::size_t entity_ = 0;  // which one is read
+  std::vector<Map_brush> brushes_;
   Polygon_soup soup_;
   std::map<Exact_point, Point_id> ids_;
 };
@@ -277,6 +289,10 @@ class Map_reader {
 }  // namespace
 
 Polygon_soup read_map(const Input& input, const Read_options& options) { return Map_reader(input, options).read(); }
+
+std::vector<Map_brush> read_map_brushes(const Input& input, const Read_options& options) {
+  return Map_reader(input, options).read_brushes();
+}
 
 std::vector<Map_place> read_map_places(const Input& input, const Read_options& options) {
   return Map_reader(input, options).read_places();

@@ -21,8 +21,18 @@ inline constexpr std::size_t most_brush_sides = 512;
 /// can be walked through), brushes all sides of which have a texture that is not drawn (clip, hint, skip, trigger,
 /// origin), textures and where they lie, sides of which nothing is left. Brushes may overlap and touch: it is a soup,
 /// not their union. Errors: Input_error, also for a side whose points are on a line, and for a brush that has no volume
-/// or no end. Cost: for a brush of n sides O(n^2) cuts of a polygon. Exact: yes.
+/// or no end, by its numbers (Map_brush). Cost: for a brush of n sides O(n^2) cuts of a polygon. Exact: yes.
 Polygon_soup read_map(const Input& input, const Read_options& options = {});
+
+/// A brush of which read_map has faces. Entities of a file, and brushes of an entity, count from 0, as in other tools.
+struct Map_brush {
+  std::size_t entity, brush;
+  Face_id first_face;  ///< of read_map; others follow
+  std::size_t faces;
+};
+
+/// The brushes of the faces that `read_map` gives, in their order. Errors: Input_error, as there.
+std::vector<Map_brush> read_map_brushes(const Input& input, const Read_options& options = {});
 
 /// Where something stands in a level: a player, a lamp, a monster.
 struct Map_place {

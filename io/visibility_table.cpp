@@ -15,14 +15,6 @@ namespace {
 constexpr std::string_view first_line = "sightline pvs 1\n", first_line_with_cells = "sightline pvs 2\n";
 static_assert(first_line.size() == first_line_with_cells.size());
 
-/// The bits of numbers; of those above `above`.
-std::vector<bool> bits_of(const std::vector<std::uint32_t>& numbers, std::size_t size, std::int64_t above = -1) {
-  std::vector<bool> row(size);
-  for (const std::uint32_t number : numbers)
-    if (number > above) row[number] = true;
-  return row;
-}
-
 class Table_reader {
  public:
   explicit Table_reader(const Input& input) : input_(input), bytes_(input.bytes) {}
@@ -42,21 +34,19 @@ class Table_reader {
     const std::size_t cells = number("the number of cells"), faces = number("the number of faces");
     // A byte of a row stands for 255 bytes of bits at most; so memory stays in proportion to the file.
     if (cells / 1024 > bytes_.size() || faces / 1024 > bytes_.size()) fail("as many cells and faces as are announced");
-    table.cells = row(cells, "which cells were asked about");
-    table.faces = row(faces, "which faces were asked about");
-    if (has_cells) table.lower_cells = row(cells, "which lower cells were asked about");
-    std::vector<std::uint32_t> asked;
-    for (std::size_t c = 0; c < cells; ++c)
-      if (table.cells[c]) asked.push_back(static_cast<std::uint32_t>(c));
+    const std::vector<std::uint32_t> asked = row(cells, "which cells were asked about");
+    table.cells = bits_of_row(asked, cells);
+    table.faces = bits_of_row(row(faces, "which faces were asked about"), faces);
+    if (has_cells) table.lower_cells = bits_of_row(row(cells, "which lower cells were asked about"), cells);
     if (faces > 0 && asked.size() > (bytes_.size() - at_) / 2) fail("a row for each cell that was asked about");
     table.rows.resize(asked.size());
     for (std::size_t r = 0; r < asked.size(); ++r) {
       Visibility_table::Row& own = table.rows[r];
-      own.visible = numbers_of(row(faces, "a row of visible faces"), table.faces);
-      own.undecided = numbers_of(row(faces, "a row of undecided faces"), table.faces);
+      own.visible = row_among(table.faces, "a row of visible faces");
+      own.undecided = row_among(table.faces, "a row of undecided faces");
       if (!has_cells || !table.lower_cells[asked[r]]) continue;
       for (const auto list : {&Visibility_table::Row::cells, &Visibility_table::Row::cells_undecided})
-        for (const std::uint32_t other : numbers_of(row(cells, "a row of cells"), table.cells)) {
+        for (const std::uint32_t other : row_among(table.cells, "a row of cells")) {
           if (other <= asked[r]) fail("a row of cells above the own one");
           const auto place = std::lower_bound(asked.begin(), asked.end(), other) - asked.begin();
           (own.*list).push_back(other);
@@ -79,19 +69,16 @@ class Table_reader {
     at_ += 4;
     return load<std::uint32_t>(bytes_, at_ - 4, std::endian::little);
   }
-  std::vector<bool> row(std::size_t size, const char* what) {
+  std::vector<std::uint32_t> row(std::size_t size, const char* what) {
     std::optional<Unpacked_row> found = unpacked_row(bytes_, at_, size);
     if (!found) fail(what);
     at_ = found->end;
-    return std::move(found->row);
+    return std::move(found->ones);
   }
-  std::vector<std::uint32_t> numbers_of(const std::vector<bool>& row, const std::vector<bool>& asked) const {
-    std::vector<std::uint32_t> numbers;
-    for (std::size_t k = 0; k < row.size(); ++k) {
-      if (!row[k]) continue;
-      if (!asked[k]) fail("a row of what was asked about");
-      numbers.push_back(static_cast<std::uint32_t>(k));
-    }
+  std::vector<std::uint32_t> row_among(const std::vector<bool>& asked, const char* what) {
+    std::vector<std::uint32_t> numbers = row(asked.size(), what);
+    for (const std::uint32_t number : numbers)
+      if (!asked[number]) fail("a row of what was asked about");
     return numbers;
   }
 
@@ -119,10 +106,10 @@ std::string table_bytes(const Visibility_table& table) {
   for (std::size_t c = 0; c < table.cells.size(); ++c) {
     if (!table.cells[c]) continue;
     const Visibility_table::Row& row = table.rows[r++];
-    for (const auto* faces : {&row.visible, &row.undecided}) bytes += packed_row(bits_of(*faces, table.faces.size()));
+    for (const auto* faces : {&row.visible, &row.undecided}) bytes += packed_row(*faces, table.faces.size());
     if (!table.has_cells() || !table.lower_cells[c]) continue;
     for (const auto* cells : {&row.cells, &row.cells_undecided})
-      bytes += packed_row(bits_of(*cells, table.cells.size(), static_cast<std::int64_t>(c)));
+      bytes += packed_row({std::upper_bound(cells->begin(), cells->end(), c), cells->end()}, table.cells.size());
   }
   return bytes;
 }

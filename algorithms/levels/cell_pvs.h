@@ -30,7 +30,7 @@ struct Cell_pvs_counters {
 
   template <class Visit>
   static void each(Visit visit) {
-    visit("cells", &Cell_pvs_counters::cells);
+    visit("cells", &Cell_pvs_counters::cells, Largest{});
     visit("pairs", &Cell_pvs_counters::pairs);
     visit("visible", &Cell_pvs_counters::visible);
     visit("adjacent", &Cell_pvs_counters::adjacent);

@@ -5,6 +5,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 #include <sightline/algorithms/weak_visibility/weak_source.h>
+#include <sightline/kernel/counters.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
@@ -37,8 +38,8 @@ struct Pvs_counters {
 
   template <class Visit>
   static void each(Visit visit) {
-    visit("cells", &Pvs_counters::cells);
-    visit("faces", &Pvs_counters::faces);
+    visit("cells", &Pvs_counters::cells, Largest{});
+    visit("faces", &Pvs_counters::faces, Largest{});
     visit("pairs", &Pvs_counters::pairs);
     visit("visible", &Pvs_counters::visible);
     visit("within", &Pvs_counters::within);

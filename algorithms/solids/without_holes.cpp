@@ -4,9 +4,54 @@
 #include <sightline/kernel/vectors.h>
 
 #include <cstddef>
+#include <deque>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 namespace sightline {
+
+/// Triangles of one face put together to simple polygons: outwards from a triangle, with each next one whose far corner
+/// is none of the polygon's yet. No corner is inside the face, so what has two sides in common with the polygon closes
+/// round a hole, and its far corner is there already.
+static std::vector<std::vector<Point_id>> put_together(const std::vector<std::vector<Point_id>>& triangles) {
+  using Side = std::pair<Point_id, Point_id>;
+  std::map<Side, std::size_t> triangle_at;  // by side, as it runs there
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) triangle_at[{triangles[t][i], triangles[t][(i + 1) % 3]}] = t;
+  std::vector<bool> done(triangles.size());
+  std::vector<std::vector<Point_id>> polygons;
+  for (std::size_t first = 0; first < triangles.size(); ++first) {
+    if (done[first]) continue;
+    done[first] = true;
+    std::map<Point_id, Point_id> next;
+    std::deque<Side> sides;
+    for (std::size_t i = 0; i < 3; ++i) {
+      sides.emplace_back(triangles[first][i], triangles[first][(i + 1) % 3]);
+      next.insert(sides.back());
+    }
+    for (; !sides.empty(); sides.pop_front()) {
+      const auto [from, to] = sides.front();
+      const auto beyond = triangle_at.find({to, from});
+      if (beyond == triangle_at.end() || done[beyond->second]) continue;
+      const std::vector<Point_id>& corners = triangles[beyond->second];
+      std::size_t k = 0;
+      while (corners[k] == from || corners[k] == to) ++k;
+      if (!next.try_emplace(corners[k], to).second) continue;
+      done[beyond->second] = true;
+      next[from] = corners[k];
+      sides.emplace_back(from, corners[k]);
+      sides.emplace_back(corners[k], to);
+    }
+    std::vector<Point_id>& polygon = polygons.emplace_back();
+    Point_id at = triangles[first][0];
+    do {
+      polygon.push_back(at);
+      at = next[at];
+    } while (at != triangles[first][0]);
+  }
+  return polygons;
+}
 
 std::vector<std::vector<Point_id>> triangles_of(const Polygon_soup& soup, Face_id f) {
   // 1. The axis to project along: one that the face's normal has a part of; from its front.
@@ -56,8 +101,8 @@ Hole_free without_holes(const Polygon_soup& soup) {
       result.face_of.push_back(f);
       continue;
     }
-    for (const std::vector<Point_id>& triangle : triangles_of(soup, f)) {
-      result.soup.add_face(triangle);
+    for (const std::vector<Point_id>& polygon : put_together(triangles_of(soup, f))) {
+      result.soup.add_face(polygon);
       result.face_of.push_back(f);
     }
   }

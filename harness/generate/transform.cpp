@@ -67,6 +67,20 @@ Polygon_soup with_faces(const Polygon_soup& soup, const std::vector<Face_id>& or
   return result;
 }
 
+void append(Polygon_soup& to, const Polygon_soup& more) {
+  const auto first = static_cast<Point_id>(to.point_count());
+  for (Point_id p = 0; p < more.point_count(); ++p) to.add_point(more.point(p)[0], more.point(p)[1], more.point(p)[2]);
+  std::vector<Point_id> loop;
+  for (Face_id f = 0; f < more.face_count(); ++f)
+    for (std::size_t k = 0; k < more.loop_count(f); ++k) {
+      const auto given = more.loop(f, k);
+      loop.assign(given.begin(), given.end());
+      for (Point_id& p : loop) p += first;
+      if (k == 0) to.add_face(loop);
+      else to.add_hole(loop);
+    }
+}
+
 std::vector<Face_id> random_order(std::size_t n, std::uint64_t seed) {
   std::vector<Face_id> order(n);
   for (std::size_t k = 0; k < n; ++k) order[k] = static_cast<Face_id>(k);

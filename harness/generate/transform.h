@@ -50,6 +50,9 @@ Polygon_soup rotated(const Polygon_soup& soup, const Rational_matrix& matrix);
 /// backwards. Pre: order holds face ids, or std::out_of_range. (Faces may be left out or repeated.)
 Polygon_soup with_faces(const Polygon_soup& soup, const std::vector<Face_id>& order, bool reverse = false);
 
+/// Puts another soup's points and faces behind one's own. Exact: yes
+void append(Polygon_soup& to, const Polygon_soup& more);
+
 /// The ids 0 .. n - 1 in random order.
 std::vector<Face_id> random_order(std::size_t n, std::uint64_t seed);
 

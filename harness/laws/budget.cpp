@@ -10,6 +10,7 @@
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/labels.h>
 #include <sightline/harness/laws/see_lines.h>
 #include <sightline/kernel/scene/scene.h>
@@ -49,19 +50,9 @@ Polygon_soup crowd(const Polygon_soup& soup, std::size_t faces, const Rational& 
   const auto side = static_cast<std::size_t>(std::ceil(std::cbrt(static_cast<double>(copies))));
   for (std::size_t c = 0; c < copies; ++c) {
     const std::array<std::size_t, 3> place{c % side, c / side % side, c / side / side};
-    const auto first = static_cast<Point_id>(all.point_count());
-    for (Point_id p = 0; p < soup.point_count(); ++p) {
-      Exact_point at = soup.point(p);
-      for (std::size_t k = 0; k < 3; ++k) at[k] += step * static_cast<long>(place[k]);
-      all.add_point(at[0], at[1], at[2]);
-    }
-    for (Face_id f = 0; f < soup.face_count(); ++f)
-      for (std::size_t l = 0; l < soup.loop_count(f); ++l) {
-        std::vector<Point_id> loop(soup.loop(f, l).begin(), soup.loop(f, l).end());
-        for (Point_id& p : loop) p += first;
-        if (l == 0) all.add_face(loop);
-        else all.add_hole(loop);
-      }
+    Exact_point offset;
+    for (std::size_t k = 0; k < 3; ++k) offset[k] = step * static_cast<long>(place[k]);
+    generate::append(all, generate::translated(soup, offset));
   }
   return all;
 }

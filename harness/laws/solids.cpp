@@ -285,6 +285,11 @@ std::string flaw_by_volumes(const std::vector<Polygon_soup>& solids) {
   if (of({a, b}, Set_operation::differ) + both != any) return "symmetric difference and intersection are not the union";
   if (of({a, a}, Set_operation::unite) != only_a || of({a, a}, Set_operation::subtract) != 0)
     return "a solid and itself are not itself";
+  // The surfaces of all in one operand, as a level's brushes are: what is in any of them.
+  Polygon_soup surfaces;
+  for (const Polygon_soup& solid : solids) generate::append(surfaces, result_of({solid}, Set_operation::unite).soup);
+  if (of({surfaces}, Set_operation::unite) != of(solids, Set_operation::unite))
+    return "the union of one operand that has the surfaces of all is not theirs";
   if (solids.size() < 3) return {};
   const Polygon_soup& c = solids[2];
   const Rational all = of(solids, Set_operation::intersect);

@@ -39,6 +39,7 @@ class Sightline(ConanFile):
         toolchain.variables["SIGHTLINE_APPS"] = bool(self.options.program)
         toolchain.variables["SIGHTLINE_TESTS"] = False
         toolchain.variables["SIGHTLINE_BENCH"] = False
+        toolchain.variables["SIGHTLINE_MPI"] = "OFF"
         toolchain.generate()
 
     def build(self):

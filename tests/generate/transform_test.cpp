@@ -52,6 +52,24 @@ Polygon_soup sample() {
 
 }  // namespace
 
+TEST(Transform, what_is_appended_comes_behind_and_keeps_its_holes) {
+  Polygon_soup square, holed;
+  for (const auto& [x, y] : {std::pair(0, 0), {4, 0}, {4, 4}, {0, 4}}) square.add_point(x, y, 0);
+  for (const auto& [x, y] : {std::pair(1, 1), {1, 2}, {2, 2}}) square.add_point(x, y, 0);
+  holed = square;
+  square.add_face(std::vector<Point_id>{0, 1, 2, 3});
+  holed.add_face(std::vector<Point_id>{0, 1, 2, 3});
+  holed.add_hole(std::vector<Point_id>{4, 5, 6});
+  Polygon_soup both = square;
+  generate::append(both, holed);
+  ASSERT_EQ(both.face_count(), 2u);
+  ASSERT_EQ(both.loop_count(1), 2u);
+  EXPECT_EQ(both.point_count(), 14u);
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < holed.loop(0, k).size(); ++i) EXPECT_EQ(both.loop(1, k)[i], holed.loop(0, k)[i] + 7);
+  EXPECT_EQ(both.point(11), holed.point(4));
+}
+
 TEST(Transform, translation_moves_every_point_and_can_be_undone) {
   const Polygon_soup soup = sample();
   const Exact_point offset{fraction(1, 3), fraction(-100000000, 1), exact(1e-50)};

@@ -103,6 +103,18 @@ TEST(Quake_map, brushes_that_touch_share_their_points) {
   EXPECT_EQ(soup.face_count(), 12u);
 }
 
+TEST(Quake_map, brushes_are_known_by_their_numbers_and_faces) {
+  const std::string cube = box("1", "1", "1");
+  const std::string text =
+      entity("worldspawn", {cube, box("2", "2", "2", "clip"), cube + side("1 0 0", "0 1 0", "1 0 1")}) +
+      entity("func_door", {cube}) + entity("func_detail", {cube});
+  std::vector<std::array<std::size_t, 4>> found;
+  for (const Map_brush& brush : read_map_brushes({"scene", text}))
+    found.push_back({brush.entity, brush.brush, brush.first_face, brush.faces});
+  EXPECT_EQ(found, (std::vector<std::array<std::size_t, 4>>{{0, 0, 0, 6}, {0, 2, 6, 5}, {2, 0, 11, 6}}));
+  EXPECT_EQ(read_scene(text, map, "scene").face_count(), 17u);
+}
+
 TEST(Quake_map, places_are_the_origins_of_what_has_no_brushes) {
   const std::string text = "{\n\"classname\" \"worldspawn\"\n{\n" + box("1", "1", "1") +
                            "}\n}\n{\n\"origin\" \"1 -2.5 3e1\" // here\n\"classname\" \"info_player_start\"\n}\n"
@@ -122,7 +134,9 @@ TEST(Quake_map, places_are_the_origins_of_what_has_no_brushes) {
 TEST(Quake_map, errors_name_the_line) {
   const std::string cube = box("1", "1", "1");
   const std::string open = cube.substr(0, cube.rfind('\n', cube.size() - 2) + 1);
-  expect_error_at(3, 1, "has no end", entity("worldspawn", {open}), map);
+  expect_error_at(3, 1, "brush 0 of entity 0 has no end", entity("worldspawn", {open}), map);
+  expect_error_at(14, 1, "brush 1 of entity 1 has no end", entity("light", {}) + entity("func_group", {cube, open}),
+                  map);
   expect_error_at(3, 1, "has no volume", entity("worldspawn", {cube + side("0 0 0", "0 1 0", "0 0 1")}), map);
   expect_error_at(3, 1, "has no volume", entity("worldspawn", {cube + side("-1 0 0", "-1 1 0", "-1 0 1")}), map);
   expect_error_at(4, 1, "lie on a line", entity("worldspawn", {side("0 0 0", "1 2 3", "2 4 6")}), map);

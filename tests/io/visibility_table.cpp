@@ -28,7 +28,8 @@ TEST(Bit_rows, come_back) {
     const std::string packed = packed_row(row);
     const auto found = unpacked_row("xy" + packed + "z", 2, row.size());
     ASSERT_TRUE(found);
-    EXPECT_EQ(found->row, row);
+    EXPECT_EQ(bits_of_row(found->ones, row.size()), row);
+    EXPECT_EQ(packed_row(found->ones, row.size()), packed);
     EXPECT_EQ(found->end, 2 + packed.size());
     for (std::size_t cut = 0; cut < packed.size(); ++cut)
       EXPECT_FALSE(unpacked_row(std::string_view(packed).substr(0, cut), 0, row.size()));

@@ -2,6 +2,10 @@
 
 #include "program.h"
 
+#include <array>
+#include <map>
+#include <set>
+
 namespace program {
 
 class Boolean : public Program {
@@ -46,10 +50,75 @@ TEST_F(Boolean, refuses_what_bounds_no_solid_and_names_its_edges) {
   EXPECT_TRUE(r.one_line_of_error()) << r;
   EXPECT_NE(r.err.find("open.off"), std::string::npos) << r;
   EXPECT_NE(r.err.find("4 edges without an opposite"), std::string::npos) << r;
-  EXPECT_EQ(run({"boolean", "union", a}).code, usage);
+  EXPECT_EQ(run({"boolean", "difference", a}).code, usage);
   EXPECT_EQ(run({"boolean", "unite", a, a}).code, usage);
   EXPECT_EQ(run({"boolean", "union", a, a, "--inside", "out"}).code, usage);
   EXPECT_EQ(run({"boolean", "union", a, path("none.off").string()}).code, bad_input);
+}
+
+/// A level whose brushes overlap, stand in each other and upon each other.
+TEST_F(Boolean, the_union_of_a_levels_brushes_sees_what_its_faces_see) {
+  const std::string rooms = read_file(corpus / "general" / "two_rooms.map");
+  const auto brush = [](std::array<int, 3> low, std::array<int, 3> high) {
+    const auto at = [](std::array<int, 3> p, int k, int by) {
+      p[static_cast<std::size_t>(k)] += by;
+      return "( " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + " ) ";
+    };
+    std::string text = "{\n";
+    for (const auto& [k, i, j] : {std::array{0, 2, 1}, {1, 0, 2}, {2, 1, 0}}) {
+      text += at(low, i, 1) + at(low, 0, 0) + at(low, j, 1) + "wall 0 0 0 1 1\n";
+      text += at(high, j, 1) + at(high, 0, 0) + at(high, i, 1) + "wall 0 0 0 1 1\n";
+    }
+    return text + "}\n";
+  };
+  const std::string added = "{\n\"classname\" \"func_group\"\n" + brush({20, 20, -8}, {40, 40, 30}) +
+                            brush({30, 10, 0}, {50, 30, 20}) + brush({25, 25, 5}, {30, 30, 15}) +
+                            brush({20, 20, 30}, {30, 30, 40}) + "}\n";
+  const std::string level = file("level.map", rooms + added), united = path("level.qoff").string(),
+                    why = path("why.json").string();
+  const Outcome r = run({"boolean", "union", level, "--out", united, "--certificate", why, "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  EXPECT_EQ(run({"verify", level, why, "--result", united}).code, done);
+
+  // 1. Provenance: faces of brushes, none of those that stand in another one.
+  const std::vector<std::array<std::size_t, 2>> provenance = result["provenance"], brushes = result["brushes"];
+  ASSERT_EQ(brushes.size(), provenance.size());
+  const std::size_t faces = r.json()["scene"]["operands"][0]["faces_read"];
+  std::set<std::size_t> of_group;
+  for (std::size_t f = 0; f < provenance.size(); ++f)
+    if (provenance[f][1] >= faces - 24) {  // the last four brushes
+      EXPECT_EQ(brushes[f][1], (provenance[f][1] - (faces - 24)) / 6);
+      of_group.insert(brushes[f][1]);
+      EXPECT_EQ(brushes[f][0], 4u);
+    } else {
+      EXPECT_LT(brushes[f][0], 4u);
+    }
+  EXPECT_EQ(of_group, (std::set<std::size_t>{0, 1, 3}));
+
+  // 2. What boxes of the level see: the same faces.
+  const auto seen = [&](const std::string& scene, const auto& name_of) {
+    const Outcome pvs = run({"pvs", scene, "--grid", "3,2,2", "--json", "-"});
+    EXPECT_EQ(pvs.code, done) << pvs;
+    std::map<std::string, std::set<std::size_t>> faces_of;
+    const Json boxes = pvs.json()["result"]["boxes"];
+    for (const Json& box : boxes)
+      for (const std::size_t face : box["visible"].get<std::vector<std::size_t>>())
+        faces_of[box["box"].dump()].insert(name_of(face));
+    return faces_of;
+  };
+  const auto of_soup = seen(level, [](std::size_t face) { return face; });
+  EXPECT_EQ(seen(united, [&](std::size_t face) { return provenance[face][1]; }), of_soup);
+  EXPECT_EQ(of_soup.size(), 12u);
+}
+
+TEST_F(Boolean, a_brush_that_bounds_nothing_is_named) {
+  std::string rooms = read_file(corpus / "general" / "two_rooms.map");
+  const std::size_t second = rooms.find("}\n{") + 4, line = rooms.find('\n', second) + 1;
+  const Outcome r = run({"boolean", "union", file("open.map", rooms.erase(second, line - second))});
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+  EXPECT_NE(r.err.find("open.map:13:1: brush 1 of entity 0 has no end"), std::string::npos) << r;
 }
 
 }  // namespace program

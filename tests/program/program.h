@@ -121,7 +121,9 @@ class Program : public testing::Test {
         (limits.file_blocks == 0 ? "" : "ulimit -f " + std::to_string(limits.file_blocks) + " && ") +
             (sanitized ? "" : "ulimit -v " + std::to_string(limits.mebibytes * 1024) + " && ulimit -c 0 && ") +
             "exec \"$@\"",
-        "sh", executable};
+        "sh"};
+    words.insert(words.end(), launcher_.begin(), launcher_.end());
+    words.push_back(executable);
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -169,7 +171,8 @@ class Program : public testing::Test {
   }
 
   std::string input_ = "/dev/null",
-              errors_;  ///< standard input of runs, and standard error where it is no file of ours
+              errors_;                 ///< standard input of runs, and standard error where it is no file of ours
+  std::vector<std::string> launcher_;  ///< what starts the program, with its own arguments; empty: nothing does
 
  private:
   fs::path folder_;

@@ -197,8 +197,8 @@ TEST(Set_operations, merge_the_pieces_of_a_face_and_say_whose_it_is) {
   EXPECT_TRUE(result.crowded.empty());
   const Hole_free flat = without_holes(result.soup);
   EXPECT_EQ(volume(flat.soup), 24);
-  EXPECT_EQ(flat.soup.face_count(), 24u);  // two rings of eight triangles
-  EXPECT_EQ(flat.face_of.size(), 24u);
+  EXPECT_EQ(flat.soup.face_count(), 12u);  // two rings of two polygons
+  EXPECT_EQ(flat.face_of.size(), 12u);
   const std::array<double, 2> surface = area(flat.soup);
   EXPECT_LE(surface[0], 64);
   EXPECT_GE(surface[1], 64);
