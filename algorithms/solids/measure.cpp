@@ -2,6 +2,7 @@
 
 #include <sightline/kernel/vectors.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -35,7 +36,8 @@ class Long_sum {
   std::size_t count_ = 0;
 };
 
-/// Twice the area vector of a face, in rationals.
+}  // namespace
+
 Exact_point doubled_area_vector(const Polygon_soup& soup, Face_id f) {
   Exact_point sum;
   for (std::size_t k = 0; k < soup.loop_count(f); ++k) {
@@ -52,8 +54,6 @@ Exact_point doubled_area_vector(const Polygon_soup& soup, Face_id f) {
   }
   return sum;
 }
-
-}  // namespace
 
 Rational volume(const Polygon_soup& soup) {
   // Whole points, in units of the common denominator of those that have a short one, are summed as integers.
@@ -102,9 +102,14 @@ std::array<double, 2> area(const Polygon_soup& soup) {
       if (sgn(n[0]) != 0 || sgn(n[1]) != 0 || sgn(n[2]) != 0) high = std::nextafter(high, up);
       continue;
     }
+    if (std::isinf(largest)) {
+      low = std::max(low, std::numeric_limits<double>::max() / 2);
+      high = up;
+      continue;
+    }
     double squares = 0;
     for (const double x : near) squares += (x / largest) * (x / largest);
-    const double length = std::sqrt(squares) * largest / 2;
+    const double length = std::sqrt(squares) / 2 * largest;
     low = std::nextafter(low + length * (1 - 0x1p-48), -up);
     high = std::nextafter(high + length * (1 + 0x1p-48) + 0x1p-1070, up);
   }

@@ -13,7 +13,11 @@ namespace sightline {
 /// of different points together. Exact: yes
 Rational volume(const Polygon_soup& soup);
 
-/// The sum of all faces' areas, as an interval of doubles that holds it. Pre: faces are planar.
+/// Twice the area vector of a face, in front of which its loops run counterclockwise; holes are taken off. Exact: yes
+Exact_point doubled_area_vector(const Polygon_soup& soup, Face_id face);
+
+/// The sum of all faces' areas, as an interval of doubles that holds it, with infinity where doubles end. Pre: faces
+/// are planar.
 std::array<double, 2> area(const Polygon_soup& soup);
 
 }  // namespace sightline

@@ -37,6 +37,18 @@ double middle_area(const Polygon_soup& soup, const Rational& unit) {
   return (low + high) / 2;
 }
 
+/// About as long as the sides of a square as large as the largest face: in its squares doubles hold the area, however
+/// large or thin the surface is. Pre: a face has area.
+Rational unit_of_area(const Polygon_soup& soup) {
+  Rational largest = 0;  // square of twice an area
+  for (Face_id f = 0; f < soup.face_count(); ++f) {
+    const Exact_point twice = doubled_area_vector(soup, f);
+    largest = std::max(largest, dot(twice, twice));
+  }
+  return generate::power_of_two(
+      (static_cast<int>(bit_length(largest.get_num())) - static_cast<int>(bit_length(largest.get_den()))) / 4);
+}
+
 // ---- Points that are judged
 
 /// The longest side of the scene's box.
@@ -233,13 +245,12 @@ Solid_truth solid_truth(const Polygon_soup& soup, const Query& query, int thread
   add_points_of_fragments(soup, tracer, result, query.operation, truth.points);
   add_points_anywhere(soup, tracer, query, solids, truth.points);
   // 3. How large it is.
-  const Rational size = size_of(soup);
-  truth.unit = generate::power_of_two(static_cast<int>(bit_length(size.get_num())) -
-                                      static_cast<int>(bit_length(size.get_den())));
-  truth.volume_scale = truth.volume = volume(result.soup);
-  truth.area_scale = truth.area = middle_area(result.soup, truth.unit);
-  if (truth.volume == 0)
-    truth.volume_scale = volume(solids[0]) + volume(solids[1]), truth.area_scale = middle_area(soup, truth.unit);
+  const Polygon_soup& measured = result.soup.face_count() > 0 ? result.soup : soup;
+  truth.unit = unit_of_area(measured);
+  truth.volume = volume(result.soup);
+  truth.area = middle_area(result.soup, truth.unit);
+  truth.volume_scale = truth.volume != 0 ? truth.volume : Rational(volume(solids[0]) + volume(solids[1]));
+  truth.area_scale = truth.volume != 0 ? truth.area : middle_area(soup, truth.unit);
   return truth;
 }
 

@@ -29,7 +29,7 @@ struct Judged_point {
 struct Solid_truth {
   std::vector<Judged_point> points;
   Rational volume, volume_scale;  ///< of the exact result; what errors are a share of
-  Rational unit = 1;              ///< about the solids' size; areas are in its squares
+  Rational unit = 1;              ///< of lengths, such that doubles hold the area in its squares
   double area = 0, area_scale = 0;
 };
 

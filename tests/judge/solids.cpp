@@ -61,6 +61,22 @@ std::string refusal(const Asked_solids& of, const Polygon_soup& surface) {
   return "nothing";
 }
 
+TEST(Solids, have_areas_that_doubles_hold_however_small_a_result_is_beside_them) {
+  const Rational least = generate::power_of_two(-540);
+  const Polygon_soup crumb = box({0, 0, 0}, {least, least, least});
+  const Asked_solids of = asked(corner_box, crumb, Set_operation::intersect);
+  EXPECT_FALSE(graded_surface(of, crumb).wrong());
+  Polygon_soup two = crumb;  // as many faces again, beyond all points
+  add_box(two, {9, 9, 9}, {9 + least, 9 + least, 9 + least});
+  const Grade twice = graded_surface(of, two);
+  EXPECT_NEAR(twice.area_error, 1, 1e-9);
+  EXPECT_NEAR(twice.volume_error, 1, 1e-9);
+  Polygon_soup more = crumb;  // so large that its area is none of doubles, in the crumb's unit
+  add_box(more, {9, 9, 9}, {10, 10, 10});
+  EXPECT_TRUE(graded_surface(of, more).too_large());
+  EXPECT_GT(graded_surface(of, more).area_error, 1e100);
+}
+
 TEST(Solids, are_asked_about_and_answered_in_off) {
   const Asked_solids of = asked(corner_box, other_box, Set_operation::differ);
   const std::string text = to_json(of.query).dump();

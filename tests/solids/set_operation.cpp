@@ -24,6 +24,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <set>
 #include <sstream>
@@ -203,6 +204,9 @@ TEST(Set_operations, merge_the_pieces_of_a_face_and_say_whose_it_is) {
   EXPECT_LE(surface[0], 64);
   EXPECT_GE(surface[1], 64);
   EXPECT_LT(surface[1] - surface[0], 1e-9);
+  const Rational longest = generate::power_of_two(600);  // areas beyond doubles
+  EXPECT_EQ(area(box({0, 0, 0}, {longest, longest, longest}))[1], std::numeric_limits<double>::infinity());
+  EXPECT_LT(area(box({0, 0, 0}, {longest, longest, longest}))[0], std::numeric_limits<double>::infinity());
 }
 
 TEST(Set_operations, give_a_hole_to_the_face_around_it_though_an_island_in_it_touches_it) {
