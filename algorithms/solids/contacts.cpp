@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <optional>
 
 namespace sightline {
@@ -62,8 +63,18 @@ class Pair_finder {
     ++found_.pairs;
     if (i > j) std::swap(i, j);
     const bool coplanar = support(i).id() == support(j).id();
-    // 1. Common corners.
+    // 1. Common corners. Most pairs are triangles that have one or none.
     const std::span<const Piece_corner> a = operands_.corners(i), b = operands_.corners(j);
+    if (!coplanar && a.size() == 3 && b.size() == 3) {
+      const unsigned which = common_corners(a, b);
+      if ((which & (which - 1)) == 0) {
+        const std::size_t count = which != 0;
+        if (is_clearly_apart(i, b, count) || is_clearly_apart(j, a, count)) return;
+        const std::size_t k = static_cast<std::size_t>(std::countr_zero(which)) / 3;
+        look_at_crossing(i, j, count == 1 ? std::optional(a[k].point) : std::nullopt);
+        return;
+      }
+    }
     std::size_t common = 0;
     std::uint32_t shared = 0;
     for (std::size_t k = 0; k < a.size(); ++k)
@@ -87,6 +98,14 @@ class Pair_finder {
 
  private:
   Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
+
+  /// Bit 3 k + l where corner k of one triangle is corner l of the other.
+  static unsigned common_corners(std::span<const Piece_corner> a, std::span<const Piece_corner> b) {
+    unsigned which = 0;
+    for (unsigned k = 0; k < 3; ++k)
+      for (unsigned l = 0; l < 3; ++l) which |= static_cast<unsigned>(a[k].point == b[l].point) << (3 * k + l);
+    return which;
+  }
 
   /// Whether doubles tell that all of piece j but a corner that it shares, if it shares one, is on one side of piece i.
   bool is_clearly_apart(std::uint32_t i, std::span<const Piece_corner> of_j, std::size_t common) {

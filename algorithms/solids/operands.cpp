@@ -13,16 +13,16 @@ namespace sightline {
 
 namespace {
 
-/// A face's loops on the grid, repetitions dropped.
-std::vector<Point_loop> loops_on_grid(const Polygon_soup& soup, Face_id f, std::size_t first_point,
-                                      const std::vector<std::uint32_t>& ids) {
-  std::vector<Point_loop> loops(soup.loop_count(f));
+/// Makes `loops` a face's loops on the grid, repetitions dropped.
+void put_on_grid(const Polygon_soup& soup, Face_id f, std::size_t first_point, const std::vector<std::uint32_t>& ids,
+                 std::vector<Point_loop>& loops) {
+  loops.resize(soup.loop_count(f));
   for (std::size_t k = 0; k < loops.size(); ++k) {
+    loops[k].clear();
     for (const Point_id p : soup.loop(f, k))
       if (loops[k].empty() || loops[k].back() != ids[first_point + p]) loops[k].push_back(ids[first_point + p]);
     while (loops[k].size() > 1 && loops[k].back() == loops[k].front()) loops[k].pop_back();
   }
-  return loops;
 }
 
 /// A directed edge of a piece.
@@ -54,11 +54,13 @@ Operands::Operands(std::span<const Polygon_soup> solids) {
   // 2. Faces into pieces.
   faces_.planes = Plane_table(points());
   std::size_t first_point = 0;
+  std::vector<Point_loop> loops;
   for (std::uint32_t operand = 0; operand < solids.size(); ++operand) {
     const Polygon_soup& solid = solids[operand];
     for (Face_id f = 0; f < solid.face_count(); ++f) {
       const Face_id face = first_face_[operand] + f;
-      if (const auto reason = cut_face(points(), face, loops_on_grid(solid, f, first_point, ids), faces_))
+      put_on_grid(solid, f, first_point, ids, loops);
+      if (const auto reason = cut_face(points(), face, loops, faces_))
         faces_.set_aside.push_back({face, *reason, std::string(text_of(*reason))});
       operand_.resize(faces_.pieces.size(), operand);
     }
