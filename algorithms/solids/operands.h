@@ -50,6 +50,8 @@ class Operands {
   /// The file's coordinates of a point in homogeneous grid coordinates. Pre: h[3] != 0.
   Exact_point position(const std::array<Integer, 4>& h) const { return grid_.position(h); }
   Exact_point position(std::uint32_t point) const { return grid_.position(point); }
+  /// Appends a point, as position() has it.
+  Point_id add_point(std::uint32_t point, Polygon_soup& soup) const { return grid_.add_point(point, soup); }
 
  private:
   Scene_grid grid_;
