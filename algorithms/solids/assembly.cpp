@@ -147,7 +147,7 @@ class Assembler {
     // 1. Which are faces by themselves; edges of all others.
     std::vector<std::uint32_t> alone;  // places in kept
     for (std::uint32_t i = 0; i < kept.size(); ++i) {
-      if (kept[i].corners.empty() && is_whole_face(kept[i].piece)) alone.push_back(i);
+      if (kept[i].corners.empty() && is_whole_face(operands_, kept[i].piece)) alone.push_back(i);
       else add_edges(kept[i]);
       if (progress) progress(i, 2 * kept.size());
     }
@@ -179,12 +179,6 @@ class Assembler {
   }
 
  private:
-  bool is_whole_face(std::uint32_t piece) const {
-    const std::vector<Piece>& all = operands_.pieces();
-    return (piece == 0 || all[piece - 1].face != all[piece].face) &&
-           (piece + 1 == all.size() || all[piece + 1].face != all[piece].face);
-  }
-
   std::uint32_t group_of(const Kept_fragment& fragment) {
     const Piece& piece = operands_.pieces()[fragment.piece];
     const std::uint64_t key =

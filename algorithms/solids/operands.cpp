@@ -3,7 +3,6 @@
 #include <sightline/algorithms/solids/buckets.h>
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/predicates.h>
-#include <sightline/kernel/scene/face_cutter.h>
 
 #include <algorithm>
 #include <optional>
@@ -65,6 +64,9 @@ Operands::Operands(std::span<const Polygon_soup> solids) {
 
   // 2. Faces into pieces.
   faces_.planes = Plane_table(points());
+  faces_.planes.reserve(faces_read);
+  faces_.pieces.reserve(faces_read);
+  faces_.corners.reserve(3 * faces_read);
   std::size_t first_point = 0;
   std::vector<Point_loop> loops;
   for (std::uint32_t operand = 0; operand < solids.size(); ++operand) {
@@ -72,7 +74,7 @@ Operands::Operands(std::span<const Polygon_soup> solids) {
     for (Face_id f = 0; f < solid.face_count(); ++f) {
       const Face_id face = first_face_[operand] + f;
       put_on_grid(solid, f, first_point, ids, loops);
-      if (const auto reason = cut_face(points(), face, loops, faces_))
+      if (const auto reason = cut_face(points(), face, loops, faces_, Edge_planes::left_out))
         faces_.set_aside.push_back({face, *reason, std::string(text_of(*reason))});
       operand_.resize(faces_.pieces.size(), operand);
     }
@@ -104,6 +106,12 @@ Vertex Operands::vertex(const Predicates& predicates, std::size_t piece, std::si
   const std::span<const Piece_corner> loop = corners(piece);
   const Piece_corner& before = loop[k == 0 ? loop.size() - 1 : k - 1];
   return predicates.input_vertex(loop[k].point, pieces()[piece].support.id(), before.edge.id(), loop[k].edge.id());
+}
+
+bool is_whole_face(const Operands& operands, std::size_t piece) {
+  const std::vector<Piece>& all = operands.pieces();
+  return (piece == 0 || all[piece - 1].face != all[piece].face) &&
+         (piece + 1 == all.size() || all[piece + 1].face != all[piece].face);
 }
 
 std::vector<Operand_flaw> flaws(const Operands& operands) {
