@@ -65,7 +65,9 @@ Plane Plane_table::intern(std::int64_t a, std::int64_t b, std::int64_t c, __int1
     return x < 0 ? -static_cast<unsigned __int128>(x) : static_cast<unsigned __int128>(x);
   };
   std::uint64_t common = std::gcd(static_cast<std::uint64_t>(magnitude(a)), static_cast<std::uint64_t>(magnitude(b)));
-  if (common != 1) common = std::gcd(common, static_cast<std::uint64_t>(magnitude(c)));
+  // What is left of a common divisor is small, mostly.
+  if (common > 1) common = std::gcd(common, static_cast<std::uint64_t>(magnitude(c)) % common);
+  if (common == 0) common = static_cast<std::uint64_t>(magnitude(c));
   if (common == 0) throw std::domain_error("a plane needs a normal");
   const bool is_narrow = static_cast<std::int64_t>(d) == d;  // divisions of 128 bits take long
   if (common > 1)

@@ -61,22 +61,38 @@ class Box_tree {
 
 template <class Visit>
 void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
+  // 1. Pairs in the leaf.
   const Node& own = nodes_[leaves_[leaf]];
+  for (std::uint32_t i = own.first; i < own.last; ++i)
+    for (std::uint32_t j = i + 1; j < own.last; ++j)
+      if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+  // 2. What is on the right of the way down to it has the later leaves; the least of them comes last on the stack.
   std::uint32_t stack[64];
   std::size_t size = 0;
-  stack[size++] = 0;
+  for (std::uint32_t at = 0; nodes_[at].right != 0;) {
+    const std::uint32_t right = nodes_[at].right;
+    if (nodes_[right].first <= own.first) {
+      at = right;
+    } else {
+      stack[size++] = right;
+      ++at;
+    }
+  }
+  // 3. Pairs with these.
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
-    if (node.last <= own.first || !node.box.meets(own.box)) continue;
+    if (!node.box.meets(own.box)) continue;
     if (node.right != 0) {
       stack[size++] = node.right;
       stack[size++] = at + 1;
       continue;
     }
-    for (std::uint32_t i = own.first; i < own.last; ++i)
-      for (std::uint32_t j = std::max(node.first, i + 1); j < node.last; ++j)
+    for (std::uint32_t i = own.first; i < own.last; ++i) {
+      if (!boxes_[i].meets(node.box)) continue;
+      for (std::uint32_t j = node.first; j < node.last; ++j)
         if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    }
   }
 }
 
@@ -84,8 +100,8 @@ template <class Visit>
 void Box_tree::for_each_above(const std::array<double, 3>& from, std::size_t axis, Visit visit) const {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto is_below = [&](const Box& box) {
-    return box.low[u] <= from[u] && from[u] <= box.high[u] && box.low[v] <= from[v] && from[v] <= box.high[v] &&
-           from[axis] <= box.high[axis];
+    return (box.low[u] <= from[u]) & (from[u] <= box.high[u]) & (box.low[v] <= from[v]) & (from[v] <= box.high[v]) &
+           (from[axis] <= box.high[axis]);
   };
   std::uint32_t stack[64];
   std::size_t size = 0;

@@ -88,18 +88,10 @@ class Pair_filter {
     if (i > j) std::swap(i, j);
     const bool coplanar = support(i).id() == support(j).id();
     const std::span<const Piece_corner> a = operands_.corners(i), b = operands_.corners(j);
-    // 1. Most pairs are triangles that have one corner in common or none.
+    // 1. Most pairs are triangles, in planes of their own.
     if (!coplanar && a.size() == 3 && b.size() == 3) {
-      const unsigned which = common_corners(a, b);
-      if ((which & (which - 1)) == 0) {
-        const std::size_t common = which != 0;
-        if (is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common)) return;
-        const std::size_t k = static_cast<std::size_t>(std::countr_zero(which)) / 3;
-        const std::uint32_t corner = common == 1 ? a[k].point : Near_pair::no_corner;
-        if (!is_clearly_beside(i, j, corner) && !is_clearly_beside(j, i, corner))
-          found_.near.push_back({i, j, corner, common == 1, false});
-        return;
-      }
+      look_at_triangles(i, j, a, b);
+      return;
     }
     // 2. Common corners and edges.
     std::size_t common = 0;
@@ -128,6 +120,27 @@ class Pair_filter {
 
  private:
   Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
+
+  void look_at_triangles(std::uint32_t i, std::uint32_t j, std::span<const Piece_corner> a,
+                         std::span<const Piece_corner> b) {
+    const unsigned which = common_corners(a, b);
+    if ((which & (which - 1)) != 0) {  // two: an edge, opposite to the corner of each that is not common
+      const auto missing = [](unsigned common) { return static_cast<std::size_t>(std::countr_one(common)); };
+      const auto in_row = [which](unsigned k) { return static_cast<unsigned>((which >> (3 * k) & 7) != 0) << k; };
+      const std::size_t k = missing(in_row(0) | in_row(1) | in_row(2));
+      const std::size_t l = missing((which | which >> 3 | which >> 6) & 7);
+      const std::size_t from = k == 2 ? 0 : k + 1, of_other = l == 2 ? 0 : l + 1;
+      found_.edges.emplace_back(operands_.pieces()[i].first + from, operands_.pieces()[j].first + of_other);
+      found_.against.push_back(a[from].point != b[of_other].point);
+      return;
+    }
+    const std::size_t common = which != 0;
+    if (is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common)) return;
+    const std::uint32_t corner =
+        common == 1 ? a[static_cast<std::size_t>(std::countr_zero(which)) / 3].point : Near_pair::no_corner;
+    if (is_clearly_beside(i, j, corner) || is_clearly_beside(j, i, corner)) return;
+    found_.near.push_back({i, j, corner, common == 1, false});
+  }
 
   /// Bit 3 k + l where corner k of one triangle is corner l of the other.
   static unsigned common_corners(std::span<const Piece_corner> a, std::span<const Piece_corner> b) {
@@ -391,19 +404,21 @@ Contacts contacts(Operands& operands, const Box_tree& tree,
     }
   });
   // 2. What these have in common.
+  std::size_t near_pairs = 0;
   for (const Leaf_contacts& leaf : found)
     for (const Near_pair& pair : leaf.near) {
       operands.make_edges(pair.i);
       operands.make_edges(pair.j);
+      ++near_pairs;
     }
+  done = near_pairs;
   parallel_for(found.size(), [&](std::size_t chunk) {
     Pair_finder finder(operands, found[chunk]);
-    std::size_t looked_at = 0;
     for (const Near_pair& pair : found[chunk].near) {
       finder.look_at(pair);
-      if (progress && ++looked_at % together == 0) progress(done, 2 * tree.leaf_count());
+      const std::size_t now = ++done;
+      if (progress && now % 16 == 0) progress(now, 2 * near_pairs);
     }
-    done += std::min(together, tree.leaf_count() - together * chunk);
   });
 
   // 3. By piece, in an order that is the leaves'.

@@ -74,7 +74,7 @@ Operands::Operands(std::span<const Polygon_soup> solids) {
     for (Face_id f = 0; f < solid.face_count(); ++f) {
       const Face_id face = first_face_[operand] + f;
       put_on_grid(solid, f, first_point, ids, loops);
-      if (const auto reason = cut_face(points(), face, loops, faces_, Edge_planes::left_out))
+      if (const auto reason = cut_face(points(), face, loops, faces_, Piece_bounds::left_out))
         faces_.set_aside.push_back({face, *reason, std::string(text_of(*reason))});
       operand_.resize(faces_.pieces.size(), operand);
     }

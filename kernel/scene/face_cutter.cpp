@@ -125,7 +125,7 @@ template <class Number>
 class Cutter {
  public:
   Cutter(const Grid_points& points, Face_id face, const std::vector<Point_loop>& loops, Scene_faces& faces,
-         Edge_planes edges)
+         Piece_bounds edges)
       : points_(points), face_(face), loops_(loops), outer_(loops[0]), faces_(faces), edges_(edges) {}
 
   std::optional<Set_aside_reason> cut() {
@@ -416,7 +416,7 @@ class Cutter {
     faces_.pieces.push_back(
         {face_, number_++, support, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(loop.size())});
     for (const std::uint32_t p : loop) faces_.corners.push_back({p, Plane{}});
-    if (edges_ == Edge_planes::left_out) return;
+    if (edges_ == Piece_bounds::left_out) return;
     const std::size_t axis = dominant(normal);
     bound<Number>(points_, axis, normal[axis] < 0, std::span(faces_.corners).subspan(first), faces_.planes);
   }
@@ -426,14 +426,14 @@ class Cutter {
   const std::vector<Point_loop>& loops_;
   const Point_loop& outer_;
   Scene_faces& faces_;
-  const Edge_planes edges_;
+  const Piece_bounds edges_;
   std::uint32_t number_ = 0;  // of the next piece
 };
 
 }  // namespace
 
 std::optional<Set_aside_reason> cut_face(const Grid_points& points, Face_id f, const std::vector<Point_loop>& loops,
-                                         Scene_faces& faces, Edge_planes edges) {
+                                         Scene_faces& faces, Piece_bounds edges) {
   return with_numbers_for(
       points, [&]<class Number>(const Number&) { return Cutter<Number>(points, f, loops, faces, edges).cut(); });
 }
