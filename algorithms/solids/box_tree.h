@@ -35,9 +35,14 @@ class Box_tree {
   template <class Visit>
   void for_each_pair(std::size_t leaf, Visit visit) const;
 
-  /// Calls visit(i) for each piece whose box meets the ray from `from` upwards along an axis. Thread-safe.
+  /// Whether a point is in the upper half of the tree's box along an axis. Pre: there are pieces.
+  bool is_high(double at, std::size_t axis) const {
+    return at > nodes_[0].box.low[axis] / 2 + nodes_[0].box.high[axis] / 2;
+  }
+  /// Calls visit(i) for each piece whose box meets the ray from `from` along an axis, upwards or downwards.
+  /// Thread-safe.
   template <class Visit>
-  void for_each_above(const std::array<double, 3>& from, std::size_t axis, Visit visit) const;
+  void for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const;
 
  private:
   static constexpr std::uint32_t leaf_size = 4;
@@ -97,11 +102,11 @@ void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
 }
 
 template <class Visit>
-void Box_tree::for_each_above(const std::array<double, 3>& from, std::size_t axis, Visit visit) const {
+void Box_tree::for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto is_below = [&](const Box& box) {
+  const auto is_on_way = [&](const Box& box) {
     return (box.low[u] <= from[u]) & (from[u] <= box.high[u]) & (box.low[v] <= from[v]) & (from[v] <= box.high[v]) &
-           (from[axis] <= box.high[axis]);
+           (upwards ? from[axis] <= box.high[axis] : box.low[axis] <= from[axis]);
   };
   std::uint32_t stack[64];
   std::size_t size = 0;
@@ -109,14 +114,14 @@ void Box_tree::for_each_above(const std::array<double, 3>& from, std::size_t axi
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
-    if (!is_below(node.box)) continue;
+    if (!is_on_way(node.box)) continue;
     if (node.right != 0) {
       stack[size++] = node.right;
       stack[size++] = at + 1;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.last; ++i)
-      if (is_below(boxes_[i])) visit(order_[i]);
+      if (is_on_way(boxes_[i])) visit(order_[i]);
   }
 }
 

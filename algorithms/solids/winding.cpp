@@ -51,44 +51,49 @@ class Vertical_ray {
     if (attempt >= 3 || !begin_near(attempt)) begin_exactly(attempt);
   }
 
-  /// Adds up what is met above the point, by operand; nothing where an edge is met.
-  std::optional<std::vector<Winding>> above(const Box_tree& tree) {
+  /// Adds up what is met ahead of the point, by operand; nothing where an edge is met. Ahead is where the end is
+  /// nearer.
+  std::optional<std::vector<Winding>> ahead(const Box_tree& tree) {
     std::vector<Winding> sums;
     bool generic = true;
-    // No higher than the point is: twice its error makes up for the difference's own rounding.
     std::array<double, 3> from{at_.ax, at_.ay, at_.az};
-    from[axis_] -= 2 * at_.error;
-    tree.for_each_above(from, axis_, [&](std::uint32_t piece) {
+    is_upwards_ = tree.is_high(from[axis_], axis_);
+    // Not beyond the point: twice its error makes up for the difference's own rounding.
+    from[axis_] += is_upwards_ ? -2 * at_.error : 2 * at_.error;
+    tree.for_each_along(from, axis_, is_upwards_, [&](std::uint32_t piece) {
       if (!generic) return;
       const Plane plane = operands_.pieces()[piece].support;
       if (plane.id() == support_.id()) return;
       const std::optional<bool> met = meets(piece);
       if (!met) generic = false;
       if (!met || !*met) return;
-      // The plane's value falls to 0 on the way up if it is met there.
+      // The plane's value falls to 0 on the way if it is met there.
       const Sign here = side(plane);
       if (here == CGAL::ZERO) generic = false;
-      const Sign upwards = slope(plane);
-      if (here == upwards) return;
+      const Sign onwards = slope(plane);
+      if (here == onwards) return;
       const std::uint32_t operand = operands_.operand_of_piece(piece);
       const auto of_operand =
           std::find_if(sums.begin(), sums.end(), [&](const Winding& w) { return w.operand == operand; });
-      if (of_operand == sums.end()) sums.push_back({operand, upwards});
-      else of_operand->number += upwards;
+      if (of_operand == sums.end()) sums.push_back({operand, onwards});
+      else of_operand->number += onwards;
     });
     if (!generic) return std::nullopt;
     return sums;
   }
 
-  /// Whether the fragment's front is above it.
-  bool front_is_above() { return slope(support_) == CGAL::POSITIVE; }
+  /// Whether the fragment's front is ahead of it.
+  bool front_is_ahead() const { return slope(support_) == CGAL::POSITIVE; }
 
  private:
   std::size_t u() const { return (axis_ + 1) % 3; }
   std::size_t v() const { return (axis_ + 2) % 3; }
 
+  /// The sign of a plane's value as one goes on.
+  Sign slope(Plane plane) const { return is_upwards_ ? slope_upwards(plane) : -slope_upwards(plane); }
+
   /// The sign of a plane's value as one goes up. Doubles may have lost it to underflow.
-  Sign slope(Plane plane) const {
+  Sign slope_upwards(Plane plane) const {
     const Prepared_plane h = predicates_.prepare(plane);
     const double near = axis_ == 0 ? h.a : axis_ == 1 ? h.b : h.c;
     if (near != 0) return sign_of(near);
@@ -232,6 +237,7 @@ class Vertical_ray {
   Plane support_;
   std::size_t axis_ = 0;
   Located_point at_{};
+  bool is_upwards_ = true;
   bool is_exact_ = false;  // at_, and not only its doubles
   double beside_ = 0;      // how far these may be from the ray's line
 };
@@ -247,22 +253,22 @@ void add_to(Windings& windings, std::uint32_t operand, int step) {
 
 Fragment_sides sides_of(const Operands& operands, const Predicates& predicates, const Box_tree& tree,
                         const Solid_fragment& fragment, Predicate_counts& counts) {
-  // 1. Above it, far enough from all edges.
+  // 1. Ahead of it, far enough from all edges.
   Vertical_ray ray(operands, predicates, fragment, counts);
-  std::optional<Windings> above;
-  for (std::uint64_t attempt = 0; !above; ++attempt) {
+  std::optional<Windings> ahead;
+  for (std::uint64_t attempt = 0; !ahead; ++attempt) {
     ray.begin(attempt);
-    above = ray.above(tree);
+    ahead = ray.ahead(tree);
   }
   Fragment_sides sides;
-  for (const Winding& w : *above)
+  for (const Winding& w : *ahead)
     if (w.number != 0) add_to(sides.front, w.operand, w.number);
 
   // 2. Across it: behind a front that looks out one is wound round once more.
   const Plane support = operands.pieces()[fragment.piece].support;
   sides.behind = sides.front;
-  Windings& across = ray.front_is_above() ? sides.behind : sides.front;
-  const int step = ray.front_is_above() ? 1 : -1;
+  Windings& across = ray.front_is_ahead() ? sides.behind : sides.front;
+  const int step = ray.front_is_ahead() ? 1 : -1;
   add_to(across, operands.operand_of_piece(fragment.piece), step);
   for (const std::uint32_t other : fragment.upon)
     add_to(across, operands.operand_of_piece(other), operands.pieces()[other].support == support ? step : -step);
