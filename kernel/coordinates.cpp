@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace sightline {
 
@@ -29,6 +30,20 @@ void Coordinates::push_double(double value) {
   else if (std::fabs(value) < 0x1p62)
     entries_.push_back({mantissa * (std::int64_t{1} << exponent), two_five_denominator(0, 0)});
   else push(exact(value));
+}
+
+void Coordinates::push_ratio(std::int64_t numerator, std::int64_t denominator) {
+  const auto unsigned_of = [](std::int64_t n) { return static_cast<std::uint64_t>(n); };
+  const std::uint64_t magnitude = numerator < 0 ? 0 - unsigned_of(numerator) : unsigned_of(numerator);
+  const auto common = static_cast<std::int64_t>(std::gcd(magnitude, unsigned_of(denominator)));
+  numerator /= common;
+  denominator /= common;
+  const int twos = std::countr_zero(unsigned_of(denominator));
+  std::int64_t rest = denominator >> twos;
+  int fives = 0;
+  for (; rest > 1 && rest % 5 == 0; ++fives) rest /= 5;
+  entries_.push_back({numerator, rest == 1 ? two_five_denominator(twos, fives)
+                                           : denominator_id(Integer(static_cast<long>(denominator)))});
 }
 
 void Coordinates::push(const Rational& value) {

@@ -24,6 +24,9 @@ class Coordinates {
   /// Appends the double as the number it is. Pre: finite.
   void push_double(double value);
 
+  /// Appends a quotient, which need not be reduced. Pre: denominator > 0.
+  void push_ratio(std::int64_t numerator, std::int64_t denominator);
+
   /// Appends any rational.
   void push(const Rational& value);
 

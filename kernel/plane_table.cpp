@@ -64,18 +64,28 @@ Plane Plane_table::intern(std::int64_t a, std::int64_t b, std::int64_t c, __int1
   const auto magnitude = [](auto x) {
     return x < 0 ? -static_cast<unsigned __int128>(x) : static_cast<unsigned __int128>(x);
   };
-  std::uint64_t common =
-      std::gcd(std::gcd(static_cast<std::uint64_t>(magnitude(a)), static_cast<std::uint64_t>(magnitude(b))),
-               static_cast<std::uint64_t>(magnitude(c)));
+  std::uint64_t common = std::gcd(static_cast<std::uint64_t>(magnitude(a)), static_cast<std::uint64_t>(magnitude(b)));
+  // What is left of a common divisor is small, mostly.
+  if (common > 1) common = std::gcd(common, static_cast<std::uint64_t>(magnitude(c)) % common);
+  if (common == 0) common = static_cast<std::uint64_t>(magnitude(c));
   if (common == 0) throw std::domain_error("a plane needs a normal");
-  if (common > 1) common = std::gcd(common, static_cast<std::uint64_t>(magnitude(d) % common));
+  const bool is_narrow = static_cast<std::int64_t>(d) == d;  // divisions of 128 bits take long
+  if (common > 1)
+    common = std::gcd(common, is_narrow ? static_cast<std::uint64_t>(magnitude(d)) % common
+                                        : static_cast<std::uint64_t>(magnitude(d) % common));
   const bool flipped = a != 0 ? a < 0 : b != 0 ? b < 0 : c < 0;
-  const std::int64_t divisor = flipped ? -static_cast<std::int64_t>(common) : static_cast<std::int64_t>(common);
-  if (common > 1 || flipped) {
+  if (common > 1) {
+    const auto divisor = static_cast<std::int64_t>(common);
     a /= divisor;
     b /= divisor;
     c /= divisor;
-    d /= divisor;
+    d = is_narrow ? __int128{static_cast<std::int64_t>(d) / divisor} : d / divisor;
+  }
+  if (flipped) {
+    a = -a;
+    b = -b;
+    c = -c;
+    d = -d;
   }
   scratch_.assign(rows_.stride(), 0);
   const auto put = [&](__int128 x, Limb* limbs, int count) {

@@ -143,6 +143,11 @@ class Plane_table {
   Plane intern(std::int64_t a, std::int64_t b, std::int64_t c, __int128 d);
 
   std::size_t size() const { return approximate_.size(); }
+  /// Room for so many planes.
+  void reserve(std::size_t planes) {
+    rows_.reserve(planes);
+    approximate_.reserve(planes);
+  }
   const Bit_budget& budget() const { return budget_; }
   int normal_limbs() const { return normal_limbs_; }
   int offset_limbs() const { return offset_limbs_; }

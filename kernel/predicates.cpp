@@ -125,7 +125,7 @@ CGAL::Uncertain<Sign> Predicates::side_fixed(const Vertex& v, Plane plane) const
   return CGAL::Uncertain<Sign>::indeterminate();
 }
 
-Sign Predicates::side(const Located_point& q, Plane plane, Predicate_counts& counts) const {
+CGAL::Uncertain<Sign> Predicates::side_filtered(const Located_point& q, Plane plane) const {
   const Prepared_plane h = prepare(plane);
   const double value = h.a * q.ax + h.b * q.ay + h.c * q.az + h.d;
   // As in prepare(), but at the point's own distance.
@@ -134,9 +134,14 @@ Sign Predicates::side(const Located_point& q, Plane plane, Predicate_counts& cou
   // doubles do not go. P-03
   const double bound =
       0x1p-50 * size + h.norm * q.error + 0x1p-1000 * (1 + std::fabs(q.ax) + std::fabs(q.ay) + std::fabs(q.az));
-  if (std::fabs(value) > bound) {
+  if (std::fabs(value) > bound) return sign_of(value);
+  return CGAL::Uncertain<Sign>::indeterminate();
+}
+
+Sign Predicates::side(const Located_point& q, Plane plane, Predicate_counts& counts) const {
+  if (const CGAL::Uncertain<Sign> sign = side_filtered(q, plane); CGAL::is_certain(sign)) {
     ++counts.filtered;
-    return sign_of(value);
+    return sign.inf();
   }
   ++counts.gmp;
   const Row<Integer> f = row<Integer>(plane.id());

@@ -124,6 +124,8 @@ class Predicates {
 
   /// The side of a point that is not of the scene. Exact: filtered, then GMP.
   Sign side(const Located_point& q, Plane plane, Predicate_counts& counts) const;
+  /// The first stage of it, which reads the point's doubles only. Proof: P-03
+  CGAL::Uncertain<Sign> side_filtered(const Located_point& q, Plane plane) const;
 
   // ---- Exact values
 

@@ -1,11 +1,12 @@
 #include <sightline/algorithms/solids/assembly.h>
 
+#include <sightline/algorithms/solids/buckets.h>
+#include <sightline/algorithms/solids/space_ids.h>
 #include <sightline/kernel/predicates.h>
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <tuple>
+#include <span>
 #include <unordered_map>
 
 namespace sightline {
@@ -13,129 +14,6 @@ namespace sightline {
 namespace {
 
 constexpr std::uint32_t no_id = ~std::uint32_t{0};
-
-std::uint64_t mixed(std::uint64_t h, std::uint64_t x) {
-  h = (h ^ x) * 0xff51afd7ed558ccdu;
-  return h ^ h >> 32;
-}
-
-/// Rows of integers, each once, numbered; of two that are proportional by a positive factor only one. Exact: yes
-template <std::size_t Size>
-class Integer_rows {
- public:
-  using Row = std::array<Integer, Size>;
-
-  /// The number of a row, which is reduced. Pre: it is not zero.
-  std::uint32_t intern(Row row) {
-    Integer common = abs(row[0]);
-    for (std::size_t k = 1; k < Size; ++k)
-      if (common != 1) common = gcd(common, row[k]);
-    std::uint64_t hash = 0;
-    for (Integer& n : row) {
-      if (common != 1) mpz_divexact(n.get_mpz_t(), n.get_mpz_t(), common.get_mpz_t());
-      hash = mixed(hash, static_cast<std::uint64_t>(sgn(n) + 1));
-      for (std::size_t i = 0; i < mpz_size(n.get_mpz_t()); ++i) hash = mixed(hash, mpz_getlimbn(n.get_mpz_t(), i));
-    }
-    const auto [begin, end] = by_hash_.equal_range(hash);
-    for (auto at = begin; at != end; ++at)
-      if (rows_[at->second] == row) return at->second;
-    const auto id = static_cast<std::uint32_t>(rows_.size());
-    by_hash_.emplace(hash, id);
-    rows_.push_back(std::move(row));
-    return id;
-  }
-  const Row& operator[](std::uint32_t id) const { return rows_[id]; }
-  std::size_t size() const { return rows_.size(); }
-
- private:
-  std::vector<Row> rows_;
-  std::unordered_multimap<std::uint64_t, std::uint32_t> by_hash_;
-};
-
-/// The result's vertices: equal in space, equal ids, whatever planes they were made of.
-class Vertex_ids {
- public:
-  explicit Vertex_ids(const Operands& operands)
-      : operands_(operands), predicates_(operands.predicates()), of_point_(operands.points().size(), no_id) {}
-
-  std::uint32_t id(const Vertex& v) {
-    if (v.is_input()) {
-      std::uint32_t& known = of_point_[v.point];
-      if (known == no_id) known = intern(v);
-      return known;
-    }
-    std::array<std::uint32_t, 3> planes{v.plane[0], v.plane[1], v.plane[2]};
-    std::sort(planes.begin(), planes.end());
-    std::uint64_t hash = 0;
-    for (const std::uint32_t plane : planes) hash = mixed(hash, plane);
-    const auto [begin, end] = by_planes_.equal_range(hash);
-    for (auto at = begin; at != end; ++at)
-      if (at->second.first == planes) return at->second.second;
-    const std::uint32_t id = intern(v);
-    by_planes_.emplace(hash, std::pair(planes, id));
-    return id;
-  }
-  const std::array<Integer, 4>& at(std::uint32_t id) const { return rows_[id]; }
-  std::size_t size() const { return rows_.size(); }
-  /// The id of an input point, if it has one.
-  std::uint32_t of_point(std::uint32_t point) const { return of_point_[point]; }
-
-  /// Whether a vertex comes before another along an axis. Exact: filtered
-  bool is_before(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
-    const Approximate_point &p = near_[a], &q = near_[b];
-    const double step = axis == 0 ? q.x - p.x : axis == 1 ? q.y - p.y : q.z - p.z;
-    const double bound = (p.error + q.error) * (1 + 0x1p-40);
-    if (std::fabs(step) > bound) return step > 0;
-    if (a == b) return false;
-    return at(a)[axis] * at(b)[3] < at(b)[axis] * at(a)[3];
-  }
-
- private:
-  std::uint32_t intern(const Vertex& v) {
-    const std::uint32_t id = rows_.intern(predicates_.homogeneous(v));
-    if (id == near_.size()) near_.push_back({v.x, v.y, v.z, v.error});
-    else if (v.error < near_[id].error) near_[id] = {v.x, v.y, v.z, v.error};
-    return id;
-  }
-
-  const Operands& operands_;
-  const Predicates predicates_;
-  std::vector<std::uint32_t> of_point_;
-  std::unordered_multimap<std::uint64_t, std::pair<std::array<std::uint32_t, 3>, std::uint32_t>> by_planes_;
-  Integer_rows<4> rows_;
-  std::vector<Approximate_point> near_;
-};
-
-/// The lines of edges, as meets of two planes: equal in space, equal ids.
-class Line_ids {
- public:
-  explicit Line_ids(const Operands& operands) : predicates_(operands.predicates()) {}
-
-  std::uint32_t id(std::uint32_t p, std::uint32_t q) {
-    const std::uint64_t key = std::uint64_t{std::min(p, q)} << 32 | std::max(p, q);
-    const auto [place, fresh] = by_planes_.try_emplace(key, no_id);
-    if (!fresh) return place->second;
-    // All minors of the two planes' rows, the first that is not zero positive.
-    const std::array<Integer, 4> a = predicates_.coefficients(Plane(p, false));
-    const std::array<Integer, 4> b = predicates_.coefficients(Plane(q, false));
-    std::array<Integer, 6> row;
-    std::size_t k = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i + 1; j < 4; ++j) row[k++] = a[i] * b[j] - a[j] * b[i];
-    const auto first = std::find_if(row.begin(), row.end(), [](const Integer& n) { return sgn(n) != 0; });
-    if (sgn(*first) < 0)
-      for (Integer& n : row) n = -n;
-    return place->second = rows_.intern(std::move(row));
-  }
-  std::size_t size() const { return rows_.size(); }
-  /// An axis that the line is not across. Its direction is (row[3], -row[1], row[0]).
-  std::size_t axis(std::uint32_t id) const { return sgn(rows_[id][3]) != 0 ? 0 : sgn(rows_[id][1]) != 0 ? 1 : 2; }
-
- private:
-  const Predicates predicates_;
-  std::unordered_map<std::uint64_t, std::uint32_t> by_planes_;
-  Integer_rows<6> rows_;
-};
 
 /// What becomes one or more faces: all that is kept of a face, turned the same way.
 struct Face_group {
@@ -150,10 +28,15 @@ struct Line_edge {
   std::uint32_t line, group, from, to;
 };
 
+/// A point that splits what runs through it.
+struct Line_mark {
+  std::uint32_t line, vertex;
+};
+
 /// Part of a line that bounds a group.
 struct Line_run {
-  std::uint32_t group, line;
-  std::uint32_t from, to;  // ranks among the line's vertices
+  std::uint32_t group;
+  std::uint32_t from, to;  // places among the vertices of lines
   bool forwards;
 };
 
@@ -264,16 +147,17 @@ class Assembler {
     // 1. Which are faces by themselves; edges of all others.
     std::vector<std::uint32_t> alone;  // places in kept
     for (std::uint32_t i = 0; i < kept.size(); ++i) {
-      if (kept[i].corners.empty() && is_whole_face(kept[i].piece)) alone.push_back(i);
+      if (kept[i].corners.empty() && is_whole_face(operands_, kept[i].piece)) alone.push_back(i);
       else add_edges(kept[i]);
       if (progress) progress(i, 2 * kept.size());
     }
     // 2. What bounds a group, line by line; and which vertices it turns at.
     for (const auto& [piece, mark] : marks) {
       const std::uint32_t line = lines_.id(operands_.pieces()[piece].support.id(), mark.edge.id());
-      marks_.emplace_back(line, vertices_.id(mark.at));
+      marks_.push_back({line, vertices_.id(mark.at)});
     }
     result_.counters.vertices = vertices_.size();
+    result_.counters.predicates += vertices_.counts();
     is_corner_.resize(vertices_.size());
     for (const std::uint32_t i : alone)
       for (const Piece_corner& corner : operands_.corners(kept[i].piece))
@@ -295,12 +179,6 @@ class Assembler {
   }
 
  private:
-  bool is_whole_face(std::uint32_t piece) const {
-    const std::vector<Piece>& all = operands_.pieces();
-    return (piece == 0 || all[piece - 1].face != all[piece].face) &&
-           (piece + 1 == all.size() || all[piece + 1].face != all[piece].face);
-  }
-
   std::uint32_t group_of(const Kept_fragment& fragment) {
     const Piece& piece = operands_.pieces()[fragment.piece];
     const std::uint64_t key =
@@ -320,7 +198,7 @@ class Assembler {
     std::uint32_t from = first;
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const std::uint32_t to = k + 1 == corners.size() ? first : vertices_.id(corners[k + 1].vertex);
-      const std::uint32_t line = lines_.id(support, corners[k].edge.id());
+      const std::uint32_t line = lines_.id(support, corners[k].edge.id(), from, to);
       edges_.push_back({line, group, fragment.turned ? to : from, fragment.turned ? from : to});
       from = to;
     }
@@ -328,47 +206,42 @@ class Assembler {
 
   /// The vertices on each line, in their order, and what bounds a group there: where it is on one side only.
   void find_runs() {
-    std::sort(edges_.begin(), edges_.end(), [](const Line_edge& a, const Line_edge& b) {
-      return std::tie(a.line, a.group) < std::tie(b.line, b.group);
-    });
-    std::sort(marks_.begin(), marks_.end());
-    on_line_.resize(lines_.size());
-    auto mark = marks_.begin();
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> ranks;  // by vertex
-    for (std::size_t begin = 0, end = 0; begin < edges_.size(); begin = end) {
-      const std::uint32_t line = edges_[begin].line;
-      std::vector<std::uint32_t>& on = on_line_[line];
-      for (end = begin; end < edges_.size() && edges_[end].line == line; ++end) {
-        on.push_back(edges_[end].from);
-        on.push_back(edges_[end].to);
+    const std::vector<std::size_t> first_edge = in_order_of(edges_, lines_.size(), &Line_edge::line);
+    const std::vector<std::size_t> first_mark = in_order_of(marks_, lines_.size(), &Line_mark::line);
+    std::vector<std::uint32_t> place(vertices_.size());  // in on_lines_, of those of one line
+    std::vector<std::pair<std::uint32_t, int>> steps;
+    for (std::uint32_t line = 0; line < lines_.size(); ++line) {
+      const std::span<Line_edge> edges(edges_.data() + first_edge[line], edges_.data() + first_edge[line + 1]);
+      if (edges.empty()) continue;
+      // 1. Vertices.
+      const auto begin = static_cast<std::ptrdiff_t>(on_lines_.size());
+      for (const Line_edge& edge : edges) {
+        on_lines_.push_back(edge.from);
+        on_lines_.push_back(edge.to);
       }
-      while (mark != marks_.end() && mark->first < line) ++mark;
-      for (; mark != marks_.end() && mark->first == line; ++mark) on.push_back(mark->second);
-      std::sort(on.begin(), on.end());
-      on.erase(std::unique(on.begin(), on.end()), on.end());
-      const std::size_t axis = lines_.axis(line);
-      std::sort(on.begin(), on.end(),
-                [&](std::uint32_t a, std::uint32_t b) { return vertices_.is_before(a, b, axis); });
-      ranks.clear();
-      for (std::uint32_t rank = 0; rank < on.size(); ++rank) ranks.emplace_back(on[rank], rank);
-      std::sort(ranks.begin(), ranks.end());
-      const auto rank_of = [&](std::uint32_t v) {
-        return std::lower_bound(ranks.begin(), ranks.end(), std::pair(v, std::uint32_t{0}))->second;
-      };
-      for (std::size_t i = begin, j = begin; i < end; i = j) {
-        std::vector<std::pair<std::uint32_t, int>> steps;
-        for (j = i; j < end && edges_[j].group == edges_[i].group; ++j) {
-          const std::uint32_t from = rank_of(edges_[j].from), to = rank_of(edges_[j].to);
-          steps.emplace_back(from, 1);
-          steps.emplace_back(to, -1);
+      for (std::size_t m = first_mark[line]; m < first_mark[line + 1]; ++m) on_lines_.push_back(marks_[m].vertex);
+      std::sort(on_lines_.begin() + begin, on_lines_.end());
+      on_lines_.erase(std::unique(on_lines_.begin() + begin, on_lines_.end()), on_lines_.end());
+      std::sort(
+          on_lines_.begin() + begin, on_lines_.end(),
+          [&, axis = lines_.axis(line)](std::uint32_t a, std::uint32_t b) { return vertices_.is_before(a, b, axis); });
+      for (auto k = static_cast<std::size_t>(begin); k < on_lines_.size(); ++k)
+        place[on_lines_[k]] = static_cast<std::uint32_t>(k);
+      // 2. Group by group.
+      std::sort(edges.begin(), edges.end(), [](const Line_edge& a, const Line_edge& b) { return a.group < b.group; });
+      for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+        steps.clear();
+        for (j = i; j < edges.size() && edges[j].group == edges[i].group; ++j) {
+          steps.emplace_back(place[edges[j].from], 1);
+          steps.emplace_back(place[edges[j].to], -1);
         }
-        add_runs(steps, edges_[i].group, line);
+        add_runs(steps, edges[i].group);
       }
     }
   }
 
   /// An edge that runs from a to b adds 1 behind a, and takes it away behind b: also where b comes first.
-  void add_runs(std::vector<std::pair<std::uint32_t, int>>& steps, std::uint32_t group, std::uint32_t line) {
+  void add_runs(std::vector<std::pair<std::uint32_t, int>>& steps, std::uint32_t group) {
     std::sort(steps.begin(), steps.end());
     int net = 0;
     std::uint32_t since = 0;
@@ -377,8 +250,8 @@ class Assembler {
       for (j = i; j < steps.size() && steps[j].first == steps[i].first; ++j) step += steps[j].second;
       if (step == 0) continue;
       const std::uint32_t here = steps[i].first;
-      if (net != 0) runs_.push_back({group, line, since, here, net > 0});
-      is_corner_[on_line_[line][here]] = true;
+      if (net != 0) runs_.push_back({group, since, here, net > 0});
+      is_corner_[on_lines_[here]] = true;
       net += step;
       since = here;
     }
@@ -386,10 +259,9 @@ class Assembler {
 
   void split_runs() {
     for (const Line_run& run : runs_) {
-      const std::vector<std::uint32_t>& on = on_line_[run.line];
-      std::uint32_t from = on[run.from];
-      for (std::uint32_t rank = run.from + 1; rank <= run.to; ++rank) {
-        const std::uint32_t to = on[rank];
+      std::uint32_t from = on_lines_[run.from];
+      for (std::uint32_t place = run.from + 1; place <= run.to; ++place) {
+        const std::uint32_t to = on_lines_[place];
         if (!is_corner_[to]) continue;
         groups_[run.group].edges.emplace_back(run.forwards ? from : to, run.forwards ? to : from);
         from = to;
@@ -408,10 +280,7 @@ class Assembler {
   Point_id point_of_input(std::uint32_t input) {
     if (const std::uint32_t vertex = vertices_.of_point(input); vertex != no_id) return point_of(vertex);
     Point_id& point = input_points_[input];
-    if (point == no_id) {
-      const Exact_point p = operands_.position(input);
-      point = result_.soup.add_point(p[0], p[1], p[2]);
-    }
+    if (point == no_id) point = operands_.add_point(input, result_.soup);
     return point;
   }
 
@@ -421,10 +290,10 @@ class Assembler {
   }
 
   void add_whole(const Kept_fragment& fragment) {
-    std::vector<Point_id> loop;
-    for (const Piece_corner& corner : operands_.corners(fragment.piece)) loop.push_back(point_of_input(corner.point));
-    if (fragment.turned) std::reverse(loop.begin(), loop.end());
-    result_.soup.add_face(loop);
+    loop_.clear();
+    for (const Piece_corner& corner : operands_.corners(fragment.piece)) loop_.push_back(point_of_input(corner.point));
+    if (fragment.turned) std::reverse(loop_.begin(), loop_.end());
+    result_.soup.add_face(loop_);
     name_face(operands_.pieces()[fragment.piece].face, fragment.turned);
   }
 
@@ -467,21 +336,26 @@ class Assembler {
   }
 
   void find_crowded() {
-    std::vector<std::uint64_t> keys;
+    struct Edge {
+      Point_id from, to;
+    };
+    std::vector<Edge> edges;
     for (Face_id f = 0; f < result_.soup.face_count(); ++f)
       for (std::size_t k = 0; k < result_.soup.loop_count(f); ++k) {
         const std::span<const Point_id> loop = result_.soup.loop(f, k);
         for (std::size_t i = 0; i < loop.size(); ++i) {
           const auto [p, q] = std::minmax(loop[i], loop[i + 1 == loop.size() ? 0 : i + 1]);
-          keys.push_back(std::uint64_t{p} << 32 | q);
+          edges.push_back({p, q});
         }
       }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 0, j = 0; i < keys.size(); i = j) {
-      while (j < keys.size() && keys[j] == keys[i]) ++j;
-      if (j - i != 2)
-        result_.crowded.push_back(
-            {static_cast<Point_id>(keys[i] >> 32), static_cast<Point_id>(keys[i]), static_cast<std::uint32_t>(j - i)});
+    const std::vector<std::size_t> first = in_order_of(edges, result_.soup.point_count(), &Edge::from);
+    for (Point_id p = 0; p < result_.soup.point_count(); ++p) {
+      const std::span<Edge> of_point(edges.data() + first[p], edges.data() + first[p + 1]);
+      std::sort(of_point.begin(), of_point.end(), [](const Edge& a, const Edge& b) { return a.to < b.to; });
+      for (std::size_t i = 0, j = 0; i < of_point.size(); i = j) {
+        while (j < of_point.size() && of_point[j].to == of_point[i].to) ++j;
+        if (j - i != 2) result_.crowded.push_back({p, of_point[i].to, static_cast<std::uint32_t>(j - i)});
+      }
     }
   }
 
@@ -493,11 +367,12 @@ class Assembler {
   std::vector<Face_group> groups_;
   std::unordered_map<std::uint64_t, std::uint32_t> by_face_;  // groups, by face, sense and plane
   std::vector<Line_edge> edges_;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> marks_;  // line, vertex
-  std::vector<std::vector<std::uint32_t>> on_line_;             // vertices in their order
+  std::vector<Line_mark> marks_;
+  std::vector<std::uint32_t> on_lines_;  // vertices: of each line that has edges, in their order along it
   std::vector<Line_run> runs_;
   std::vector<bool> is_corner_;  // by vertex
   std::vector<Point_id> vertex_points_, input_points_;
+  std::vector<Point_id> loop_;  // of the face that is added
 };
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace sightline {
 
@@ -36,13 +35,20 @@ Box_tree::Box_tree(const Operands& operands) : order_(operands.pieces().size()) 
     }
   }
   // 2. The tree over them.
-  std::iota(order_.begin(), order_.end(), 0u);
-  boxes_ = std::move(boxes);
   const auto count = static_cast<std::uint32_t>(order_.size());
+  std::vector<Centre> centres(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) centres[i].at[k] = boxes[i].low[k] + boxes[i].high[k];
+    centres[i].piece = i;
+  }
+  boxes_ = std::move(boxes);
   nodes_.resize(nodes_over(count, leaf_size));
-  build(0, 0, count);
+  build(0, centres, 0, count);
   std::vector<Box> in_order(count);
-  for (std::uint32_t i = 0; i < count; ++i) in_order[i] = boxes_[order_[i]];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    order_[i] = centres[i].piece;
+    in_order[i] = boxes_[order_[i]];
+  }
   boxes_ = std::move(in_order);
   for (std::uint32_t i = 0; i < nodes_.size(); ++i)
     if (nodes_[i].right == 0) leaves_.push_back(i);
@@ -50,43 +56,48 @@ Box_tree::Box_tree(const Operands& operands) : order_(operands.pieces().size()) 
             [&](std::uint32_t a, std::uint32_t b) { return nodes_[a].first < nodes_[b].first; });
 }
 
-void Box_tree::build(std::uint32_t at, std::uint32_t first, std::uint32_t last) {
+void Box_tree::build(std::uint32_t at, std::vector<Centre>& centres, std::uint32_t first, std::uint32_t last) {
   Node& node = nodes_[at];
   node.first = first;
   node.last = last;
   node.right = 0;
-  // 1. Its box, and that of the boxes' centres.
-  node.box = boxes_[order_[first]];
-  std::array<double, 3> low{}, high{};
-  for (std::uint32_t i = first; i < last; ++i) {
-    const Box& box = boxes_[order_[i]];
+  const auto widen = [&](const Box& box) {
     for (std::size_t k = 0; k < 3; ++k) {
       node.box.low[k] = std::min(node.box.low[k], box.low[k]);
       node.box.high[k] = std::max(node.box.high[k], box.high[k]);
-      const double centre = box.low[k] + box.high[k];
-      low[k] = i == first ? centre : std::min(low[k], centre);
-      high[k] = i == first ? centre : std::max(high[k], centre);
     }
+  };
+  if (last - first <= leaf_size) {
+    node.box = boxes_[centres[first].piece];
+    for (std::uint32_t i = first; i < last; ++i) widen(boxes_[centres[i].piece]);
+    return;
   }
-  if (last - first <= leaf_size) return;
-  // 2. Halves along the longest axis.
+  // 1. Halves along the axis on which the centres reach farthest.
+  std::array<double, 3> low = centres[first].at, high = low;
+  for (std::uint32_t i = first; i < last; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], centres[i].at[k]);
+      high[k] = std::max(high[k], centres[i].at[k]);
+    }
   std::size_t axis = 0;
   for (std::size_t k = 1; k < 3; ++k)
     if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
   const std::uint32_t middle = first + (last - first) / 2;
-  std::nth_element(order_.begin() + first, order_.begin() + middle, order_.begin() + last,
-                   [&](std::uint32_t a, std::uint32_t b) {
-                     const double x = boxes_[a].low[axis] + boxes_[a].high[axis];
-                     const double y = boxes_[b].low[axis] + boxes_[b].high[axis];
-                     return x != y ? x < y : a < b;
+  std::nth_element(centres.begin() + first, centres.begin() + middle, centres.begin() + last,
+                   [axis](const Centre& a, const Centre& b) {
+                     return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.piece < b.piece;
                    });
   node.right = at + 1 + nodes_over(middle - first, leaf_size);
   if (last - first < 4096) {
-    build(at + 1, first, middle);
-    build(node.right, middle, last);
+    build(at + 1, centres, first, middle);
+    build(node.right, centres, middle, last);
   } else {
-    parallel_invoke([&] { build(at + 1, first, middle); }, [&, right = node.right] { build(right, middle, last); });
+    parallel_invoke([&] { build(at + 1, centres, first, middle); },
+                    [&, right = node.right] { build(right, centres, middle, last); });
   }
+  // 2. The box of both.
+  node.box = nodes_[at + 1].box;
+  widen(nodes_[node.right].box);
 }
 
 }  // namespace sightline

@@ -19,9 +19,9 @@ class Box_tree {
   struct Box {
     std::array<double, 3> low, high;
     bool meets(const Box& other) const {
-      for (std::size_t k = 0; k < 3; ++k)
-        if (low[k] > other.high[k] || other.low[k] > high[k]) return false;
-      return true;
+      bool apart = false;  // without a branch for each of six, which no processor can predict
+      for (std::size_t k = 0; k < 3; ++k) apart |= (low[k] > other.high[k]) | (other.low[k] > high[k]);
+      return !apart;
     }
   };
 
@@ -35,9 +35,14 @@ class Box_tree {
   template <class Visit>
   void for_each_pair(std::size_t leaf, Visit visit) const;
 
-  /// Calls visit(i) for each piece whose box meets the ray from `from` upwards along an axis. Thread-safe.
+  /// Whether a point is in the upper half of the tree's box along an axis. Pre: there are pieces.
+  bool is_high(double at, std::size_t axis) const {
+    return at > nodes_[0].box.low[axis] / 2 + nodes_[0].box.high[axis] / 2;
+  }
+  /// Calls visit(i) for each piece whose box meets the ray from `from` along an axis, upwards or downwards.
+  /// Thread-safe.
   template <class Visit>
-  void for_each_above(const std::array<double, 3>& from, std::size_t axis, Visit visit) const;
+  void for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const;
 
  private:
   static constexpr std::uint32_t leaf_size = 4;
@@ -46,7 +51,12 @@ class Box_tree {
     std::uint32_t first, last;  // pieces order_[first, last)
     std::uint32_t right;        // its second child, the first being the next node; 0: a leaf
   };
-  void build(std::uint32_t node, std::uint32_t first, std::uint32_t last);
+  /// A piece as it is sorted: twice the centre of its box.
+  struct Centre {
+    std::array<double, 3> at;
+    std::uint32_t piece;
+  };
+  void build(std::uint32_t node, std::vector<Centre>& centres, std::uint32_t first, std::uint32_t last);
 
   std::vector<Box> boxes_;            // by place in order_
   std::vector<std::uint32_t> order_;  // pieces
@@ -56,31 +66,47 @@ class Box_tree {
 
 template <class Visit>
 void Box_tree::for_each_pair(std::size_t leaf, Visit visit) const {
+  // 1. Pairs in the leaf.
   const Node& own = nodes_[leaves_[leaf]];
+  for (std::uint32_t i = own.first; i < own.last; ++i)
+    for (std::uint32_t j = i + 1; j < own.last; ++j)
+      if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+  // 2. What is on the right of the way down to it has the later leaves; the least of them comes last on the stack.
   std::uint32_t stack[64];
   std::size_t size = 0;
-  stack[size++] = 0;
+  for (std::uint32_t at = 0; nodes_[at].right != 0;) {
+    const std::uint32_t right = nodes_[at].right;
+    if (nodes_[right].first <= own.first) {
+      at = right;
+    } else {
+      stack[size++] = right;
+      ++at;
+    }
+  }
+  // 3. Pairs with these.
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
-    if (node.last <= own.first || !node.box.meets(own.box)) continue;
+    if (!node.box.meets(own.box)) continue;
     if (node.right != 0) {
       stack[size++] = node.right;
       stack[size++] = at + 1;
       continue;
     }
-    for (std::uint32_t i = own.first; i < own.last; ++i)
-      for (std::uint32_t j = std::max(node.first, i + 1); j < node.last; ++j)
+    for (std::uint32_t i = own.first; i < own.last; ++i) {
+      if (!boxes_[i].meets(node.box)) continue;
+      for (std::uint32_t j = node.first; j < node.last; ++j)
         if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    }
   }
 }
 
 template <class Visit>
-void Box_tree::for_each_above(const std::array<double, 3>& from, std::size_t axis, Visit visit) const {
+void Box_tree::for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const auto is_below = [&](const Box& box) {
-    return box.low[u] <= from[u] && from[u] <= box.high[u] && box.low[v] <= from[v] && from[v] <= box.high[v] &&
-           from[axis] <= box.high[axis];
+  const auto is_on_way = [&](const Box& box) {
+    return (box.low[u] <= from[u]) & (from[u] <= box.high[u]) & (box.low[v] <= from[v]) & (from[v] <= box.high[v]) &
+           (upwards ? from[axis] <= box.high[axis] : box.low[axis] <= from[axis]);
   };
   std::uint32_t stack[64];
   std::size_t size = 0;
@@ -88,14 +114,14 @@ void Box_tree::for_each_above(const std::array<double, 3>& from, std::size_t axi
   while (size > 0) {
     const std::uint32_t at = stack[--size];
     const Node& node = nodes_[at];
-    if (!is_below(node.box)) continue;
+    if (!is_on_way(node.box)) continue;
     if (node.right != 0) {
       stack[size++] = node.right;
       stack[size++] = at + 1;
       continue;
     }
     for (std::uint32_t i = node.first; i < node.last; ++i)
-      if (is_below(boxes_[i])) visit(order_[i]);
+      if (is_on_way(boxes_[i])) visit(order_[i]);
   }
 }
 

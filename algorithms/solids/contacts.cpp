@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <optional>
+#include <bit>
+#include <cmath>
 
 namespace sightline {
 
@@ -18,8 +19,17 @@ struct Stretch {
   Vertex from, to;
 };
 
-/// What is found of one leaf's pairs.
+/// Two pieces, i < j, that doubles do not tell apart, and what they have in common.
+struct Near_pair {
+  static constexpr std::uint32_t no_corner = ~std::uint32_t{0};
+  std::uint32_t i, j;
+  std::uint32_t corner;       ///< the only common point, or no_corner
+  bool has_common, has_edge;  ///< common points; both ends of an edge
+};
+
+/// What is found of some leaves' pairs.
 struct Leaf_contacts {
+  std::vector<Near_pair> near;
   std::vector<Cut> cuts;
   std::vector<Touch> touches;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> upon;
@@ -30,47 +40,66 @@ struct Leaf_contacts {
   Predicate_counts predicates;
 };
 
-/// A piece's plane in doubles, and the bound below which they do not tell an input point's side (P-03).
+/// A piece's plane in doubles, and the bound below which they do not tell an input point's side (P-03); and two axes in
+/// which the piece, seen from its front, is counterclockwise.
 struct Near_plane {
   double a, b, c, d, bound;
+  std::uint32_t u, v;
 };
 
 /// What most pairs are settled by.
 struct Near_pieces {
   std::vector<Near_plane> planes;
   std::vector<std::array<double, 3>> points;
+  double error;  // of each of their coordinates
 
   explicit Near_pieces(const Operands& operands) : planes(operands.pieces().size()), points(operands.points().size()) {
     const Predicates predicates = operands.predicates();
     const Grid_points& grid = operands.points();
-    const double error = grid.bits() <= 53 ? 0 : 0x1p-53 * grid.range() + 0x1p-1000;  // as in input_vertex()
+    error = grid.bits() <= 53 ? 0 : 0x1p-53 * grid.range() + 0x1p-1000;  // as in input_vertex()
     for (std::size_t i = 0; i < planes.size(); ++i) {
       const Prepared_plane h = predicates.prepare(operands.pieces()[i].support);
-      planes[i] = {h.a, h.b, h.c, h.d, (h.bound + error * h.norm) * (1 + 0x1p-50)};
+      const std::array<double, 3> n{h.a, h.b, h.c};
+      std::uint32_t axis = 0;
+      for (std::uint32_t k = 1; k < 3; ++k)
+        if (std::fabs(n[k]) > std::fabs(n[axis])) axis = k;
+      const std::uint32_t one = axis == 2 ? 0 : axis + 1, other = axis == 0 ? 2 : axis - 1;
+      planes[i] = {h.a,
+                   h.b,
+                   h.c,
+                   h.d,
+                   (h.bound + error * h.norm) * (1 + 0x1p-50),
+                   n[axis] > 0 ? one : other,
+                   n[axis] > 0 ? other : one};
     }
     for (std::uint32_t p = 0; p < points.size(); ++p)
       points[p] = {grid.approximate(p, 0), grid.approximate(p, 1), grid.approximate(p, 2)};
   }
 };
 
-class Pair_finder {
+/// Tells most pairs apart, in doubles, and notes which edges they have in common.
+class Pair_filter {
  public:
-  Pair_finder(const Operands& operands, const Near_pieces& near, Leaf_contacts& found)
-      : operands_(operands), predicates_(operands.predicates()), near_(near), found_(found) {}
+  Pair_filter(const Operands& operands, const Near_pieces& near, Leaf_contacts& found)
+      : operands_(operands), near_(near), found_(found) {}
 
   void look_at(std::uint32_t i, std::uint32_t j) {
     ++found_.pairs;
     if (i > j) std::swap(i, j);
     const bool coplanar = support(i).id() == support(j).id();
-    // 1. Common corners.
     const std::span<const Piece_corner> a = operands_.corners(i), b = operands_.corners(j);
+    // 1. Most pairs are triangles, in planes of their own.
+    if (!coplanar && a.size() == 3 && b.size() == 3) {
+      look_at_triangles(i, j, a, b);
+      return;
+    }
+    // 2. Common corners and edges.
     std::size_t common = 0;
-    std::uint32_t shared = 0;
+    Near_pair pair{i, j, Near_pair::no_corner, false, false};
     for (std::size_t k = 0; k < a.size(); ++k)
       for (std::size_t l = 0; l < b.size(); ++l) {
         if (a[k].point != b[l].point) continue;
-        ++common;
-        shared = a[k].point;
+        pair.corner = ++common == 1 ? a[k].point : Near_pair::no_corner;
         const std::size_t k1 = k + 1 == a.size() ? 0 : k + 1, l1 = l + 1 == b.size() ? 0 : l + 1;
         const std::size_t l0 = l == 0 ? b.size() - 1 : l - 1;
         const bool with = a[k1].point == b[l1].point, against = a[k1].point == b[l0].point;
@@ -79,14 +108,47 @@ class Pair_finder {
         found_.against.push_back(against);
         // In different planes they share the line of the edge, and of that line each has no more than the edge.
         if (!coplanar) return;
+        pair.has_edge = true;
       }
-    if (coplanar) look_at_coplanar(i, j, common > 0);
-    else if (common > 1 || !(is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common)))
-      look_at_crossing(i, j, common == 1 ? std::optional(shared) : std::nullopt);
+    pair.has_common = common > 0;
+    if (!coplanar && common <= 1 &&
+        (is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common) || is_clearly_beside(i, j, pair.corner) ||
+         is_clearly_beside(j, i, pair.corner)))
+      return;
+    found_.near.push_back(pair);
   }
 
  private:
   Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
+
+  void look_at_triangles(std::uint32_t i, std::uint32_t j, std::span<const Piece_corner> a,
+                         std::span<const Piece_corner> b) {
+    const unsigned which = common_corners(a, b);
+    if ((which & (which - 1)) != 0) {  // two: an edge, opposite to the corner of each that is not common
+      const auto missing = [](unsigned common) { return static_cast<std::size_t>(std::countr_one(common)); };
+      const auto in_row = [which](unsigned k) { return static_cast<unsigned>((which >> (3 * k) & 7) != 0) << k; };
+      const std::size_t k = missing(in_row(0) | in_row(1) | in_row(2));
+      const std::size_t l = missing((which | which >> 3 | which >> 6) & 7);
+      const std::size_t from = k == 2 ? 0 : k + 1, of_other = l == 2 ? 0 : l + 1;
+      found_.edges.emplace_back(operands_.pieces()[i].first + from, operands_.pieces()[j].first + of_other);
+      found_.against.push_back(a[from].point != b[of_other].point);
+      return;
+    }
+    const std::size_t common = which != 0;
+    if (is_clearly_apart(i, b, common) || is_clearly_apart(j, a, common)) return;
+    const std::uint32_t corner =
+        common == 1 ? a[static_cast<std::size_t>(std::countr_zero(which)) / 3].point : Near_pair::no_corner;
+    if (is_clearly_beside(i, j, corner) || is_clearly_beside(j, i, corner)) return;
+    found_.near.push_back({i, j, corner, common == 1, false});
+  }
+
+  /// Bit 3 k + l where corner k of one triangle is corner l of the other.
+  static unsigned common_corners(std::span<const Piece_corner> a, std::span<const Piece_corner> b) {
+    unsigned which = 0;
+    for (unsigned k = 0; k < 3; ++k)
+      for (unsigned l = 0; l < 3; ++l) which |= static_cast<unsigned>(a[k].point == b[l].point) << (3 * k + l);
+    return which;
+  }
 
   /// Whether doubles tell that all of piece j but a corner that it shares, if it shares one, is on one side of piece i.
   bool is_clearly_apart(std::uint32_t i, std::span<const Piece_corner> of_j, std::size_t common) {
@@ -103,6 +165,51 @@ class Pair_finder {
     found_.predicates.filtered += of_j.size();
     return true;
   }
+
+  /// Whether doubles tell that an edge of piece i, at its common corner with piece j, if there is one, has all of j but
+  /// that corner on its outside, as seen along an axis. Proof of the bound: P-110
+  bool is_clearly_beside(std::uint32_t i, std::uint32_t j, std::uint32_t corner) {
+    const std::span<const Piece_corner> a = operands_.corners(i), b = operands_.corners(j);
+    const std::size_t u = near_.planes[i].u, v = near_.planes[i].v;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      const std::uint32_t from = a[k].point, to = a[k + 1 == a.size() ? 0 : k + 1].point;
+      if (corner != Near_pair::no_corner && from != corner && to != corner) continue;
+      const std::array<double, 3>&p = near_.points[from], &q = near_.points[to];
+      const double x = q[u] - p[u], y = q[v] - p[v];
+      const bool outside = std::all_of(b.begin(), b.end(), [&](const Piece_corner& other) {
+        if (other.point == corner) return true;
+        const std::array<double, 3>& r = near_.points[other.point];
+        const double dx = r[u] - p[u], dy = r[v] - p[v];
+        const double size = std::fabs(x) + std::fabs(y) + std::fabs(dx) + std::fabs(dy);
+        const double bound =
+            0x1p-50 * (std::fabs(x * dy) + std::fabs(y * dx)) + 4 * near_.error * (size + 2 * near_.error) + 0x1p-1000;
+        return x * dy - y * dx < -bound;
+      });
+      if (!outside) continue;
+      found_.predicates.filtered += b.size();
+      return true;
+    }
+    return false;
+  }
+
+  const Operands& operands_;
+  const Near_pieces& near_;
+  Leaf_contacts& found_;
+};
+
+/// Finds what near pairs have in common. Pre: edges are made.
+class Pair_finder {
+ public:
+  Pair_finder(const Operands& operands, Leaf_contacts& found)
+      : operands_(operands), predicates_(operands.predicates()), found_(found) {}
+
+  void look_at(const Near_pair& pair) {
+    if (support(pair.i).id() == support(pair.j).id()) look_at_coplanar(pair);
+    else look_at_crossing(pair);
+  }
+
+ private:
+  Plane support(std::uint32_t i) const { return operands_.pieces()[i].support; }
 
   Sign side(const Vertex& v, const Prepared_plane& h) { return predicates_.side(v, h, found_.predicates); }
 
@@ -171,17 +278,19 @@ class Pair_finder {
   }
 
   /// Pieces in different planes.
-  void look_at_crossing(std::uint32_t i, std::uint32_t j, std::optional<std::uint32_t> corner) {
+  void look_at_crossing(const Near_pair& pair) {
+    const auto [i, j, corner, has_common, has_edge] = pair;
+    const bool in_corner = corner != Near_pair::no_corner;
     find_sides(j, predicates_.prepare(support(i)), sides_j_);
     if (is_apart(sides_j_)) return;
-    if (corner && is_touching_once(sides_j_)) return;  // in the common corner
+    if (in_corner && is_touching_once(sides_j_)) return;  // in the common corner
     find_sides(i, predicates_.prepare(support(j)), sides_i_);
     if (is_apart(sides_i_)) return;
-    if (corner && is_touching_once(sides_i_)) return;
+    if (in_corner && is_touching_once(sides_i_)) return;
     Stretch stretch = in_plane(i, sides_i_, support(j));
     clip(stretch, support(i).id(), support(j).id(), j);
     if (stretch.kind == Stretch::Kind::nothing) return;
-    if (stretch.kind == Stretch::Kind::point && corner && stretch.from.is_input() && stretch.from.point == *corner)
+    if (stretch.kind == Stretch::Kind::point && in_corner && stretch.from.is_input() && stretch.from.point == corner)
       return;
     const bool is_segment = stretch.kind == Stretch::Kind::segment;
     if (is_segment && sides_i_.front && sides_i_.behind) cut(i, j, stretch, support(j));
@@ -210,27 +319,22 @@ class Pair_finder {
   }
 
   /// Pieces in one plane, of which either faces either way.
-  void look_at_coplanar(std::uint32_t i, std::uint32_t j, bool common) {
+  void look_at_coplanar(const Near_pair& pair) {
+    const std::uint32_t i = pair.i, j = pair.j;
     bool apart = false, by_corner = false;
     separated_ = false;
     is_separated(i, j, apart, by_corner);
     if (!apart) is_separated(j, i, apart, by_corner);
     if (apart) return;
     const bool shares_area = !separated_;
-    if (!shares_area && by_corner && common) return;  // in a corner of both
-    if (!shares_area && !found_.edges.empty() && is_edge_of(i, j)) return;
+    if (!shares_area && by_corner && pair.has_common) return;  // in a corner of both
+    if (!shares_area && pair.has_edge) return;
     if (shares_area) {
       found_.upon.emplace_back(i, j);
       found_.upon.emplace_back(j, i);
     }
     lay_upon(i, j, shares_area);
     lay_upon(j, i, shares_area);
-  }
-  /// Whether the edge found last is one of both.
-  bool is_edge_of(std::uint32_t i, std::uint32_t j) const {
-    const auto [k, l] = found_.edges.back();
-    const Piece &a = operands_.pieces()[i], &b = operands_.pieces()[j];
-    return a.first <= k && k < a.first + a.size && b.first <= l && l < b.first + b.size;
   }
 
   /// The edges of piece j in piece i.
@@ -257,7 +361,6 @@ class Pair_finder {
 
   const Operands& operands_;
   const Predicates predicates_;
-  const Near_pieces& near_;
   Leaf_contacts& found_;
   Sides sides_i_, sides_j_;
   bool separated_ = false;
@@ -285,23 +388,40 @@ std::vector<std::size_t> gathered(const std::vector<Leaf_contacts>& leaves, std:
 
 }  // namespace
 
-Contacts contacts(const Operands& operands, const Box_tree& tree,
+Contacts contacts(Operands& operands, const Box_tree& tree,
                   const std::function<void(std::size_t, std::size_t)>& progress) {
-  // 1. All pairs, by leaves of the tree.
+  // 1. All pairs, by leaves of the tree: which are near each other.
   constexpr std::size_t together = 64;
-  const Near_pieces near(operands);
   std::vector<Leaf_contacts> found((tree.leaf_count() + together - 1) / together);
   std::atomic<std::size_t> done = 0;
+  const Near_pieces near(operands);
   parallel_for(found.size(), [&](std::size_t chunk) {
-    Pair_finder finder(operands, near, found[chunk]);
+    Pair_filter filter(operands, near, found[chunk]);
     for (std::size_t leaf = together * chunk; leaf < std::min(together * (chunk + 1), tree.leaf_count()); ++leaf) {
-      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { finder.look_at(i, j); });
+      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { filter.look_at(i, j); });
       ++done;
-      if (progress) progress(done, tree.leaf_count());
+      if (progress) progress(done, 2 * tree.leaf_count());
+    }
+  });
+  // 2. What these have in common.
+  std::size_t near_pairs = 0;
+  for (const Leaf_contacts& leaf : found)
+    for (const Near_pair& pair : leaf.near) {
+      operands.make_edges(pair.i);
+      operands.make_edges(pair.j);
+      ++near_pairs;
+    }
+  done = near_pairs;
+  parallel_for(found.size(), [&](std::size_t chunk) {
+    Pair_finder finder(operands, found[chunk]);
+    for (const Near_pair& pair : found[chunk].near) {
+      finder.look_at(pair);
+      const std::size_t now = ++done;
+      if (progress && now % 16 == 0) progress(now, 2 * near_pairs);
     }
   });
 
-  // 2. By piece, in an order that is the leaves'.
+  // 3. By piece, in an order that is the leaves'.
   Contacts all;
   const std::size_t pieces = operands.pieces().size();
   all.first_cut = gathered(found, &Leaf_contacts::cuts, pieces, all.cuts, [](const Cut& c) { return c.piece; });
@@ -322,7 +442,7 @@ Contacts contacts(const Operands& operands, const Box_tree& tree,
     all.pairs += leaf.pairs;
     all.predicates += leaf.predicates;
   }
-  // 3. Edges of two pieces alone.
+  // 4. Edges of two pieces alone.
   for (const Leaf_contacts& leaf : found)
     for (std::size_t e = 0; e < leaf.edges.size(); ++e) {
       const auto [k, l] = leaf.edges[e];

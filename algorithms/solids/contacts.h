@@ -59,10 +59,11 @@ struct Contacts {
   }
 };
 
-/// Looks at all pairs of pieces whose boxes meet, of one operand too. The same for any number of threads.
+/// Looks at all pairs of pieces whose boxes meet, of one operand too; makes the edges of those that doubles do not tell
+/// apart, so of all that are touched. The same for any number of threads.
 /// Degenerate: pieces that share a corner or an edge, touch, or lie in one plane are the main case; see Contacts.
 /// `progress` may be called by any thread; what it throws is thrown. Cost: O(n log n + pairs). Exact: yes. Proof: P-110
-Contacts contacts(const Operands& operands, const Box_tree& tree,
+Contacts contacts(Operands& operands, const Box_tree& tree,
                   const std::function<void(std::size_t done, std::size_t all)>& progress = {});
 
 }  // namespace sightline

@@ -1,8 +1,8 @@
 #include <sightline/algorithms/solids/operands.h>
 
+#include <sightline/algorithms/solids/buckets.h>
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/predicates.h>
-#include <sightline/kernel/scene/face_cutter.h>
 
 #include <algorithm>
 #include <optional>
@@ -13,23 +13,32 @@ namespace sightline {
 
 namespace {
 
-/// A face's loops on the grid, repetitions dropped.
-std::vector<Point_loop> loops_on_grid(const Polygon_soup& soup, Face_id f, std::size_t first_point,
-                                      const std::vector<std::uint32_t>& ids) {
-  std::vector<Point_loop> loops(soup.loop_count(f));
+/// Makes `loops` a face's loops on the grid, repetitions dropped.
+void put_on_grid(const Polygon_soup& soup, Face_id f, std::size_t first_point, const std::vector<std::uint32_t>& ids,
+                 std::vector<Point_loop>& loops) {
+  loops.resize(soup.loop_count(f));
   for (std::size_t k = 0; k < loops.size(); ++k) {
+    loops[k].clear();
     for (const Point_id p : soup.loop(f, k))
       if (loops[k].empty() || loops[k].back() != ids[first_point + p]) loops[k].push_back(ids[first_point + p]);
     while (loops[k].size() > 1 && loops[k].back() == loops[k].front()) loops[k].pop_back();
   }
-  return loops;
 }
 
 /// A directed edge of a piece.
 struct Edge_use {
-  std::uint64_t key;  // the lesser point, then the greater
-  std::uint32_t piece;
+  std::uint32_t lesser, greater;  // its ends
+  std::uint32_t operand, piece;
   bool backwards;  // from the greater to the lesser
+  bool is_of_edge(const Edge_use& other) const {
+    return lesser == other.lesser && greater == other.greater && operand == other.operand;
+  }
+};
+
+/// One of an operand's edges between two points, and how many more run forwards.
+struct Edge_left {
+  Edge_use edge;
+  long net;
 };
 
 }  // namespace
@@ -38,6 +47,8 @@ Operands::Operands(std::span<const Polygon_soup> solids) {
   // 1. All points on one grid.
   Coordinates all;
   std::size_t points_read = 0, faces_read = 0;
+  for (const Polygon_soup& solid : solids) points_read += solid.point_count();
+  all.reserve(3 * std::exchange(points_read, 0));
   first_face_.push_back(0);
   for (const Polygon_soup& solid : solids) {
     solid.check_corners();
@@ -53,12 +64,17 @@ Operands::Operands(std::span<const Polygon_soup> solids) {
 
   // 2. Faces into pieces.
   faces_.planes = Plane_table(points());
+  faces_.planes.reserve(faces_read);
+  faces_.pieces.reserve(faces_read);
+  faces_.corners.reserve(3 * faces_read);
   std::size_t first_point = 0;
+  std::vector<Point_loop> loops;
   for (std::uint32_t operand = 0; operand < solids.size(); ++operand) {
     const Polygon_soup& solid = solids[operand];
     for (Face_id f = 0; f < solid.face_count(); ++f) {
       const Face_id face = first_face_[operand] + f;
-      if (const auto reason = cut_face(points(), face, loops_on_grid(solid, f, first_point, ids), faces_))
+      put_on_grid(solid, f, first_point, ids, loops);
+      if (const auto reason = cut_face(points(), face, loops, faces_, Piece_bounds::left_out))
         faces_.set_aside.push_back({face, *reason, std::string(text_of(*reason))});
       operand_.resize(faces_.pieces.size(), operand);
     }
@@ -92,6 +108,12 @@ Vertex Operands::vertex(const Predicates& predicates, std::size_t piece, std::si
   return predicates.input_vertex(loop[k].point, pieces()[piece].support.id(), before.edge.id(), loop[k].edge.id());
 }
 
+bool is_whole_face(const Operands& operands, std::size_t piece) {
+  const std::vector<Piece>& all = operands.pieces();
+  return (piece == 0 || all[piece - 1].face != all[piece].face) &&
+         (piece + 1 == all.size() || all[piece + 1].face != all[piece].face);
+}
+
 std::vector<Operand_flaw> flaws(const Operands& operands) {
   std::vector<Operand_flaw> found;
   // 1. Faces without a surface of their own.
@@ -102,52 +124,56 @@ std::vector<Operand_flaw> flaws(const Operands& operands) {
     }
 
   // 2. Edges of each operand that have as many opposites as equals cancel.
-  for (std::size_t begin = 0, end = 0; begin < operands.pieces().size(); begin = end) {
-    const std::uint32_t operand = operands.operand_of_piece(begin);
-    std::vector<Edge_use> edges;
-    for (end = begin; end < operands.pieces().size() && operands.operand_of_piece(end) == operand; ++end) {
-      const std::span<const Piece_corner> corners = operands.corners(end);
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        const std::uint32_t p = corners[k].point, q = corners[k + 1 == corners.size() ? 0 : k + 1].point;
-        edges.push_back({std::uint64_t{std::min(p, q)} << 32 | std::max(p, q), static_cast<std::uint32_t>(end), q < p});
-      }
+  std::vector<Edge_use> edges;
+  for (std::size_t i = 0; i < operands.pieces().size(); ++i) {
+    const std::span<const Piece_corner> corners = operands.corners(i);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const std::uint32_t p = corners[k].point, q = corners[k + 1 == corners.size() ? 0 : k + 1].point;
+      edges.push_back(
+          {std::min(p, q), std::max(p, q), operands.operand_of_piece(i), static_cast<std::uint32_t>(i), q < p});
     }
-    std::sort(edges.begin(), edges.end(), [](const Edge_use& a, const Edge_use& b) {
-      return std::pair(a.key, a.piece) < std::pair(b.key, b.piece);
+  }
+  std::vector<Edge_left> left;
+  const std::vector<std::size_t> first = in_order_of(edges, operands.points().size(), &Edge_use::lesser);
+  for (std::size_t p = 0; p < operands.points().size(); ++p) {
+    const std::span<Edge_use> of_point(edges.data() + first[p], edges.data() + first[p + 1]);
+    std::sort(of_point.begin(), of_point.end(), [](const Edge_use& a, const Edge_use& b) {
+      return a.greater != b.greater ? a.greater < b.greater : a.piece < b.piece;
     });
-    std::vector<std::pair<const Edge_use*, long>> left;  // one of the edges, and how many more run forwards
-    for (std::size_t i = 0, j = 0; i < edges.size(); i = j) {
+    for (std::size_t i = 0, j = 0; i < of_point.size(); i = j) {
       long net = 0;
       const Edge_use* last[2] = {nullptr, nullptr};
-      for (j = i; j < edges.size() && edges[j].key == edges[i].key; ++j) {
-        net += edges[j].backwards ? -1 : 1;
-        last[edges[j].backwards] = &edges[j];
+      for (j = i; j < of_point.size() && of_point[j].is_of_edge(of_point[i]); ++j) {
+        net += of_point[j].backwards ? -1 : 1;
+        last[of_point[j].backwards] = &of_point[j];
       }
-      if (net != 0) left.emplace_back(last[net < 0], net);
+      if (net != 0) left.push_back({*last[net < 0], net});
     }
-    // 3. The others may cancel on their lines. P-08a
+  }
+  // 3. The others may cancel on their lines. P-08a
+  std::stable_sort(left.begin(), left.end(),
+                   [](const Edge_left& a, const Edge_left& b) { return a.edge.operand < b.edge.operand; });
+  for (std::size_t begin = 0, end = 0; begin < left.size(); begin = end) {
+    const std::uint32_t operand = left[begin].edge.operand;
+    while (end < left.size() && left[end].edge.operand == operand) ++end;
+    const std::span<const Edge_left> own(left.data() + begin, left.data() + end);
     Line_table lines(operands.points());
     std::unordered_map<std::uint64_t, long> jumps;  // by line and point
-    const auto ends = [](const Edge_use& edge) {
-      return std::pair(static_cast<std::uint32_t>(edge.key >> 32), static_cast<std::uint32_t>(edge.key));
-    };
-    for (const auto& [edge, net] : left) {
-      const auto [p, q] = ends(*edge);
-      const std::uint64_t line = std::uint64_t{lines.through(p, q).id} << 32;
-      jumps[line | p] -= net;
-      jumps[line | q] += net;
+    for (const auto& [edge, net] : own) {
+      const std::uint64_t line = std::uint64_t{lines.through(edge.lesser, edge.greater).id} << 32;
+      jumps[line | edge.lesser] -= net;
+      jumps[line | edge.greater] += net;
     }
     std::vector<bool> open(lines.size());
     for (const auto& [place, jump] : jumps)
       if (jump != 0) open[place >> 32] = true;
-    for (const auto& [edge, net] : left) {
-      const auto [p, q] = ends(*edge);
-      if (!open[lines.through(p, q).id]) continue;
+    for (const auto& [edge, net] : own) {
+      if (!open[lines.through(edge.lesser, edge.greater).id]) continue;
       found.push_back({operand,
-                       operands.source_of(operands.pieces()[edge->piece].face).second,
+                       operands.source_of(operands.pieces()[edge.piece].face).second,
                        {},
-                       operands.position(edge->backwards ? q : p),
-                       operands.position(edge->backwards ? p : q)});
+                       operands.position(edge.backwards ? edge.greater : edge.lesser),
+                       operands.position(edge.backwards ? edge.lesser : edge.greater)});
     }
   }
   std::stable_sort(found.begin(), found.end(),

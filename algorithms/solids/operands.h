@@ -3,6 +3,7 @@
 
 #include <sightline/kernel/plane.h>
 #include <sightline/kernel/plane_table.h>
+#include <sightline/kernel/scene/face_cutter.h>
 #include <sightline/kernel/scene/grid.h>
 #include <sightline/kernel/scene/pieces.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -37,19 +38,25 @@ class Operands {
   const Grid_points& points() const { return grid_.points(); }
   const Plane_table& planes() const { return faces_.planes; }
   const std::vector<Piece>& pieces() const { return faces_.pieces; }
+  /// Edges have planes from make_edges() on: most pieces meet nothing, and are asked for none.
   std::span<const Piece_corner> corners(std::size_t piece) const {
     return {faces_.corners.data() + pieces()[piece].first, pieces()[piece].size};
   }
+  /// Makes the planes through the edges of a piece, unless it has them. Predicates that were made before do not know
+  /// them.
+  void make_edges(std::size_t piece) { bound_piece(points(), faces_, piece); }
   const std::vector<Set_aside>& set_aside() const { return faces_.set_aside; }
   const std::vector<Face_id>& non_planar() const { return faces_.non_planar; }
   const Scene_counters& counters() const { return faces_.counters; }
   Predicates predicates() const&;  ///< of `kernel/predicates.h`
   Predicates predicates() const&& = delete;
-  /// Corner k of a piece.
+  /// Corner k of a piece. Pre: make_edges().
   Vertex vertex(const Predicates& predicates, std::size_t piece, std::size_t k) const;
   /// The file's coordinates of a point in homogeneous grid coordinates. Pre: h[3] != 0.
   Exact_point position(const std::array<Integer, 4>& h) const { return grid_.position(h); }
   Exact_point position(std::uint32_t point) const { return grid_.position(point); }
+  /// Appends a point, as position() has it.
+  Point_id add_point(std::uint32_t point, Polygon_soup& soup) const { return grid_.add_point(point, soup); }
 
  private:
   Scene_grid grid_;
@@ -58,6 +65,9 @@ class Operands {
   std::vector<Face_id> first_face_;     // of each operand; then how many there are
   std::vector<std::uint32_t> operand_;  // of each piece
 };
+
+/// Whether a piece is all that its face became.
+bool is_whole_face(const Operands& operands, std::size_t piece);
 
 /// Why an operand bounds no solid: an edge without its opposite, or a face that has no surface of its own.
 struct Operand_flaw {

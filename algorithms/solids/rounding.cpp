@@ -74,7 +74,7 @@ bool is_on_both_sides(const Operands& operands, std::size_t piece, std::size_t o
 }
 
 Pairs crossings(const Polygon_soup& soup) {
-  const Operands operands(std::span(&soup, 1));
+  Operands operands(std::span(&soup, 1));
   Pairs pairs;
   for (const Cut& cut : contacts(operands, Box_tree(operands)).cuts) {
     const Face_id a = operands.pieces()[cut.piece].face, b = operands.pieces()[cut.other].face;

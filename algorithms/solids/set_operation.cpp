@@ -99,7 +99,7 @@ bool is_in_result(Set_operation operation, Inside_rule rule, std::span<const Win
   return inside % 2 != 0;
 }
 
-Set_result set_operation(const Operands& operands, const Set_options& options) {
+Set_result set_operation(const Operands& given, const Set_options& options) {
   // Of three stages, each as much of the way as another: what meets, cutting it, putting it together.
   const auto stage = [&](std::size_t number) {
     return [&options, number](std::size_t done, std::size_t all) {
@@ -108,7 +108,7 @@ Set_result set_operation(const Operands& operands, const Set_options& options) {
     };
   };
   Set_result result;
-  const Predicates predicates = operands.predicates();
+  Operands operands = given;  // with the edges of pieces that are asked for them
   const auto pieces = static_cast<std::uint32_t>(operands.pieces().size());
 
   // 1. What meets what.
@@ -125,9 +125,12 @@ Set_result set_operation(const Operands& operands, const Set_options& options) {
       std::fill_n(piece_of.begin() + operands.pieces()[i].first, operands.pieces()[i].size, i);
   for (const auto& [k, l] : found.joined) patches.join(piece_of[k], piece_of[l]);
   std::vector<std::uint32_t> touched, heads;
-  for (std::uint32_t i = 0; i < pieces; ++i)
+  for (std::uint32_t i = 0; i < pieces; ++i) {
     if (found.touched[i]) touched.push_back(i);
     else if (patches.of(i) == i) heads.push_back(i);
+    if (!found.touched[i] && (patches.of(i) == i || !is_whole_face(operands, i))) operands.make_edges(i);
+  }
+  const Predicates predicates = operands.predicates();
 
   // 3. Cut what meets others; winding numbers of all fragments, and of a piece of each patch.
   std::vector<Piece_fragments> cut(touched.size());
@@ -189,7 +192,7 @@ Set_result set_operation(const Operands& operands, const Set_options& options) {
   Set_counters& c = result.counters;
   c.faces = operands.counters().faces;
   c.pieces = pieces;
-  c.planes = operands.planes().size();
+  c.planes = given.planes().size();
   c.bits = static_cast<std::size_t>(operands.points().bits());
   c.pairs = found.pairs;
   c.touched = touched.size();

@@ -4,10 +4,8 @@
 #include <sightline/algorithms/solids/box_tree.h>
 #include <sightline/algorithms/solids/fragments.h>
 #include <sightline/algorithms/solids/operands.h>
-#include <sightline/kernel/number.h>
 #include <sightline/kernel/sign.h>
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,10 +20,9 @@ struct Winding {
 /// By operand, ascending; of those that are not named it is 0.
 using Windings = std::vector<Winding>;
 
-/// Both sides of a fragment, and the point inside it where they were found, in homogeneous grid coordinates.
+/// Both sides of a fragment.
 struct Fragment_sides {
   Windings front, behind;
-  std::array<Integer, 4> at;
 };
 
 /// The winding numbers just before and just behind a fragment, by one ray along an axis from a point inside it. Which

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <type_traits>
 #include <utility>
 
@@ -80,14 +81,52 @@ Plane interned(Plane_table& planes, const Vector<Integer>& n, const Integer& d) 
   return planes.intern(n[0], n[1], n[2], d);
 }
 
+template <class Number>
+Vector<Number> located(const Grid_points& points, std::uint32_t p) {
+  const auto coordinate = [&](int k) -> Number {
+    if constexpr (std::is_same_v<Number, Integer>) return points.integer(p, k);
+    else if constexpr (std::is_same_v<Number, __int128>) return points.small(p, k);
+    else return Number(points.coordinate(p, k), points.limbs());
+  };
+  return {coordinate(0), coordinate(1), coordinate(2)};
+}
+
+/// Bounds each edge by the plane through it parallel to the dominant axis of the normal: half as many bits as a face
+/// plane, and one plane for edges that project to one line. With s the sign of normal[axis], (s unit x edge) points
+/// inward, since (s unit x edge) . (normal x edge) = s normal[axis] |edge|^2 > 0. Proof: P-05
+template <class Number>
+void bound(const Grid_points& points, std::size_t axis, bool negative, std::span<Piece_corner> corners,
+           Plane_table& planes) {
+  Vector<Number> unit{};
+  unit[axis] = negative ? -1 : 1;
+  Vector<Number> from = located<Number>(points, corners[0].point);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Vector<Number> to = located<Number>(points, corners[k + 1 == corners.size() ? 0 : k + 1].point);
+    const Vector<Number> inward = cross(unit, minus(to, from));
+    corners[k].edge = interned(planes, inward, Number(-dot(inward, from)));
+    from = to;
+  }
+}
+
+/// Calls with() with a number of the narrowest of three types. In g-bit coordinates a normal has 2 g + 2 bits, a normal
+/// times a difference 3 g + 6, and the area vector of a loop of up to 2^28 corners 28 more: 30 bits fit 128, 72 bits
+/// fit 256.
+template <class With>
+auto with_numbers_for(const Grid_points& points, With with) {
+  if (points.bits() <= 30) return with(__int128{});
+  if (points.bits() <= 72) return with(Fixed_integer<4>{});
+  return with(Integer{});
+}
+
 // ---- One face
 
 /// Cuts a face in the given number type.
 template <class Number>
 class Cutter {
  public:
-  Cutter(const Grid_points& points, Face_id face, const std::vector<Point_loop>& loops, Scene_faces& faces)
-      : points_(points), face_(face), loops_(loops), outer_(loops[0]), faces_(faces) {}
+  Cutter(const Grid_points& points, Face_id face, const std::vector<Point_loop>& loops, Scene_faces& faces,
+         Piece_bounds edges)
+      : points_(points), face_(face), loops_(loops), outer_(loops[0]), faces_(faces), edges_(edges) {}
 
   std::optional<Set_aside_reason> cut() {
     const Vector<Number> normal = area_vector(outer_);
@@ -242,14 +281,7 @@ class Cutter {
 
   // ---- In space
 
-  Vector<Number> at(std::uint32_t p) const {
-    const auto coordinate = [&](int k) -> Number {
-      if constexpr (std::is_same_v<Number, Integer>) return points_.integer(p, k);
-      else if constexpr (std::is_same_v<Number, __int128>) return points_.small(p, k);
-      else return Number(points_.coordinate(p, k), points_.limbs());
-    };
-    return {coordinate(0), coordinate(1), coordinate(2)};
-  }
+  Vector<Number> at(std::uint32_t p) const { return located<Number>(points_, p); }
   Vector<Number> edge(std::uint32_t p, std::uint32_t q) const { return minus(at(q), at(p)); }
 
   /// Twice the area vector of a loop.
@@ -378,25 +410,15 @@ class Cutter {
 
   // ---- Pieces
 
-  /// Adds a convex piece. Each edge is bounded by the plane through it parallel to the dominant axis of the normal:
-  /// half as many bits as a face plane, and one plane for edges that project to one line. With s the sign of
-  /// normal[axis], (s unit x edge) points inward, since (s unit x edge) . (normal x edge) = s normal[axis] |edge|^2 >
-  /// 0. Proof: P-05
   void add_piece(const Vector<Number>& normal, const Point_loop& loop) {
-    const Vector<Number> origin = at(loop[0]);
-    const Plane support = interned(faces_.planes, normal, Number(-dot(normal, origin)));
+    const Plane support = interned(faces_.planes, normal, Number(-dot(normal, at(loop[0]))));
+    const std::size_t first = faces_.corners.size();
+    faces_.pieces.push_back(
+        {face_, number_++, support, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(loop.size())});
+    for (const std::uint32_t p : loop) faces_.corners.push_back({p, Plane{}});
+    if (edges_ == Piece_bounds::left_out) return;
     const std::size_t axis = dominant(normal);
-    Vector<Number> unit{};
-    unit[axis] = normal[axis] < 0 ? -1 : 1;
-    faces_.pieces.push_back({face_, number_++, support, static_cast<std::uint32_t>(faces_.corners.size()),
-                             static_cast<std::uint32_t>(loop.size())});
-    Vector<Number> from = origin;
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Vector<Number> to = at(loop[k + 1 == loop.size() ? 0 : k + 1]);
-      const Vector<Number> inward = cross(unit, minus(to, from));
-      faces_.corners.push_back({loop[k], interned(faces_.planes, inward, Number(-dot(inward, from)))});
-      from = to;
-    }
+    bound<Number>(points_, axis, normal[axis] < 0, std::span(faces_.corners).subspan(first), faces_.planes);
   }
 
   const Grid_points& points_;
@@ -404,18 +426,28 @@ class Cutter {
   const std::vector<Point_loop>& loops_;
   const Point_loop& outer_;
   Scene_faces& faces_;
+  const Piece_bounds edges_;
   std::uint32_t number_ = 0;  // of the next piece
 };
 
 }  // namespace
 
 std::optional<Set_aside_reason> cut_face(const Grid_points& points, Face_id f, const std::vector<Point_loop>& loops,
-                                         Scene_faces& faces) {
-  // The narrowest of three number types. In g-bit coordinates a normal has 2 g + 2 bits, a normal times a difference
-  // 3 g + 6, and the area vector of a loop of up to 2^28 corners 28 more: 30 bits fit 128, 72 bits fit 256.
-  if (points.bits() <= 30) return Cutter<__int128>(points, f, loops, faces).cut();
-  if (points.bits() <= 72) return Cutter<Fixed_integer<4>>(points, f, loops, faces).cut();
-  return Cutter<Integer>(points, f, loops, faces).cut();
+                                         Scene_faces& faces, Piece_bounds edges) {
+  return with_numbers_for(
+      points, [&]<class Number>(const Number&) { return Cutter<Number>(points, f, loops, faces, edges).cut(); });
+}
+
+void bound_piece(const Grid_points& points, Scene_faces& faces, std::size_t piece) {
+  const Piece& own = faces.pieces[piece];
+  const std::span<Piece_corner> corners = std::span(faces.corners).subspan(own.first, own.size);
+  if (corners[0].edge.valid()) return;
+  const std::uint32_t id = own.support.id();
+  const Vector<Integer> normal{faces.planes.integer(id, 0), faces.planes.integer(id, 1), faces.planes.integer(id, 2)};
+  const std::size_t axis = dominant(normal);
+  const bool negative = (sgn(normal[axis]) < 0) != own.support.flipped();
+  with_numbers_for(points,
+                   [&]<class Number>(const Number&) { bound<Number>(points, axis, negative, corners, faces.planes); });
 }
 
 }  // namespace sightline

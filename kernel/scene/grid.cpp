@@ -163,6 +163,18 @@ Exact_point Scene_grid::position(const std::array<Integer, 4>& h) const {
   return p;
 }
 
+Point_id Scene_grid::add_point(std::uint32_t point, Polygon_soup& soup) const {
+  bool fits = points_.limbs() == 1 && fits_int64(scale_) && fits_int64(unit_);
+  std::array<std::int64_t, 3> scaled{};
+  for (std::size_t k = 0; k < 3 && fits; ++k)
+    fits = fits_int64(offset_[k]) &&
+           !__builtin_mul_overflow(unit_.get_si(), points_.small(point, static_cast<int>(k)), &scaled[k]) &&
+           !__builtin_add_overflow(scaled[k], offset_[k].get_si(), &scaled[k]);
+  if (fits) return soup.add_point(scaled, scale_.get_si());
+  const Exact_point p = position(point);
+  return soup.add_point(p[0], p[1], p[2]);
+}
+
 std::array<Exact_point, 2> Scene_grid::box() const {
   std::array<Exact_point, 2> corners;
   for (std::size_t side = 0; side < 2; ++side)

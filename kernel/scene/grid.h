@@ -40,6 +40,8 @@ class Scene_grid {
   Exact_point position(std::uint32_t point) const {
     return position({points_.integer(point, 0), points_.integer(point, 1), points_.integer(point, 2), 1});
   }
+  /// Appends a point of the grid to a soup. Cost: no allocation where numbers fit a machine's.
+  Point_id add_point(std::uint32_t point, Polygon_soup& soup) const;
   /// The bounding box of all points, in the file's coordinates. Pre: there is one.
   std::array<Exact_point, 2> box() const;
 

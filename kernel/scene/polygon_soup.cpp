@@ -24,6 +24,11 @@ Point_id Polygon_soup::add_point(double x, double y, double z) {
   return static_cast<Point_id>(point_count() - 1);
 }
 
+Point_id Polygon_soup::add_point(const std::array<std::int64_t, 3>& numerators, std::int64_t denominator) {
+  for (const std::int64_t numerator : numerators) coordinates.push_ratio(numerator, denominator);
+  return static_cast<Point_id>(point_count() - 1);
+}
+
 void Polygon_soup::check_corners() const {
   const auto is_there = [this](Point_id p) { return p < point_count(); };
   if (std::all_of(corners_.begin(), corners_.end(), is_there)) return;

@@ -42,6 +42,8 @@ struct Polygon_soup {
   /// finite.
   Point_id add_point(const Rational& x, const Rational& y, const Rational& z);
   Point_id add_point(double x, double y, double z);
+  /// The point of the given numerators over one denominator, which need not be reduced. Pre: denominator > 0.
+  Point_id add_point(const std::array<std::int64_t, 3>& numerators, std::int64_t denominator);
   /// Appends a face of one loop (possibly of fewer than three points) and returns its id.
   Face_id add_face(std::span<const Point_id> outer) {
     add_loop(outer);

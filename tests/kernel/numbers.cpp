@@ -239,6 +239,28 @@ TEST(Coordinates, the_ends_of_the_double_range_come_back_exactly) {
   for (std::size_t i = 0; i < std::size(values); ++i) EXPECT_EQ(column[i], exact(values[i])) << values[i];
 }
 
+RC_GTEST_PROP(Coordinates, quotients_are_the_rationals_that_they_are,
+              (std::vector<std::pair<std::int64_t, std::int64_t>> numbers)) {
+  Coordinates quotients, rationals;
+  const auto push = [&](std::int64_t numerator, std::int64_t denominator) {
+    quotients.push_ratio(numerator, denominator);
+    Rational value(Integer(static_cast<long>(numerator)), Integer(static_cast<long>(denominator)));
+    value.canonicalize();
+    rationals.push(value);
+  };
+  for (const auto& [a, b] : numbers) {
+    push(a, (b & 0xffff) + 1);
+    push(a % 1000, std::int64_t{1} << (b & 61));
+    push(a % 100, 1000000);
+    push(a, std::int64_t{1} << 62);
+  }
+  push(std::numeric_limits<std::int64_t>::min(), 6);
+  push(0, 7);
+  RC_ASSERT(quotients.size() == rationals.size());
+  for (std::size_t i = 0; i < quotients.size(); ++i) RC_ASSERT(quotients[i] == rationals[i]);
+  RC_ASSERT(quotients.denominators() == rationals.denominators());
+}
+
 TEST(Coordinates, no_numbers_have_the_common_denominator_one) { EXPECT_EQ(Coordinates().common_denominator(), 1); }
 
 RC_GTEST_PROP(Coordinates, the_common_denominator_is_the_least_and_denominators_are_counted,

@@ -41,6 +41,14 @@ TEST(Row_table, keeps_its_numbers_while_it_grows) {
   }
 }
 
+TEST(Row_table, keeps_its_numbers_when_room_is_made) {
+  Row_table table(1);
+  for (Limb x = 0; x < 100; ++x) table.intern(&x);
+  table.reserve(5000);
+  table.reserve(10);
+  for (Limb x = 0; x < 5000; ++x) ASSERT_EQ(table.intern(&x), x);
+}
+
 TEST(Row_table, an_empty_table_finds_nothing) {
   const Limb row = 0;
   EXPECT_EQ(Row_table(1).find(&row), Row_table::none);
