@@ -21,6 +21,7 @@
 #include <benchmark/benchmark.h>
 
 #include <numeric>
+#include <optional>
 #include <random>
 
 using namespace sightline;
@@ -214,8 +215,9 @@ std::vector<std::vector<Quadratic>> quadratics() {
   const auto edge = [&]() -> const Event_lines::Event_line& { return edges[dice() % edges.size()]; };
   std::vector<std::vector<Quadratic>> all;
   while (all.size() < 256) {
-    // As Event_search::search_regulus() has it.
-    const auto [first, last] = edge().hull;
+    // As Event_regulus has it.
+    const std::array<Filtered, 2>& hull = edge().hull;
+    const Homogeneous &first = hull[0].exact, &last = hull[1].exact;
     const Homogeneous step{last[0] - first[0], last[1] - first[1], last[2] - first[2], last[3] - first[3]};
     const Exact_pluecker &b = edge().pluecker, &c = edge().pluecker;
     const Homogeneous b0 = join(first, b), b1 = join(step, b), c0 = join(first, c), c1 = join(step, c);
@@ -306,7 +308,7 @@ template <class Key>
 void take_away(boost::icl::interval_set<Key>& set, Open_range<Key>& bar) {
   set.subtract(boost::icl::interval<Key>::right_open(bar.low, bar.high));
 }
-/// All of the bars, in turn: what it takes for each is in `each`.
+/// All of the bars, in turn, of a set that is made for them: what it takes for each is in `each`.
 template <class Set, class Key>
 void subranges(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
@@ -314,26 +316,24 @@ void subranges(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     std::vector<Open_range<Key>> bars = all;
-    Set set = [] {
-      if constexpr (std::is_same_v<Set, boost::icl::interval_set<Key>>) {
-        Set whole;
-        whole.add(boost::icl::interval<Key>::right_open(Key(0), Key(1)));
-        return whole;
-      } else {
-        return Set(std::vector<Open_range<Key>>{{Key(0), Key(1)}});
-      }
-    }();
     state.ResumeTiming();
-    for (Open_range<Key>& bar : bars) take_away(set, bar);
+    std::optional<Set> set;
+    if constexpr (std::is_same_v<Set, boost::icl::interval_set<Key>>)
+      set.emplace().add(boost::icl::interval<Key>::right_open(Key(0), Key(1)));
+    else set.emplace(std::vector<Open_range<Key>>{{Key(0), Key(1)}});
+    for (Open_range<Key>& bar : bars) take_away(*set, bar);
     state.PauseTiming();
-    if (count_of(set) != count + 1) state.SkipWithError("a wrong answer");
-    set = Set();
+    if (count_of(*set) != count + 1) state.SkipWithError("a wrong answer");
+    set.reset();
     state.ResumeTiming();
   }
   state.counters["each"] = benchmark::Counter(
       static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(subranges<Subrange_list<Quadratic_root>, Quadratic_root>)->RangeMultiplier(10)->Range(10, 100000);
+// Each alone, where Active_subranges::most_listed goes from one to the other.
+BENCHMARK(subranges<Subrange_list<Quadratic_root>, Quadratic_root>)->RangeMultiplier(2)->Range(1, 256);
+BENCHMARK(subranges<Subrange_tree<Quadratic_root>, Quadratic_root>)->RangeMultiplier(2)->Range(1, 256);
 BENCHMARK(subranges<Active_subranges<Quadratic_root>, Quadratic_root>)->RangeMultiplier(10)->Range(10, 1000000);
 BENCHMARK(subranges<Active_subranges<double>, double>)->RangeMultiplier(10)->Range(10, 1000000);
 BENCHMARK(subranges<boost::icl::interval_set<double>, double>)->RangeMultiplier(10)->Range(10, 1000000);
