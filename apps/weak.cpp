@@ -430,12 +430,19 @@ Exit run_weak(const Weak_arguments& arguments) {
   const bool is_partition = arguments.partition.asked_for();
   if (is_partition || !arguments.along.empty()) {
     const std::string name = is_partition ? "--partition" : "--along";
-    for (const auto& [other, value] : {std::pair("--obj", arguments.obj),
-                                       {"--mesh", arguments.mesh},
-                                       {"--eye", arguments.eye},
-                                       {"--html", arguments.html},
-                                       {"--surfaces", arguments.surfaces}})
-      if (!value.empty())
+    const View_arguments& view = arguments.view;
+    for (const auto& [other, is_given] : {std::pair("--obj", !arguments.obj.empty()),
+                                          {"--mesh", !arguments.mesh.empty()},
+                                          {"--eye", !arguments.eye.empty()},
+                                          {"--look", !view.look.empty()},
+                                          {"--up", !view.up.empty()},
+                                          {"--field", view.field != 0},
+                                          {"--shade", view.shade != View_arguments{}.shade},
+                                          {"--size", !view.canvas.size.empty()},
+                                          {"--background", !view.canvas.background.empty()},
+                                          {"--html", !arguments.html.empty()},
+                                          {"--surfaces", !arguments.surfaces.empty()}})
+      if (is_given)
         throw Usage_error(std::string(other) + " is for faces that are visible or hidden: leave it out with " + name);
     if (is_partition && !arguments.certificate.empty())
       throw Usage_error("--certificate is not written of a partition: leave it out with --partition");

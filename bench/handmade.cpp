@@ -4,11 +4,16 @@
 #include <sightline/algorithms/weak_visibility/events/active_subranges.h>
 #include <sightline/algorithms/weak_visibility/events/event_lines.h>
 #include <sightline/algorithms/weak_visibility/events/quadratic_roots.h>
+#include <sightline/algorithms/weak_visibility/partition/curve_arrangement.h>
 #include <sightline/algorithms/weak_visibility/search/line_cell.h>
 #include <sightline/algorithms/weak_visibility/search/matrix_game.h>
 #include <sightline/harness/generate/soups.h>
 #include <sightline/kernel/traits/exact_traits.h>
 
+#include <CGAL/Arr_conic_traits_2.h>
+#include <CGAL/Arrangement_2.h>
+#include <CGAL/CORE_algebraic_number_traits.h>
+#include <CGAL/Cartesian.h>
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
 #include <CGAL/Gmpzf.h>
@@ -21,6 +26,7 @@
 #include <benchmark/benchmark.h>
 
 #include <numeric>
+#include <optional>
 #include <random>
 
 using namespace sightline;
@@ -214,8 +220,9 @@ std::vector<std::vector<Quadratic>> quadratics() {
   const auto edge = [&]() -> const Event_lines::Event_line& { return edges[dice() % edges.size()]; };
   std::vector<std::vector<Quadratic>> all;
   while (all.size() < 256) {
-    // As Event_search::search_regulus() has it.
-    const auto [first, last] = edge().hull;
+    // As Event_regulus has it.
+    const std::array<Filtered, 2>& hull = edge().hull;
+    const Homogeneous &first = hull[0].exact, &last = hull[1].exact;
     const Homogeneous step{last[0] - first[0], last[1] - first[1], last[2] - first[2], last[3] - first[3]};
     const Exact_pluecker &b = edge().pluecker, &c = edge().pluecker;
     const Homogeneous b0 = join(first, b), b1 = join(step, b), c0 = join(first, c), c1 = join(step, c);
@@ -306,7 +313,7 @@ template <class Key>
 void take_away(boost::icl::interval_set<Key>& set, Open_range<Key>& bar) {
   set.subtract(boost::icl::interval<Key>::right_open(bar.low, bar.high));
 }
-/// All of the bars, in turn: what it takes for each is in `each`.
+/// All of the bars, in turn, of a set that is made for them: what it takes for each is in `each`.
 template <class Set, class Key>
 void subranges(benchmark::State& state) {
   const auto count = static_cast<std::size_t>(state.range(0));
@@ -314,29 +321,76 @@ void subranges(benchmark::State& state) {
   for (auto _ : state) {
     state.PauseTiming();
     std::vector<Open_range<Key>> bars = all;
-    Set set = [] {
-      if constexpr (std::is_same_v<Set, boost::icl::interval_set<Key>>) {
-        Set whole;
-        whole.add(boost::icl::interval<Key>::right_open(Key(0), Key(1)));
-        return whole;
-      } else {
-        return Set(std::vector<Open_range<Key>>{{Key(0), Key(1)}});
-      }
-    }();
     state.ResumeTiming();
-    for (Open_range<Key>& bar : bars) take_away(set, bar);
+    std::optional<Set> set;
+    if constexpr (std::is_same_v<Set, boost::icl::interval_set<Key>>)
+      set.emplace().add(boost::icl::interval<Key>::right_open(Key(0), Key(1)));
+    else set.emplace(std::vector<Open_range<Key>>{{Key(0), Key(1)}});
+    for (Open_range<Key>& bar : bars) take_away(*set, bar);
     state.PauseTiming();
-    if (count_of(set) != count + 1) state.SkipWithError("a wrong answer");
-    set = Set();
+    if (count_of(*set) != count + 1) state.SkipWithError("a wrong answer");
+    set.reset();
     state.ResumeTiming();
   }
   state.counters["each"] = benchmark::Counter(
       static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 BENCHMARK(subranges<Subrange_list<Quadratic_root>, Quadratic_root>)->RangeMultiplier(10)->Range(10, 100000);
+// Each alone, where Active_subranges::most_listed goes from one to the other.
+BENCHMARK(subranges<Subrange_list<Quadratic_root>, Quadratic_root>)->RangeMultiplier(2)->Range(1, 256);
+BENCHMARK(subranges<Subrange_tree<Quadratic_root>, Quadratic_root>)->RangeMultiplier(2)->Range(1, 256);
 BENCHMARK(subranges<Active_subranges<Quadratic_root>, Quadratic_root>)->RangeMultiplier(10)->Range(10, 1000000);
 BENCHMARK(subranges<Active_subranges<double>, double>)->RangeMultiplier(10)->Range(10, 1000000);
 BENCHMARK(subranges<boost::icl::interval_set<double>, double>)->RangeMultiplier(10)->Range(10, 1000000);
+
+// ---- Arrangements of conics
+
+/// As many ellipses within the unit square, each with an axis at an angle.
+std::vector<Plane_curve> ellipses(std::size_t count, std::mt19937_64& random) {
+  std::vector<Plane_curve> curves;
+  while (curves.size() < count) {
+    const auto between = [&](long low, long high) {
+      return low + static_cast<long>(random() % static_cast<unsigned long>(high - low + 1));
+    };
+    // p (1024 x - a)^2 + q (1024 x - a)(1024 y - b) + r (1024 y - b)^2 = w
+    const long a = between(384, 640), b = between(384, 640), p = between(500, 1100), q = between(-400, 400),
+               r = between(500, 1100), w = between(15000000, 40000000);
+    curves.push_back({{p * a * a + q * a * b + r * b * b - w, 1024 * (-2 * p * a - q * b), 1024 * (-2 * r * b - q * a),
+                       1048576 * p, 1048576 * q, 1048576 * r}});
+  }
+  return curves;
+}
+/// How many parts the places where their order may change divide the square into, from left to right.
+std::size_t by_curve_arrangement(const std::vector<Plane_curve>& curves) {
+  return Curve_arrangement(curves, {0, 1, 0, 1}).slabs().size();
+}
+/// The same from its vertices, with the ends of ellipses among them, no two of which have one x.
+std::size_t by_arr_conic_traits(const std::vector<Plane_curve>& curves) {
+  using Numbers = CGAL::CORE_algebraic_number_traits;
+  using Traits =
+      CGAL::Arr_conic_traits_2<CGAL::Cartesian<Numbers::Rational>, CGAL::Cartesian<Numbers::Algebraic>, Numbers>;
+  std::vector<Traits::Curve_2> conics;
+  for (const Plane_curve& curve : curves) {
+    const auto c = [&](std::size_t k) { return Numbers::Rational(curve.c[k].get_si()); };
+    conics.emplace_back(c(3), c(5), c(4), c(1), c(2), c(0));
+  }
+  const Traits traits;
+  CGAL::Arrangement_2<Traits> arrangement(&traits);
+  CGAL::insert(arrangement, conics.begin(), conics.end());
+  return arrangement.number_of_vertices() + 1;
+}
+void conics(benchmark::State& state, auto method) {
+  std::mt19937_64 random(5);
+  std::vector<std::vector<Plane_curve>> all;
+  while (all.size() < 8) all.push_back(ellipses(static_cast<std::size_t>(state.range(0)), random));
+  measure(
+      state, all.size(), [&](std::size_t i) { return method(all[i]); },
+      [&](std::size_t i, std::size_t parts) {
+        return parts == by_curve_arrangement(all[i]) && parts == by_arr_conic_traits(all[i]);
+      });
+}
+BENCHMARK_CAPTURE(conics, Curve_arrangement, by_curve_arrangement)->Arg(2)->Arg(4)->Arg(8);
+BENCHMARK_CAPTURE(conics, CGAL_Arr_conic_traits_2, by_arr_conic_traits)->Arg(2)->Arg(4)->Arg(8);
 
 }  // namespace
 

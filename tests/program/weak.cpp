@@ -121,6 +121,18 @@ TEST_F(Weak, divides_a_wall_behind_a_door_into_penumbra_and_umbra) {
   for (const char* other : {"--certificate", "--obj"})
     EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--partition", "84", other, path("x.obj").string()}).code, usage);
   EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--partition", "84", "--method", "events"}).code, usage);
+  for (const auto& [option, value] : std::vector<std::pair<std::string, std::string>>{{"--eye", "1,1,1"},
+                                                                                      {"--look", "1,0,0"},
+                                                                                      {"--up", "0,1,0"},
+                                                                                      {"--field", "60"},
+                                                                                      {"--shade", "none"},
+                                                                                      {"--size", "320x200"},
+                                                                                      {"--background", "white"}}) {
+    const Outcome wrong = run({"weak", rooms, "--from", lamp, "--partition", "84", option, value});
+    EXPECT_EQ(wrong.code, usage) << option;
+    EXPECT_NE(wrong.err.find(option + " is for faces that are visible or hidden"), std::string::npos) << wrong.err;
+    EXPECT_EQ(run({"weak", rooms, "--along", "1,1,1 7,2,1", option, value}).code, usage) << option;
+  }
   EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--partition", "500"}).code, usage);
   EXPECT_EQ(run({"weak", rooms, "--from", lamp, "--all-borders"}).code, usage);
 }

@@ -9,8 +9,11 @@
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/harness/laws/weak_partition.h>
+#include <sightline/io/read.h>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 namespace weak_partition {
 namespace {
@@ -201,6 +204,55 @@ TEST(Partition_by_hand, a_small_table_leaves_no_umbra_and_a_touching_one_hides_w
   expect_share(lying[0], 1);  // what lies in the face's plane hides nothing of what is in front of it
 }
 
+/// Level in z = 2, halfway to the lamp, from x = low to x = high, and far beyond the floor along y.
+Points plate(const Rational& low, const Rational& high) {
+  return parallelogram({low, -20, 2}, {high - low, 0, 0}, {0, 40, 0});
+}
+Polygon_soup plates(const std::vector<std::array<Rational, 2>>& all) {
+  Faces faces;
+  faces.push_back(parallelogram(at(-4, -4, 0), at(8, 0, 0), at(0, 8, 0)));
+  for (const auto& [low, high] : all) faces.push_back(plate(low, high));
+  return soup_of(faces);
+}
+
+TEST(Partition_by_hand, a_box_on_the_floor_throws_the_shadow_of_its_top_and_none_of_its_own) {
+  // A segment to the lamp that is beside the box at the height of its top is beside it all along.
+  const Polygon_soup soup = read_scene(std::string(SIGHTLINE_SOURCE_DIR) + "/tests/corpus/general/box_on_floor.off");
+  const Light_partition found = partition_of(soup, lamp(), 0);
+  const auto shares = found.shares();
+  expect_share(shares[2], ratio(49, 9) / 64);  // as under the table, and what the box stands on is within
+  expect_share(shares[0], 1 - ratio(9, 64));
+  EXPECT_EQ(found.cells.size(), 3u);
+  EXPECT_EQ(found.borders.size() + found.uprights.size(), 8u);  // the sides of two squares
+}
+
+TEST(Partition_by_hand, a_square_lamp_over_an_edge_goes_down_over_a_strip) {
+  // From x the lamp's point at s is seen past the edge at 0 iff (x + s) / 2 < 0.
+  const Light_partition found = partition_of(plates({{0, 20}}), lamp(), 0);
+  const auto shares = found.shares();
+  expect_share(shares[0], ratio(7, 16));  // x < -1 / 2
+  expect_share(shares[1], ratio(1, 8));
+  expect_share(shares[2], ratio(7, 16));  // x > 1 / 2
+  EXPECT_EQ(found.cells.size(), 3u);
+}
+
+TEST(Partition_by_hand, a_slit_shows_all_of_the_lamp_where_it_is_wide_enough) {
+  // From x the lamp's point at s is seen through a slit of half the width w iff |x + s| < 2 w.
+  const Light_partition wide = partition_of(plates({{-20, ratio(-1, 2)}, {ratio(1, 2), 20}}), lamp(), 0);
+  expect_share(wide.shares()[0], ratio(1, 8));  // |x| < 1 / 2
+  expect_share(wide.shares()[1], ratio(1, 4));  // |x| < 3 / 2
+  expect_share(wide.shares()[2], ratio(5, 8));
+  EXPECT_EQ(wide.cells.size(), 5u);
+  const Light_partition narrow = partition_of(plates({{-20, ratio(-1, 8)}, {ratio(1, 8), 20}}), lamp(), 0);
+  EXPECT_EQ(narrow.shares()[0].high, 0);
+  expect_share(narrow.shares()[1], ratio(3, 16));  // |x| < 3 / 4
+  expect_share(narrow.shares()[2], ratio(13, 16));
+  EXPECT_EQ(narrow.cells.size(), 3u);
+  const Light_partition closed = partition_of(plates({{-20, 0}, {0, 20}}), lamp(), 0);  // of no width
+  expect_share(closed.shares()[2], 1);
+  EXPECT_EQ(closed.cells.size(), 1u);
+}
+
 TEST(Partition_by_hand, half_of_a_face_behind_the_source_is_dark) {
   // A wall with a lamp in the plane that halves it.
   Faces faces;
@@ -303,6 +355,22 @@ TEST(Partition, of_floors_under_triangles_has_conics_and_is_as_the_eye_says) {
   }
   EXPECT_GT(tally.conics, test_scenes::least(4u));
   EXPECT_GT(tally.points[2], test_scenes::least(10u));
+}
+
+TEST(Partition, of_a_floor_under_bars_is_as_the_eye_says_from_ten_thousand_points) {
+  Tally tally;
+  Random random(17);
+  const Points lamp = reversed(parallelogram(at(-1, -1, 9), at(2, 0, 0), at(0, 2, 0)));
+  const std::size_t samples = test_scenes::sample(std::size_t{10000});
+  expect_right(read_scene(std::string(SIGHTLINE_SOURCE_DIR) + "/tests/corpus/general/bars_over_floor.off"), lamp, 0,
+               samples, random, tally);
+  const std::size_t asked = tally.points[0] + tally.points[1] + tally.points[2];
+  EXPECT_GT(asked, samples - samples / 100);  // what is on a border, or beside an end of one, is not asked
+  // As many of each as its share of the floor says: 13.0, 56.2 and 30.8 %.
+  const double count = static_cast<double>(asked);
+  for (const auto& [points, share] :
+       {std::pair(tally.points[0], 0.12964), {tally.points[1], 0.56212}, {tally.points[2], 0.30823}})
+    EXPECT_NEAR(static_cast<double>(points) / count, share, 4 * std::sqrt(share * (1 - share) / count));
 }
 
 TEST(Partition, with_all_borders_is_the_same_in_more_cells) {

@@ -39,9 +39,10 @@ struct Event_counters {
               unpaired = 0;  ///< edges, and skew pairs of them, that no line between the polygons touches
   std::size_t horizon = 0, edge_vertex = 0,
               triple = 0;  ///< potential events: in a plane of edges, through a vertex and an edge, through three edges
-  std::size_t off_edges = 0, off_polygons = 0,
-              covered = 0;  ///< of these: no line touches all edges between source and target; none goes from one to
-                            ///< the other; all are blocked
+  /// How often something leads nowhere: an event, one of several ranges of it, or a plane or a point before an event of
+  /// it is counted. No line touches all edges between source and target; none goes from one to the other; all are
+  /// blocked.
+  std::size_t off_edges = 0, off_polygons = 0, covered = 0;
   std::size_t subranges = 0, cells = 0;    ///< active subranges that were looked at, and cells of lines beside them
   std::size_t confirmed = 0, refuted = 0;  ///< sightlines proposed, by the exact test of all pieces
 
