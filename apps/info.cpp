@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iostream>
 #include <random>
 
@@ -29,7 +30,8 @@ struct Fronts {
 };
 
 /// By points spread evenly over the faces, and rays of which more go upright. In doubles: a sample, nothing is proved.
-Fronts fronts_of(const Scene& scene, std::uint64_t seed) {
+/// `in_time` is called before each point.
+Fronts fronts_of(const Scene& scene, std::uint64_t seed, const std::function<void(std::size_t, std::size_t)>& in_time) {
   const Occluders occluders(scene);
   const auto length = [](const Triple& a) { return std::sqrt(dot(a, a)); };
   // 1. Triangles of all pieces, by area.
@@ -54,6 +56,7 @@ Fronts fronts_of(const Scene& scene, std::uint64_t seed) {
   std::uniform_real_distribution<double> unit(0, 1);
   fronts.points = 1000;
   for (std::size_t k = 0; k < fronts.points; ++k) {
+    in_time(k, fronts.points);
     // 2. A point, and a frame on its face.
     const double at = unit(dice) * area;
     const auto found = std::lower_bound(triangles.begin(), triangles.end() - 1, at,
@@ -112,12 +115,15 @@ static Exit run(const Common& common) {
   const Stopwatch watch;
   const Polygon_soup soup = common.read();
   const double reading = watch.seconds();
+  const auto in_time = common.within_budget([](std::size_t, std::size_t) {});
   const Scene scene(soup);
   const double preparing = watch.seconds() - reading;
+  in_time(0, 1);
   const Closure closing = closure(scene);
+  in_time(0, 1);
   const Scene_counters& c = scene.counters();
   const double closed_after = watch.seconds();
-  const Fronts fronts = fronts_of(scene, common.seed);
+  const Fronts fronts = fronts_of(scene, common.seed, in_time);
   const double sampling = watch.seconds() - closed_after;
   const Bit_budget& budget = scene.planes().budget();
 

@@ -68,10 +68,11 @@ int main(int argc, char** argv) {
   std::set_new_handler(end_without_memory);
   keep_numbers_in_small_blocks(end_without_memory);
   const Exit exit = run(argc, argv);
-  // An answer that is not all there is none, whatever it was.
+  // An answer that is not all there is none, whatever it was. What went wrong earlier the system says once more.
   errno = 0;
   if (std::cout.flush()) return static_cast<int>(exit);
+  const bool well = errno == 0 && write(STDOUT_FILENO, "\n", 1) == 1;
   std::cerr << "sightline: standard output cannot be written"
-            << (errno == 0 ? "; check that its disk is not full" : std::string(": ") + std::strerror(errno)) << '\n';
+            << (well ? "; check that its disk is not full" : std::string(": ") + std::strerror(errno)) << '\n';
   return static_cast<int>(Exit::bad_input);
 }

@@ -108,12 +108,31 @@ Json groups_json(const std::vector<Group_row>& rows, const Division& division, c
   return list;
 }
 
+/// The cells of a level. Errors: Out_of_budget: there is no table without them.
+Level_cells cells_of(const Pvs_arguments& arguments, const Polygon_soup& soup, Space_tree tree) {
+  Progress progress("dividing");
+  Cell_options options;
+  options.candidates = arguments.candidates;
+  options.seed = arguments.common.seed;
+  options.threads = arguments.common.threads;
+  options.tree = std::move(tree);
+  options.progress = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  return Level_cells(soup, options);
+}
+
+/// Whether the budget is over, for what then leaves the rest undecided; empty: there is none.
+std::function<bool()> out_of_time(const Common& common, const Stopwatch& watch) {
+  if (common.budget <= 0) return {};
+  return [&common, &watch] { return watch.seconds() > common.budget; };
+}
+
 /// The table of a level that a command line asks for, and its parts.
 class Table_maker {
  public:
+  /// Pre: `watch` runs since the question was asked, and outlives the maker, as the other things do.
   Table_maker(const Pvs_arguments& arguments, const std::string& division, const Polygon_soup& soup,
-              const Level_cells& level)
-      : arguments_(arguments), level_(level), faces_(soup.face_count()), search_(level, options()) {
+              const Level_cells& level, const Stopwatch& watch)
+      : arguments_(arguments), level_(level), watch_(watch), faces_(soup.face_count()), search_(level, options()) {
     question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), arguments.candidates,
                             arguments.common.seed, arguments.outside ? ", outside" : "", division,
                             arguments.cells_too ? ", cells too" : "");
@@ -225,8 +244,7 @@ class Table_maker {
     options.progress = [this](std::size_t done, std::size_t all) {
       progress_((block_count_ - blocks_left_) * all + done, block_count_ * all);
     };
-    if (const double budget = arguments_.common.budget; budget > 0)
-      options.search.out_of_time = [this, budget] { return watch_.seconds() > budget; };
+    options.search.out_of_time = out_of_time(arguments_.common, watch_);
     return options;
   }
 
@@ -269,7 +287,7 @@ class Table_maker {
   }
   const Pvs_arguments& arguments_;
   const Level_cells& level_;
-  Stopwatch watch_;
+  const Stopwatch& watch_;
   Progress progress_{"looking"};
   std::size_t faces_;
   Pvs_search search_;
@@ -451,9 +469,10 @@ void state_walls(Json& entry, const Cell_statement& statement) {
   entry["walls"] = std::move(walls);
 }
 
-/// What the portals of a cell see outwards: faces that nothing is proved of, then the certificate.
+/// What the portals of a cell see outwards: how many faces are undecided, as they are once the budget is over; those
+/// that nothing is proved of; then the certificate.
 std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& level, const Occluders& occluders,
-                           Cell_id cell) {
+                           const Stopwatch& watch, Cell_id cell) {
   Sources sources;
   for (const std::vector<Exact_point>& portal : portals_of(level, cell)) {
     sources.polygons.push_back(weak_source(occluders, portal));
@@ -464,9 +483,11 @@ std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& le
     Weak_task task;
     task.threads = arguments.common.threads;
     task.seed = arguments.common.seed;
+    task.out_of_time = out_of_time(arguments.common, watch);
     found = run_weak_method("lines", occluders, sources, task).found;
   }
   std::string bytes;
+  store(bytes, static_cast<std::uint32_t>(found.undecided.size()));
   store(bytes, static_cast<std::uint32_t>(found.unproved.size()));
   for (const Face_id face : found.unproved) store(bytes, face);
   std::ostringstream certificate;
@@ -475,9 +496,9 @@ std::string certificate_of(const Pvs_arguments& arguments, const Level_cells& le
 }
 
 /// A certificate for each cell that is asked about, made by whoever is free; and an index that states all cells, as the
-/// table of the first process has them.
-void write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
-                        Ranks& ranks) {
+/// table of the first process has them. Returns there whether they leave nothing undecided.
+bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level, const Visibility_table& table,
+                        const Stopwatch& watch, Ranks& ranks) {
   const fs::path folder = arguments.certificates;
   std::error_code error;
   if (ranks.is_first()) fs::create_directories(folder, error);
@@ -489,18 +510,20 @@ void write_certificates(const Pvs_arguments& arguments, const Level_cells& level
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell)
     if (table.cells[cell]) asked.push_back(cell);
   std::map<Cell_id, std::vector<Face_id>> unproved;
+  bool all_decided = true;
   const auto name_of = [](Cell_id cell) { return fmt::format("cell-{}.json", cell); };
   ranks.share(
-      "certificates", asked, [&](Cell_id cell) { return certificate_of(arguments, level, occluders, cell); },
+      "certificates", asked, [&](Cell_id cell) { return certificate_of(arguments, level, occluders, watch, cell); },
       [&](Cell_id cell, const std::string& answer) {
         std::vector<Face_id>& faces = unproved[cell];
         progress(unproved.size(), asked.size());
-        faces.resize(load<std::uint32_t>(answer, 0, std::endian::little));
-        for (std::size_t i = 0; i < faces.size(); ++i)
-          faces[i] = load<std::uint32_t>(answer, 4 * (i + 1), std::endian::little);
-        write_file((folder / name_of(cell)).string(), std::string_view(answer).substr(4 * (faces.size() + 1)));
+        const auto number = [&](std::size_t i) { return load<std::uint32_t>(answer, 4 * i, std::endian::little); };
+        all_decided = all_decided && number(0) == 0;
+        faces.resize(number(1));
+        for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = number(i + 2);
+        write_file((folder / name_of(cell)).string(), std::string_view(answer).substr(4 * (faces.size() + 2)));
       });
-  if (!ranks.is_first()) return;
+  if (!ranks.is_first()) return true;
   Json index = Json::array(), rest = Json::array();
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell) {
     const Cell_statement statement = stated_cell(level, cell);
@@ -515,6 +538,7 @@ void write_certificates(const Pvs_arguments& arguments, const Level_cells& level
                                                         {"cells", std::move(index)},
                                                         {"rest", std::move(rest)}}) +
                                                    "\n");
+  return all_decided;
 }
 
 std::size_t count_of(const Visibility_table& table, std::vector<std::uint32_t> Row::*numbers) {
@@ -545,13 +569,9 @@ Exit run_into_level(const Pvs_arguments& arguments) {
     throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --grid, --volumes and --coarse");
   const std::string bytes = compiled_level(common, "--out FILE.bsp");
   const Quake_level file = read_quake_level({common.scene, bytes});
-  Cell_options cell_options;
-  cell_options.candidates = arguments.candidates;
-  cell_options.seed = common.seed;
-  cell_options.threads = common.threads;
-  cell_options.tree = space_tree(file, common.scene);
+  const Polygon_soup soup = common.read();
   const Stopwatch watch;
-  const Level_cells level(common.read(), cell_options);
+  const Level_cells level = cells_of(arguments, soup, space_tree(file, common.scene));
   const double cells_seconds = watch.seconds();
   Progress progress("looking");
   Pvs_options options;
@@ -559,7 +579,7 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   options.threads = common.threads;
   options.search.seed = common.seed;
   options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
-  if (common.budget > 0) options.search.out_of_time = [&] { return watch.seconds() > common.budget; };
+  options.search.out_of_time = out_of_time(common, watch);
   const Cell_pvs pvs = mutually_visible_cells(level, options);
   progress.clear();
   const double seconds = watch.seconds() - cells_seconds;
@@ -608,22 +628,17 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
   arguments.view.check_usage();
   const Polygon_soup soup = common.read();
-  Cell_options cell_options;
-  cell_options.candidates = arguments.candidates;
-  cell_options.seed = common.seed;
-  cell_options.threads = common.threads;
   const Division division = arguments.division.division(common, soup);
-  cell_options.tree = division.tree;
   const Stopwatch watch;
-  const Level_cells level(soup, cell_options);
+  const Level_cells level = cells_of(arguments, soup, division.tree);
   const double cells_seconds = watch.seconds();
 
-  Table_maker maker(arguments, division.question, soup, level);
+  Table_maker maker(arguments, division.question, soup, level, watch);
   const bool in_blocks = arguments.resume || !ranks.is_alone();
   const Visibility_table table = in_blocks ? maker.make_in_blocks(own, ranks) : maker.make(own);
   maker.clear();
   if (!ranks.is_first()) {
-    if (!arguments.certificates.empty()) write_certificates(arguments, level, table, ranks);
+    if (!arguments.certificates.empty()) write_certificates(arguments, level, table, watch, ranks);
     return Exit::done;
   }
   const double seconds = watch.seconds() - cells_seconds;
@@ -637,12 +652,12 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
-  if (!arguments.certificates.empty()) write_certificates(arguments, level, table, ranks);
+  const bool all_proved = arguments.certificates.empty() || write_certificates(arguments, level, table, watch, ranks);
 
   const std::size_t visible = count_of(table, &Row::visible), undecided = count_of(table, &Row::undecided),
                     cells_visible = count_of(table, &Row::cells) / 2,
                     cells_undecided = count_of(table, &Row::cells_undecided) / 2;
-  const Exit exit = undecided + cells_undecided > 0 ? Exit::undecided : Exit::done;
+  const Exit exit = undecided + cells_undecided > 0 || !all_proved ? Exit::undecided : Exit::done;
   const Pvs_counters& c = maker.counters();
   const Cell_pvs_counters& of_cells = maker.cell_counters();
   Json result{{"cells", table.rows.size()},

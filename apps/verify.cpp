@@ -132,6 +132,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
   Progress progress("verifying");
   Verify_options options;
   options.threads = common.threads;
+  options.progress = common.within_budget([](std::size_t, std::size_t) {});  // within a cell
   Json rejected = Json::array();
 
   // 1. Cell by cell.

@@ -36,6 +36,8 @@ class Image_faces {
   /// Pre: they outlive the faces, and view.eye() is pixels.eye. Errors: as centres(). Parallel.
   Image_faces(const Exact_view& view, const Pixel_view& pixels);
   Image_faces(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel);
+  Image_faces(Exact_view&&, const Pixel_view&) = delete;
+  Image_faces(Scene&&, const Pixel_view&, Image_kernel) = delete;
   Image_faces(const Image_faces&) = delete;
   Image_faces& operator=(const Image_faces&) = delete;
 

@@ -58,6 +58,7 @@ struct Cell_pvs {
 /// each other what they found; parts asked of several find again what they need.
 class Cell_pvs_search {
  public:
+  explicit Cell_pvs_search(Level_cells&&, Pvs_options = {}) = delete;
   explicit Cell_pvs_search(const Level_cells& level, Pvs_options options = {});
   ~Cell_pvs_search();
   Cell_pvs ask(std::uint32_t shard, std::uint32_t shards);

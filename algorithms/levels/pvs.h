@@ -68,6 +68,7 @@ class Pvs_maker;
 /// once.
 class Pvs_search {
  public:
+  explicit Pvs_search(Level_cells&&, Pvs_options = {}) = delete;
   explicit Pvs_search(const Level_cells& level, Pvs_options options = {});
   ~Pvs_search();
   Pvs ask(std::uint32_t shard, std::uint32_t shards) const;

@@ -450,9 +450,13 @@ void check_places(const Along_certificate& certificate) {
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
 std::string check(const Polygon_soup& soup, const Along_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene; the path has a length; the moments are in order; what is named is there.
-  const Covered covered = check_covering(soup, certificate, options.threads);
+  const Workers workers(options, soup.face_count());
+  const Covered covered = check_covering(soup, certificate, workers);
   std::vector<Outline> fragments;
-  for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
+  for (const Order_fragment& fragment : certificate.fragments) {
+    workers.ask();
+    fragments.emplace_back(fragment.vertices);
+  }
   if (!canonical(certificate.from) || !canonical(certificate.to)) reject("the path is not in canonical numbers");
   if (certificate.from == certificate.to) reject("the path has no length");
   const Moments moments(certificate.moments);

@@ -4,7 +4,6 @@
 #include <sightline/algorithms/verify/covering.h>
 
 #include <sightline/algorithms/verify/faces.h>
-#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/set_aside.h>
 #include <sightline/algorithms/verify/surface.h>
@@ -92,8 +91,8 @@ std::string Covered::text() const {
   return std::to_string(set_aside) + " faces set aside, " + std::to_string(not_planar) + " not planar";
 }
 
-Covered check_covering(const Polygon_soup& soup, const Covering& covering, int threads, const Exact_point* eye,
-                       const std::vector<bool>& known) {
+Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Workers& workers,
+                       const Exact_point* eye, const std::vector<bool>& known) {
   constexpr std::size_t faces_worth_a_thread = 100;
   const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
     return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
@@ -140,7 +139,7 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, int t
   for (const auto& entry : covering.set_aside) check_set_aside(soup, entry, set_aside);
   covered.set_aside = set_aside.size();
   std::atomic<std::size_t> not_planar = 0;
-  for_each_below(soup.face_count(), faces_worth_a_thread, threads, [&](std::size_t place) {
+  for_each_below(soup.face_count(), faces_worth_a_thread, workers, [&](std::size_t place) {
     const auto f = static_cast<Face_id>(place);
     if (set_aside.count(f) || (!known.empty() && known[f])) return;
     const std::string what = name("face", f);

@@ -3,6 +3,7 @@
 // certificates have in common. Rationals and integers only; shares nothing with what makes certificates. Laws:
 // proofs/order_certificate.md (P-21, P-22).
 
+#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
@@ -50,7 +51,7 @@ struct Covered {
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
 /// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Faces that are
 /// `known` to be tiled need no fragments. Proof: P-21, P-22
-Covered check_covering(const Polygon_soup& soup, const Covering& covering, int threads,
+Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Workers& workers,
                        const Exact_point* eye = nullptr, const std::vector<bool>& known = {});
 
 }  // namespace certificate_check

@@ -83,7 +83,8 @@ std::size_t check_whole(const Polygon_soup& soup, const Graph_certificate& certi
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
 std::string check(const Polygon_soup& soup, const Graph_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene, and the components are the fragments.
-  const Covered covered = check_covering(soup, certificate, options.threads);
+  const Workers workers(options, certificate.fragments.size());
+  const Covered covered = check_covering(soup, certificate, workers);
   const std::size_t cut = check_whole(soup, certificate);
   const std::size_t n = certificate.fragments.size();
   std::vector<std::size_t> component(n);
@@ -99,7 +100,10 @@ std::string check(const Polygon_soup& soup, const Graph_certificate& certificate
 
   // 2. The arcs are arcs, and hold each component together: from its first face to all, and from all to it.
   std::vector<Oriented_face> faces;
-  for (const Order_fragment& fragment : certificate.fragments) faces.emplace_back(fragment.vertices);
+  for (const Order_fragment& fragment : certificate.fragments) {
+    workers.ask();
+    faces.emplace_back(fragment.vertices);
+  }
   std::vector<std::vector<std::size_t>> forth(n), back(n);
   for (std::size_t k = 0; k < certificate.arcs.size(); ++k) {
     const auto& arc = certificate.arcs[k];

@@ -117,7 +117,7 @@ std::string check_cell(const Polygon_soup& soup, const Cell_statement& cell, con
                        const Verify_options& options) {
   // 0. The certificate is right, so its fragments are the scene.
   if (certificate.sources.empty()) {
-    check_covering(soup, certificate, options.threads);
+    check_covering(soup, certificate, Workers(options, certificate.fragments.size()));
   } else if (Verdict verdict = verify_weak(soup, certificate, options); !verdict.accepted) {
     throw Rejection{std::move(verdict)};
   }

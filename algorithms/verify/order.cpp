@@ -3,7 +3,6 @@
 #include <sightline/algorithms/verify/order.h>
 
 #include <sightline/algorithms/verify/pairs.h>
-#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/planes_between.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/rounded_cones.h>
@@ -24,8 +23,9 @@ namespace {
 /// nearer somewhere.
 std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::vector<Cone>& cones,
                                                                     const Verify_options& options) {
-  const std::vector<Rounded_cone> in_doubles = rounded(cones, options.threads);
-  const Planes_between planes(cones, in_doubles, options.threads);
+  const Workers workers(options, cones.size());
+  const std::vector<Rounded_cone> in_doubles = rounded(cones, workers);
+  const Planes_between planes(cones, in_doubles, workers);
   std::optional<std::pair<std::size_t, std::size_t>> first;  // (later, earlier)
   std::mutex mutex;
   Pairs pairs(cones, in_doubles, [&](std::size_t earlier, std::size_t later) {
@@ -38,7 +38,7 @@ std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::v
   });
   std::vector<std::size_t> all(cones.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  pairs.each(all, all, options.threads, share_of(options, cones.size()));
+  pairs.each(all, all, workers, share_of(options, cones.size()));
   if (first) std::swap(first->first, first->second);
   return first;
 }
@@ -47,12 +47,12 @@ std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::v
 std::string check(const Polygon_soup& soup, const Order_certificate& certificate, const Verify_options& options) {
   // 1. The eye is a point, and the fragments are the scene.
   if (!canonical(certificate.eye)) reject("the eye is not a point in canonical numbers");
-  const Covered covered =
-      check_covering(soup, certificate, options.threads, certificate.on_view ? &certificate.eye : nullptr);
+  const Workers workers(options, certificate.fragments.size());
+  const Covered covered = check_covering(soup, certificate, workers, certificate.on_view ? &certificate.eye : nullptr);
 
   // 2. No fragment is nearer than one that is drawn after it.
   std::vector<Cone> cones(certificate.fragments.size());
-  for_each_below(cones.size(), 100, options.threads,
+  for_each_below(cones.size(), 100, workers,
                  [&](std::size_t i) { cones[i] = Cone(certificate.fragments[i].vertices, certificate.eye); });
   const auto pair = first_misordered(cones, options);
   if (pair) {

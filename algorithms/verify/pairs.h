@@ -71,14 +71,15 @@ class Pairs {
 
   /// progress(share): of all pairs, those that are done with, in [0, 1]; before each cone of a part, from any thread,
   /// but never from two at once.
-  void each(const Places& a, const Places& b, int threads, const std::function<void(double)>& progress = {}) {
+  void each(const Places& a, const Places& b, const Workers& workers,
+            const std::function<void(double)>& progress = {}) {
     // 1. Windows, and parts that threads can share, in halves.
     std::vector<Part> parts;
     double all = 0;
     for (std::size_t side = 0; side < cube_sides; ++side) {
       Part part;
-      part.a = windows(a, side, threads);
-      part.b = &a == &b ? part.a : windows(b, side, threads);
+      part.a = windows(a, side, workers);
+      part.b = &a == &b ? part.a : windows(b, side, workers);
       if (part.pairs() == 0) continue;
       all += part.pairs();
       parts.push_back(std::move(part));
@@ -88,7 +89,8 @@ class Pairs {
     // 2. Each part by itself.
     progress_ = progress;
     done_ = 0;
-    for_each_below(parts.size(), 1, all < worth_threads ? 1 : threads, [&](std::size_t i) { share_out(parts[i]); });
+    for_each_below(parts.size(), 1, all < worth_threads ? 1 : workers.threads,
+                   [&](std::size_t i) { share_out(parts[i]); });
   }
 
  private:
@@ -123,9 +125,9 @@ class Pairs {
     bool help(const Part& whole) const { return front.pairs() + behind.pairs() <= 0.75 * whole.pairs(); }
   };
 
-  Windows windows(const Places& places, std::size_t side, int threads) const {
+  Windows windows(const Places& places, std::size_t side, const Workers& workers) const {
     std::vector<std::optional<Window>> all(places.size());
-    for_each_below(places.size(), enough_windows, threads, [&](std::size_t k) {
+    for_each_below(places.size(), enough_windows, workers, [&](std::size_t k) {
       if (cones_[places[k]].edge_on) return;
       all[k] = window_of(cones_[places[k]], side);
       if (all[k]) all[k]->cone = places[k];

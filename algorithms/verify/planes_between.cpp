@@ -1,6 +1,5 @@
 #include <sightline/algorithms/verify/planes_between.h>
 
-#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
@@ -24,7 +23,8 @@ int exact_side_to_plane(const Cone& a, std::size_t ray, const Cone& b) {
 
 }  // namespace
 
-Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, int threads)
+Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded,
+                               const Workers& workers)
     : cones_(cones), rounded_(rounded), paths_(cones.size()) {
   constexpr std::size_t large = 4096;  // threads share its polygons; of smaller parts each has its own
   std::vector<Part> parts{{0, cones.size(), 0}}, small;
@@ -33,9 +33,9 @@ Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector
     parts.pop_back();
     if (part.size() < large) small.push_back(part);
     else
-      for (const Part& half : cut(part, threads)) parts.push_back(half);
+      for (const Part& half : cut(part, workers)) parts.push_back(half);
   }
-  for_each_below(small.size(), 1, threads, [&](std::size_t i) { cut_to_the_end(small[i]); });
+  for_each_below(small.size(), 1, workers, [&](std::size_t i) { cut_to_the_end(small[i]); });
 }
 
 bool Planes_between::is_apart(std::size_t i, std::size_t at) const {
@@ -49,7 +49,7 @@ bool Planes_between::is_apart(std::size_t i, std::size_t at) const {
   return true;
 }
 
-std::vector<Planes_between::Part> Planes_between::cut(const Part& part, int threads) {
+std::vector<Planes_between::Part> Planes_between::cut(const Part& part, const Workers& workers) {
   constexpr std::size_t candidates = 5, samples = 24, block = 512;
   const auto [begin, end, depth] = part;
   const std::size_t size = part.size();
@@ -64,7 +64,7 @@ std::vector<Planes_between::Part> Planes_between::cut(const Part& part, int thre
   }
   // 2. Who is on its side. That polygon itself is in its plane, and begins the part behind the cut.
   const std::uint64_t bit = first >> depth;
-  for_each_below((size + block - 1) / block, 1, threads, [&](std::size_t k) {
+  for_each_below((size + block - 1) / block, 1, workers, [&](std::size_t k) {
     for (std::size_t i = begin + k * block; i < std::min(end, begin + (k + 1) * block); ++i) {
       if (i >= at) paths_[i].turns |= bit;
       if (is_apart(i, at)) paths_[i].apart |= bit;

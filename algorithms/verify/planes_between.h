@@ -18,7 +18,7 @@ class Planes_between {
  public:
   /// Pre: `rounded` are the cones, but for those that are edge-on; both outlive it. Cost: O(n log n) sides of polygons
   /// to planes, for any sequence.
-  Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, int threads = 1);
+  Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, const Workers& workers = 1);
 
   /// Whether a plane is between them; what has no such plane may be in order all the same. Pre: earlier < later,
   /// neither is edge-on.
@@ -45,8 +45,8 @@ class Planes_between {
     std::size_t size() const { return end - begin; }
   };
 
-  /// Cuts a part; of its polygons that many at once. Returns its two parts, none where it has one polygon.
-  std::vector<Part> cut(const Part& part, int threads);
+  /// Cuts a part, its polygons shared out. Returns its two parts, none where it has one polygon.
+  std::vector<Part> cut(const Part& part, const Workers& workers);
   void cut_to_the_end(const Part& part);
   /// Whether polygon i is on its side of the plane of polygon `at`: beyond it if it is earlier, before it if not.
   bool is_apart(std::size_t i, std::size_t at) const;

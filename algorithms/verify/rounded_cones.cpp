@@ -61,10 +61,10 @@ std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const R
   return std::nullopt;
 }
 
-std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, int threads) {
+std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, const Workers& workers) {
   constexpr std::size_t worth_a_thread = 1000;
   std::vector<Rounded_cone> result(cones.size());
-  for_each_below(cones.size(), worth_a_thread, threads, [&](std::size_t i) { result[i] = Rounded_cone(cones[i]); });
+  for_each_below(cones.size(), worth_a_thread, workers, [&](std::size_t i) { result[i] = Rounded_cone(cones[i]); });
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Cones in doubles, which tell of most pairs that a polygon is nowhere nearer. To be read after polygons.h.
 
+#include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/polygons.h>
 
 #include <array>
@@ -33,8 +34,8 @@ struct Rounded_cone {
 /// before it; nothing where doubles cannot tell. Proof: P-20
 std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const Rounded_cone& b);
 
-/// All of them, on that many threads.
-std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, int threads);
+/// All of them.
+std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, const Workers& workers);
 
 /// Whether doubles tell that a is nowhere nearer than b: all of one of them is on its side of the other's plane.
 bool nowhere_nearer(const Rounded_cone& a, const Rounded_cone& b);

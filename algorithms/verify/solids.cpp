@@ -130,7 +130,11 @@ using Numbers = std::map<std::uint32_t, int>;
 class Solid_check {
  public:
   Solid_check(std::span<const Polygon_soup> operands, const Solid_certificate& claim, const Verify_options& options)
-      : operands_(operands), claim_(claim), options_(options), touched_(claim.fragments.size()) {}
+      : operands_(operands),
+        claim_(claim),
+        options_(options),
+        workers_(options, claim.fragments.size()),
+        touched_(claim.fragments.size()) {}
 
   std::string check(const Polygon_soup* result) {
     check_names();
@@ -141,6 +145,7 @@ class Solid_check {
     check_numbers(grid);
     check_boundary();
     if (result != nullptr) check_result(*result);
+    if (options_.progress) options_.progress(faces_.size(), faces_.size());
     std::size_t kept = 0;
     for (const auto& fragment : claim_.fragments) kept += fragment.fate != Solid_certificate::Fate::dropped;
     return claim_.operation + " of " + std::to_string(operands_.size()) + " solids: " + std::to_string(kept) + " of " +
@@ -189,7 +194,10 @@ class Solid_check {
           reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
     }
     for (Number k = 0; k < points_.size(); ++k) near_.emplace_back(points_[k]);
-    for (std::vector<Number>& corners : numbers) faces_.emplace_back(std::move(corners), near_);
+    for (std::vector<Number>& corners : numbers) {
+      workers_.ask();
+      faces_.emplace_back(std::move(corners), near_);
+    }
     const auto add = [&](const Polygon_soup& soup) {
       std::vector<Number> all;
       for (Point_id p = 0; p < soup.point_count(); ++p) all.push_back(points_.add(soup.point(p)));
@@ -225,7 +233,7 @@ class Solid_check {
         of.push_back(i);
       }
       try {
-        check_covering(operands_[operand], covering, options_.threads, nullptr, whole);
+        check_covering(operands_[operand], covering, workers_, nullptr, whole);
       } catch (Rejection& rejection) {
         rejection.verdict.why = "solid " + std::to_string(operand) + ": " + rejection.verdict.why;
         for (std::size_t& i : rejection.verdict.fragments) i = of[i];
@@ -265,7 +273,7 @@ class Solid_check {
 
   /// No fragment is cut into by another one. Post: those are marked that may share more with another than whole edges.
   void check_crossings(const Rank_grid& grid) {
-    for_each_below(grid.side() * grid.side(), 20, options_.threads, [&](std::size_t place) {
+    for_each_below(grid.side() * grid.side(), 20, workers_, [&](std::size_t place) {
       const std::size_t x = place / grid.side(), y = place % grid.side();
       const std::vector<std::uint32_t>& here = grid.at(2, x, y);
       for (std::size_t j = 0; j < here.size(); ++j)
@@ -441,14 +449,14 @@ class Solid_check {
       if (least[i] == i) first.push_back(i);
     }
     std::vector<Numbers> numbers(faces_.size());
-    for_each_below(first.size(), 20, options_.threads, [&](std::size_t k) {
+    for_each_below(first.size(), 20, workers_, [&](std::size_t k) {
       const std::size_t i = first[k];
       std::optional<Numbers> found;
       for (std::size_t attempt = 0; attempt < 4 && !found; ++attempt)
         found = numbers_at(grid, i, point_inside(i, attempt));
       numbers[i] = found ? *found : numbers_by_brute_force(i);
     });
-    for_each_below(faces_.size(), 1000, options_.threads, [&](std::size_t i) { check_fate(i, numbers[least[i]]); });
+    for_each_below(faces_.size(), 1000, workers_, [&](std::size_t i) { check_fate(i, numbers[least[i]]); });
   }
 
   void check_fate(std::size_t i, const Numbers& front) const {
@@ -534,6 +542,7 @@ class Solid_check {
   std::span<const Polygon_soup> operands_;
   const Solid_certificate& claim_;
   const Verify_options& options_;
+  const Workers workers_;
   Numbered_points points_;
   std::vector<Solid_point> near_;  // of the fragments' corners
   std::vector<Solid_face> faces_;  // the fragments

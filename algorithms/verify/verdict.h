@@ -23,8 +23,8 @@ struct Verdict {
 
 struct Verify_options {
   int threads = 0;  ///< 0: as many as there are processors; the verdict is the same for any number
-  /// The share of pairs that are done with, of all fragments; may be empty. It may be called from any thread, but never
-  /// from two at once; what it throws ends the check.
+  /// The share of pairs that are done with, of all fragments; while fragments are made ready for that, 0. May be empty.
+  /// It may be called from any thread, but never from two at once; what it throws ends the check.
   std::function<void(std::size_t done, std::size_t total)> progress;
 };
 

@@ -146,19 +146,25 @@ class Check {
         options_(options),
         pieces_(certificate.fragments.size()),
         parts_(certificate.parts.size()),
-        tiles_(parts_ + certificate.empty.size()) {}
+        tiles_(parts_ + certificate.empty.size()),
+        workers_(options, tiles_) {}
 
   /// Returns what was shown, in one line.
   std::string run(const Polygon_soup& soup) {
     // 1. The eye is a point, and the fragments are the scene.
     if (!canonical(certificate_.eye)) reject("the eye is not a point in canonical numbers");
-    const Covered covered = check_covering(soup, certificate_, options_.threads);
+    const Covered covered = check_covering(soup, certificate_, workers_);
     take_pieces();
 
     // 2. Each part is a convex polygon inside its piece, with its ray inside its cone.
-    for (std::size_t k = 0; k < parts_; ++k) check_part(k);
-    for (std::size_t k = 0; k < certificate_.empty.size(); ++k)
+    for (std::size_t k = 0; k < parts_; ++k) {
+      workers_.ask();
+      check_part(k);
+    }
+    for (std::size_t k = 0; k < certificate_.empty.size(); ++k) {
+      workers_.ask();
       cones_.push_back(cone_of(names_.emplace_back(name("empty cone", k)), certificate_.empty[k]));
+    }
 
     // 3. No ray meets a piece before its part. No piece is nearer than a part, or as far and preferred, and none is in
     // an empty cone.
@@ -195,7 +201,8 @@ class Check {
 
   const Visible_certificate& certificate_;
   const Verify_options& options_;
-  const std::size_t pieces_, parts_, tiles_;      // how many
+  const std::size_t pieces_, parts_, tiles_;  // how many
+  const Workers workers_;
   std::vector<Cone> cones_;                       // of the pieces, then of the tiles: of the parts and of what is empty
   std::vector<certificate_check::Plane> planes_;  // of the pieces
   std::vector<std::tuple<bool, Face_id, std::uint32_t>>
@@ -208,6 +215,7 @@ class Check {
 
 void Check::take_pieces() {
   for (const Order_fragment& piece : certificate_.fragments) {
+    workers_.ask();
     cones_.emplace_back(piece.vertices, certificate_.eye);
     planes_.push_back({newell_normal(piece.vertices), piece.vertices[0]});
     preference_.emplace_back(planes_.back().side(certificate_.eye) <= 0, piece.face, piece.piece);
@@ -257,10 +265,10 @@ void Check::compare_all() {
   std::vector<std::size_t> places(cones_.size());
   std::iota(places.begin(), places.end(), std::size_t{0});
   const auto middle = places.begin() + static_cast<std::ptrdiff_t>(pieces_);
-  const std::vector<Rounded_cone> in_doubles = rounded(cones_, options_.threads);
+  const std::vector<Rounded_cone> in_doubles = rounded(cones_, workers_);
   Pairs(cones_, in_doubles, [&](std::size_t tile, std::size_t i) {
     compare(tile - pieces_, i);
-  }).each({middle, places.end()}, {places.begin(), middle}, options_.threads, share_of(options_, tiles_));
+  }).each({middle, places.end()}, {places.begin(), middle}, workers_, share_of(options_, tiles_));
   if (first_) refuse(*first_);
   if (options_.progress) options_.progress(tiles_, tiles_);
 }

@@ -474,13 +474,17 @@ std::string described(const std::vector<Polygon>& sources) {
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
 std::string check(const Polygon_soup& soup, const Weak_certificate& certificate, const Verify_options& options) {
   // 1. The fragments are the scene, and the sources are convex polygons.
-  const Covered covered = check_covering(soup, certificate, options.threads);
+  const std::size_t total = certificate.visible.size() + certificate.hidden.size();
+  const Workers workers(options, total);
+  const Covered covered = check_covering(soup, certificate, workers);
   std::vector<Outline> fragments;
-  for (const Order_fragment& fragment : certificate.fragments) fragments.emplace_back(fragment.vertices);
+  for (const Order_fragment& fragment : certificate.fragments) {
+    workers.ask();
+    fragments.emplace_back(fragment.vertices);
+  }
   const std::vector<Outline> sources = outlines_of_sources(certificate);
 
   // 2. What is said of fragments is true.
-  const std::size_t total = certificate.visible.size() + certificate.hidden.size();
   std::size_t done = 0;
   const auto progress = [&] {
     if (options.progress) options.progress(done, total);

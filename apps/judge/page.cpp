@@ -24,6 +24,7 @@ constexpr Mark_colour colours[] = {{"right", "#3a923a"},         {"abstained", "
 
 constexpr const char* style = R"(
 body { font: 14px/1.4 sans-serif; margin: 24px auto; max-width: 1340px; color: #222 }
+h1, p { overflow-wrap: anywhere }
 h1 { font-size: 22px; margin-bottom: 4px } h2 { font-size: 17px; margin-top: 28px }
 code { background: #f2f2f2; padding: 1px 4px; font-size: 13px; overflow-wrap: anywhere }
 .verdict { font-size: 17px; font-weight: bold; padding: 8px 12px; border-radius: 4px; display: inline-block }

@@ -40,7 +40,8 @@ static bool clash(const Named_file& a, const Named_file& b) {
   return a.name == "-" || b.name == "-" ? a.name == b.name : same_file(a.name, b.name);
 }
 
-/// Errors: Usage_error where an output is one of the inputs, or one of the first so many of the others.
+/// Errors: Usage_error where an output is one of the inputs, or one of the first so many of the others, or where
+/// standard output goes by another name than -: what is printed would go to the file that it replaces.
 static void check_output(const Named_file& output, const std::vector<Named_file>& inputs,
                          const std::vector<Named_file>& others, std::size_t count) {
   for (const Named_file& input : inputs)
@@ -51,6 +52,11 @@ static void check_output(const Named_file& output, const std::vector<Named_file>
     if (clash(output, others[j]))
       throw Usage_error(fmt::format("{} {}: that is where {} writes to already; name another file", output.option,
                                     output.name, others[j].option));
+  if (output.name != "-" && same_file(output.name, "/dev/stdout"))
+    throw Usage_error(
+        fmt::format("{} {}: that is the file that standard output goes to, which would be lost; name "
+                    "another one, or -",
+                    output.option, output.name));
 }
 
 void check_files(const std::vector<Named_file>& inputs, const std::vector<Named_file>& outputs,

@@ -162,6 +162,7 @@ struct Images {
 /// exact. Pre: the view and its scene outlive it; the surface covers the whole sphere.
 class Visible_reference {
  public:
+  Visible_reference(Exact_view&&, const Visible_surface<Exact_view>&) = delete;
   Visible_reference(const Exact_view& view, const Visible_surface<Exact_view>& surface)
       : view_(&view), visible_(surface.visible), images_(view, surface) {}
 

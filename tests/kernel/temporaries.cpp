@@ -3,14 +3,21 @@
 #include <sightline/algorithms/baseline/doubles_search.h>
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/cutset/update_1977.h>
+#include <sightline/algorithms/image/image_faces.h>
+#include <sightline/algorithms/levels/cell_pvs.h>
+#include <sightline/algorithms/levels/pvs.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
 #include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/priority/implicit_graph.h>
 #include <sightline/algorithms/priority/scope.h>
 #include <sightline/algorithms/priority/separation.h>
+#include <sightline/algorithms/rays/tracer.h>
+#include <sightline/algorithms/weak_visibility/along/along_scene.h>
 #include <sightline/algorithms/weak_visibility/edge_lines.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
+#include <sightline/algorithms/weak_visibility/partition/partition.h>
+#include <sightline/harness/compare/visible_errors.h>
 #include <sightline/kernel/line_table.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/scene/face_graph.h>
@@ -78,6 +85,17 @@ TEST(Temporaries, are_not_taken_by_what_keeps_a_pointer) {
                 keeps_second<Cut_set_1977<Exact_traits>, Exact_traits, Face_graph, Viewpoint, Reading_1977>);
   static_assert(keeps<Doubles_search, Occluders, Doubles_search_options> &&
                 keeps_second<Doubles_search, Occluders, Doubles_search_options>);
+
+  static_assert(keeps<Light_partitioner, Scene>);
+  static_assert(keeps<Along_scene, Occluders, Exact_point, Exact_point>);
+  static_assert(keeps<Ray_tracer, Scene>);
+  static_assert(keeps<Pvs_search, Level_cells> && keeps<Pvs_search, Level_cells, Pvs_options>);
+  static_assert(keeps<Cell_pvs_search, Level_cells> && keeps<Cell_pvs_search, Level_cells, Pvs_options>);
+  static_assert(keeps<image_detail::Image_faces, Exact_view, Pixel_view> &&
+                keeps<image_detail::Image_faces, Scene, Pixel_view, Image_kernel>);
+
+  // harness/
+  static_assert(keeps<Visible_reference, Exact_view, Visible_surface<Exact_view>>);
 
   // Predicates point into their scene.
   static_assert(gives_predicates<const Scene&> && gives_predicates<Scene&> && !gives_predicates<Scene>);

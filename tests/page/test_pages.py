@@ -3,6 +3,7 @@
 import json
 import re
 from fractions import Fraction
+from sys import executable
 
 import pytest
 from conftest import block_of, corpus, program, run
@@ -622,6 +623,20 @@ def test_a_comparison_says_the_errors_of_each(open_page, words):
         assert page.text("#method") == item.text
         assert [one.text for one in page.all("#methods [aria-pressed=true]")] == [item.text]
     assert told > 2, "a scene that something gets wrong"
+
+
+def test_a_judgement_fits_1400_pixels(browser, tmp_path):
+    mine, page = tmp_path / ("a_long_name_" * 15 + ".py"), tmp_path / "judgement.html"
+    mine.write_text("import sys\nopen(sys.argv[3], 'w').write('{\"visible\": []}')\n")
+    run("judge", "--program", f"{executable} {mine} {{scene}} {{query}} {{answer}}", "--query", "see", "--contract", "exact",
+        "--families", "hinged,triangles_between_squares", "--cases", 1, "--html", page, code=1)
+    size = browser.get_window_size()
+    browser.set_window_size(1400, 900)
+    browser.get(page.as_uri())
+    across = browser.execute_script("return [document.documentElement.scrollWidth, innerWidth, document.querySelectorAll('tr').length]")
+    browser.set_window_size(size["width"], size["height"])
+    assert across[2] > 10
+    assert across[0] <= across[1] <= 1400
 
 
 # ---- What needs no browser

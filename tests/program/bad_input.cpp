@@ -230,10 +230,13 @@ TEST_F(Bad_input, a_full_standard_output_is_no_success) {
   for (const std::vector<std::string>& words : {std::vector<std::string>{"info", cube},
                                                 {"info", cube, "--json", "-"},
                                                 {"order", cube, "--eye", "3,4,5", "--json", "-"},
-                                                {"bsp", cube}}) {
+                                                {"bsp", cube},
+                                                {"completion", "bash"},  // more than is kept before it is written
+                                                {"schema", "see"}}) {
     const Outcome r = run_to("/dev/full", words);
     EXPECT_EQ(r.code, bad_input) << r;
     EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find("No space left on device"), std::string::npos) << r;
   }
 }
 

@@ -236,7 +236,7 @@ TEST_F(Budget, that_runs_out_in_pvs_leaves_the_rest_undecided_at_once) {
   const std::string house = path("house.off").string();
   ASSERT_EQ(run({"generate", "rooms", "--size", "3", "--out", house}).code, done);
   for (const char* more : {"--outside", "--cells-too"}) {  // what it takes without a budget: some five seconds
-    const Outcome r = run({"pvs", house, more, "--budget", "0.05", "--json", "-"}, {.seconds = 30});
+    const Outcome r = run({"pvs", house, more, "--budget", sanitized ? "5" : "0.5", "--json", "-"}, {.seconds = 30});
     ASSERT_EQ(r.code, undecided) << r;
     const Json written = r.json();
     EXPECT_GT(written["result"]["undecided"], 0);
@@ -244,13 +244,45 @@ TEST_F(Budget, that_runs_out_in_pvs_leaves_the_rest_undecided_at_once) {
   }
 }
 
+TEST_F(Budget, that_runs_out_before_there_are_cells_is_exit_4) {
+  const std::string city = path("city.off").string();  // its cells take a second and more
+  ASSERT_EQ(run({"generate", "city", "--size", "2000", "--out", city}).code, done);
+  const Outcome r = run({"pvs", city, "--out", path("table.pvs").string(), "--budget", "0.01"});
+  EXPECT_EQ(r.code, undecided) << r;
+  EXPECT_TRUE(r.one_line_of_error()) << r;
+  EXPECT_FALSE(fs::exists(path("table.pvs")));
+}
+
 TEST_F(Budget, that_runs_out_in_verify_is_exit_4) {
   const std::string scene = path("soup.off").string(), certificate = path("c.json").string();
   ASSERT_EQ(run({"generate", "soup", "--size", "300", "--out", scene}).code, done);
-  ASSERT_EQ(run({"order", scene, "--eye", "3,2,1", "--certificate", certificate}).code, done);
-  const Outcome r = run({"verify", scene, certificate, "--budget", "0.001"});
-  EXPECT_EQ(r.code, undecided) << r;
-  EXPECT_TRUE(r.one_line_of_error()) << r;
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"order", "--eye", "3,2,1"},
+                                                {"see", "--eye", "3,2,1"},
+                                                {"graph"},
+                                                {"weak", "--from-face", "0"}}) {
+    std::vector<std::string> made = words;
+    made.insert(made.begin() + 1, scene);
+    made.insert(made.end(), {"--certificate", certificate});
+    ASSERT_EQ(run(made).code, done) << words[0];
+    const Outcome r = run({"verify", scene, certificate, "--budget", "1e-9"});
+    EXPECT_EQ(r.code, undecided) << words[0] << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+  }
+}
+
+TEST_F(Budget, that_runs_out_in_verify_of_solids_and_in_info_is_exit_4) {
+  const std::string cube = (corpus / "general" / "cube.off").string(), certificate = path("c.json").string();
+  ASSERT_EQ(run({"boolean", "union", cube, cube, "--out", path("u.off").string(), "--certificate", certificate}).code,
+            done);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"verify", cube, certificate, "--solid", cube}, {"info", cube}}) {
+    std::vector<std::string> late = words;
+    late.insert(late.end(), {"--budget", "1e-9"});
+    const Outcome r = run(late);
+    EXPECT_EQ(r.code, undecided) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_EQ(run(words).code, done);
+  }
 }
 
 TEST_F(Budget, of_compare_is_for_each_kernel_and_an_exact_one_that_is_late_is_exit_4) {

@@ -70,6 +70,22 @@ TEST_F(Outputs, never_take_the_place_of_what_is_read) {
   EXPECT_EQ(read_file(query), asked);
 }
 
+TEST_F(Outputs, never_take_the_place_of_what_is_printed) {
+  const std::string scene = file("s.off", cube), printed = path("printed").string(), link = path("link").string();
+  fs::create_symlink("printed", link);
+  for (const std::string& name : {printed, link, std::string("/dev/stdout")})
+    for (const std::vector<std::string>& more : {std::vector<std::string>{}, {"--certificate", "-"}}) {
+      std::vector<std::string> words{"order", scene, "--json", name};
+      words.insert(words.end(), more.begin(), more.end());
+      const Outcome r = run_to(printed, words);
+      EXPECT_EQ(r.code, usage) << r;
+      EXPECT_EQ(r.out, "") << r;
+      EXPECT_NE(r.err.find("standard output goes to"), std::string::npos) << r;
+    }
+  EXPECT_EQ(run_to(printed, {"order", scene, "--json", "-"}).code, done);
+  EXPECT_EQ(run_to("/dev/null", {"order", scene, "--json", "/dev/null"}).code, done);
+}
+
 TEST_F(Outputs, never_take_the_place_of_one_another) {
   const std::string scene = file("s.off", cube), one = path("one").string(), other = path("./one").string(),
                     ahead = path("ahead").string();

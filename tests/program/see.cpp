@@ -127,6 +127,17 @@ TEST_F(See, shows_lines_in_a_field_as_without_it) {
   EXPECT_EQ(see(looking)["result"]["lines"], see(in_field)["result"]["lines"]);
 }
 
+TEST_F(See, sees_no_floor_of_which_a_keel_leaves_a_line) {
+  // Two wings stand on the floor in the line y = 0, and have all the rest of it behind them.
+  const std::string keel = file("keel.off",
+                                "OFF\n10 3 0\n-3 -2 0\n3 -2 0\n3 2 0\n-3 2 0\n-4 0 0\n4 0 0\n4 5 2\n-4 5 2\n"
+                                "-4 -5 2\n4 -5 2\n4 0 1 2 3\n4 4 5 6 7\n4 5 4 8 9\n"),
+                    certificate = path("keel.json").string();
+  EXPECT_EQ(see({keel, "--eye", "0,0,7", "--certificate", certificate})["result"]["visible"], Json({1, 2}));
+  EXPECT_EQ(run({"verify", keel, certificate}).code, done);
+  EXPECT_EQ(see({keel, "--eye", "0,10,7"})["result"]["visible"], Json({1, 2}));
+}
+
 TEST_F(See, draws_what_it_sees) {
   const std::string svg = path("a.svg").string();
   ASSERT_EQ(run({"see", cube, "--eye", "3,-4,5", "--lines", "--svg", svg}).code, done);

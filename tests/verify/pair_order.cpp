@@ -194,6 +194,9 @@ TEST(Pair_order, reports_progress_up_to_the_end) {
     EXPECT_EQ(total, 2u);
   };
   EXPECT_TRUE(verify_order(scene.soup, scene.certificate, options).accepted);
+  EXPECT_TRUE(std::is_sorted(seen.begin(), seen.end()));
+  EXPECT_GT(std::count(seen.begin(), seen.end(), 0), 4);  // faces, cones, and pairs, before any of these is done with
+  seen.erase(std::unique(seen.begin(), seen.end()), seen.end());
   EXPECT_EQ(seen, (std::vector<std::size_t>{0, 1, 2}));
 }
 

@@ -211,4 +211,26 @@ TEST(Threads_of_checkers, call_all_once_or_throw_what_comes_first) {
     }
 }
 
+TEST(Threads_of_checkers, ask_before_each_step_one_at_a_time_and_end_with_what_that_throws) {
+  for (const int threads : {1, 2, 7})
+    for (const std::size_t enough : {0u, 1u, 200u}) {  // steps that are allowed
+      std::atomic<std::size_t> asking = 0, steps = 0;
+      std::size_t asked = 0;
+      Verify_options options;
+      options.threads = threads;
+      options.progress = [&](std::size_t done, std::size_t total) {
+        EXPECT_EQ(++asking, 1u);
+        EXPECT_EQ(done, 0u);
+        EXPECT_EQ(total, 17u);
+        --asking;
+        if (asked == enough) throw std::string("enough");
+        ++asked;
+      };
+      const certificate_check::Workers workers(options, 17);
+      EXPECT_THROW(certificate_check::for_each_below(1000, 1, workers, [&](std::size_t) { ++steps; }), std::string);
+      EXPECT_EQ(steps, enough);
+      EXPECT_EQ(asked, enough);
+    }
+}
+
 }  // namespace

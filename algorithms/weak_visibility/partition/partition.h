@@ -45,6 +45,7 @@ struct Partition_options {
 class Light_partitioner {
  public:
   /// Of all pieces of the scene as occluders, which it merges.
+  explicit Light_partitioner(Scene&&) = delete;
   explicit Light_partitioner(const Scene& scene);
   ~Light_partitioner();
   /// `sources`: convex polygons in the file's coordinates. Errors: std::invalid_argument, as weak_source().
