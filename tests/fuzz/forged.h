@@ -1,7 +1,7 @@
 #pragma once
 // Certificates forged by meaning, on scenes of all families: the right certificate of another scene (pretences.h), or
-// one that lies about what is shown (lies.h and its like), as one of the scene at hand. What a checker accepts nevertheless has to
-// be true: where brute force tries it (claims.h), and by what the engines answer (truth.h).
+// one that lies about what is shown (lies.h and its like), as one of the scene at hand. What a checker accepts
+// nevertheless has to be true: where brute force tries it (claims.h), and by what the engines answer (truth.h).
 
 #include "certificate.h"
 #include "lies.h"
