@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t no_id = ~std::uint32_t{0};
 
-/// What becomes one or more faces: all that is kept of a face, turned the same way.
+/// What becomes one or more faces: all that is kept of a face in one plane, with one front, turned the same way.
 struct Face_group {
   Face_id face;
   bool turned;
@@ -181,8 +181,10 @@ class Assembler {
  private:
   std::uint32_t group_of(const Kept_fragment& fragment) {
     const Piece& piece = operands_.pieces()[fragment.piece];
+    // A face that is not planar may be folded flat: in one plane it has parts of either sense.
     const std::uint64_t key =
-        (std::uint64_t{piece.face} << 1 | static_cast<std::uint64_t>(fragment.turned)) << 32 | piece.support.id();
+        (std::uint64_t{piece.face} << 1 | static_cast<std::uint64_t>(fragment.turned)) << 32 |
+        (std::uint64_t{piece.support.id()} << 1 | static_cast<std::uint64_t>(piece.support.flipped()));
     const auto [place, fresh] = by_face_.try_emplace(key, static_cast<std::uint32_t>(groups_.size()));
     if (fresh) groups_.push_back({piece.face, fragment.turned, piece.support, {}});
     return place->second;

@@ -436,6 +436,35 @@ TEST(Set_operations, of_real_solids_in_pairs_with_a_plane_in_common_add_up) {
   EXPECT_GT(meeting, pairs / 4);
 }
 
+TEST(Set_operations, of_solids_with_faces_that_are_folded_flat_are_solids) {
+  // A loop of few places, mostly not planar, and a cone over it.
+  std::size_t folded = 0;
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(2000u); ++seed) {
+    generate::Random random(seed);
+    Polygon_soup solid;
+    const auto corners = static_cast<Point_id>(5 + random.below(2));
+    for (Point_id k = 0; k < corners; ++k) {
+      const auto anywhere = [&] { return Rational(static_cast<long>(random.below(3))); };
+      solid.add_point(anywhere(), anywhere(), k + 1 < corners ? Rational(0) : Rational(1));
+    }
+    const Point_id apex = solid.add_point(1, 1, -5);
+    std::vector<Point_id> loop;
+    for (Point_id k = 0; k < corners; ++k) {
+      loop.push_back(k);
+      solid.add_face({(k + 1) % corners, k, apex});
+    }
+    solid.add_face(loop);
+    const std::vector<Polygon_soup> alone{solid};
+    if (!flaws(Operands(alone)).empty()) continue;
+    const Polygon_soup surface = of(Set_operation::unite, alone).soup;
+    const std::vector<Polygon_soup> again{surface};
+    EXPECT_TRUE(flaws(Operands(again)).empty()) << "seed " << seed;
+    EXPECT_EQ(volume(of(Set_operation::unite, again).soup), volume(surface)) << "seed " << seed;
+    folded += volume(surface) != 0;
+  }
+  EXPECT_GT(folded, test_scenes::sample(2000u) / 20);
+}
+
 TEST(Operands, that_are_open_are_refused_with_their_edges) {
   Polygon_soup open;
   const Polygon_soup whole = box({0, 0, 0}, {1, 1, 1});
