@@ -194,7 +194,7 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
 Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                                const Asking& asking = {});
 /// A quick answer that leaves out nothing: a face is hidden only where one part alone hides it, or it looks away; all
-/// others count as visible, and of these there is no certificate. Errors: as weakly_visible().
+/// others count as visible, and of these there is no certificate. Errors: as weakly_visible(); Out_of_budget.
 Weak_visibility possibly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                                  const Asking& asking = {});
 /// The convex parts of a face as sources. Errors: std::out_of_range where the model has no such face.

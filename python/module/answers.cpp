@@ -106,8 +106,7 @@ py::tuple seen_along(const Model& model, const py::object& start, const py::obje
 
 py::tuple verdict_on_solids(const py::list& solids, const Model& result, const std::string& certificate,
                             const Question& question) {
-  std::vector<Model> models;
-  for (const py::handle solid : solids) models.push_back(py::cast<Model>(solid));
+  const std::vector<Model> models = models_of(solids);
   const Checked checked =
       answer_to(question, [&](const Asking& asking) { return verify(models, result, certificate, asking); });
   return py::make_tuple(checked.accepted, checked.why);

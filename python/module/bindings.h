@@ -46,6 +46,12 @@ py::array points_of(const Polygon_soup& soup, bool exact);
 /// Its faces: corners one loop after the other, where loops begin, and where faces begin among loops.
 py::tuple faces_of(const Polygon_soup& soup);
 
+inline std::vector<Model> models_of(const py::list& scenes) {
+  std::vector<Model> models;
+  for (const py::handle scene : scenes) models.push_back(py::cast<Model>(scene));
+  return models;
+}
+
 /// The convex polygons that look: of a face of that number, or as given. Errors: IndexError where there is no such
 /// face.
 std::vector<std::vector<Exact_point>> sources_of(const Model& model, const py::object& source);

@@ -112,8 +112,7 @@ py::tuple firsts_of(const Exact_hits& found) {
 
 py::tuple combined(const std::string& operation, const py::list& solids, const std::string& inside,
                    const Question& question) {
-  std::vector<Model> models;
-  for (const py::handle solid : solids) models.push_back(py::cast<Model>(solid));
+  const std::vector<Model> models = models_of(solids);
   const Combined found =
       answer_to(question, [&](const Asking& asking) { return combine(operation, models, inside, asking); });
   py::array_t<std::int64_t> sources({static_cast<py::ssize_t>(found.faces.size()), py::ssize_t{2}});

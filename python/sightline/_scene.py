@@ -246,7 +246,8 @@ class Scene:
 
         source: the id of a face that looks to its front; a convex polygon, (k, 3), counterclockwise as seen from the
         side that it looks to; or a list of polygons. What `budget` leaves open is undecided. conservative: a quick
-        answer that leaves out nothing; what it calls visible may be hidden by several faces together.
+        answer that leaves out nothing; what it calls visible may be hidden by several faces together. A budget that
+        runs out then raises OutOfBudget.
         """
         with followed(progress, "weak") as told:
             question = _question(threads, told, budget, two_sided)

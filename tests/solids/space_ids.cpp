@@ -30,6 +30,14 @@ Operands triangles(const std::vector<std::array<std::array<long, 3>, 3>>& all) {
   return operands;
 }
 
+Operands any_triangles(generate::Random& random, std::size_t count) {
+  std::vector<std::array<std::array<long, 3>, 3>> all(count);
+  for (auto& corners : all)
+    for (auto& p : corners)
+      for (long& x : p) x = random.between(-1, 1);
+  return triangles(all);
+}
+
 std::array<Rational, 3> place_of(const std::array<Integer, 4>& h) {
   std::array<Rational, 3> place;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -41,13 +49,7 @@ std::array<Rational, 3> place_of(const std::array<Integer, 4>& h) {
 
 TEST(Space_ids, vertices_have_one_id_iff_they_have_one_place) {
   generate::Random random(7);
-  std::vector<std::array<std::array<long, 3>, 3>> all;
-  for (int f = 0; f < 16; ++f) {
-    all.emplace_back();
-    for (auto& p : all.back())
-      for (long& x : p) x = random.between(-1, 1);
-  }
-  const Operands operands = triangles(all);
+  const Operands operands = any_triangles(random, 16);
   const Predicates predicates = operands.predicates();
   const auto planes = static_cast<std::uint32_t>(operands.planes().size());
   Vertex_ids ids(operands);
@@ -73,13 +75,7 @@ TEST(Space_ids, vertices_have_one_id_iff_they_have_one_place) {
 
 TEST(Space_ids, lines_have_one_id_iff_their_minors_are_proportional) {
   generate::Random random(8);
-  std::vector<std::array<std::array<long, 3>, 3>> all;
-  for (int f = 0; f < 30; ++f) {
-    all.emplace_back();
-    for (auto& p : all.back())
-      for (long& x : p) x = random.between(-1, 1);
-  }
-  const Operands operands = triangles(all);
+  const Operands operands = any_triangles(random, 30);
   const Predicates predicates = operands.predicates();
   const auto planes = static_cast<std::uint32_t>(operands.planes().size());
   Line_ids ids(operands);
