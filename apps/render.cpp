@@ -70,7 +70,7 @@ struct Rendered {
 Rendered render(Scene& scene, const View& view, const Render_arguments& arguments, const Image_options& options) {
   const Pixel_view pixels = pixel_view(view);
   const std::vector<Tint> tints = tints_of(arguments.tints, arguments.common.scene, Exact_view(scene, pixels.eye),
-                                           arguments.view.shade == "lambert");
+                                           arguments.view.shade == "lambert", options.progress);
   const bool transparent = is_transparent(tints);
   if (transparent && !shows_through(arguments.method))
     throw Usage_error(
@@ -131,12 +131,12 @@ static Exit run(const Render_arguments& arguments) {
     throw Usage_error("--bits is for --method depth and weighted");
   Scene scene(common.read());
   const Exact_point eye = eye_of(arguments.eye, scene);
-  const View view = aimed(arguments.view.view(eye, scene), scene);
-  const Pixel_view pixels = pixel_view(view);
   Progress progress("drawing");
   Image_options options;
   options.threads = common.threads;
   options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  const View view = aimed(arguments.view.view(eye, scene), scene);
+  const Pixel_view pixels = pixel_view(view);
   const Rendered rendered = render(scene, view, arguments, options);
   if (!arguments.png.empty()) write_file(arguments.png, rendered.canvas.png());
   progress.clear();

@@ -154,7 +154,7 @@ static Exit run_folder(const Common& common, const std::string& folder, std::siz
 
   // 2. All together.
   for (Cell_entry& entry : index.rest) level.push_back({entry.cell, std::move(entry.statement.walls), false, {}});
-  const Verdict filled = verify_level_fill(soup, level);
+  const Verdict filled = verify_level_fill(soup, level, options);
   if (!filled.accepted) rejected.push_back({{"file", folder + "/index.json"}, {"why", filled.why}});
 
   const double seconds = watch.seconds();

@@ -531,9 +531,11 @@ Exit run_weak(const Weak_arguments& arguments) {
     row("unproved", fmt::format("{}: a certificate leaves these open", found.unproved.size()));
   if (method == "sample") row("rays", fmt::format("{} from each source; nothing is proved", task.rays));
   if (method == "lines")
-    row("searches", fmt::format("{}: {} facing away, {} seen by the first lines; {} cells in the others", c.targets,
-                                c.away, c.by_rays, c.cells));
-  if (method == "lines" && found.visible.empty() && found.undecided.empty() && c.away > 0 && c.cells == 0)
+    row("searches",
+        fmt::format("{}: {} facing away, {} seen by the first lines, {} hidden by one piece; {} cells in the others",
+                    c.targets, c.away, c.by_rays, c.by_one, c.cells));
+  if (method == "lines" && found.visible.empty() && found.undecided.empty() && c.away > 0 && c.cells == 0 &&
+      c.by_one == 0)
     row("turned round?",
         "all faces are behind the source or have their backs to it; a source looks to the side from which its corners "
         "run counterclockwise: to look to the other one, write them backwards; --flip turns the scene instead");

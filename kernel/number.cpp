@@ -18,6 +18,11 @@ Rational exact_decimal(const Integer& mantissa, long exponent) {
 }
 
 double nearest_double(const Rational& value) {
+  // p / 2^k with a numerator of 53 bits is a double.
+  const mpz_srcptr top = value.get_num_mpz_t(), bottom = value.get_den_mpz_t();
+  const std::size_t places = mpz_sizeinbase(bottom, 2) - 1;
+  if (places < 1000 && mpz_sizeinbase(top, 2) <= 53 && mpz_scan1(bottom, 0) == places)
+    return std::ldexp(mpz_get_d(top), -static_cast<int>(places));
   // As MPFR's manual has it for IEEE doubles: 53 bits, or as many as a subnormal has, rounded once.
   MPFR_DECL_INIT(rounded, 53);
   const mpfr_exp_t least = mpfr_get_emin();

@@ -34,11 +34,12 @@ std::vector<Band> bands_of(const Pixel_cones& cones);
 
 /// Adds the cones of things 0 to before `count`, in their order: add(cones, i). Parallel.
 template <class Add>
-Pixel_cones all_cones(std::size_t count, const Pixel_cones& none, Add add) {
+Pixel_cones all_cones(std::size_t count, const Pixel_cones& none, const Image_options& options, Add add) {
   constexpr std::size_t chunk = 1024;
   const std::size_t chunks = (count + chunk - 1) / chunk;
   std::vector<Pixel_cones> parts(chunks, none);
   parallel_for(chunks, [&](std::size_t k) {
+    if (options.progress) options.progress(0, chunks);  // asked, but nothing is drawn yet
     for (std::size_t i = k * chunk; i < std::min(count, (k + 1) * chunk); ++i) add(parts[k], i);
   });
   Pixel_cones all = none;

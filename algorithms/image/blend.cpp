@@ -86,7 +86,7 @@ Blended_image blended_centres(const Exact_view& view, const Pixel_view& pixels, 
   Blended_image image = Blended_image::empty(pixels);
   image.tied.assign(image.layers.size(), 0);
   run_with_threads_for(options, pixels, view.scene().pieces().size(), [&] {
-    const Image_faces faces(view, pixels);
+    const Image_faces faces(view, pixels, options);
     const Pixel_cones& cones = faces.cones();
     image.counters = faces.counters();
     image.counters += draw_bands(bands_of(cones), options, [&](const Band& band, Image_counters& counters) {
@@ -117,7 +117,7 @@ Blended_image blended_painting(const std::vector<Painted_polygon>& polygons, con
   Blended_image image = Blended_image::empty(pixels);
   const Pixel_centres centres(pixels);
   run_with_threads_for(options, pixels, polygons.size(), [&] {
-    const Painted_cones painted(polygons, centres, kernel);
+    const Painted_cones painted(polygons, centres, kernel, options);
     image.counters = painted.paint(Painted_cones::Border::half, options, [&](std::size_t at, std::uint32_t piece) {
       image.layers[at].put_before(tints[piece]);
     });

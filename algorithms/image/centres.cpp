@@ -165,7 +165,7 @@ Piece_image image_at_centres(const Image_faces& faces, const Image_options& opti
 Piece_image centres(const Exact_view& view, const Pixel_view& pixels, const Image_options& options) {
   Piece_image image;
   image_detail::run_with_threads_for(options, pixels, view.scene().pieces().size(), [&] {
-    image = image_detail::image_at_centres(image_detail::Image_faces(view, pixels), options);
+    image = image_detail::image_at_centres(image_detail::Image_faces(view, pixels, options), options);
   });
   return image;
 }

@@ -24,20 +24,21 @@ Exact_view::Plane inwards(const Exact_view& view, std::uint32_t piece, std::uint
 
 }  // namespace
 
-Image_faces::Image_faces(const Exact_view& view, const Pixel_view& pixels)
+Image_faces::Image_faces(const Exact_view& view, const Pixel_view& pixels, const Image_options& options)
     : scene_(view.scene()), centres_(pixels), cones_(centres_, {}) {
-  add_all(view);
+  add_all(view, options);
 }
 
-Image_faces::Image_faces(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel)
+Image_faces::Image_faces(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel,
+                         const Image_options& options)
     : scene_(scene), centres_(pixels), cones_(centres_, {}) {
   if (kernel == Image_kernel::float_numbers) {
-    add_all_in<float>();
+    add_all_in<float>(options);
   } else if (kernel == Image_kernel::double_numbers) {
-    add_all_in<double>();
+    add_all_in<double>(options);
   } else {
     own_ = std::make_unique<const Exact_view>(scene, pixels.eye);
-    add_all(*own_);
+    add_all(*own_, options);
   }
 }
 
@@ -46,7 +47,7 @@ void Image_faces::add_face(std::uint32_t piece, const Pixel_form& nearness, bool
   faces_.push_back({piece, nearness, {from_behind, its.face, its.number}});
 }
 
-void Image_faces::add_all(const Exact_view& view) {
+void Image_faces::add_all(const Exact_view& view, const Image_options& options) {
   for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i)
     if (view.eye_side(i) != CGAL::ZERO)
       add_face(i, Pixel_form(centres_, view.nearness(i)), view.eye_side(i) == CGAL::NEGATIVE);
@@ -58,7 +59,7 @@ void Image_faces::add_all(const Exact_view& view) {
     if (view.same_plane(f, g)) return std::array<Integer, 3>{0, 0, 0};
     return view.normal(view.crossing(f, g));
   };
-  cones_ = all_cones(faces_.size(), Pixel_cones(centres_, normal), [&](Pixel_cones& to, std::size_t i) {
+  cones_ = all_cones(faces_.size(), Pixel_cones(centres_, normal), options, [&](Pixel_cones& to, std::size_t i) {
     const std::uint32_t its = faces_[i].piece;
     const std::span<const Piece_corner> corners = scene_.corners(scene_.pieces()[its]);
     std::vector<Approximate_vector> directions;
@@ -70,7 +71,7 @@ void Image_faces::add_all(const Exact_view& view) {
 }
 
 template <class Number>
-void Image_faces::add_all_in() {
+void Image_faces::add_all_in(const Image_options& options) {
   const Number_image<Number> numbers(centres_.view());
   cones_ = Pixel_cones(centres_, no_normal);
   exact_crossing_ = no_normal;
@@ -78,6 +79,7 @@ void Image_faces::add_all_in() {
   parallel_for(points.size(),
                [&](std::size_t p) { points[p] = numbers.arm(scene_.position(static_cast<std::uint32_t>(p))); });
   for (std::uint32_t i = 0; i < scene_.pieces().size(); ++i) {
+    if (options.progress) options.progress(0, scene_.pieces().size());
     arms.clear();
     for (const Piece_corner& corner : scene_.corners(scene_.pieces()[i])) arms.push_back(points[corner.point]);
     const std::optional<Number_plane<Number>> plane = numbers.plane(arms);

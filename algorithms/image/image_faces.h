@@ -34,10 +34,10 @@ struct Nearness {
 class Image_faces {
  public:
   /// Pre: they outlive the faces, and view.eye() is pixels.eye. Errors: as centres(). Parallel.
-  Image_faces(const Exact_view& view, const Pixel_view& pixels);
-  Image_faces(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel);
-  Image_faces(Exact_view&&, const Pixel_view&) = delete;
-  Image_faces(Scene&&, const Pixel_view&, Image_kernel) = delete;
+  Image_faces(const Exact_view& view, const Pixel_view& pixels, const Image_options& options);
+  Image_faces(const Scene& scene, const Pixel_view& pixels, Image_kernel kernel, const Image_options& options);
+  Image_faces(Exact_view&&, const Pixel_view&, const Image_options&) = delete;
+  Image_faces(Scene&&, const Pixel_view&, Image_kernel, const Image_options&) = delete;
   Image_faces(const Image_faces&) = delete;
   Image_faces& operator=(const Image_faces&) = delete;
 
@@ -91,9 +91,9 @@ class Image_faces {
   /// The normal of the plane in front of which face a is nearer than face b; zero where they are in one plane.
   using Exact_crossing = std::function<std::array<Integer, 3>(std::uint32_t a, std::uint32_t b)>;
 
-  void add_all(const Exact_view& view);
+  void add_all(const Exact_view& view, const Image_options& options);
   template <class Number>
-  void add_all_in();
+  void add_all_in(const Image_options& options);
   void add_face(std::uint32_t piece, const Pixel_form& nearness, bool from_behind);
 
   const Scene& scene_;

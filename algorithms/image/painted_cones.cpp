@@ -76,18 +76,18 @@ const Exact_view::Ray& next(std::span<const Exact_view::Ray> rays, std::size_t k
 }  // namespace
 
 Painted_cones::Painted_cones(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres,
-                             Image_kernel kernel)
+                             Image_kernel kernel, const Image_options& options)
     : cones_(centres, no_normal) {
   switch (kernel) {
-    case Image_kernel::float_numbers: add_in<float>(polygons); break;
-    case Image_kernel::double_numbers: add_in<double>(polygons); break;
-    case Image_kernel::exact: add_exactly(polygons); break;
+    case Image_kernel::float_numbers: add_in<float>(polygons, options); break;
+    case Image_kernel::double_numbers: add_in<double>(polygons, options); break;
+    case Image_kernel::exact: add_exactly(polygons, options); break;
   }
   left_out_ = polygons.size() - pieces_.size();
 }
 
 Painted_cones::Painted_cones(const Exact_view& view, const Visible_surface<Exact_view>& surface,
-                             const Pixel_centres& centres)
+                             const Pixel_centres& centres, const Image_options& options)
     : cones_(centres, no_normal) {
   std::vector<std::span<const Exact_view::Ray>> parts;
   for (const auto& part : surface.parts) {
@@ -98,7 +98,7 @@ Painted_cones::Painted_cones(const Exact_view& view, const Visible_surface<Exact
   const auto normal = [&view, parts](std::uint32_t cone, std::uint32_t edge) {
     return cross(view.direction(parts[cone][edge]), view.direction(next(parts[cone], edge)));
   };
-  cones_ = all_cones(parts.size(), Pixel_cones(centres, normal), [&](Pixel_cones& to, std::size_t i) {
+  cones_ = all_cones(parts.size(), Pixel_cones(centres, normal), options, [&](Pixel_cones& to, std::size_t i) {
     std::vector<Approximate_vector> corners;
     for (const Exact_view::Ray& ray : parts[i]) corners.push_back(close_to(view, ray));
     if (!to.add(corners)) return;
@@ -107,17 +107,20 @@ Painted_cones::Painted_cones(const Exact_view& view, const Visible_surface<Exact
   });
 }
 
-void Painted_cones::add_exactly(const std::vector<Painted_polygon>& polygons) {
+void Painted_cones::add_exactly(const std::vector<Painted_polygon>& polygons, const Image_options& options) {
   const Pixel_centres& centres = cones_.centres();
   std::vector<Exact_cone> exact(polygons.size());
-  parallel_for(polygons.size(), [&](std::size_t i) { exact[i] = exact_cone(polygons[i], centres.view().eye); });
+  parallel_for(polygons.size(), [&](std::size_t i) {
+    if (options.progress) options.progress(0, polygons.size());
+    exact[i] = exact_cone(polygons[i], centres.view().eye);
+  });
   std::erase_if(exact, [](const Exact_cone& cone) { return cone.normals.empty(); });
   for (Exact_cone& cone : exact) {
     pieces_.push_back(cone.piece);
     normals_.push_back(std::move(cone.normals));
   }
   const auto normal = [this](std::uint32_t cone, std::uint32_t edge) { return normals_[cone][edge]; };
-  cones_ = all_cones(exact.size(), Pixel_cones(centres, normal), [&](Pixel_cones& to, std::size_t i) {
+  cones_ = all_cones(exact.size(), Pixel_cones(centres, normal), options, [&](Pixel_cones& to, std::size_t i) {
     std::vector<Approximate_vector> corners;
     for (const auto& corner : exact[i].corners) {
       const std::array<double, 3> v = approximated(corner).normal;
@@ -129,9 +132,10 @@ void Painted_cones::add_exactly(const std::vector<Painted_polygon>& polygons) {
 }
 
 template <class Number>
-void Painted_cones::add_in(const std::vector<Painted_polygon>& polygons) {
+void Painted_cones::add_in(const std::vector<Painted_polygon>& polygons, const Image_options& options) {
   const Number_image<Number> numbers(cones_.centres().view());
   for (const Painted_polygon& polygon : polygons) {
+    if (options.progress) options.progress(0, polygons.size());
     std::vector<Vector_of<Number>> arms;
     for (const Exact_point& p : polygon.corners) arms.push_back(numbers.arm(p));
     if (const auto plane = numbers.plane(arms); plane && numbers.add(cones_, arms, *plane))

@@ -20,10 +20,12 @@ namespace sightline::image_detail {
 class Painted_cones {
  public:
   /// Pre: the centres outlive them. Parallel. Exact: as the kernel is.
-  Painted_cones(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres, Image_kernel kernel);
+  Painted_cones(const std::vector<Painted_polygon>& polygons, const Pixel_centres& centres, Image_kernel kernel,
+                const Image_options& options);
   /// The parts of a surface that show something, in their order. Pre: view, surface and centres outlive them. Parallel.
   /// Exact: yes.
-  Painted_cones(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_centres& centres);
+  Painted_cones(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_centres& centres,
+                const Image_options& options);
   Painted_cones(const Painted_cones&) = delete;
   Painted_cones& operator=(const Painted_cones&) = delete;
 
@@ -37,9 +39,9 @@ class Painted_cones {
   Image_counters paint(Border border, const Image_options& options, Visit visit) const;
 
  private:
-  void add_exactly(const std::vector<Painted_polygon>& polygons);
+  void add_exactly(const std::vector<Painted_polygon>& polygons, const Image_options& options);
   template <class Number>
-  void add_in(const std::vector<Painted_polygon>& polygons);
+  void add_in(const std::vector<Painted_polygon>& polygons, const Image_options& options);
 
   std::size_t left_out_ = 0;
   std::vector<std::uint32_t> pieces_;

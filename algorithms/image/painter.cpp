@@ -19,13 +19,21 @@ namespace {
 
 /// Pieces farthest first.
 template <class Number>
-std::vector<std::uint32_t> sorted(const Scene& scene, const Pixel_view& pixels, Painter_key key) {
+std::vector<std::uint32_t> sorted(const Scene& scene, const Pixel_view& pixels, Painter_key key,
+                                  const Image_options& options) {
+  unsigned asked = 0;
+  const auto ask = [&] {
+    if (options.progress && ++asked % 64 == 0) options.progress(0, scene.pieces().size());
+  };
   const Vector_of<Number> eye = rounded<Number>(pixels.eye), look = converted<Number>(pixels.look);
   std::vector<Number> depths;
-  for (std::uint32_t p = 0; p < scene.points().size(); ++p)
+  for (std::uint32_t p = 0; p < scene.points().size(); ++p) {
+    ask();
     depths.push_back(dot(minus(rounded<Number>(scene.position(p)), eye), look));
+  }
   std::vector<Number> keys;
   for (const Piece& piece : scene.pieces()) {
+    ask();
     const std::span<const Piece_corner> corners = scene.corners(piece);
     Number least = depths[corners[0].point], most = least, sum = 0;
     for (const Piece_corner& corner : corners) {
@@ -39,17 +47,21 @@ std::vector<std::uint32_t> sorted(const Scene& scene, const Pixel_view& pixels, 
   }
   std::vector<std::uint32_t> order(keys.size());
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] > keys[b]; });
+  std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    ask();
+    return keys[a] > keys[b];
+  });
   return order;
 }
 
-std::vector<std::uint32_t> sorted(const Scene& scene, const Pixel_view& pixels, Painter_key key, Image_kernel kernel) {
+std::vector<std::uint32_t> sorted(const Scene& scene, const Pixel_view& pixels, Painter_key key, Image_kernel kernel,
+                                  const Image_options& options) {
   switch (kernel) {
-    case Image_kernel::float_numbers: return sorted<float>(scene, pixels, key);
-    case Image_kernel::double_numbers: return sorted<double>(scene, pixels, key);
+    case Image_kernel::float_numbers: return sorted<float>(scene, pixels, key, options);
+    case Image_kernel::double_numbers: return sorted<double>(scene, pixels, key, options);
     case Image_kernel::exact: break;
   }
-  return sorted<Rational>(scene, pixels, key);
+  return sorted<Rational>(scene, pixels, key, options);
 }
 
 }  // namespace
@@ -75,20 +87,21 @@ Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view
                   const Image_options& options) {
   const image_detail::Pixel_centres centres(pixels);
   return painted(centres, polygons.size(), options,
-                 [&] { return image_detail::Painted_cones(polygons, centres, kernel); });
+                 [&] { return image_detail::Painted_cones(polygons, centres, kernel, options); });
 }
 
 Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                   const Image_options& options) {
   const image_detail::Pixel_centres centres(pixels);
   return painted(centres, surface.parts.size(), options,
-                 [&] { return image_detail::Painted_cones(view, surface, centres); });
+                 [&] { return image_detail::Painted_cones(view, surface, centres, options); });
 }
 
 std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view& pixels, Painter_key key,
-                                            Image_kernel kernel) {
+                                            Image_kernel kernel, const Image_options& options) {
   std::vector<Painted_polygon> polygons;
-  for (const std::uint32_t i : image_detail::sorted(scene, pixels, key, kernel)) {
+  for (const std::uint32_t i : image_detail::sorted(scene, pixels, key, kernel, options)) {
+    if (options.progress) options.progress(0, scene.pieces().size());
     Painted_polygon& polygon = polygons.emplace_back(Painted_polygon{i, {}});
     for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
       polygon.corners.push_back(scene.position(corner.point));
@@ -98,7 +111,7 @@ std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view
 
 Piece_image heedless_painter(const Scene& scene, const Pixel_view& pixels, Painter_key key, Image_kernel kernel,
                              const Image_options& options) {
-  return paint(heedless_order(scene, pixels, key, kernel), pixels, kernel, options);
+  return paint(heedless_order(scene, pixels, key, kernel, options), pixels, kernel, options);
 }
 
 }  // namespace sightline

@@ -44,7 +44,7 @@ enum class Painter_key { nearest, farthest, mean };
 /// faces wherever depths overlap: that is its purpose. Exact: sorting is as the kernel is; the order is not. Ref: the
 /// slides' painter.
 std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view& pixels, Painter_key key,
-                                            Image_kernel kernel);
+                                            Image_kernel kernel, const Image_options& options = {});
 /// The same, painted.
 Piece_image heedless_painter(const Scene& scene, const Pixel_view& pixels, Painter_key key, Image_kernel kernel,
                              const Image_options& options = {});

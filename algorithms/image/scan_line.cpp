@@ -233,7 +233,7 @@ Piece_image scan_line(const Scene& scene, const Pixel_view& pixels, Image_kernel
   using namespace image_detail;
   Piece_image image;
   run_with_threads_for(options, pixels, scene.pieces().size(), [&] {
-    const Image_faces faces(scene, pixels, kernel);
+    const Image_faces faces(scene, pixels, kernel, options);
     image = faces.empty_image();
     image.counters +=
         draw_spans(faces, options, [&](Image_counters& counters) { return Show_first(faces, image, counters); });
@@ -247,7 +247,7 @@ Blended_image blended_scan_line(const Scene& scene, const Pixel_view& pixels, Im
   check_tints(tints, scene.pieces().size());
   Blended_image image = Blended_image::empty(pixels);
   run_with_threads_for(options, pixels, scene.pieces().size(), [&] {
-    const Image_faces faces(scene, pixels, kernel);
+    const Image_faces faces(scene, pixels, kernel, options);
     image.counters = faces.counters();
     image.counters += draw_spans(faces, options,
                                  [&](Image_counters& counters) { return Show_layers(faces, tints, image, counters); });

@@ -174,7 +174,7 @@ Piece_image warnock(const Scene& scene, const Pixel_view& pixels, Image_kernel k
   using namespace image_detail;
   Piece_image image;
   run_with_threads_for(options, pixels, scene.pieces().size(), [&] {
-    const Image_faces faces(scene, pixels, kernel);
+    const Image_faces faces(scene, pixels, kernel, options);
     image = faces.empty_image();
     image.counters += Warnock(faces, options, image).draw();
   });

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 
@@ -64,20 +65,24 @@ Rational six_of_cone(const Polygon& polygon) {
 }
 
 /// (2) For each wall of each cell the place of the cell beyond it, or the_end.
-std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Cell_of_level>& cells, const Corner_box& box) {
+std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Cell_of_level>& cells, const Corner_box& box,
+                                                    const std::function<void()>& ask) {
   struct Owner {
     std::size_t cell, wall;
   };
   std::map<Polygon, Owner> owners;
-  for (std::size_t c = 0; c < cells.size(); ++c)
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    ask();
     for (std::size_t w = 0; w < cells[c].walls.size(); ++w) {
       const auto [at, is_new] = owners.try_emplace(begun_at_least(cells[c].walls[w]), Owner{c, w});
       if (!is_new)
         reject(cell_name(cells[c]) + " has " + name("wall", w) + " that " + cell_name(cells[at->second.cell]) +
                " has too, the same way round");
     }
+  }
   std::vector<std::vector<std::size_t>> neighbours;
   for (const Cell_of_level& cell : cells) {
+    ask();
     std::vector<std::size_t>& beyond = neighbours.emplace_back();
     for (std::size_t w = 0; w < cell.walls.size(); ++w) {
       Polygon turned = cell.walls[w];
@@ -92,10 +97,15 @@ std::vector<std::vector<std::size_t>> neighbours_of(const std::vector<Cell_of_le
   return neighbours;
 }
 
-std::string check_fill(const Polygon_soup& soup, const std::vector<Cell_of_level>& cells) {
+std::string check_fill(const Polygon_soup& soup, const std::vector<Cell_of_level>& cells,
+                       const Verify_options& options) {
+  const auto ask = [&] {
+    if (options.progress) options.progress(0, cells.size());
+  };
   // 1. Cells are polyhedra.
   std::vector<std::vector<Outline>> outlines;
   for (const Cell_of_level& cell : cells) try {
+      ask();
       outlines.push_back(outlines_of_walls(cell.walls));
     } catch (const Rejection& rejection) {
       reject(cell_name(cell) + ": " + rejection.verdict.why);
@@ -104,12 +114,14 @@ std::string check_fill(const Polygon_soup& soup, const std::vector<Cell_of_level
   // 2. to 4. They fill the box, which holds the scene.
   Corner_box box;
   Rational six_volumes = 0;
-  for (const Cell_of_level& cell : cells)
+  for (const Cell_of_level& cell : cells) {
+    ask();
     for (const Polygon& wall : cell.walls) {
       for (const Exact_point& p : wall) box.add(p);
       six_volumes += six_of_cone(wall);
     }
-  const std::vector<std::vector<std::size_t>> neighbours = neighbours_of(cells, box);
+  }
+  const std::vector<std::vector<std::size_t>> neighbours = neighbours_of(cells, box, ask);
   if (box.is_empty || six_volumes != 6 * box.volume())
     reject("the volumes of cells do not sum to that of the box about them");
   for (Face_id f = 0; f < soup.face_count(); ++f)
@@ -120,6 +132,7 @@ std::string check_fill(const Polygon_soup& soup, const std::vector<Cell_of_level
   // 5. Who walks through sources stays in cells that have certificates.
   std::size_t certified = 0;
   for (std::size_t c = 0; c < cells.size(); ++c) {
+    ask();
     certified += cells[c].has_certificate;
     for (std::size_t s = 0; s < cells[c].sources.size(); ++s) {
       const Outline source(cells[c].sources[s]);
@@ -140,8 +153,9 @@ std::string check_fill(const Polygon_soup& soup, const std::vector<Cell_of_level
 
 namespace sightline {
 
-Verdict verify_level_fill(const Polygon_soup& soup, const std::vector<Cell_of_level>& cells) {
-  return certificate_check::verdict_of([&] { return level_check::check_fill(soup, cells); });
+Verdict verify_level_fill(const Polygon_soup& soup, const std::vector<Cell_of_level>& cells,
+                          const Verify_options& options) {
+  return certificate_check::verdict_of([&] { return level_check::check_fill(soup, cells, options); });
 }
 
 }  // namespace sightline

@@ -24,8 +24,9 @@ struct Cell_of_level {
 /// (4) no corner of a face is beyond it. And (5) each source of a cell lies in a wall with a cell that has a
 /// certificate too, or in a side of the box: nobody gets from cells with certificates to one without. Degenerate: walls
 /// of two cells that overlap, but are not the same polygon, are rejected. Pre: none; rejects whatever is wrong. Post:
-/// `why` is one line. Cost: O(walls log walls), and sources of a cell times its walls. Exact: yes, without filters.
-/// Proof: P-88e
-Verdict verify_level_fill(const Polygon_soup& soup, const std::vector<Cell_of_level>& cells);
+/// `why` is one line. `options`: of them, progress before each cell of each step, from this thread. Cost: O(walls log
+/// walls), and sources of a cell times its walls. Exact: yes, without filters. Proof: P-88e
+Verdict verify_level_fill(const Polygon_soup& soup, const std::vector<Cell_of_level>& cells,
+                          const Verify_options& options = {});
 
 }  // namespace sightline

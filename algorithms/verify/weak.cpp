@@ -3,6 +3,7 @@
 
 #include <sightline/algorithms/verify/weak.h>
 
+#include <sightline/algorithms/verify/boxes.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/weak_lines.h>
 #include <sightline/kernel/number.h>
@@ -29,7 +30,7 @@ constexpr std::size_t most_cuts = 1000;
 
 // ---- Visible
 
-/// Checks sightlines against all fragments; those whose boxes of coordinates are apart are passed over.
+/// Checks sightlines against all fragments; those that are not near them are passed over.
 class Sightlines {
  public:
   Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
@@ -40,28 +41,24 @@ class Sightlines {
   void check(std::size_t k) const;
 
  private:
-  struct Box {
-    std::size_t place;
-    Exact_point low, high;
-
-    Box(std::size_t of, const Polygon& points);
-    bool apart(const Box& other) const;
-  };
   std::string full_name(std::size_t i) const {
     return name("fragment", i) + " (" + name("face", certificate_.fragments[i].face) + ")";
   }
 
   const Weak_certificate& certificate_;
   const std::vector<Outline>&fragments_, &sources_;
-  std::vector<Box> boxes_;
+  Boxes boxes_;
 };
+
+static std::vector<Outward_box> boxes_of(const std::vector<Order_fragment>& fragments) {
+  std::vector<Outward_box> boxes;
+  for (const Order_fragment& fragment : fragments) boxes.emplace_back(fragment.vertices);
+  return boxes;
+}
 
 Sightlines::Sightlines(const Weak_certificate& certificate, const std::vector<Outline>& fragments,
                        const std::vector<Outline>& sources)
-    : certificate_(certificate), fragments_(fragments), sources_(sources) {
-  for (std::size_t i = 0; i < fragments.size(); ++i) boxes_.push_back({i, certificate.fragments[i].vertices});
-  std::sort(boxes_.begin(), boxes_.end(), [](const Box& a, const Box& b) { return a.low[0] < b.low[0]; });
-}
+    : certificate_(certificate), fragments_(fragments), sources_(sources), boxes_(boxes_of(certificate.fragments)) {}
 
 void Sightlines::check(std::size_t k) const {
   const auto& [fragment, source, from, to] = certificate_.visible[k];
@@ -83,36 +80,18 @@ void Sightlines::check(std::size_t k) const {
   if (front < 0 && !certificate_.two_sided) refuse("begins behind its fragment");
 
   const Pluecker_line line = line_through(p, q);
-  const Box segment(0, {from, to});
-  for (const Box& box : boxes_) {
-    if (box.low[0] > segment.high[0]) break;
-    if (box.apart(segment)) continue;
-    const Outline& other = fragments_[box.place];
+  for (const std::size_t place : boxes_.near_segment(from, to)) {
+    const Outline& other = fragments_[place];
     const int at_p = side(other.plane, p), at_q = side(other.plane, q);
     if (at_p * at_q > 0) continue;
     if (at_p == 0 && at_q == 0) {
-      if (other.meets_in_plane(p, q)) refuse("meets " + full_name(box.place), {box.place});
+      if (other.meets_in_plane(p, q)) refuse("meets " + full_name(place), {place});
       continue;
     }
     if ((at_p == 0 && other.in_plane(start.plane)) || (at_q == 0 && other.in_plane(own.plane)))
       continue;  // it holds an end point, but none of its neighbours' segments
-    if (crossing(line, other.corners, at_p > 0 || at_q < 0 ? 1 : -1) >= 0)
-      refuse("meets " + full_name(box.place), {box.place});
+    if (crossing(line, other.corners, at_p > 0 || at_q < 0 ? 1 : -1) >= 0) refuse("meets " + full_name(place), {place});
   }
-}
-
-Sightlines::Box::Box(std::size_t of, const Polygon& points) : place(of), low(points[0]), high(points[0]) {
-  for (const Exact_point& p : points)
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (p[k] < low[k]) low[k] = p[k];
-      if (p[k] > high[k]) high[k] = p[k];
-    }
-}
-
-bool Sightlines::Box::apart(const Box& other) const {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (high[k] < other.low[k] || low[k] > other.high[k]) return true;
-  return false;
 }
 
 // ---- Hidden

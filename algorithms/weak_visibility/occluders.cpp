@@ -61,6 +61,25 @@ std::vector<std::array<double, 4>> shaft_planes(const Near_polygon& s, const Nea
 /// What underflow may take from a coordinate, in those of boxes. Proof: P-70
 double lost_in_boxes(double to_boxes) { return 0x1p-1000 * (1 + to_boxes); }
 
+/// The box of a segment, for certain. Proof: P-70
+Piece_boxes::Box box_around(const Triple& p, const Triple& q, double to_boxes) {
+  Piece_boxes::Box around;
+  for (std::size_t k = 0; k < 3; ++k) {
+    around.low[k] = std::min(p[k], q[k]) * to_boxes;
+    around.high[k] = std::max(p[k], q[k]) * to_boxes;
+    const double slack =
+        0x1p-50 * std::max(std::fabs(around.low[k]), std::fabs(around.high[k])) + lost_in_boxes(to_boxes);
+    around.low[k] -= slack;
+    around.high[k] += slack;
+  }
+  return around;
+}
+bool overlap(const Piece_boxes::Box& a, const Piece_boxes::Box& b) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (a.low[k] > b.high[k] || a.high[k] < b.low[k]) return false;
+  return true;
+}
+
 /// Whether a segment certainly misses a box that its own box meets: a plane along it and an axis has the box on one
 /// side. Proof: P-70
 bool misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, double to_boxes) {
@@ -134,6 +153,28 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
   return found;
 }
 
+std::vector<std::uint32_t> Occluders::on_segment(const Triple& p, const Triple& q) const {
+  const Pluecker pluecker = pluecker_of_pair(p, q);
+  const double to_boxes = frame_.to_boxes();
+  const Piece_boxes::Box around = box_around(p, q, to_boxes);
+  std::vector<std::uint32_t> found;
+  each_box(
+      [&](const Piece_boxes::Box& box) { return overlap(box, around) && !misses(box, p, q, to_boxes); },
+      [&](std::uint32_t piece) {
+        const std::array<double, 4>& h = planes_[piece].near;
+        const double at_p = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
+                     at_q = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
+        if ((at_p > 0) == (at_q > 0)) return;
+        const double sense = at_p > 0 ? 1 : -1;
+        const std::span<const Pluecker> all = edges(piece);
+        if (std::all_of(all.begin(), all.end(), [&](const Pluecker& edge) { return sense * dot(pluecker, edge) > 0; }))
+          found.push_back(piece);
+      });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
 std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple& direction) const {
   const Triple ahead{p[0] + direction[0], p[1] + direction[1], p[2] + direction[2]};
   const Pluecker pluecker = pluecker_of_pair(p, ahead);
@@ -176,22 +217,11 @@ std::optional<std::uint32_t> Occluders::blocker(const Near_point& p, const Near_
   const Exact_pluecker pair = pluecker_of_pair(p.exact, q.exact);
   const Pluecker near_pair = pluecker_of_pair(p.near, q.near);
   const double to_boxes = frame_.to_boxes();
-  Piece_boxes::Box around;
-  for (std::size_t k = 0; k < 3; ++k) {
-    around.low[k] = std::min(p.near[k], q.near[k]) * to_boxes;
-    around.high[k] = std::max(p.near[k], q.near[k]) * to_boxes;
-    const double slack =
-        0x1p-50 * std::max(std::fabs(around.low[k]), std::fabs(around.high[k])) + lost_in_boxes(to_boxes);
-    around.low[k] -= slack;
-    around.high[k] += slack;
-  }
+  const Piece_boxes::Box around = box_around(p.near, q.near, to_boxes);
   std::optional<std::uint32_t> found;
   each_box(
       [&](const Piece_boxes::Box& box) {
-        if (found) return false;
-        for (std::size_t k = 0; k < 3; ++k)
-          if (box.low[k] > around.high[k] || box.high[k] < around.low[k]) return false;
-        return !misses(box, p.near, q.near, to_boxes);
+        return !found && overlap(box, around) && !misses(box, p.near, q.near, to_boxes);
       },
       [&](std::uint32_t piece) {
         if (!found && meets(piece, p, q, of_p, of_q, pair, near_pair)) found = piece;

@@ -47,6 +47,9 @@ class Occluders {
   /// keeps away. In doubles, for proposals.
   std::vector<std::uint32_t> near_shaft(const Near_polygon& s, const Near_polygon& t) const;
 
+  /// The pieces that the segment from p to q crosses, inside all of their edges. In doubles, for proposals.
+  std::vector<std::uint32_t> on_segment(const Triple& p, const Triple& q) const;
+
   /// What a ray hits first, in doubles: the piece, and whether from its front; nothing within a billionth of its length
   /// 1 counts. For samples. Exact: no
   struct Hit {

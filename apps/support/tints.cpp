@@ -64,11 +64,12 @@ static std::vector<std::optional<Own_tint>> own_tints(const Tint_arguments& argu
 }
 
 std::vector<Tint> tints_of(const Tint_arguments& arguments, const std::string& scene_file, const Exact_view& view,
-                           bool lit) {
+                           bool lit, const std::function<void(std::size_t, std::size_t)>& progress) {
   const Scene& scene = view.scene();
   const std::vector<std::optional<Own_tint>> own = own_tints(arguments, scene_file, scene);
   std::vector<Tint> tints;
   for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) {
+    if (progress) progress(0, scene.pieces().size());
     const Piece& piece = scene.pieces()[i];
     std::vector<Exact_point> corners;
     for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));

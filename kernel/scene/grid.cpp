@@ -163,14 +163,33 @@ Exact_point Scene_grid::position(const std::array<Integer, 4>& h) const {
   return p;
 }
 
-Point_id Scene_grid::add_point(std::uint32_t point, Polygon_soup& soup) const {
-  bool fits = points_.limbs() == 1 && fits_int64(scale_) && fits_int64(unit_);
+Exact_point Scene_grid::position(std::uint32_t point) const {
+  const std::optional<std::array<std::int64_t, 3>> scaled = small_position(point);
+  if (!scaled) return position({points_.integer(point, 0), points_.integer(point, 1), points_.integer(point, 2), 1});
+  const std::int64_t scale = scale_.get_si();
+  Exact_point p;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::int64_t divisor = std::gcd((*scaled)[k], scale);
+    p[k].get_num() = static_cast<long>((*scaled)[k] / divisor);
+    p[k].get_den() = static_cast<long>(scale / divisor);
+  }
+  return p;
+}
+
+std::optional<std::array<std::int64_t, 3>> Scene_grid::small_position(std::uint32_t point) const {
+  if (points_.limbs() != 1 || !fits_int64(scale_) || !fits_int64(unit_)) return std::nullopt;
   std::array<std::int64_t, 3> scaled{};
-  for (std::size_t k = 0; k < 3 && fits; ++k)
-    fits = fits_int64(offset_[k]) &&
-           !__builtin_mul_overflow(unit_.get_si(), points_.small(point, static_cast<int>(k)), &scaled[k]) &&
-           !__builtin_add_overflow(scaled[k], offset_[k].get_si(), &scaled[k]);
-  if (fits) return soup.add_point(scaled, scale_.get_si());
+  for (std::size_t k = 0; k < 3; ++k)
+    if (!fits_int64(offset_[k]) ||
+        __builtin_mul_overflow(unit_.get_si(), points_.small(point, static_cast<int>(k)), &scaled[k]) ||
+        __builtin_add_overflow(scaled[k], offset_[k].get_si(), &scaled[k]) ||
+        scaled[k] == std::numeric_limits<std::int64_t>::min())  // which has no magnitude
+      return std::nullopt;
+  return scaled;
+}
+
+Point_id Scene_grid::add_point(std::uint32_t point, Polygon_soup& soup) const {
+  if (const auto scaled = small_position(point)) return soup.add_point(*scaled, scale_.get_si());
   const Exact_point p = position(point);
   return soup.add_point(p[0], p[1], p[2]);
 }

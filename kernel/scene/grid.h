@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace sightline {
@@ -37,15 +38,16 @@ class Scene_grid {
 
   /// The file's coordinates of a point in homogeneous grid coordinates. Pre: h[3] != 0.
   Exact_point position(const std::array<Integer, 4>& h) const;
-  Exact_point position(std::uint32_t point) const {
-    return position({points_.integer(point, 0), points_.integer(point, 1), points_.integer(point, 2), 1});
-  }
+  Exact_point position(std::uint32_t point) const;
   /// Appends a point of the grid to a soup. Cost: no allocation where numbers fit a machine's.
   Point_id add_point(std::uint32_t point, Polygon_soup& soup) const;
   /// The bounding box of all points, in the file's coordinates. Pre: there is one.
   std::array<Exact_point, 2> box() const;
 
  private:
+  /// The file's coordinates of a point times scale_, where these and their parts fit a machine's numbers.
+  std::optional<std::array<std::int64_t, 3>> small_position(std::uint32_t point) const;
+
   Integer scale_ = 1, unit_ = 1;
   std::array<Integer, 3> offset_;
   std::array<std::array<Integer, 3>, 2> box_;

@@ -232,6 +232,34 @@ TEST_F(Budget, that_runs_out_is_exit_4_and_one_line) {
   }
 }
 
+// What comes before an answer, such as a scene's shades or a tree of boxes, asks for the time too.
+TEST_F(Budget, that_is_over_at_once_costs_hardly_more_than_reading_the_scene) {
+  if (sanitized) GTEST_SKIP() << "it is about seconds";
+  const std::string city = path("city.off").string(), picture = path("x.png").string();
+  ASSERT_EQ(run({"generate", "city", "--size", "20000", "--out", city}).code, done);
+  const Outcome read = run({"info", city});
+  ASSERT_EQ(read.code, done);
+  std::vector<std::vector<std::string>> all{{"order"},
+                                            {"graph"},
+                                            {"see"},
+                                            {"bsp"},
+                                            {"cells"},
+                                            {"shadow", "--sun", "1,2,-3"},
+                                            {"weak", "--along", "0,0,200 100,50,90"}};
+  for (const char* method : {"exact", "centres", "painter-min", "painter-max", "painter-mean", "newell", "bsp", "graph",
+                             "scan-line", "warnock", "weiler-atherton", "bsp2d"})
+    all.push_back({"render", "--method", method, "--png", picture});
+  for (std::vector<std::string> words : all) {
+    words.insert(words.begin() + 1, city);
+    words.insert(words.end(), {"--budget", "1e-6", "--threads", "1"});
+    const Outcome r = run(words);
+    EXPECT_EQ(r.code, undecided) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_LT(r.processor_seconds, 1.5 * read.processor_seconds + 0.2) << r;
+  }
+  EXPECT_FALSE(fs::exists(picture));
+}
+
 TEST_F(Budget, that_runs_out_in_pvs_leaves_the_rest_undecided_at_once) {
   const std::string house = path("house.off").string();
   ASSERT_EQ(run({"generate", "rooms", "--size", "3", "--out", house}).code, done);

@@ -21,6 +21,7 @@ namespace program {
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -65,6 +66,7 @@ struct Outcome {
   std::string out, err;
   std::string ended;    ///< "exit 3", "signal 11", "no end within 60 s"
   std::string command;  ///< for messages
+  double processor_seconds = 0;
 
   /// Whether stderr is exactly one line.
   bool one_line_of_error() const { return !err.empty() && err.find('\n') == err.size() - 1; }
@@ -149,17 +151,20 @@ class Program : public testing::Test {
     const double allowed = limits.seconds * (sanitized ? 10 : 1);
     const auto start = std::chrono::steady_clock::now();
     int status = 0;
+    rusage used{};
     auto pause = std::chrono::microseconds(500);
-    while (waitpid(child, &status, WNOHANG) == 0) {
+    while (wait4(child, &status, WNOHANG, &used) == 0) {
       if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > allowed) {
         kill(child, SIGKILL);
-        waitpid(child, &status, 0);
+        wait4(child, &status, 0, &used);
         result.ended = "no end within " + std::to_string(allowed) + " s";
         break;
       }
       std::this_thread::sleep_for(pause);
       pause = std::min(2 * pause, std::chrono::microseconds(20000));
     }
+    for (const timeval& time : {used.ru_utime, used.ru_stime})
+      result.processor_seconds += static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
     if (result.ended.empty()) {
       if (WIFEXITED(status)) result.code = WEXITSTATUS(status);
       result.ended =

@@ -119,8 +119,10 @@ Visible_along visible_along(const Occluders& occluders, const Exact_point& from,
     Along_counters counters;
     std::vector<Along_proof> proofs;
   };
-  const Along_scene scene(occluders, from, to);
   const std::vector<Piece>& pieces = occluders.scene().pieces();
+  const Along_scene scene(occluders, from, to, [&] {
+    if (options.progress) options.progress(0, pieces.size());
+  });
   const std::vector<std::uint32_t> first = first_pieces(pieces);
   std::vector<Result> results(first.size());
   const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -32,8 +33,10 @@ struct Eye_polygon {
 /// the path are none. It refers to the occluders.
 class Along_scene {
  public:
-  Along_scene(const Occluders& occluders, const Exact_point& from, const Exact_point& to);
-  explicit Along_scene(Occluders&&, const Exact_point&, const Exact_point&) = delete;
+  /// ask(): before each piece.
+  Along_scene(const Occluders& occluders, const Exact_point& from, const Exact_point& to,
+              const std::function<void()>& ask);
+  Along_scene(Occluders&&, const Exact_point&, const Exact_point&, const std::function<void()>&) = delete;
 
   const Occluders& occluders() const { return *occluders_; }
   const Moving_eye& eye() const { return eye_; }

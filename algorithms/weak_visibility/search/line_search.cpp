@@ -27,6 +27,13 @@ bool is_worth_it(int narrowed) {
   return next == narrowed;
 }
 
+Triple weighted_mean(const Near_polygon& polygon, const std::vector<double>& weights) {
+  Triple p{};
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * polygon[i].near[k];
+  return p;
+}
+
 }  // namespace
 
 Line_search::Line_search(const Occluders& occluders, Near_polygon source, const Near_plane& source_plane,
@@ -72,6 +79,11 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
     return leaf({Weak_step::Kind::away, 0, {}, {}}, {});
   }
   facing_ = true;
+  if (const std::optional<std::uint32_t> blocker = whole_blocker(d)) {
+    ++counters_->blocked;
+    ++counters_->by_one;
+    return leaf({Weak_step::Kind::blocked, *blocker, {}, {}}, {});
+  }
   Line_domain& domain = *domains_[d];
   for (const std::uint32_t piece : occluders_->near_shaft(domain.source, domain.target))
     domain.candidates.push_back({piece, 0, 0});
@@ -80,6 +92,29 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
   if (try_rays(d)) return {Weak_status::visible, 0, {}};
   weigh_candidates(d);
   return refute(d, 0);
+}
+
+std::optional<std::uint32_t> Line_search::whole_blocker(std::uint32_t d) {
+  Line_domain& domain = *domains_[d];
+  const Line_weights line = Line_weights::middle(domain);
+  for (const std::uint32_t piece :
+       occluders_->on_segment(weighted_mean(domain.source, line.source), weighted_mean(domain.target, line.target))) {
+    const Near_plane& h = occluders_->plane(piece);
+    const int sense = side(h, domain.source);
+    if (sense == 0 || sense == both_sides || side(h, domain.target) != -sense) continue;
+    // By doubles first: most pieces do not, and their lines are not needed for anything else.
+    const std::span<const Pluecker> edges = occluders_->edges(piece);
+    const auto may_pass = [&](const Pluecker& edge) {
+      return std::any_of(domain.pairs.begin(), domain.pairs.end(),
+                         [&](const Pluecker& pair) { return sense * dot(pair, edge) < -close; });
+    };
+    if (std::any_of(edges.begin(), edges.end(), may_pass)) continue;
+    const std::vector<Edge_sign> signs = signs_of({piece, sense, 0});
+    if (std::all_of(signs.begin(), signs.end(),
+                    [&](const Edge_sign& edge) { return row(domain, edge.line).decided == edge.inside; }))
+      return piece;
+  }
+  return std::nullopt;
 }
 
 const std::vector<Candidate>& Line_search::candidates_of(std::uint32_t d) {
@@ -340,13 +375,7 @@ const std::vector<Edge_lines::Edge>& Line_search::edge_lines(std::uint32_t piece
 void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one) {
   Line_domain& domain = *domains_[d];
   blockers.clear();
-  const auto mean = [](const Near_polygon& polygon, const std::vector<double>& weights) {
-    Triple p{};
-    for (std::size_t i = 0; i < polygon.size(); ++i)
-      for (std::size_t k = 0; k < 3; ++k) p[k] += weights[i] * polygon[i].near[k];
-    return p;
-  };
-  const Triple p = mean(domain.source, line.source), q = mean(domain.target, line.target);
+  const Triple p = weighted_mean(domain.source, line.source), q = weighted_mean(domain.target, line.target);
   const Pluecker pluecker = pluecker_of_pair(p, q);
   for (const Candidate& candidate : candidates_of(d)) {
     int sense = candidate.sense;

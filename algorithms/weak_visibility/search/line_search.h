@@ -69,8 +69,12 @@ class Line_search {
 
   // ---- From the whole to the first cell
 
-  /// Leaves only what source and target have in front of each other, tries some lines, then searches.
+  /// Leaves only what source and target have in front of each other, looks for one piece between all of it, tries some
+  /// lines, then searches.
   Refutation begin(std::uint32_t d);
+
+  /// A piece that blocks all of a domain's lines, if one of those that the line of middles meets does. Proof: P-71
+  std::optional<std::uint32_t> whole_blocker(std::uint32_t d);
 
   /// What may come between the polygons of a domain. Many domains end without that question.
   const std::vector<Candidate>& candidates_of(std::uint32_t d);

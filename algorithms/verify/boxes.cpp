@@ -1,0 +1,130 @@
+#include <sightline/algorithms/verify/boxes.h>
+
+#include <sightline/kernel/number.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace sightline::certificate_check {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::uint32_t few = 8;  // boxes of a leaf
+
+/// The box about two points of a segment's coordinates, which are known up to `error` each.
+Outward_box box_about(std::array<double, 3> a, const std::array<double, 3>& b, const std::array<double, 3>& error) {
+  Outward_box box{Polygon{}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    box.low[k] = std::min(a[k], b[k]) - error[k];
+    box.high[k] = std::max(a[k], b[k]) + error[k];
+  }
+  return box;
+}
+
+}  // namespace
+
+Outward_box::Outward_box(const Polygon& points) {
+  low.fill(infinity);
+  high.fill(-infinity);
+  for (const Exact_point& p : points)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double nearest = nearest_double(p[k]);
+      low[k] = std::min(low[k], std::nextafter(nearest, -infinity));
+      high[k] = std::max(high[k], std::nextafter(nearest, infinity));
+    }
+}
+
+bool Outward_box::meets(const Outward_box& other) const {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (high[k] < other.low[k] || low[k] > other.high[k]) return false;
+  return true;
+}
+
+void Outward_box::join(const Outward_box& other) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    low[k] = std::min(low[k], other.low[k]);
+    high[k] = std::max(high[k], other.high[k]);
+  }
+}
+
+Boxes::Boxes(const std::vector<Outward_box>& boxes) : boxes_(boxes), order_(boxes.size()) {
+  std::iota(order_.begin(), order_.end(), 0);
+  if (!boxes.empty()) add(0, static_cast<std::uint32_t>(boxes.size()));
+}
+
+void Boxes::add(std::uint32_t begin, std::uint32_t end) {
+  const std::size_t at = nodes_.size();
+  nodes_.push_back({Outward_box{Polygon{}}, begin, end, 0});
+  for (std::uint32_t i = begin; i < end; ++i) nodes_[at].box.join(boxes_[order_[i]]);
+  if (end - begin <= few) return;
+  // Halves by their middles, along the longest side.
+  const Outward_box& box = nodes_[at].box;
+  std::size_t axis = 0;
+  for (std::size_t k = 1; k < 3; ++k)
+    if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
+  const std::uint32_t middle = begin + (end - begin) / 2;
+  const auto key = [&](std::uint32_t i) {  // halved first: their sum may be beyond the range; never not a number
+    const double sum = boxes_[i].low[axis] / 2 + boxes_[i].high[axis] / 2;
+    return std::isnan(sum) ? 0 : sum;
+  };
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
+                   [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
+  add(begin, middle);
+  nodes_[at].other = static_cast<std::uint32_t>(nodes_.size());
+  add(middle, end);
+}
+
+void Boxes::find(const Outward_box& part, std::vector<std::size_t>& found) const {
+  std::vector<std::size_t> open;
+  if (!nodes_.empty()) open.push_back(0);
+  while (!open.empty()) {
+    const std::size_t at = open.back();
+    open.pop_back();
+    const Node& node = nodes_[at];
+    if (!node.box.meets(part)) continue;
+    if (node.other != 0) {
+      open.push_back(node.other);
+      open.push_back(at + 1);
+      continue;
+    }
+    for (std::uint32_t i = node.begin; i < node.end; ++i)
+      if (boxes_[order_[i]].meets(part)) found.push_back(order_[i]);
+  }
+}
+
+std::vector<std::size_t> Boxes::near_segment(const Exact_point& from, const Exact_point& to) const {
+  std::vector<std::size_t> found;
+  // 1. Its ends in doubles, and how far from them a point is that is computed of them: eight roundings, each of what is
+  // at most twice the farther end, and of what underflows.
+  std::array<double, 3> a{}, b{}, error{};
+  bool fits = true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    a[k] = nearest_double(from[k]);
+    b[k] = nearest_double(to[k]);
+    const double farthest = std::max(std::fabs(a[k]), std::fabs(b[k]));
+    fits = fits && farthest < 1e300;
+    error[k] = 0x1p-49 * farthest + 0x1p-1000;
+  }
+  if (!fits) {
+    find(Outward_box(Polygon{from, to}), found);
+  } else {
+    // 2. In parts, as their boxes are smaller together than that of the whole.
+    std::size_t parts = 1;
+    while (parts * parts * parts < boxes_.size() && parts < 1024) parts *= 2;
+    const auto point = [&](std::size_t i) {
+      std::array<double, 3> p{};
+      for (std::size_t k = 0; k < 3; ++k)
+        p[k] = a[k] + static_cast<double>(i) / static_cast<double>(parts) * (b[k] - a[k]);
+      return p;
+    };
+    for (std::size_t i = 0; i < parts; ++i) find(box_about(point(i), point(i + 1), error), found);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+}  // namespace sightline::certificate_check

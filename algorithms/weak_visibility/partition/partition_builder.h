@@ -1,0 +1,115 @@
+#pragma once
+// A piece as its light is found: rectangles, the sectors of those that borders cross, and cells of sectors.
+
+#include <sightline/algorithms/weak_visibility/partition/border_curves.h>
+#include <sightline/algorithms/weak_visibility/partition/curve_arrangement.h>
+#include <sightline/algorithms/weak_visibility/partition/partition.h>
+#include <sightline/algorithms/weak_visibility/partition/plane_chart.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace sightline::partition_detail {
+
+/// A source as a piece sees it.
+struct Seen_source {
+  std::size_t number;  ///< among all sources
+  Filtered plane;
+  bool whole;  ///< all of it is in front of the piece
+  Event_lines lines;
+};
+
+/// The state of a rectangle: what may block lines from it to each source.
+using Blockers = std::vector<std::vector<std::uint32_t>>;
+
+class Partition_builder {
+ public:
+  Partition_builder(const Occluders& occluders, const Near_polygon& piece, const Near_plane& plane,
+                    const std::vector<Weak_source>& sources, const Partition_options& options,
+                    Partition_counters& counters);
+  void run(Light_partition& result);
+
+ private:
+  /// A curve between sectors, within a slab.
+  struct Leaf {
+    Curve_arrangement arrangement;
+    std::vector<std::size_t> curves;  // of the arrangement, by number
+    std::vector<std::size_t> first;   // the lowest sector of each slab
+    Chart_box box;
+  };
+  struct Sector {
+    bool inside;
+    Light light;
+    std::size_t outline;  // where all borders are asked for: the number of its edges
+    Rational x, y;
+    double size;
+  };
+  /// A stretch of a side of a rectangle that a sector touches.
+  struct Touch {
+    double from, to;
+    std::size_t sector;
+  };
+  struct Side {
+    std::vector<Touch> before, after;  // of rectangles left of it, or below; and the others
+  };
+
+  void divide(const Chart_box& box, const Blockers& blockers, const std::vector<std::size_t>& curves, int depth);
+  /// What is known of all points of a rectangle, or nothing. Leaves out what blocks nothing from it.
+  std::optional<Light> alike(const std::array<Filtered, 4>& corners, Blockers& blockers) const;
+  /// Whether somewhere all that can be proved of a rectangle by a few points of sources: that each of its points sees
+  /// one of them, or one of them is hidden from all.
+  void probe(const std::array<Filtered, 4>& corners, const Blockers& blockers, bool& some_seen,
+             bool& some_hidden) const;
+  /// `rim`: those of the curves that are edges of the piece. Undecided where time runs out.
+  void arrange(const Chart_box& box, const std::vector<std::size_t>& rim, const std::vector<std::size_t>& curves,
+               const Blockers& blockers, std::optional<Light> known);
+  bool is_in_a_plane(const Homogeneous& point, const Blockers& blockers) const;
+  /// A point in the plane of a piece does not see it: another one of the same sector, that is in none.
+  void leave_planes(Sector& sector, const std::vector<Plane_curve>& curves, const Chart_box& box,
+                    const Blockers& blockers) const;
+  void classify(Sector& sector, const Blockers& blockers);
+  bool is_inside(const Rational& x, const Rational& y) const;
+
+  void join_leaf(std::size_t leaf);
+  void join_sides(std::map<double, Side>& sides, bool upright);
+  void meet(std::size_t a, std::size_t b) { contacts_.push_back({a, b}); }
+  std::size_t root(std::size_t sector);
+
+  void collect_cells(Light_partition& result);
+
+  /// Once time is out it stays so: where candidates may be missing nothing is decided.
+  bool is_over() { return is_over_ |= options_->out_of_time && options_->out_of_time(); }
+  void collect_borders(Light_partition& result);
+
+  const Occluders* occluders_;
+  const Partition_options* options_;
+  Partition_counters* counters_;
+  Plane_chart chart_;
+  std::vector<Seen_source> sources_;
+  std::size_t never_seen_ = 0;                 // sources that face away
+  std::vector<std::vector<Filtered>> probes_;  // points of each source
+  std::vector<Border_curve> curves_;
+  std::vector<std::pair<Plane_curve, std::size_t>> rim_;  // lines of the piece's edges, the piece where they are > 0
+  Rational piece_area_;
+  std::vector<Leaf> leaves_;
+  std::vector<Sector> sectors_;
+  std::vector<std::array<std::size_t, 2>> contacts_;
+  struct Upright_contact {
+    double x0, x1;
+    std::size_t left, right;
+    double y0, y1;
+  };
+  std::vector<Upright_contact> uprights_;
+  std::map<double, Side> upright_sides_, level_sides_;
+  std::map<std::vector<std::vector<std::uint32_t>>, std::size_t> outlines_;
+  std::vector<std::size_t> parents_, cell_of_;
+  double done_ = 0;
+  bool is_over_ = false;
+};
+
+}  // namespace sightline::partition_detail
