@@ -16,7 +16,7 @@ constexpr std::size_t deepest = 1000;
 // Of the steps in which a cell's polygons were made smaller: after how many what else is tried, and after how many
 // nothing.
 constexpr int forms_after = 2, special_after = 3, smallest = 80, most_sectors = 24;
-constexpr double close = 1e-9;      // to an edge, where its own row of the domain tells more
+constexpr double close = 1e-12;  // to an edge, where its own row of the domain tells more; doubles err by a hundredth
 constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
 constexpr double thin = 1e-8;       // what doubles leave to exact programs
 
