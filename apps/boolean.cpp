@@ -12,11 +12,14 @@
 #include <sightline/io/file.h>
 #include <sightline/io/format.h>
 #include <sightline/io/input.h>
+#include <sightline/io/off.h>
 #include <sightline/io/quake_map.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/predicates.h>
 #include <sightline/kernel/threads.h>
 
+#include <array>
+#include <cmath>
 #include <iostream>
 
 namespace sightline::app {
@@ -24,7 +27,8 @@ namespace sightline::app {
 namespace {
 
 struct Boolean_arguments {
-  std::string operation, out, json, certificate, html, inside = "positive", coordinates = "exact", round = "double";
+  std::string operation, out, json, certificate, html, inside = "positive", coordinates = "exact", round = "double",
+                                                       repair = "none";
   std::vector<std::string> solids;
   bool snap = false;
   int threads = 0;
@@ -45,10 +49,109 @@ std::string place_text(const Exact_point& p) {
   return fmt::format("({}, {}, {})", to_string(p[0]), to_string(p[1]), to_string(p[2]));
 }
 
-/// What does not bound a solid is refused, with its edges.
-void refuse_flaws(const Operands& operands, const std::vector<std::string>& files) {
+Json operands_json(const std::vector<Polygon_soup>& solids, const Operands& operands) {
+  Json files = Json::array(), set_aside = Json::array();
+  for (const Polygon_soup& solid : solids) files.push_back({{"file", solid.file}, {"faces_read", solid.face_count()}});
+  for (const Set_aside& entry : operands.set_aside()) {
+    const auto [operand, face] = operands.source_of(entry.face);
+    set_aside.push_back({{"operand", operand}, {"face", face}, {"why", entry.why}});
+  }
+  Json non_planar = Json::array();
+  for (const Face_id f : operands.non_planar()) {
+    const auto [operand, face] = operands.source_of(f);
+    non_planar.push_back({operand, face});
+  }
+  return {{"operands", std::move(files)},
+          {"set_aside", std::move(set_aside)},
+          {"non_planar", std::move(non_planar)},
+          {"grid_bits", operands.points().bits()},
+          {"arithmetic", std::string(name(operands.predicates().arithmetic()))}};
+}
+
+/// Whether a solid winds round less than nothing, all in all: by doubles, unless what they lose may matter.
+bool is_inside_out(const Polygon_soup& solid) {
+  std::vector<std::array<double, 3>> points;
+  double farthest = 0;
+  for (Point_id p = 0; p < solid.point_count(); ++p) {
+    const Exact_point at = solid.point(p);
+    points.push_back({nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2])});
+    for (const double x : points.back()) farthest = std::max(farthest, std::fabs(x));
+  }
+  double sum = 0, terms = 0;  // six times the volume
+  for (Face_id f = 0; f < solid.face_count(); ++f) {
+    const auto loop = solid.loop(f);
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k, ++terms) {
+      const auto &p = points[loop[0]], &q = points[loop[k]], &r = points[loop[k + 1]];
+      sum +=
+          p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) + p[2] * (q[0] * r[1] - q[1] * r[0]);
+    }
+  }
+  const double lost = 0x1p-40 * terms * farthest * farthest * farthest;  // far more than 6 products a term do
+  return !(sum > lost) && volume(solid) < 0;
+}
+
+/// Whether a .qoff of a surface can be read by all commands.
+bool has_short_denominator(const Polygon_soup& soup) {
+  Integer all = 1;
+  for (std::size_t k = 0; k < soup.coordinates.size(); ++k) {
+    all = lcm(all, Rational(soup.coordinates[k]).get_den());
+    if (bit_length(all) > largest_common_denominator_bits) return false;
+  }
+  return true;
+}
+
+/// What the user may not know of the solids: what was set aside or cut into triangles, and what is inside out.
+void solid_rows(const std::vector<Polygon_soup>& solids, const Operands& operands, bool by_sign) {
+  constexpr std::size_t shown = 6;
+  const auto listed = [&](const auto& all, auto text_of) {
+    std::string text = std::to_string(all.size());
+    for (std::size_t k = 0; k < std::min(all.size(), shown); ++k) text += (k == 0 ? ": " : ", ") + text_of(all[k]);
+    return text + (all.size() > shown ? ", ..." : "");
+  };
+  const auto face_of = [&](Face_id face) {
+    const auto [operand, own] = operands.source_of(face);
+    return fmt::format("face {} of {}", own, solids[operand].file);
+  };
+  if (!operands.set_aside().empty())
+    row("set aside",
+        listed(operands.set_aside(), [&](const Set_aside& entry) { return face_of(entry.face) + ", " + entry.why; }));
+  if (!operands.non_planar().empty()) row("not planar", listed(operands.non_planar(), face_of) + "; now triangles");
+  std::vector<std::string> inwards;
+  for (const Polygon_soup& solid : solids)
+    if (by_sign && is_inside_out(solid)) inwards.push_back(solid.file);
+  if (!inwards.empty())
+    row("inside out", listed(inwards, [](const std::string& file) { return file; }) +
+                          ": fronts look inwards, and nothing is inside; --inside nonzero takes it as it was meant");
+}
+
+/// All that is wrong with solids, by file.
+void write_refusal(const Boolean_arguments& a, const std::vector<Polygon_soup>& solids, const Operands& operands,
+                   const std::vector<Operand_flaw>& all) {
+  Json refused = Json::array();
+  for (const Operand_flaw& flaw : all) {
+    if (refused.empty() || refused.back()["operand"] != flaw.operand)
+      refused.push_back({{"operand", flaw.operand},
+                         {"file", solids[flaw.operand].file},
+                         {"faces", Json::array()},
+                         {"open_edges", Json::array()}});
+    if (!flaw.why.empty()) refused.back()["faces"].push_back({{"face", flaw.face}, {"why", flaw.why}});
+    else
+      refused.back()["open_edges"].push_back(
+          {{"face", flaw.face}, {"from", point_json(flaw.from)}, {"to", point_json(flaw.to)}});
+  }
+  Json document;
+  document["command"] = "boolean";
+  document["scene"] = operands_json(solids, operands);
+  document["result"] = {{"operation", a.operation}, {"refused", std::move(refused)}};
+  document["counters"] = document["seconds"] = Json::object();
+  write_file(a.json, to_text(document, 1) + "\n");
+}
+
+/// What does not bound a solid is refused, with its edges: some of them, and all in the JSON.
+void refuse_flaws(const Boolean_arguments& a, const std::vector<Polygon_soup>& solids, const Operands& operands) {
   const std::vector<Operand_flaw> all = flaws(operands);
   if (all.empty()) return;
+  if (!a.json.empty()) write_refusal(a, solids, operands, all);
   const std::uint32_t operand = all[0].operand;
   std::string faces, edges;
   std::size_t open = 0, crossed = 0;
@@ -67,7 +170,9 @@ void refuse_flaws(const Operands& operands, const std::vector<std::string>& file
   if (open > 0)
     what += fmt::format("{} edge{} without an opposite:{}{}", open, open == 1 ? "" : "s", edges,
                         open > shown ? ", ..." : "");
-  throw Input_error::of_file(files[operand], what + "; close the surface first");
+  const std::string more =
+      a.json.empty() && (open > shown || crossed > shown || all.back().operand != operand) ? ", --json lists all" : "";
+  throw Input_error::of_file(a.solids[operand], what + "; close the surface first" + more);
 }
 
 /// By face of a level of brushes the numbers of its entity and brush; of other solids nothing.
@@ -108,8 +213,10 @@ void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_res
 }
 
 Exit run(const Boolean_arguments& a, const Command& command) {
-  if (a.snap && (a.out.empty() || format_of_ending(a.out) == Format::qoff))
-    throw Usage_error("--snap is for rounded points: give --out a format that rounds, .obj .off .ply .stl");
+  const bool rounds = !a.out.empty() && format_of_ending(a.out) != Format::qoff;
+  if (!rounds && (a.snap || a.round == "float"))
+    throw Usage_error(std::string(a.snap ? "--snap" : "--round float") +
+                      " is for rounded points: give --out a format that rounds, .obj .off .ply .stl");
   if (a.solids.size() < 2 && a.operation != name(Set_operation::unite))
     throw Usage_error(a.operation + " is of two solids or more: name another one; a union may be of one");
   // 1. The solids.
@@ -131,7 +238,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   std::optional<Operands> operands;
   run_with_threads(a.threads, [&] {
     operands.emplace(solids);
-    refuse_flaws(*operands, a.solids);
+    refuse_flaws(a, solids, *operands);
     prepare_seconds = watch.seconds();
     watch = {};
     // 2. The operation.
@@ -173,18 +280,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
     }
     Json document;
     document["command"] = "boolean";
-    Json scenes = Json::array();
-    for (std::size_t k = 0; k < solids.size(); ++k)
-      scenes.push_back({{"file", solids[k].file}, {"faces_read", solids[k].face_count()}});
-    Json set_aside = Json::array();
-    for (const Set_aside& entry : operands->set_aside()) {
-      const auto [operand, face] = operands->source_of(entry.face);
-      set_aside.push_back({{"operand", operand}, {"face", face}, {"why", entry.why}});
-    }
-    document["scene"] = {{"operands", std::move(scenes)},
-                         {"set_aside", std::move(set_aside)},
-                         {"grid_bits", operands->points().bits()},
-                         {"arithmetic", std::string(name(operands->predicates().arithmetic()))}};
+    document["scene"] = operands_json(solids, *operands);
     document["result"] = {{"operation", a.operation},
                           {"inside", a.inside},
                           {"faces", faces_written},
@@ -206,10 +302,15 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   // 4. For people.
   const Set_counters& c = result.counters;
   row("solids", fmt::format("{}, of {} faces in {} convex pieces", solids.size(), c.faces, c.pieces));
+  solid_rows(solids, *operands, options.inside == Inside_rule::positive);
   row("result", fmt::format("{} faces, {} points; written as {} faces without holes", result.soup.face_count(),
                             result.soup.point_count(), faces_written));
   if (rounding) row("rounded", rounding_text(*rounding));
-  row("volume", fmt::format("{:.17g}", nearest_double(volume(result.soup))));
+  if (!a.out.empty() && !rounds && !has_short_denominator(flat.soup))
+    row("exact", fmt::format("its points have a common denominator of more than {} bits: `verify --result` reads {}, "
+                             "other commands with --coordinates double",
+                             largest_common_denominator_bits, a.out));
+  row("volume", digits_of(volume(result.soup), 17));
   row("edges", result.crowded.empty()
                    ? "each of two faces"
                    : fmt::format("{} of more than two faces: --json lists them", result.crowded.size()));
@@ -245,7 +346,8 @@ void add_boolean(Command program) {
           "--out", a->out,
           "write the result's surface: .qoff holds it exactly; so do the others where all coordinates are finite "
           "decimals")
-      .writes_file();
+      .writes_file()
+      .check(solid_ending());
   command
       .add_option(
           "--certificate", a->certificate,
@@ -266,6 +368,9 @@ void add_boolean(Command program) {
                   "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
       .check(one_of({"exact", "double"}))
       .show_default();
+  command.add_option("--repair", a->repair, "what is done to a surface that is not closed: none, so it is refused")
+      .check(one_of({"none"}))
+      .show_default();
   command.add_option("--round", a->round, "what coordinates of a format that cannot hold them are rounded to")
       .check(one_of({"double", "float"}))
       .show_default();
@@ -277,7 +382,9 @@ void add_boolean(Command program) {
   command.footer(
       "Example: sightline boolean difference block.off drill.off --out bored.qoff --json -\n"
       "         sightline boolean union level.map --out level.qoff\n"
-      "What has no volume is left out. A surface that is not closed is refused with its open edges, exit code 3.");
+      "What has no volume is left out. A surface that is not closed is refused with its open edges, of which --json "
+      "lists "
+      "all, exit code 3.");
   command.set_action([a, command] { return run(*a, command); });
 }
 

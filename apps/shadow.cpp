@@ -271,9 +271,9 @@ static Exit run(const Shadow_arguments& arguments) {
                    {"seconds", since.seconds()}};
     if (rounding) volume_json["rounding"] = rounding_json(*rounding);
     volume_text = fmt::format(
-        "{:.6g} in shadow, of {} pieces, within the scene's box and a quarter of its longest side; "
+        "{} in shadow, of {} pieces, within the scene's box and a quarter of its longest side; "
         "{} faces, {:.3f} seconds{}{}",
-        nearest_double(size), made.casting, flat.face_count(), since.seconds(), rounding ? "; rounded: " : "",
+        digits_of(size, 6), made.casting, flat.face_count(), since.seconds(), rounding ? "; rounded: " : "",
         rounding ? rounding_text(*rounding) : "");
   }
 
@@ -349,9 +349,7 @@ void add_shadow(Command program) {
           "write the space in the shadow of one light as a closed surface: .qoff holds it exactly, other formats "
           "rounded so that nothing breaks, where that can be")
       .writes_file()
-      .check(none_of([](const std::string& name) {
-        return format_of_ending(name) ? std::string() : name + " ends with no format's name: .qoff .obj .off .ply .stl";
-      }));
+      .check(solid_ending());
   add_mesh_option(command, a->mesh, "the parts lit, in shadow and turned away,");
   command
       .add_option("--obj", a->obj, "the same as OBJ; groups are light-0-lit and so on where there are several lights")

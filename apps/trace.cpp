@@ -117,8 +117,7 @@ Json first_json(const Exact_ray& ray, const std::vector<Face_hit>& hits) {
 }
 
 std::string about(const Rational& value) {
-  return value.get_den() == 1 && bit_length(value.get_num()) < 50 ? to_string(value)
-                                                                  : fmt::format("{:.9g}", nearest_double(value));
+  return value.get_den() == 1 && bit_length(value.get_num()) < 50 ? to_string(value) : digits_of(value, 9);
 }
 
 /// The first rays, a line for each hit.

@@ -186,6 +186,15 @@ struct Solid_files {
   std::string result;
 };
 
+/// Whether a file begins as `boolean --certificate` writes it: of one solid there is no other to tell.
+static bool begins_as_of_solids(const std::string& file) {
+  if (file == "-") return false;  // can be read but once
+  std::string beginning(200, '\0');
+  std::ifstream in = open_bytes(input_path(file));
+  in.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  return beginning.find("\"sightline boolean") != std::string::npos;
+}
+
 static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common, const std::string& file,
                                  const Solid_files& files, const Verify_options& options) {
   Read_options reading;
@@ -193,7 +202,10 @@ static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common,
   std::vector<Polygon_soup> solids{soup};
   for (const std::string& other : files.others) solids.push_back(read_scene(input_path(other), reading));
   std::optional<Polygon_soup> result;
-  if (!files.result.empty()) result = read_scene(input_path(files.result), reading);
+  if (!files.result.empty()) {
+    reading.any_denominator = true;  // each of its new points has one of its own
+    result = read_scene(input_path(files.result), reading);
+  }
   Solid_certificate certificate;
   try {
     certificate = read_solid_certificate(read_input(file));
@@ -207,7 +219,7 @@ static Exit run(const Common& common, const std::string& file, const Solid_files
   if (std::filesystem::is_directory(file)) return run_folder(common, file, sample);
   if (sample > 0) throw Usage_error("--sample is for a folder of certificates; this is a file");
   const Polygon_soup soup = common.read();
-  const bool of_solids = !files.others.empty() || !files.result.empty();
+  const bool of_solids = !files.others.empty() || !files.result.empty() || begins_as_of_solids(file);
   const Certificate certificate = of_solids ? Certificate() : certificate_of(file);
   const Stopwatch watch;
   Progress progress("verifying");

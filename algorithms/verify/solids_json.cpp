@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cstddef>
+#include <cstdint>
 #include <ostream>
 #include <stdexcept>
+#include <unordered_map>
+#include <vector>
 
 namespace sightline {
 
@@ -22,24 +25,40 @@ std::uint32_t whole_number_of(const nlohmann::json& value) {
   return value.get<std::uint32_t>();
 }
 
+/// Of equal points the same: canonical rationals have equal limbs.
+struct Point_hash {
+  std::size_t operator()(const Exact_point& p) const {
+    std::uint64_t hash = 0;
+    for (const Rational& x : p)
+      for (const mpz_srcptr part : {x.get_num_mpz_t(), x.get_den_mpz_t()}) {
+        hash ^= mpz_getlimbn(part, 0) + static_cast<std::uint64_t>(mpz_sgn(part));
+        hash *= 0x9e3779b97f4a7c15;
+        hash ^= hash >> 32;
+      }
+    return hash;
+  }
+};
+
 }  // namespace
 
 void write_solid_certificate(std::ostream& out, const Solid_certificate& certificate) {
-  std::map<Exact_point, std::size_t> numbers;
+  std::unordered_map<Exact_point, std::size_t, Point_hash> numbers;
+  std::vector<std::size_t> of_corners;  // of all fragments, then of all pieces
   out << "{\"format\": \"" << solids_format << "\",\n\"operation\": \"" << certificate.operation << "\", \"inside\": \""
       << certificate.inside << "\", \"operands\": " << certificate.operands << ",\n\"points\": [";
   const auto number = [&](const Exact_point& p) {
     const auto [at, fresh] = numbers.try_emplace(p, numbers.size());
     if (fresh) out << (at->second == 0 ? "\n[\"" : ",\n[\"") << p[0] << "\",\"" << p[1] << "\",\"" << p[2] << "\"]";
-    return at->second;
+    of_corners.push_back(at->second);
   };
   for (const auto& fragment : certificate.fragments)
     for (const Exact_point& p : fragment.vertices) number(p);
   for (const auto& piece : certificate.pieces)
     for (const Exact_point& p : piece.vertices) number(p);
+  std::size_t corner = 0;
   const auto loop = [&](const std::vector<Exact_point>& vertices) {
     out << "\"vertices\": [";
-    for (std::size_t k = 0; k < vertices.size(); ++k) out << (k == 0 ? "" : ",") << numbers.at(vertices[k]);
+    for (std::size_t k = 0; k < vertices.size(); ++k) out << (k == 0 ? "" : ",") << of_corners[corner++];
     out << "]";
   };
   out << "],\n\"fragments\": [";

@@ -157,6 +157,17 @@ nlohmann::json parse_json(const std::string& text, const std::string& name) {
 
 void row(const std::string& name, const std::string& value) { std::cout << fmt::format("{:<22} {}\n", name, value); }
 
+std::string digits_of(const Rational& value, int digits) {
+  const double near = nearest_double(value);
+  if (sgn(value) == 0 || std::isnormal(near)) return fmt::format("{:.{}g}", near, digits);
+  const mpf_class wide(value, 128);
+  mp_exp_t exponent = 0;
+  std::string text = wide.get_str(exponent, 10, static_cast<std::size_t>(digits));
+  const std::size_t first = text[0] == '-' ? 1 : 0;
+  if (text.size() > first + 1) text.insert(first + 1, ".");
+  return fmt::format("{}e{:+}", text, exponent - 1);
+}
+
 void scene_rows(const Scene& scene) {
   const Scene_counters& c = scene.counters();
   row("scene", scene.file());

@@ -117,6 +117,9 @@ bool write_json(const Common& common, const std::string& command, const Scene& s
 std::string to_text(const Json& value, int indent = -1);
 nlohmann::json parse_json(const std::string& text, const std::string& name);
 
+/// A number for people, to so many digits; also where it is beyond what doubles hold.
+std::string digits_of(const Rational& value, int digits);
+
 /// One row of a table for people.
 void row(const std::string& name, const std::string& value);
 void scene_rows(const Scene& scene);

@@ -50,7 +50,7 @@ void read_lines(const std::string& file, const std::string& wanted,
 
 std::vector<Exact_ray> read_rays(const std::string& file) {
   std::vector<Exact_ray> rays;
-  read_lines(file, "X,Y,Z,DX,DY,DZ, an origin and a direction other than 0,0,0,", [&](const std::vector<Rational>& n) {
+  read_lines(file, "X,Y,Z,DX,DY,DZ, an origin and a direction that is not 0", [&](const std::vector<Rational>& n) {
     if (n.size() != 6 || (n[3] == 0 && n[4] == 0 && n[5] == 0)) return false;
     rays.push_back({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
     return true;

@@ -8,9 +8,27 @@
 
 namespace sightline::app {
 
+Check solid_ending() {
+  return none_of([](const std::string& name) {
+    switch (format_of_ending(name).value_or(Format::map)) {
+      case Format::obj:
+      case Format::off:
+      case Format::qoff:
+      case Format::ply:
+      case Format::ply_binary:
+      case Format::stl: return std::string();
+      case Format::map:
+      case Format::bsp:
+      case Format::glb:
+      case Format::gltf: break;
+    }
+    return name + " does not end as a format that holds surfaces does: .qoff .obj .off .ply .stl";
+  });
+}
+
 std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap) {
   const std::optional<Format> format = format_of_ending(out);
-  if (format == Format::qoff || !format) {
+  if (format == Format::qoff) {
     write_scene(soup, out);
     return std::nullopt;
   }
@@ -21,9 +39,15 @@ std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::
     } catch (const Not_representable&) {
     }
   const Rounding to = to_float ? Rounding::to_float : Rounding::to_double;
-  Rounded_surface near = snap ? snapped(soup, to, triangles) : rounded(soup, to, triangles);
-  write_scene(near.soup, out);
-  return near;
+  try {
+    Rounded_surface near = snap ? snapped(soup, to, triangles) : rounded(soup, to, triangles);
+    write_scene(near.soup, out);
+    return near;
+  } catch (const std::domain_error&) {
+    throw std::runtime_error(fmt::format("{}: a coordinate is beyond what {} hold; write .qoff{}", out,
+                                         to_float ? "floats" : "doubles",
+                                         to_float ? ", or leave out --round float" : ""));
+  }
 }
 
 Json rounding_json(const Rounded_surface& near) {

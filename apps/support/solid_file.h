@@ -2,6 +2,7 @@
 // A solid's surface into a file, and what its format breaks.
 
 #include "common.h"
+#include "options.h"
 
 #include <sightline/algorithms/solids/rounding.h>
 
@@ -9,6 +10,9 @@
 #include <string>
 
 namespace sightline::app {
+
+/// The name of a file that write_solid can write.
+Check solid_ending();
 
 /// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, or snapped, which is
 /// returned. Pre: no holes. Errors: as write_scene.

@@ -10,6 +10,14 @@
 
 namespace sightline::generate {
 
+Points folded_loop(Random& random) {
+  Points loop;
+  for (std::size_t k = 5 + random.below(2); k > 0; --k) loop.push_back(lattice(random, 2));
+  const std::size_t axis = random.below(3);
+  for (std::size_t k = 1; k + 1 < loop.size(); ++k) loop[k][axis] = loop[0][axis];
+  return loop;
+}
+
 Faces tangle(Random& random, std::size_t most_faces) {
   static const std::vector<std::vector<std::array<int, 2>>> outlines{
       {{0, 0}, {1, 0}, {0, 1}},
@@ -28,7 +36,9 @@ Faces tangle(Random& random, std::size_t most_faces) {
     Points loop;
     switch (random.below(8)) {
       case 0:  // any loop, mostly not planar
-        for (std::size_t k = 3 + random.below(3); k > 0; --k) loop.push_back(lattice(random, 2));
+        if (random.chance(1, 2)) loop = folded_loop(random);
+        else
+          for (std::size_t k = 3 + random.below(3); k > 0; --k) loop.push_back(lattice(random, 2));
         break;
       case 1:  // a triangle, at times without area
         for (std::size_t k = 0; k < 3; ++k) loop.push_back(lattice(random, 2));

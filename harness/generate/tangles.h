@@ -8,8 +8,12 @@
 
 namespace sightline::generate {
 
-/// A few faces on a tiny lattice: coplanar, touching, interpenetrating, repeated, turned, concave, non-planar, without
-/// area.
+/// Five or six corners on a tiny lattice, all but the last in one plane. Mostly the loop crosses itself there, and then
+/// it is simple along no axis: its surface is a cone, which is folded flat, with parts of either sense in that plane.
+Points folded_loop(Random& random);
+
+/// A few faces on a tiny lattice: coplanar, touching, interpenetrating, repeated, turned, concave, non-planar, folded
+/// flat, without area.
 Faces tangle(Random& random, std::size_t most_faces = 7);
 
 /// Two to eight triangles and parallelograms on a small lattice, most of them placed by an earlier one: in its plane

@@ -8,6 +8,7 @@
 #include <sightline/algorithms/verify/solids.h>
 #include <sightline/harness/generate/polygons.h>
 #include <sightline/harness/generate/solids.h>
+#include <sightline/harness/generate/tangles.h>
 #include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/judge_laws.h>
@@ -216,9 +217,12 @@ std::vector<Polygon_soup> block_with_island(Random& random) {
 
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random) {
   if (random.chance(1, 24)) return block_with_island(random);
+  Polygon_soup folded;  // now and then, bases that are folded flat
+  if (random.chance(1, 16)) folded = generate::soup_of({generate::folded_loop(random), generate::folded_loop(random)});
+  const Polygon_soup& faces = folded.face_count() > 0 ? folded : scene.soup;
   std::vector<generate::Points> bases;
-  for (Face_id f = 0; f < scene.soup.face_count(); ++f)
-    if (generate::Points base = base_of(scene.soup, f, false); !base.empty()) bases.push_back(std::move(base));
+  for (Face_id f = 0; f < faces.face_count(); ++f)
+    if (generate::Points base = base_of(faces, f, false); !base.empty()) bases.push_back(std::move(base));
   if (bases.empty()) return {};
   std::vector<Polygon_soup> solids(static_cast<std::size_t>(random.between(2, 3)));
   const Exact_point along = generate::lattice(random, 2);

@@ -138,6 +138,20 @@ TEST(Families, are_exactly_degenerate_at_0_ulps_and_not_beside) {
   EXPECT_GT(twice, 10u);
 }
 
+TEST(Families, tangles_have_faces_that_are_folded_flat) {
+  std::size_t folded = 0;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const Scene scene(generate::family("tangle").make(with(seed)).soup);
+    const auto& pieces = scene.pieces();
+    bool any = false;
+    for (std::size_t i = 1; i < pieces.size(); ++i)
+      for (std::size_t j = i; j-- > 0 && pieces[j].face == pieces[i].face;)
+        any = any || pieces[j].support == pieces[i].support.opposite();
+    folded += any;
+  }
+  EXPECT_GT(folded, 5u);
+}
+
 TEST(Families, beside_their_degeneracy_move_by_so_many_ulps_of_their_size) {
   for (const char* name : {"uniform", "coplanar", "aligned", "tangle"}) {
     bool moved = false;

@@ -1,6 +1,10 @@
 // Which scenes fuzzing runs and with which checks, and what each step of making a scene small is for.
 
+#include <sightline/algorithms/solids/measure.h>
+#include <sightline/harness/generate/transform.h>
 #include <sightline/harness/laws/fuzz.h>
+#include <sightline/kernel/scene/closed.h>
+#include <sightline/kernel/scene/scene.h>
 
 #include <gtest/gtest.h>
 
@@ -164,6 +168,21 @@ TEST(Reduce, leaves_a_source_its_three_corners) {
   const harness::Reduced reduced = harness::reduce(scene, [](const Posed_scene&) { return true; });
   EXPECT_EQ(reduced.scene.source.size(), 3u);
   EXPECT_EQ(reduced.scene.soup.face_count(), 0u);
+}
+
+/// No face can be left out alone; rounding moves corners onto others, and faces without area go.
+TEST(Reduce, makes_surfaces_small_that_fail_only_while_they_are_closed) {
+  Posed_scene scene;
+  generate::Family_parameters parameters;
+  parameters.size = 8;
+  const Polygon_soup ball = generate::family("convex_sphere").make(parameters).soup;
+  for (int k = 0; k < 4; ++k) generate::append(scene.soup, generate::translated(ball, {5 * k, 0, 0}));
+  ASSERT_GT(scene.soup.face_count(), 30u);
+  const harness::Reduced reduced = harness::reduce(
+      scene, [](const Posed_scene& posed) { return closure(Scene(posed.soup)).closed && volume(posed.soup) > 0; });
+  EXPECT_TRUE(reduced.finished);
+  EXPECT_EQ(reduced.scene.soup.face_count(), 4u);
+  EXPECT_EQ(reduced.scene.soup.point_count(), 4u);
 }
 
 }  // namespace

@@ -41,6 +41,31 @@ TEST_F(Boolean, writes_results_that_its_checker_accepts) {
   EXPECT_EQ(run({"verify", a, why, "--solid", c, b}).code, disagreement);
   EXPECT_EQ(run({"verify", a, why, "--solid", b, c, "--result", a}).code, disagreement);
   EXPECT_EQ(run({"verify", a, a, "--solid", b, c}).code, bad_input);
+  EXPECT_EQ(run({"verify", a, why}).code, disagreement);  // of three solids
+  ASSERT_EQ(run({"boolean", "union", a, "--certificate", why}).code, done);
+  EXPECT_EQ(run({"verify", a, why}).code, done);
+}
+
+TEST_F(Boolean, writes_exact_results_that_its_checker_reads_however_many_denominators_they_have) {
+  const std::string a = path("a.qoff").string(), b = path("b.qoff").string(), out = path("both.qoff").string(),
+                    why = path("why.json").string();
+  const std::vector<std::string> sphere{"generate", "convex_sphere", "--size", "100", "--ulps", "5", "--out"};
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  ASSERT_EQ(run(with(sphere, {a})).code, done);
+  ASSERT_EQ(run(with(sphere, {b, "--seed", "2", "--offset", "1/3,2/7,3/11"})).code, done);
+  const Outcome made = run({"boolean", "intersection", a, b, "--out", out, "--certificate", why});
+  ASSERT_EQ(made.code, done) << made;
+  EXPECT_NE(made.out.find("more than 8192 bits"), std::string::npos) << made;
+  const Outcome scene = run({"info", out});
+  EXPECT_EQ(scene.code, bad_input) << scene;
+  EXPECT_NE(scene.err.find("more than 8192 bits"), std::string::npos) << scene;
+  const Outcome r = run({"verify", a, why, "--solid", b, "--result", out});
+  EXPECT_EQ(r.code, done) << r;
+  const Outcome small = run({"boolean", "union", a, "--out", out});
+  EXPECT_EQ(small.out.find("8192"), std::string::npos) << small;
 }
 
 TEST_F(Boolean, refuses_what_bounds_no_solid_and_names_its_edges) {
@@ -50,10 +75,73 @@ TEST_F(Boolean, refuses_what_bounds_no_solid_and_names_its_edges) {
   EXPECT_TRUE(r.one_line_of_error()) << r;
   EXPECT_NE(r.err.find("open.off"), std::string::npos) << r;
   EXPECT_NE(r.err.find("4 edges without an opposite"), std::string::npos) << r;
+  // All of them are in the JSON, of all solids.
+  const std::string more = box("more.off", {7, 7, 7}, {8, 8, 8}, 3);
+  const Outcome listed = run({"boolean", "union", open, a, more, "--repair", "none", "--json", "-"});
+  EXPECT_EQ(listed.code, bad_input) << listed;
+  const Json refused = listed.json()["result"]["refused"];
+  ASSERT_EQ(refused.size(), 2u);
+  EXPECT_EQ(refused[0]["operand"], 0);
+  EXPECT_EQ(refused[0]["open_edges"].size(), 4u);
+  EXPECT_EQ(refused[1]["operand"], 2);
+  EXPECT_EQ(refused[1]["file"], more);
+  EXPECT_EQ(refused[1]["open_edges"].size(), 8u);
   EXPECT_EQ(run({"boolean", "difference", a}).code, usage);
   EXPECT_EQ(run({"boolean", "unite", a, a}).code, usage);
   EXPECT_EQ(run({"boolean", "union", a, a, "--inside", "out"}).code, usage);
   EXPECT_EQ(run({"boolean", "union", a, path("none.off").string()}).code, bad_input);
+}
+
+TEST_F(Boolean, says_what_it_sets_aside_cuts_and_finds_inside_out) {
+  const std::string a = box("a.off", {0, 0, 0}, {3, 3, 3});
+  const std::string flipped = file("inwards.off",
+                                   "OFF\n4 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+                                   "3 0 1 2\n3 0 3 1\n3 1 3 2\n3 0 2 3\n3 0 1 1\n");
+  const std::string bent = file("bent.off",
+                                "OFF\n5 5 0\n0 0 0\n2 0 0\n2 2 1\n0 2 0\n0 0 -9\n"
+                                "4 0 1 2 3\n3 1 0 4\n3 2 1 4\n3 3 2 4\n3 0 3 4\n");
+  const Outcome r = run({"boolean", "union", a, flipped, bent});
+  ASSERT_EQ(r.code, done) << r;
+  EXPECT_NE(r.out.find("face 4 of " + flipped), std::string::npos) << r;
+  EXPECT_NE(r.out.find("face 0 of " + bent), std::string::npos) << r;
+  EXPECT_NE(r.out.find("inside out             1: " + flipped), std::string::npos) << r;
+  EXPECT_EQ(run({"boolean", "union", a, flipped, "--inside", "nonzero"}).out.find("inside out"), std::string::npos);
+  const Json scene = run({"boolean", "union", a, flipped, bent, "--json", "-"}).json()["scene"];
+  EXPECT_EQ(scene["set_aside"][0]["operand"], 1);
+  EXPECT_EQ(scene["non_planar"], Json::parse("[[2, 0]]"));
+}
+
+TEST_F(Boolean, says_volumes_that_doubles_do_not_hold) {
+  const std::string head = "OFF\n4 4 0\n0 0 0\n", tail = "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  const std::string large = file("large.off", head + "1e300 0 0\n0 1e300 0\n0 0 6e300\n" + tail),
+                    small = file("small.off", head + "1e-300 0 0\n0 1e-300 0\n0 0 6e-300\n" + tail);
+  EXPECT_NE(run({"boolean", "union", large}).out.find("volume                 1e+900"), std::string::npos);
+  EXPECT_NE(run({"boolean", "union", small}).out.find("volume                 1e-900"), std::string::npos);
+  const Outcome r = run({"boolean", "union", large, "--round", "float", "--out", path("large.obj").string()});
+  EXPECT_EQ(r.code, bad_input) << r;
+  EXPECT_NE(r.err.find("large.obj: a coordinate is beyond what floats hold"), std::string::npos) << r;
+}
+
+TEST_F(Boolean, refuses_options_that_would_do_nothing_and_files_that_nothing_can_be_written_to) {
+  const std::string a = box("a.off", {0, 0, 0}, {3, 3, 3}), b = box("b.off", {1, 1, 1}, {4, 4, 4});
+  const auto code = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"boolean", "union", a, b};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome r = run(words);
+    EXPECT_TRUE(r.code == done || r.one_line_of_error()) << r;
+    return r.code;
+  };
+  const std::string exact = path("u.qoff").string();
+  EXPECT_EQ(code({"--out", exact}), done);
+  EXPECT_EQ(code({"--out", exact, "--round", "float"}), usage);
+  EXPECT_EQ(code({"--round", "float"}), usage);
+  EXPECT_EQ(code({"--snap"}), usage);
+  for (const std::string ending : {"map", "bsp", "glb", "none"}) {
+    const std::string out = path("u." + ending).string();
+    EXPECT_EQ(code({"--out", out}), usage) << ending;
+    EXPECT_EQ(run({"shadow", a, "--light", "9,9,9", "--volume", out}).code, usage) << ending;
+  }
+  EXPECT_EQ(code({"--repair", "fill"}), usage);
 }
 
 /// A level whose brushes overlap, stand in each other and upon each other.
