@@ -62,7 +62,6 @@ void wait_for(const Question& question, std::function<void(const Asking&)> work)
   std::exception_ptr raised;  // by Python
   {
     const py::gil_scoped_release released;
-    ++workers;
     std::thread(
         [](std::shared_ptr<Running> own) {
           run(own);
@@ -71,6 +70,7 @@ void wait_for(const Question& question, std::function<void(const Asking&)> work)
         },
         running)
         .detach();
+    ++workers;
     std::unique_lock lock(running->mutex);
     const auto has_ended = [&] { return running->ended; };
     while (!raised && !running->end.wait_for(lock, std::chrono::milliseconds(50), has_ended)) {

@@ -2,6 +2,11 @@
 
 #include "program.h"
 
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <map>
 
 namespace program {
@@ -214,6 +219,36 @@ TEST_F(Command_line, compare_wants_an_eye_of_three_numbers_if_any) {
 TEST_F(Command_line, generate_wants_a_family_that_there_is) {
   expect_usage_error({"generate", "castle", "--out", path("a.off").string()}, "castle");
   EXPECT_FALSE(fs::exists(path("a.off")));
+}
+
+/// What a command writes to a terminal that is its standard error.
+static std::string on_a_terminal(const std::vector<std::string>& words) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    dup2(open("/dev/null", O_WRONLY), 1);
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  std::string text;
+  char bytes[4096];
+  for (ssize_t n = 0; (n = read(terminal, bytes, sizeof bytes)) > 0;) text.append(bytes, static_cast<std::size_t>(n));
+  close(terminal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0) << text;
+  return text;
+}
+
+TEST_F(Command_line, a_bar_says_how_long_it_may_take) {
+  const std::string told = on_a_terminal({executable, "fuzz", "see", "--seconds", "4"});
+  EXPECT_NE(told.find("fuzzing [####"), std::string::npos) << told;
+  EXPECT_NE(told.find("%, about 1 s left"), std::string::npos) << told;
+  EXPECT_EQ(told.find("about 3 s left"), std::string::npos) << "before two seconds: " << told;
+  EXPECT_EQ(on_a_terminal({executable, "fuzz", "see", "--seconds", "1", "--quiet"}), "");
 }
 
 }  // namespace program
