@@ -628,7 +628,9 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
     throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
   if (arguments.show.empty() && (!arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty()))
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
-  arguments.view.check_usage();
+  arguments.view.check_usage(!arguments.svg.empty());
+  if (arguments.svg.empty() && !arguments.eye.empty())
+    throw Usage_error("--eye is the eye of the picture: add --svg FILE, or leave it out");
   const Polygon_soup soup = common.read();
   const Division division = arguments.division.division(common, soup);
   const Stopwatch watch;
@@ -730,6 +732,9 @@ struct Merge_arguments {
 };
 
 Exit run_merge(const Merge_arguments& arguments) {
+  if (arguments.out.ends_with(".bsp"))
+    throw Usage_error(
+        "--out: a level has a table of leaves, which parts do not hold: `pvs LEVEL --out FILE.bsp` makes it");
   std::vector<Visibility_table> parts;
   for (const std::string& file : arguments.parts) {
     const std::string bytes = read_input(file);

@@ -221,6 +221,36 @@ TEST_F(Command_line, generate_wants_a_family_that_there_is) {
   EXPECT_FALSE(fs::exists(path("a.off")));
 }
 
+TEST_F(Command_line, what_would_be_ignored_is_refused) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"order", cube, "--eye", "5,5,5"},
+                                                  {"weak", cube, "--from-face", "0"},
+                                                  {"shadow", cube, "--light", "5,5,5"},
+                                                  {"pvs", cube}})
+    for (const std::vector<std::string>& option : {std::vector<std::string>{"--field", "30"},
+                                                   {"--look", "1,0,0"},
+                                                   {"--up", "1,0,0"},
+                                                   {"--shade", "none"},
+                                                   {"--size", "64x64"},
+                                                   {"--background", "#000000"}}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), option.begin(), option.end());
+      expect_usage_error(words, "add --svg FILE");
+    }
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"weak", cube, "--from-face", "0", "--eye", "1,1,1"}, {"pvs", cube, "--eye", "1,1,1"}})
+    expect_usage_error(words, "--eye");
+  const std::string part = path("part.pvs").string(), report = path("report.json").string();
+  ASSERT_EQ(run({"pvs", cube, "--out", part}).code, done);
+  expect_usage_error({"merge", part, "--out", path("level.bsp").string()}, ".bsp");
+  ASSERT_EQ(run({"report", cube, "--questions", "order", "--cases", "1", "--json", report}).code, done);
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--questions", "see"}, {"--cases", "2"}, {"--quick"}, {"--limit", "3"}}) {
+    std::vector<std::string> words{"report", "--merge", report, "--html", path("report.html").string()};
+    words.insert(words.end(), option.begin(), option.end());
+    expect_usage_error(words, option[0]);
+  }
+}
+
 /// What a command writes to a terminal that is its standard error.
 static std::string on_a_terminal(const std::vector<std::string>& words) {
   int terminal = -1;
