@@ -195,7 +195,7 @@ static void check_usage(const Order_arguments& arguments) {
 static Exit run(const Order_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
-  arguments.view.check_usage();
+  arguments.view.check_usage(!arguments.svg.empty());
   const bool by_graph = arguments.by_graph();
   check_usage(arguments);
   Scene scene(common.read());

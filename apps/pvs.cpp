@@ -176,7 +176,7 @@ class Table_maker {
         });
     return ranks.is_first() ? joined(parts, names) : Visibility_table{};
   }
-  /// To be called when the table is written: an end before that would lose what is kept.
+  /// To be called when the table is written, and nothing is undecided: an end before that would lose what is kept.
   void remove_kept() const {
     std::error_code error;
     fs::remove_all(arguments_.out + ".parts", error);
@@ -565,6 +565,8 @@ Exit run_into_level(const Pvs_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.shard.empty() || arguments.resume || !arguments.show.empty() || !arguments.certificates.empty())
     throw Usage_error("--out FILE.bsp is about leaves alone: leave out --shard, --resume, --show and --certificates");
+  if (!arguments.svg.empty() || !arguments.html.empty() || !arguments.obj.empty() || !arguments.mesh.empty())
+    throw Usage_error("--out FILE.bsp draws nothing: leave out --svg, --html, --obj and --mesh, or name another --out");
   if (const Division_arguments& d = arguments.division; !d.grid.empty() || !d.volumes.empty() || d.coarse > 0)
     throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --grid, --volumes and --coarse");
   const std::string bytes = compiled_level(common, "--out FILE.bsp");
@@ -626,12 +628,20 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
     throw Usage_error("a shard has some faces only: leave out --show and --certificates, or --shard");
   if (arguments.show.empty() && (!arguments.svg.empty() || !arguments.obj.empty() || !arguments.mesh.empty()))
     throw Usage_error("a picture is of what a cell sees: say which with --show CELL");
-  arguments.view.check_usage();
+  arguments.view.check_usage(!arguments.svg.empty());
+  if (arguments.svg.empty() && !arguments.eye.empty())
+    throw Usage_error("--eye is the eye of the picture: add --svg FILE, or leave it out");
   const Polygon_soup soup = common.read();
   const Division division = arguments.division.division(common, soup);
   const Stopwatch watch;
   const Level_cells level = cells_of(arguments, soup, division.tree);
   const double cells_seconds = watch.seconds();
+
+  const std::vector<char> asked = asked_cells(level, arguments.outside);
+  for (const Cell_id cell : arguments.show)
+    if (cell >= asked.size() || asked[cell] == 0)
+      throw Usage_error(
+          fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
 
   Table_maker maker(arguments, division.question, soup, level, watch);
   const bool in_blocks = arguments.resume || !ranks.is_alone();
@@ -642,21 +652,17 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
     return Exit::done;
   }
   const double seconds = watch.seconds() - cells_seconds;
-  for (const Cell_id cell : arguments.show)
-    if (table.row_of(cell) == nullptr)
-      throw Usage_error(
-          fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
+  const std::size_t visible = count_of(table, &Row::visible), undecided = count_of(table, &Row::undecided),
+                    cells_visible = count_of(table, &Row::cells) / 2,
+                    cells_undecided = count_of(table, &Row::cells_undecided) / 2;
   if (!arguments.out.empty()) write_table(arguments.out, table);
-  if (arguments.resume) maker.remove_kept();
+  if (arguments.resume && undecided + cells_undecided == 0) maker.remove_kept();
   if (!arguments.svg.empty()) draw(arguments, soup, level, table);
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(level, table, arguments.show));
   if (!arguments.html.empty()) write_page(arguments, level, table);
   const bool all_proved = arguments.certificates.empty() || write_certificates(arguments, level, table, watch, ranks);
 
-  const std::size_t visible = count_of(table, &Row::visible), undecided = count_of(table, &Row::undecided),
-                    cells_visible = count_of(table, &Row::cells) / 2,
-                    cells_undecided = count_of(table, &Row::cells_undecided) / 2;
   const Exit exit = undecided + cells_undecided > 0 || !all_proved ? Exit::undecided : Exit::done;
   const Pvs_counters& c = maker.counters();
   const Cell_pvs_counters& of_cells = maker.cell_counters();
@@ -703,7 +709,11 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
                                   "--json - lists them",
                                   groups.size(), pairs));
   }
-  if (arguments.resume) row("resumed", fmt::format("{} of {} blocks were there", maker.blocks_kept(), blocks));
+  if (arguments.resume)
+    row("resumed", fmt::format("{} of {} blocks were there{}", maker.blocks_kept(), blocks,
+                               undecided + cells_undecided == 0
+                                   ? ""
+                                   : "; those that are decided are kept, and the same command goes on from there"));
   for (const Cell_id cell : arguments.show) {
     row(fmt::format("cell {}", cell), fmt::format("sees {}", fmt::join(table.row_of(cell)->visible, " ")));
     if (arguments.cells_too) row("", fmt::format("and cells {}", fmt::join(table.row_of(cell)->cells, " ")));
@@ -722,6 +732,9 @@ struct Merge_arguments {
 };
 
 Exit run_merge(const Merge_arguments& arguments) {
+  if (arguments.out.ends_with(".bsp"))
+    throw Usage_error(
+        "--out: a level has a table of leaves, which parts do not hold: `pvs LEVEL --out FILE.bsp` makes it");
   std::vector<Visibility_table> parts;
   for (const std::string& file : arguments.parts) {
     const std::string bytes = read_input(file);

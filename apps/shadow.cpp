@@ -228,7 +228,7 @@ static Exit run(const Shadow_arguments& arguments) {
   const std::vector<Placed_light> lights = lights_of(arguments);
   if (arguments.svg.empty() && !arguments.eye.empty()) throw Usage_error("--eye is the eye of the picture: give --svg");
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
-  arguments.view.check_usage();
+  arguments.view.check_usage(!arguments.svg.empty());
   if (!arguments.volume.empty() && lights.size() > 1)
     throw Usage_error("--volume is of one light: give one --light or --sun for each file");
   const Scene scene(common.read());

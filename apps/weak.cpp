@@ -457,7 +457,9 @@ Exit run_weak(const Weak_arguments& arguments) {
     throw Usage_error("--surfaces are those of events: add --method events");
   if (!arguments.surfaces.empty() && !as_obj && !arguments.surfaces.ends_with(".json"))
     throw Usage_error("--surfaces wants a file that ends with .json or .obj, not " + arguments.surfaces);
-  arguments.view.check_usage();
+  arguments.view.check_usage(!arguments.svg.empty());
+  if (arguments.svg.empty() && !arguments.eye.empty())
+    throw Usage_error("--eye is the eye of the picture: add --svg FILE, or leave it out");
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");
   const Polygon_soup soup = common.read();
   const Scene scene(soup);

@@ -21,6 +21,7 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/algorithms/weak_visibility/conservative.h>
 #include <sightline/algorithms/weak_visibility/settle.h>
+#include <sightline/algorithms/weak_visibility/volume.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 #include <sightline/io/read.h>
 #include <sightline/kernel/predicates.h>
@@ -32,6 +33,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <list>
 #include <mutex>
 #include <numbers>
 #include <sstream>
@@ -425,26 +427,67 @@ Weak_visibility weak_answer(const Model& model, const std::vector<std::vector<Ex
   return answer;
 }
 
-}  // namespace
-
-Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
-                               const Asking& asking) {
-  const Occluders& occluders = model.inside()->occluders();
-  const std::vector<Weak_source> polygons = weak_sources(occluders, sources);
+/// Faces that are seen from polygons, by lines, and by events where that helps.
+Weakly_visible seen_by_lines(const Occluders& occluders, const std::vector<Weak_source>& polygons,
+                             const Asking& asking) {
   Weak_options options;
   options.threads = asking.threads;
   options.progress = asking.progress;
   options.search.two_sided = asking.two_sided;
   options.search.out_of_time = end_of_budget(asking);
-  const auto found = std::make_shared<Weakly_visible>(weakly_visible(occluders, polygons, options));
+  Weakly_visible found = weakly_visible(occluders, polygons, options);
   Events_options events;
   events.threads = asking.threads;
   events.progress = asking.progress;
   events.two_sided = asking.two_sided;
   events.out_of_time = options.search.out_of_time;
-  settle_by_events(occluders, polygons, usual_event_edges, events, *found);
-  decide_the_rest(occluders, polygons, options, usual_event_edges, events, *found);
+  settle_by_events(occluders, polygons, usual_event_edges, events, found);
+  decide_the_rest(occluders, polygons, options, usual_event_edges, events, found);
+  return found;
+}
+
+/// A superset of them.
+Weakly_visible seen_by_boxes(const Occluders& occluders, const std::vector<Weak_source>& polygons,
+                             const Asking& asking) {
+  Conservative_options options;
+  options.two_sided = asking.two_sided;
+  options.threads = asking.threads;
+  options.progress = progress_within_budget(asking);
+  return possibly_visible(occluders, polygons, options);
+}
+
+/// What solids, which are given besides polygons, see outwards by `search`, and from within.
+Weak_visibility seen_from_solids(const Model& model, const std::vector<Polygon_soup>& solids,
+                                 std::vector<std::vector<Exact_point>> sources, const Asking& asking,
+                                 Weakly_visible (*search)(const Occluders&, const std::vector<Weak_source>&,
+                                                          const Asking&)) {
+  const std::function<bool()> out_of_time = end_of_budget(asking);
+  const Occluders& occluders = model.inside()->occluders();
+  std::list<Weak_volume> volumes;
+  for (const Polygon_soup& solid : solids) {
+    const std::vector<std::vector<Exact_point>>& surface = volumes.emplace_back(solid).surface();
+    sources.insert(sources.end(), surface.begin(), surface.end());
+  }
+  std::atomic<std::size_t> all = 1;
+  Asking told = asking;
+  told.progress = [&](std::size_t done, std::size_t of) {
+    all = of;
+    if (asking.progress) asking.progress(done, of);
+  };
+  const auto found = std::make_shared<Weakly_visible>(search(occluders, weak_sources(occluders, sources), told));
+  for (const Weak_volume& volume : volumes)
+    add_seen_from_within(occluders.scene(), volume, asking.two_sided, *found, [&] {
+      told.progress(all, all);  // which may end the question
+      return out_of_time && out_of_time();
+    });
   return weak_answer(model, sources, asking, found);
+}
+
+}  // namespace
+
+Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
+                               const Asking& asking) {
+  return seen_from_solids(model, {}, sources, asking, &seen_by_lines);
 }
 
 Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking& asking) {
@@ -453,14 +496,18 @@ Weak_visibility weakly_visible(const Model& model, Face_id source, const Asking&
 
 Weak_visibility possibly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                                  const Asking& asking) {
-  const Occluders& occluders = model.inside()->occluders();
-  Conservative_options options;
-  options.two_sided = asking.two_sided;
-  options.threads = asking.threads;
-  options.progress = progress_within_budget(asking);
-  return weak_answer(
-      model, sources, asking,
-      std::make_shared<Weakly_visible>(possibly_visible(occluders, weak_sources(occluders, sources), options)));
+  return seen_from_solids(model, {}, sources, asking, &seen_by_boxes);
+}
+
+Weak_visibility weakly_visible_from_solids(const Model& model, const std::vector<Polygon_soup>& solids,
+                                           const std::vector<std::vector<Exact_point>>& sources, const Asking& asking) {
+  return seen_from_solids(model, solids, sources, asking, &seen_by_lines);
+}
+
+Weak_visibility possibly_visible_from_solids(const Model& model, const std::vector<Polygon_soup>& solids,
+                                             const std::vector<std::vector<Exact_point>>& sources,
+                                             const Asking& asking) {
+  return seen_from_solids(model, solids, sources, asking, &seen_by_boxes);
 }
 
 std::vector<std::vector<Exact_point>> sources_of(const Model& model, Face_id face) {

@@ -197,6 +197,15 @@ Weak_visibility weakly_visible(const Model& model, const std::vector<std::vector
 /// others count as visible, and of these there is no certificate. Errors: as weakly_visible(); Out_of_budget.
 Weak_visibility possibly_visible(const Model& model, const std::vector<std::vector<Exact_point>>& sources,
                                  const Asking& asking = {});
+/// Both from some point of the inside of solids too: what the surface of one sees outwards, and what is seen from
+/// within. Each soup bounds one; inside is where its faces wind round. Errors: std::invalid_argument also where the
+/// faces of one do not close up, or enclose nothing.
+Weak_visibility weakly_visible_from_solids(const Model& model, const std::vector<Polygon_soup>& solids,
+                                           const std::vector<std::vector<Exact_point>>& sources = {},
+                                           const Asking& asking = {});
+Weak_visibility possibly_visible_from_solids(const Model& model, const std::vector<Polygon_soup>& solids,
+                                             const std::vector<std::vector<Exact_point>>& sources = {},
+                                             const Asking& asking = {});
 /// The convex parts of a face as sources. Errors: std::out_of_range where the model has no such face.
 std::vector<std::vector<Exact_point>> sources_of(const Model& model, Face_id face);
 

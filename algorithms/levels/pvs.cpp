@@ -163,6 +163,18 @@ class Pvs_maker {
 
 using levels_detail::Pvs_maker;
 
+std::vector<char> asked_cells(const Level_cells& level, bool outside) {
+  const std::vector<Level_cell>& cells = level.cells();
+  std::vector<char> has_way_out(level.counters().regions, 0);
+  for (const Level_cell& cell : cells)
+    if (cell.is_outside) has_way_out[cell.region] = 1;
+  const auto is_inside = [&](const Level_cell& cell) { return !cell.is_solid && has_way_out[cell.region] == 0; };
+  const bool all = outside || std::none_of(cells.begin(), cells.end(), is_inside);
+  std::vector<char> asked;
+  for (const Level_cell& cell : cells) asked.push_back(all ? !cell.is_solid : is_inside(cell));
+  return asked;
+}
+
 std::vector<std::vector<Exact_point>> portals_of(const Level_cells& level, Cell_id cell) {
   std::vector<std::vector<Exact_point>> portals;
   for (const std::uint32_t w : level.cells()[cell].walls)

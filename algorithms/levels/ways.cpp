@@ -26,21 +26,10 @@ std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall&
   return polygon;
 }
 
-Ways::Ways(const Level_cells& level, const Occluders& occluders, bool outside) {
-  // 1. Cells that are asked about.
-  const std::vector<Level_cell>& cells = level.cells();
-  std::vector<char> has_way_out(level.counters().regions, 0);
-  for (const Level_cell& cell : cells)
-    if (cell.is_outside) has_way_out[cell.region] = 1;
-  const auto is_inside = [&](const Level_cell& cell) { return !cell.is_solid && has_way_out[cell.region] == 0; };
-  const bool all = outside || std::none_of(cells.begin(), cells.end(), is_inside);
-  for (const Level_cell& cell : cells) {
-    is_asked_.push_back(all ? !cell.is_solid : is_inside(cell));
-    cells_asked_ += is_asked_.back() != 0;
-  }
-
-  // 2. Ways between them.
-  into_.resize(cells.size());
+Ways::Ways(const Level_cells& level, const Occluders& occluders, bool outside)
+    : is_asked_(asked_cells(level, outside)),
+      cells_asked_(is_asked_.size() - static_cast<std::size_t>(std::count(is_asked_.begin(), is_asked_.end(), 0))) {
+  into_.resize(is_asked_.size());
   for (const Cell_wall& wall : level.walls()) {
     if (wall.behind == no_cell || is_asked_[wall.front] == 0 || is_asked_[wall.behind] == 0) continue;
     for (const std::vector<std::uint32_t>& part : wall.open)

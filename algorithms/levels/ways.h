@@ -39,7 +39,6 @@ std::vector<Exact_point> looking_from(const Level_cells& level, const Cell_wall&
 /// The cells that are asked about, and all ways between them.
 class Ways {
  public:
-  /// Rooms without a way out; or all cells that are not solid, where there are none, or `outside` asks for it.
   Ways(const Level_cells& level, const Occluders& occluders, bool outside);
 
   const Way& operator[](std::size_t way) const { return ways_[way]; }

@@ -255,7 +255,7 @@ Answered answered(const Unit& unit, const Report_arguments& a, const Report_effo
 
 // ---- What is done already
 
-/// A file beside --json that holds what is done, a unit a line; what a report that was written whole holds counts too.
+/// A file beside --json that holds what is done, a unit a line, until the report is written whole.
 class Journal {
  public:
   Journal(const Report_arguments& a, const Json& asked, std::uint32_t shard, std::uint32_t shards, std::size_t units)
@@ -384,6 +384,18 @@ Exit run(const Report_arguments& given) {
   if (!given.parts.empty()) {
     if (!given.scenes.empty() || given.resume || !given.shard.empty())
       throw Usage_error("--merge asks nothing: leave out scenes, --shard and --resume");
+    for (const auto& [option, is_given] : {std::pair("--questions", !given.questions.empty()),
+                                           {"--families", !given.families.empty()},
+                                           {"--distances", !given.distances.empty()},
+                                           {"--sizes", !given.sizes.empty()},
+                                           {"--program", !given.programs.empty()},
+                                           {"--ask", !given.ask.empty()},
+                                           {"--cases", given.cases != 0},
+                                           {"--limit", given.limit != 0},
+                                           {"--budget", given.budget != 0},
+                                           {"--reduce", given.reduce != 0},
+                                           {"--quick", given.quick}})
+      if (is_given) throw Usage_error(std::string("--merge asks nothing: leave out ") + option);
     return merge(given);
   }
   if (given.resume && (given.json.empty() || given.json == "-"))

@@ -9,6 +9,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 namespace sightline::app {
@@ -90,14 +92,34 @@ Progress::~Progress() { clear(); }
 void Progress::clear() {
   if (shown_.exchange(-1) >= 0) std::cerr << "\r\033[K" << std::flush;
 }
+/// ", about 12 min left", if the rest takes as long as what is done; nothing before that says much.
+static std::string time_left(double seconds, std::size_t done, std::size_t all) {
+  if (seconds < 2 || done == 0 || done > all) return "";
+  const double left = std::ceil(seconds * static_cast<double>(all - done) / static_cast<double>(done));
+  if (left > 1e6) return ", days left";
+  const auto n = static_cast<int>(left);
+  return n < 100    ? fmt::format(", about {} s left", n)
+         : n < 5400 ? fmt::format(", about {} min left", (n + 30) / 60)
+                    : fmt::format(", about {} h left", (n + 1800) / 3600);
+}
+
 void Progress::operator()(std::size_t done, std::size_t all) {
-  if (!terminal_ || watch_.seconds() < 0.5) return;
-  // Fragments outnumber pieces, so the share can only be a guess below the end.
-  const int percent = all == 0 ? 0 : static_cast<int>(std::min<std::size_t>(99, 100 * done / all));
+  const double seconds = watch_.seconds();
+  if (!terminal_ || seconds < 0.5) return;
+  // Once a second, and where the share has grown: what was shown last, of both, in one number.
+  constexpr int share = 128;
+  const int second = static_cast<int>(std::min(seconds, 1e7));
   int before = shown_.load();
-  if (percent <= before || !shown_.compare_exchange_strong(before, percent)) return;
-  std::cerr << fmt::format("\r{} [{:<40}] {:2}%", what_, std::string(static_cast<std::size_t>(percent) * 40 / 100, '#'),
-                           percent)
+  // Fragments outnumber pieces, so the share can only be a guess below the end.
+  int percent = all == 0 ? 0 : static_cast<int>(std::min<std::size_t>(99, 100 * done / all));
+  if (before >= 0) {
+    if (percent <= before % share && second <= before / share) return;
+    percent = std::max(percent, before % share);
+  }
+  if (!shown_.compare_exchange_strong(before, second * share + percent)) return;
+  std::cerr << fmt::format("\r{} [{:<40}] {:2}%{}\033[K", what_,
+                           std::string(static_cast<std::size_t>(percent) * 40 / 100, '#'), percent,
+                           time_left(seconds, done, all))
             << std::flush;
 }
 

@@ -63,6 +63,8 @@ struct View_arguments {
   /// `usual`: what the help says of the size where none is given.
   void add_to(Command command, const std::string& usual = "by default 960 wide, and as high as what there is to see");
   void check_usage() const;  ///< before a long read. Errors: Usage_error
+  /// The same, and that none is given where there is no picture.
+  void check_usage(bool has_picture) const;
   /// Fitted to the points that are shown, or to all of the scene: what is not given of direction, field and height is
   /// such that these fill the picture but for so many pixels along its sides. Where they are all around the eye, it
   /// looks to the middle of the scene, 90 degrees wide. Aimed, unless the scene is empty. Errors: Usage_error.

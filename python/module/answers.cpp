@@ -2,6 +2,8 @@
 
 #include "bindings.h"
 
+#include <sightline/harness/generate/transform.h>
+
 namespace sightline::python {
 
 namespace {
@@ -19,14 +21,14 @@ Parts parts_in(const std::shared_ptr<const Found>& found) {
 
 py::tuple order_of(const Model& model, const py::object& at, const Question& question) {
   const Exact_point eye = point_of(at, "eye");
-  const auto found = answer_to(question, [&](const Asking& asking) {
+  const auto found = answer_to(question, [model, eye](const Asking& asking) {
     return std::make_shared<const Visibility_order>(order(model, eye, asking));
   });
   return py::make_tuple(parts_in(found), certifier(*found));
 }
 
 py::tuple graph_of(const Model& model, const Question& question) {
-  const Priority found = answer_to(question, [&](const Asking& asking) { return priority_graph(model, asking); });
+  const Priority found = answer_to(question, [model](const Asking& asking) { return priority_graph(model, asking); });
   py::list components;
   for (const std::vector<std::uint32_t>& component : found.components) components.append(ids(component));
   return py::make_tuple(components, found.cyclic, certifier(found));
@@ -39,7 +41,7 @@ struct Drawing {
 
 py::list lines_of(const Drawing& drawing) {
   const std::vector<Seen::Line> lines =
-      answer_to(Question{0, py::none(), 0, false}, [&](const Asking&) { return drawing.lines(); });
+      answer_to(plain_question(), [make = drawing.lines](const Asking&) { return make(); });
   py::list all;
   for (const Seen::Line& line : lines) {
     py::list stretches;
@@ -59,7 +61,7 @@ py::tuple seen_by(const Model& model, const py::object& at, const py::object& fr
   const Exact_point eye = point_of(at, "eye");
   std::vector<Exact_point> field;
   for (const py::handle ray : frustum) field.push_back(point_of(ray, "frustum: ray " + std::to_string(field.size())));
-  const auto found = answer_to(question, [&](const Asking& asking) {
+  const auto found = answer_to(question, [model, eye, field](const Asking& asking) {
     return std::make_shared<const Seen>(field.empty() ? see(model, eye, asking)
                                                       : see_in_field(model, eye, field, asking));
   });
@@ -69,10 +71,33 @@ py::tuple seen_by(const Model& model, const py::object& at, const py::object& fr
                         certifier(*found));
 }
 
-py::tuple weak_from(const Model& model, const py::object& source, bool conservative, const Question& question) {
-  const std::vector<std::vector<Exact_point>> sources = sources_of(model, source);
-  const Weak_visibility found = answer_to(question, [&](const Asking& asking) {
-    return conservative ? possibly_visible(model, sources, asking) : weakly_visible(model, sources, asking);
+/// Errors: IndexError where there is no such face.
+Face_id checked_face(const Model& model, const py::handle& face) {
+  int overflow = 0;
+  const long long id = PyLong_AsLongLongAndOverflow(face.ptr(), &overflow);
+  if (overflow != 0 || id < 0 || static_cast<std::uint64_t>(id) >= model.face_count())
+    throw std::out_of_range("face " + std::string(py::str(face)) + " is not there: there are " +
+                            std::to_string(model.face_count()) + ", counted from 0");
+  return static_cast<Face_id>(id);
+}
+
+/// From what `source` says, where it is not None; from the insides of solids; and of what some faces of the scene
+/// bound.
+py::tuple weak_from(const Model& model, const py::object& source, const py::list& solids, const py::list& faces,
+                    bool conservative, const Question& question) {
+  std::vector<Polygon_soup> volumes;
+  for (const Model& solid : models_of(solids)) volumes.push_back(solid.soup());
+  if (!faces.empty()) {
+    std::vector<Face_id> bounds;
+    for (const py::handle face : faces) bounds.push_back(checked_face(model, face));
+    for (const Face_id face : bounds) sightline::sources_of(model, face);  // none is left out
+    volumes.push_back(generate::with_faces(model.soup(), bounds));
+  }
+  std::vector<std::vector<Exact_point>> sources;
+  if (!source.is_none()) sources = sources_of(model, source);
+  const Weak_visibility found = answer_to(question, [model, volumes, sources, conservative](const Asking& asking) {
+    return conservative ? possibly_visible_from_solids(model, volumes, sources, asking)
+                        : weakly_visible_from_solids(model, volumes, sources, asking);
   });
   return py::make_tuple(ids(found.visible), ids(found.hidden), ids(found.undecided), certifier(found));
 }
@@ -90,7 +115,7 @@ py::tuple moment(const Quadratic_root& t) {
 py::tuple seen_along(const Model& model, const py::object& start, const py::object& end, const Question& question) {
   const Exact_point from = point_of(start, "start"), to = point_of(end, "end");
   const Seen_along found =
-      answer_to(question, [&](const Asking& asking) { return see_along(model, from, to, asking); });
+      answer_to(question, [model, from, to](const Asking& asking) { return see_along(model, from, to, asking); });
   py::list events;
   for (const Seen_along::Event& event : found.events) {
     py::list changes;
@@ -107,13 +132,15 @@ py::tuple seen_along(const Model& model, const py::object& start, const py::obje
 py::tuple verdict_on_solids(const py::list& solids, const Model& result, const std::string& certificate,
                             const Question& question) {
   const std::vector<Model> models = models_of(solids);
-  const Checked checked =
-      answer_to(question, [&](const Asking& asking) { return verify(models, result, certificate, asking); });
+  const Checked checked = answer_to(question, [models, result, certificate](const Asking& asking) {
+    return verify(models, result, certificate, asking);
+  });
   return py::make_tuple(checked.accepted, checked.why);
 }
 
 py::tuple verdict_on(const Model& model, const std::string& certificate, const Question& question) {
-  const Checked checked = answer_to(question, [&](const Asking& asking) { return verify(model, certificate, asking); });
+  const Checked checked =
+      answer_to(question, [model, certificate](const Asking& asking) { return verify(model, certificate, asking); });
   return py::make_tuple(checked.accepted, checked.why);
 }
 
@@ -121,19 +148,19 @@ py::tuple verdict_on(const Model& model, const std::string& certificate, const Q
 
 std::vector<std::vector<Exact_point>> sources_of(const Model& model, const py::object& source) {
   if (!py::isinstance<py::int_>(source)) return polygons_of(source, "source");
-  if (py::cast<std::int64_t>(source) < 0 || py::cast<std::uint64_t>(source) >= model.face_count())
-    throw std::out_of_range("face " + std::string(py::str(source)) + " is not there: there are " +
-                            std::to_string(model.face_count()) + ", counted from 0");
-  return sightline::sources_of(model, py::cast<Face_id>(source));
+  return sightline::sources_of(model, checked_face(model, source));
 }
 
 void add_answers(py::module_& module) {
   py::class_<Certifier>(module, "Certifier").def("text", [](const Certifier& certifier) {
-    return answer_to(Question{0, py::none(), 0, false}, [&](const Asking&) { return certifier.text(); });
+    return answer_to(plain_question(), [make = certifier.text](const Asking&) { return make(); });
   });
 
   py::class_<Tracker>(module, "Tracker")
-      .def(py::init([](const Model& model) { return track(model); }), py::arg("model"))
+      .def(py::init([](const Model& model) {
+             return answer_to(plain_question(), [model](const Asking&) { return track(model); });
+           }),
+           py::arg("model"))
       .def(
           "move_to", [](Tracker& tracker, const py::object& eye) { return ids(tracker.move_to(point_of(eye, "eye"))); },
           py::arg("eye"))
@@ -145,8 +172,8 @@ void add_answers(py::module_& module) {
   module.def("graph", &graph_of, py::arg("model"), py::arg("question"));
   py::class_<Drawing>(module, "Drawing").def("lines", &lines_of);
   module.def("see", &seen_by, py::arg("model"), py::arg("eye"), py::arg("frustum"), py::arg("question"));
-  module.def("weakly_visible", &weak_from, py::arg("model"), py::arg("source"), py::arg("conservative"),
-             py::arg("question"));
+  module.def("weakly_visible", &weak_from, py::arg("model"), py::arg("source"), py::arg("solids"), py::arg("faces"),
+             py::arg("conservative"), py::arg("question"));
   module.def("see_along", &seen_along, py::arg("model"), py::arg("start"), py::arg("end"), py::arg("question"));
   module.def("verify_solids", &verdict_on_solids, py::arg("solids"), py::arg("result"), py::arg("certificate"),
              py::arg("question"));

@@ -124,11 +124,14 @@ py::tuple posed(const std::string& name, std::uint64_t seed, std::size_t size, s
   parameters.scale = rational_of(scale, "scale");
   if (sgn(parameters.scale) <= 0) throw py::value_error("scale has to be above 0");
   const generate::Family& family = generate::family(name);
-  generate::Posed_scene scene = family.make(parameters);
-  py::object eye = python::fractions(scene.eye);
-  py::list source = fractions(scene.source);
-  scene.soup.file = scene.name;
-  return py::make_tuple(Model(std::move(scene.soup)), eye, source, ids(scene.visible), ids(scene.hidden));
+  const auto [scene, model] = answer_to(plain_question(), [&family, parameters](const Asking&) {  // families stay
+    generate::Posed_scene made = family.make(parameters);
+    made.soup.file = made.name;
+    Model of_soup(std::move(made.soup));
+    return std::pair(std::move(made), std::move(of_soup));
+  });
+  return py::make_tuple(model, python::fractions(scene.eye), fractions(scene.source), ids(scene.visible),
+                        ids(scene.hidden));
 }
 
 // ---- A case
@@ -141,7 +144,7 @@ Case make_case(const std::string& family, std::uint64_t seed, std::size_t size, 
 }
 
 Truth truth_of(const Case& asked, bool cycles, const python::Question& question) {
-  return answer_to(question, [&](const Asking& asking) {
+  return answer_to(question, [asked, cycles](const Asking& asking) {
     judge::Truth_options options;
     options.threads = asking.threads;
     options.cycles = cycles;

@@ -15,6 +15,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -43,7 +44,9 @@ Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, cons
   std::vector<std::uint32_t> counts;
   for (const py::handle count : grid) counts.push_back(py::cast<std::uint32_t>(count));
   Space_tree own = leaves ? own_tree(model) : Space_tree();
-  return answer_to(question, [&](const Asking& asking) {
+  std::optional<Model> rooms;
+  if (volumes != nullptr) rooms = *volumes;
+  return answer_to(question, [=, own = std::move(own)](const Asking& asking) mutable {
     Cell_options options;
     options.tree = std::move(own);
     options.candidates = candidates;
@@ -52,8 +55,8 @@ Level level_of(const Model& model, unsigned candidates, std::uint64_t seed, cons
     options.progress = progress_within_budget(asking);
     if (!counts.empty()) options.tree = even_boxes(model.soup(), {counts.at(0), counts.at(1), counts.at(2)});
     Volume_division division;
-    if (volumes != nullptr) {
-      division = convex_volumes(volumes->soup());
+    if (rooms) {
+      division = convex_volumes(rooms->soup());
       options.tree = std::move(division.tree);
     }
     return Level{std::make_shared<const Level_cells>(model.soup(), options), division.volumes};
@@ -112,13 +115,13 @@ py::list rows_of(const Found& found) {
 }
 
 py::list faces_seen(const Level& level, std::uint64_t seed, bool outside, const Question& question) {
-  return rows_of(answer_to(question, [&](const Asking& asking) {
+  return rows_of(answer_to(question, [level, seed, outside](const Asking& asking) {
     return potentially_visible(*level.cells, looking(seed, outside, asking));
   }));
 }
 
 py::list cells_seen(const Level& level, std::uint64_t seed, bool outside, const Question& question) {
-  return rows_of(answer_to(question, [&](const Asking& asking) {
+  return rows_of(answer_to(question, [level, seed, outside](const Asking& asking) {
     return mutually_visible_cells(*level.cells, looking(seed, outside, asking));
   }));
 }
@@ -150,7 +153,8 @@ void add_levels(py::module_& module) {
           "coarse",
           [](const Level& level, std::size_t most) {
             std::vector<std::int64_t> all;
-            for (const std::uint32_t region : convex_regions(*level.cells, most))
+            for (const std::uint32_t region : answer_to(
+                     plain_question(), [level, most](const Asking&) { return convex_regions(*level.cells, most); }))
               all.push_back(region == no_cell ? -1 : std::int64_t{region});
             return ids(all);
           },
@@ -161,6 +165,19 @@ void add_levels(py::module_& module) {
       .def(
           "walls", [](const Level& level, Cell_id cell) { return ids(cell_of(level, cell).walls); }, py::arg("cell"))
       .def("wall", &wall_of, py::arg("i"))
+      .def(
+          "portals_of",
+          [](const Level& level, Cell_id cell) {
+            cell_of(level, cell);
+            py::list all;
+            for (const std::vector<Exact_point>& portal : portals_of(*level.cells, cell)) {
+              py::tuple corners(portal.size());
+              for (std::size_t k = 0; k < portal.size(); ++k) corners[k] = fractions(portal[k]);
+              all.append(corners);
+            }
+            return all;
+          },
+          py::arg("cell"))
       .def(
           "inside",
           [](const Level& level, Cell_id cell) {

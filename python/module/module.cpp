@@ -27,6 +27,7 @@ PYBIND11_MODULE(_sightline, module) {
     }
   });
 
+  py::module_::import("atexit").attr("register")(py::cpp_function(&wait_for_what_was_left));
   module.attr("version") = SIGHTLINE_VERSION;
   add_scene(module);
   add_answers(module);

@@ -9,8 +9,11 @@
 #include <sightline/algorithms/weak_visibility/partition/partition.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 namespace sightline::python {
 
@@ -34,36 +37,44 @@ Pixel_view pixels_of(const py::object& eye, const py::tuple& axes, std::uint32_t
           height};
 }
 
-template <class T>
-py::array_t<T> grid_of(const Pixel_view& pixels) {
-  return py::array_t<T>({static_cast<py::ssize_t>(pixels.height), static_cast<py::ssize_t>(pixels.width)});
+template <class T, class List>
+py::array_t<T> grid_of(const Pixel_view& pixels, const List& numbers) {
+  py::array_t<T> grid({static_cast<py::ssize_t>(pixels.height), static_cast<py::ssize_t>(pixels.width)});
+  std::copy(numbers.begin(), numbers.end(), grid.mutable_data());
+  return grid;
 }
+
+/// What the rays through pixels' centres meet.
+struct Met {
+  std::vector<std::int64_t> faces;
+  std::vector<std::int8_t> sides;
+  std::vector<bool> tied;
+};
 
 /// Of each pixel the face that the ray through its centre meets first, or -1, from which side, and whether a rule
 /// chose.
 py::tuple met_at_centres(const Model& model, const py::object& eye, const py::tuple& axes, std::uint32_t width,
                          std::uint32_t height, const Question& question) {
   const Pixel_view pixels = pixels_of(eye, axes, width, height);
-  auto faces = grid_of<std::int64_t>(pixels);
-  auto sides = grid_of<std::int8_t>(pixels);
-  auto tied = grid_of<bool>(pixels);
-  answer_to(question, [&, to_face = faces.mutable_data(), to_side = sides.mutable_data(),
-                       to_tied = tied.mutable_data()](const Asking& asking) {
+  const Met met = answer_to(question, [model, pixels](const Asking& asking) {
     const Exact_view view(model.scene(), pixels.eye);
     Image_options options;
     options.threads = asking.threads;
     options.progress = progress_within_budget(asking);
     const Piece_image image = centres(view, pixels, options);
+    Met all;
     for (std::size_t i = 0; i < image.pieces.size(); ++i) {
       const std::uint32_t piece = image.pieces[i];
       const bool is_met = piece != Piece_image::nothing;
-      to_face[i] = is_met ? std::int64_t{model.scene().pieces()[piece].face} : -1;
-      to_side[i] = is_met ? static_cast<std::int8_t>(view.eye_side(piece) == CGAL::POSITIVE ? 1 : -1) : std::int8_t{0};
-      to_tied[i] = image.tied[i] != 0;
+      all.faces.push_back(is_met ? std::int64_t{model.scene().pieces()[piece].face} : -1);
+      all.sides.push_back(is_met ? static_cast<std::int8_t>(view.eye_side(piece) == CGAL::POSITIVE ? 1 : -1)
+                                 : std::int8_t{0});
+      all.tied.push_back(image.tied[i] != 0);
     }
-    return 0;
+    return all;
   });
-  return py::make_tuple(faces, sides, tied);
+  return py::make_tuple(grid_of<std::int64_t>(pixels, met.faces), grid_of<std::int8_t>(pixels, met.sides),
+                        grid_of<bool>(pixels, met.tied));
 }
 
 /// Sums of faces' colours over each pixel's square, and its share in which something is seen. Pre: a row of three for
@@ -71,33 +82,36 @@ py::tuple met_at_centres(const Model& model, const py::object& eye, const py::tu
 py::tuple means_of(const Model& model, const py::object& eye, const py::tuple& axes, std::uint32_t width,
                    std::uint32_t height, const Colours& colours, const Question& question) {
   const Pixel_view pixels = pixels_of(eye, axes, width, height);
+  std::vector<double> of_faces(colours.data(), colours.data() + colours.size());
+  const auto [sums, shares] =
+      answer_to(question, [model, pixels, of_faces = std::move(of_faces)](const Asking& asking) {
+        const std::size_t count = std::size_t{pixels.width} * pixels.height;
+        std::vector<double> to(3 * count), share(count);
+        const Exact_view view(model.scene(), pixels.eye, field_of(pixels));
+        Visible_options looking;
+        looking.threads = asking.threads;
+        looking.progress = progress_within_budget(asking);
+        const auto surface = visible_surface(view, Piece_boxes(model.scene()), field_of_view(view), looking);
+        const auto colour = [&](std::uint32_t piece) {
+          const double* of = of_faces.data() + 3 * std::size_t{model.scene().pieces()[piece].face};
+          return Colour{of[0], of[1], of[2]};
+        };
+        const auto keep = [&](const Mean_row& row) {
+          const std::size_t first = std::size_t{row.y} * pixels.width;
+          for (std::size_t x = 0; x < pixels.width; ++x) {
+            for (std::size_t k = 0; k < 3; ++k) to[3 * (first + x) + k] = row.colours[x][k];
+            share[first + x] = row.covered[x];
+          }
+        };
+        Image_options drawing;
+        drawing.threads = asking.threads;
+        drawing.progress = looking.progress;
+        visible_means(view, surface, pixels, colour, keep, drawing);
+        return std::pair(std::move(to), std::move(share));
+      });
   py::array_t<double> image({static_cast<py::ssize_t>(height), static_cast<py::ssize_t>(width), py::ssize_t{3}});
-  auto covered = grid_of<double>(pixels);
-  const double* of_faces = colours.data();
-  answer_to(question, [&, to = image.mutable_data(), share = covered.mutable_data()](const Asking& asking) {
-    const Exact_view view(model.scene(), pixels.eye, field_of(pixels));
-    Visible_options looking;
-    looking.threads = asking.threads;
-    looking.progress = progress_within_budget(asking);
-    const auto surface = visible_surface(view, Piece_boxes(model.scene()), field_of_view(view), looking);
-    const auto colour = [&](std::uint32_t piece) {
-      const double* of = of_faces + 3 * std::size_t{model.scene().pieces()[piece].face};
-      return Colour{of[0], of[1], of[2]};
-    };
-    const auto keep = [&](const Mean_row& row) {
-      const std::size_t first = std::size_t{row.y} * pixels.width;
-      for (std::size_t x = 0; x < pixels.width; ++x) {
-        for (std::size_t k = 0; k < 3; ++k) to[3 * (first + x) + k] = row.colours[x][k];
-        share[first + x] = row.covered[x];
-      }
-    };
-    Image_options drawing;
-    drawing.threads = asking.threads;
-    drawing.progress = looking.progress;
-    visible_means(view, surface, pixels, colour, keep, drawing);
-    return 0;
-  });
-  return py::make_tuple(image, covered);
+  std::copy(sums.begin(), sums.end(), image.mutable_data());
+  return py::make_tuple(image, grid_of<double>(pixels, shares));
 }
 
 // ---- Partitions
@@ -153,10 +167,9 @@ py::tuple partition_of(const Model& model, const py::object& source, Face_id fac
     if (scene.pieces()[i].face == face) pieces.push_back(i);
   if (pieces.empty())
     throw std::out_of_range("face " + std::to_string(face) + " is not there, or was left out: see left_out");
-  std::vector<Light_partition> found;
-  std::array<Bounded, lights> shares;
-  answer_to(question, [&](const Asking& asking) {
-    const Light_partitioner partitioner(scene);
+  const auto [found, shares] = answer_to(question, [model, pieces, sources, all_borders](const Asking& asking) {
+    std::vector<Light_partition> all;
+    const Light_partitioner partitioner(model.scene());
     Partition_options options;
     options.all_borders = all_borders;
     options.out_of_time = end_of_budget(asking);
@@ -166,10 +179,10 @@ py::tuple partition_of(const Model& model, const py::object& source, Face_id fac
         if (asking.progress)
           asking.progress(static_cast<std::size_t>(1000 * (static_cast<double>(k) + share)), 1000 * pieces.size());
       };
-      found.push_back(partitioner.partition(pieces[k], sources, options, counters));
+      all.push_back(partitioner.partition(pieces[k], sources, options, counters));
     }
-    shares = shares_of_face(scene, found);
-    return 0;
+    const std::array<Bounded, lights> of_face = shares_of_face(model.scene(), all);
+    return std::pair(std::move(all), of_face);
   });
   Partition_lists lists;
   for (const Light_partition& partition : found) lists.add(partition, scene.pieces()[partition.piece].number);

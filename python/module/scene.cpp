@@ -123,16 +123,13 @@ Model model_of(const py::array& points, const py::array& corners, const Starts& 
   if (!add_faces<std::int64_t>(soup, corners, loops, faces) && !add_faces<std::int32_t>(soup, corners, loops, faces) &&
       !add_faces<std::uint32_t>(soup, corners, loops, faces) && !add_faces<std::uint64_t>(soup, corners, loops, faces))
     throw py::type_error("F wants integers");
-  return answer_to(question, [&](const Asking&) { return Model(std::move(soup)); });
+  return answer_to(question, [soup = std::move(soup)](const Asking&) mutable { return Model(std::move(soup)); });
 }
 
 // ---- What it is made of
 
 py::dict facts_of(const Model& model) {
-  const Facts facts = [&] {
-    const py::gil_scoped_release released;
-    return model.facts();
-  }();
+  const Facts facts = answer_to(plain_question(), [model](const Asking&) { return model.facts(); });
   py::dict all;
   all["points_read"] = facts.points_read;
   all["points"] = facts.points;
@@ -152,7 +149,8 @@ py::dict facts_of(const Model& model) {
 }
 
 Parts parts_of(const Model& model) {
-  return {model.parts().size(), [model](std::size_t i) -> const Part& { return model.parts()[i]; }, {}};
+  const std::size_t count = answer_to(plain_question(), [model](const Asking&) { return model.parts().size(); });
+  return {count, [model](std::size_t i) -> const Part& { return model.parts()[i]; }, {}};
 }
 
 std::vector<std::pair<Face_id, std::string>> left_out_of(const Model& model) {
@@ -163,7 +161,7 @@ std::vector<std::pair<Face_id, std::string>> left_out_of(const Model& model) {
 
 /// A scene of a file: coordinates rounded to doubles first, if so wished, and all loops backwards.
 Model read(const std::string& file, bool round, bool flip, const Question& question) {
-  return answer_to(question, [&](const Asking&) {
+  return answer_to(question, [file, round, flip](const Asking&) {
     Read_options options;
     options.round_to_double = round;
     Polygon_soup soup = read_scene(file, options);
@@ -184,12 +182,11 @@ void write(const Model& model, const std::string& file) {
 
 template <class Measure>
 py::array_t<double> measured(const Parts& parts, Measure measure) {
-  std::vector<double> all(parts.count);
-  {
-    const py::gil_scoped_release released;
+  return doubles(answer_to(plain_question(), [parts, measure](const Asking&) {
+    std::vector<double> all(parts.count);
     for (std::size_t i = 0; i < parts.count; ++i) all[i] = measure(parts.at(i));
-  }
-  return doubles(all);
+    return all;
+  }));
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ struct Shadow_answer {
 py::tuple shadow_of(const Model& model, const py::object& at, bool is_sun, const Question& question) {
   const Exact_point place = point_of(at, is_sun ? "sun" : "light");
   if (is_sun && place == Exact_point{0, 0, 0}) throw py::value_error("sun: (0, 0, 0) is no direction");
-  const auto found = answer_to(question, [&](const Asking& asking) {
+  const auto found = answer_to(question, [model, place, is_sun](const Asking& asking) {
     const Scene scene(model.soup());
     const Exact_view view = is_sun ? Exact_view(scene, Sun{place}) : Exact_view(scene, place);
     Shadow_options options;
@@ -56,7 +56,7 @@ py::tuple shadow_of(const Model& model, const py::object& at, bool is_sun, const
 /// The space behind faces, as a scene; how much it holds; the box that it is cut at.
 py::tuple dark_space_of(const Model& model, const py::object& at, bool is_sun, const Question& question) {
   const Exact_point place = point_of(at, is_sun ? "sun" : "light");
-  const auto [space, holds, box] = answer_to(question, [&](const Asking& asking) {
+  const auto [space, holds, box] = answer_to(question, [model, place, is_sun](const Asking& asking) {
     const Scene scene(model.soup());
     Shadow_volume made;
     const auto progress = progress_within_budget(asking);

@@ -57,8 +57,8 @@ py::tuple nearest_of(const Model& model, const Points& origins, const Points& di
     }
     if (is_zero) throw py::value_error("ray " + std::to_string(i) + " has the direction 0");
   }
-  const auto found =
-      answer_to(question, [&](const Asking& asking) { return nearest(model, rays, start_of(closed), asking); });
+  const auto found = answer_to(
+      question, [model, rays, closed](const Asking& asking) { return nearest(model, rays, start_of(closed), asking); });
   Columns columns(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Nearest_face& hit = found[i];
@@ -84,9 +84,8 @@ Exact_hits traced(const Model& model, const py::object& origins, const py::objec
     found.rays.push_back({point_of(both[0], name + ": origin"), point_of(both[1], name + ": direction")});
     if (found.rays.back().direction == Exact_point{0, 0, 0}) throw py::value_error(name + " has the direction 0");
   }
-  found.hits = answer_to(question, [&](const Asking& asking) {
-    return all ? trace_all(model, found.rays, start_of(closed), asking)
-               : trace(model, found.rays, start_of(closed), asking);
+  found.hits = answer_to(question, [model, rays = found.rays, all, closed](const Asking& asking) {
+    return all ? trace_all(model, rays, start_of(closed), asking) : trace(model, rays, start_of(closed), asking);
   });
   return found;
 }
@@ -113,8 +112,9 @@ py::tuple firsts_of(const Exact_hits& found) {
 py::tuple combined(const std::string& operation, const py::list& solids, const std::string& inside,
                    const Question& question) {
   const std::vector<Model> models = models_of(solids);
-  const Combined found =
-      answer_to(question, [&](const Asking& asking) { return combine(operation, models, inside, asking); });
+  const Combined found = answer_to(question, [operation, models, inside](const Asking& asking) {
+    return combine(operation, models, inside, asking);
+  });
   py::array_t<std::int64_t> sources({static_cast<py::ssize_t>(found.faces.size()), py::ssize_t{2}});
   for (std::size_t f = 0; f < found.faces.size(); ++f) {
     sources.mutable_at(static_cast<py::ssize_t>(f), 0) = found.faces[f].first;

@@ -13,8 +13,14 @@ Faces = Tuple[NDArray[Any], NDArray[np.int64], NDArray[np.int64]]
 _kept: Set[Any] = {np.dtype(t) for t in (np.float64, np.float32, np.int64, np.int32, object)}
 
 
+def _check_unmasked(array: Any, name: str) -> None:
+    if np.ma.is_masked(array):
+        raise ValueError(f"{name} has numbers that are masked; give arrays without them")
+
+
 def points(V: Any) -> NDArray[Any]:
     """V as (n, 3) of a type that C++ reads, without a copy where it has one. Lists become Python's own numbers."""
+    _check_unmasked(V, "V")
     array = V if isinstance(V, np.ndarray) else np.array(V, dtype=object)
     if array.size == 0 and array.ndim <= 2 and array.shape[-1] in (0, 3):
         return np.empty((0, 3))
@@ -54,7 +60,15 @@ def rounded_point(point: Any) -> NDArray[np.float64]:
 
 def is_index(x: Any) -> bool:
     """Whether it is one integer."""
-    return isinstance(x, (int, np.integer))
+    return isinstance(x, (int, np.integer)) and not isinstance(x, bool)
+
+
+def whole_number(x: Any, name: str, least: int = 0, most: int = 2**63 - 1) -> int:
+    """It as an int. Errors: ValueError where it is out of range, TypeError where it is none."""
+    number = operator.index(x)
+    if not least <= number <= most:
+        raise ValueError(f"{name} is {number}; give {least} or more" + (f", up to {most}" if number > most else ""))
+    return number
 
 
 def _starts(numbers: Any) -> NDArray[np.int64]:
@@ -80,6 +94,7 @@ def _of_lists(F: Sequence[Any]) -> Faces:
 
 def faces(F: Any, offsets: Any, face_offsets: Any) -> Faces:
     """F as (m, k), or one row of corners with where loops and faces begin."""
+    _check_unmasked(F, "F")
     if not isinstance(F, np.ndarray):
         if offsets is None and len(F) > 0 and not is_index(F[0]):
             return _of_lists(F)
@@ -137,8 +152,10 @@ def mesh(thing: Any) -> Tuple[NDArray[Any], Faces]:
     if where is None or what is None:
         raise TypeError(
             f"a {type(thing).__name__} is no mesh: it has no .vertices and .faces, .points and .faces, or .points and "
-            ".cells; give V and F"
+            ".cells; give V and F, or read a file by sightline.read(path)"
         )
+    _check_unmasked(where, "the mesh")
+    _check_unmasked(what, "the mesh")
     V = points(np.asarray(where))
     if getattr(thing, "faces", None) is None and getattr(thing, "triangles", None) is None:
         return V, _of_cells(what)

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _sightline
 from ._answers import Ids, Point
+from ._arrays import whole_number
 from ._progress import Progress, followed
 from ._scene import Path, Scene, _question
 
@@ -23,7 +24,7 @@ def _ulps(ulps: Union[int, str]) -> int:
         if ulps not in ("far", "-far"):
             raise ValueError(f"ulps is {ulps!r}; give an integer, 'far' or '-far'")
         return _far if ulps == "far" else -_far
-    return operator.index(ulps)
+    return whole_number(ulps, "ulps", -(2**63))
 
 
 class Generated(NamedTuple):
@@ -58,6 +59,7 @@ def generate(
     >>> generate("boxes", size=3, seed=7).scene
     <Scene: 18 faces, 72 points>
     """
+    seed, size = whole_number(seed, "seed", 0, 2**64 - 1), whole_number(size, "size")
     model, eye, source, visible, hidden = _sightline.generate(family, seed, size, _ulps(ulps), offset, scale)
     return Generated(Scene._of(model), eye, source, visible, hidden)
 
@@ -76,7 +78,7 @@ def _arguments(case: "_sightline.Case", exact: bool, triangles: bool) -> Tuple[A
     return case.points(exact), _faces(case, triangles), case.looker(exact)
 
 
-def _said(answer: Any, query: str) -> str:
+def _said(answer: Any, query: str, face_count: int) -> str:
     """An answer as the protocol has it: of faces, of a truth value for each face, or {"visible": ..., ...}."""
     if query == "boolean":
         return _off(answer)
@@ -85,10 +87,25 @@ def _said(answer: Any, query: str) -> str:
         return json.dumps({"first": [_first(face) for face in faces]})
     key = "order" if query == "order" else "visible"
     if isinstance(answer, dict):
-        return json.dumps({key: [], **{name: np.asarray(value).tolist() for name, value in answer.items()}})
-    if isinstance(answer, np.ndarray) and answer.dtype == bool:
-        answer = np.flatnonzero(answer)
-    return json.dumps({key: [operator.index(face) for face in answer]})
+        if unknown := set(answer) - {key, "abstained"}:
+            raise ValueError(f"{sorted(map(str, unknown))[0]!r} is neither {key!r} nor 'abstained'")
+        return json.dumps({key: [], **{name: _named(value, face_count) for name, value in answer.items()}})
+    return json.dumps({key: _named(answer, face_count)})
+
+
+def _check_function(function: Any) -> None:
+    if not callable(function):
+        raise TypeError(f"a {type(function).__name__} is no function of (V, F, ...)")
+
+
+def _named(faces: Any, face_count: int) -> List[int]:
+    """Ids of faces, or of those with a true value where there are truth values, an array or a list of them."""
+    named = list(faces)
+    if not any(isinstance(face, (bool, np.bool_)) for face in named):
+        return [operator.index(face) for face in named]
+    if len(named) != face_count or not all(isinstance(face, (bool, np.bool_)) for face in named):
+        raise ValueError(f"it mixes truth values and ids, or has not one truth value for each of {face_count} faces")
+    return [face for face, is_named in enumerate(named) if is_named]
 
 
 def _first(face: Any) -> Any:
@@ -193,7 +210,7 @@ class _Court:
         finally:
             self.seconds += time.perf_counter() - start
         try:
-            graded = _sightline.graded(case, truth, _said(failure.answer, self.query))
+            graded = _sightline.graded(case, truth, _said(failure.answer, self.query, case.face_count))
         except (ValueError, TypeError) as error:
             failure.mark, failure.why = "invalid", f"the answer: {error}"
             return failure.mark, failure
@@ -284,8 +301,8 @@ def judge(
     query: str = "see",
     *,
     contract: str = "exact",
-    families: Optional[Sequence[str]] = None,
-    ulps: Sequence[Union[int, str]] = (0, 1, -1, "far"),
+    families: Union[None, str, Sequence[str]] = None,
+    ulps: Union[int, str, Sequence[Union[int, str]]] = (0, 1, -1, "far"),
     size: int = 0,
     cases: int = 5,
     seed: int = 1,
@@ -318,8 +335,15 @@ def judge(
     (False, 'wrong')
     """
     _sightline.check_contract(contract)
+    _check_function(function)
+    seed, size = whole_number(seed, "seed", 0, 2**64 - 1), whole_number(size, "size")
+    cases = whole_number(cases, "cases", 1)
     options = _sightline.CaseOptions(query, two_sided, exact, triangles)
     known = _sightline.families()
+    if isinstance(families, str):
+        families = [families]
+    if isinstance(ulps, (int, str)):
+        ulps = [ulps]
     names = [name for name, _, _, _, holes in known if not holes] if families is None else list(families)
     court = _Court(function, query, contract, options, exact, triangles, cycles, budget, threads)
     report = Report(query, contract)
@@ -400,10 +424,13 @@ def fuzz(
     >>> fuzz(lambda V, F, eye: [], scenes=20).finding.wrong_hidden
     array([0])
     """
+    _check_function(function)
+    seed, scenes = whole_number(seed, "seed", 0, 2**64 - 1), whole_number(scenes, "scenes")
+    max_faces = whole_number(max_faces, "max_faces", 1)
     options = _sightline.CaseOptions(query, two_sided, exact, triangles)
 
     def ask(case: "_sightline.Case") -> str:
-        return _said(function(*_arguments(case, exact, triangles)), query)
+        return _said(function(*_arguments(case, exact, triangles)), query, case.face_count)
 
     found = _sightline.fuzzed(ask, options, seed, scenes, seconds, family, max_faces, reduce)
     finding: Optional[Failure] = None

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _sightline
-from ._answers import Ids, Point
+from ._answers import Certificate, Ids, Point
 from ._progress import Progress, followed
 
 if TYPE_CHECKING:
@@ -82,6 +82,11 @@ class Cell:
     def walls(self) -> List[Wall]:
         """The polygons that bound it."""
         return [Wall(*self.cells._level.wall(i)) for i in self.cells._level.walls(self.id)]
+
+    @property
+    def portals(self) -> List[Tuple[Point, ...]]:
+        """What of its walls is open, as convex polygons that look out of it: sources of Scene.weakly_visible()."""
+        return self.cells._level.portals_of(self.id)
 
     @property
     def inside(self) -> Point:
@@ -208,6 +213,19 @@ class PotentiallyVisible:
         """What the cell of a point sees; None where there is none, or it was not asked about."""
         cell = self.cells.at(point)
         return None if cell is None else self.visible.get(cell.id)
+
+    def certificate(self, cell: int, *, threads: int = 0, progress: Progress = None, budget: float = 0) -> Certificate:
+        """What is shown of a cell: what its portals see. It sees the faces that look into it besides.
+
+        Made when it is asked for, by looking from its portals again, and what `budget` leaves open stays open.
+        """
+        if operator.index(cell) not in self.visible:
+            raise KeyError(f"cell {cell} is not there, or was not asked about")
+        portals = self.cells[cell].portals
+        if not portals:
+            raise ValueError(f"cell {cell} has no portals: it sees the faces that look into it, and no others")
+        ask = self.cells.scene.weakly_visible
+        return ask(portals, threads=threads, progress=progress, budget=budget).certificate()
 
     def table(self) -> NDArray[np.bool_]:
         """Whether each cell sees each face, (cells, faces)."""

@@ -63,6 +63,12 @@ def _doubles(numbers: NDArray[Any]) -> Optional[Doubles]:
     return rounded if are_same else None
 
 
+def _rounded(numbers: NDArray[Any]) -> Doubles:
+    if numbers.dtype != object:
+        return numbers.astype(np.float64)
+    return np.array([float(Fraction(x) if isinstance(x, str) else x) for x in numbers.flat]).reshape(numbers.shape)
+
+
 def as_doubles(o: NDArray[Any], d: NDArray[Any]) -> Optional[Tuple[Doubles, Doubles]]:
     """Both as doubles, where they are."""
     first, second = _doubles(o), _doubles(d)
@@ -91,7 +97,7 @@ class Rays(Sequence[List[Hit]]):
     @property
     def points(self) -> Doubles:
         """Where each meets its first face, (n, 3), rounded; nan: nowhere."""
-        found: Doubles = self._origins.astype(float) + self.t[:, np.newaxis] * self._directions.astype(float)
+        found: Doubles = _rounded(self._origins) + self.t[:, np.newaxis] * _rounded(self._directions)
         return found
 
     def __len__(self) -> int:

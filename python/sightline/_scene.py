@@ -1,9 +1,10 @@
 """Scenes, and the questions that one asks them."""
 
 import importlib
+import json
 import operator
 import os
-from typing import Any, Callable, Dict, List, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -73,6 +74,12 @@ class Scene:
         if coordinates not in ("exact", "double"):
             raise ValueError(f"coordinates is {coordinates!r}; give 'exact' or 'double'")
         return Scene._of(_sightline.Model.read(os.fspath(path), coordinates == "double", flip, _question(0, None, 0)))
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        """For pickle and copy: points and faces, as they are; not the file that they were read from."""
+        points, exact = self.points(), self.points(exact=True)
+        is_rounded = any(x != y for x, y in zip(points.flat, exact.flat))
+        return _of_loops, (exact if is_rounded else points, *self._model.faces())
 
     @staticmethod
     def from_trimesh(mesh: Any) -> "Scene":
@@ -230,12 +237,20 @@ class Scene:
     def _source(source: Any) -> Any:
         if _arrays.is_index(source):
             return int(source)
-        return [source] if len(source) > 0 and np.ndim(source[0][0]) == 0 else source
+        if isinstance(source, (bool, np.bool_, str)) or not hasattr(source, "__len__"):
+            raise TypeError(f"source is {source!r}; give the id of a face, a convex polygon (k, 3), or a list of them")
+        if len(source) == 0 or any(np.ndim(part) > 0 and len(part) == 0 for part in source):
+            raise ValueError("source is empty; give the id of a face, a convex polygon (k, 3), or a list of them")
+        if any(np.ndim(part) == 0 and not isinstance(part, str) for part in source):
+            raise TypeError("source is a list of numbers; give one id, or from_faces of what faces bound")
+        return source if not isinstance(source[0], str) and np.ndim(source[0][0]) > 0 else [source]
 
     def weakly_visible(
         self,
-        source: Any,
+        source: Any = None,
         *,
+        from_volume: Union["Scene", Sequence["Scene"]] = (),
+        from_faces: Any = (),
         two_sided: bool = False,
         conservative: bool = False,
         threads: int = 0,
@@ -245,14 +260,24 @@ class Scene:
         """The faces some point of which is seen from some point of the source.
 
         source: the id of a face that looks to its front; a convex polygon, (k, 3), counterclockwise as seen from the
-        side that it looks to; or a list of polygons. What `budget` leaves open is undecided. conservative: a quick
-        answer that leaves out nothing; what it calls visible may be hidden by several faces together. A budget that
-        runs out then raises OutOfBudget.
+        side that it looks to; or a list of polygons. from_volume: a closed polyhedron, a scene, or several: from some
+        point of its inside, what its surface sees outwards and what is seen within. from_faces: the same of what these
+        faces of the scene bound, ids. What `budget` leaves open is undecided. conservative: a quick answer that leaves
+        out nothing; what it calls visible may be hidden by several faces together. A budget that runs out then raises
+        OutOfBudget.
         """
+        volumes = [from_volume] if isinstance(from_volume, Scene) else list(from_volume)
+        if not all(isinstance(volume, Scene) for volume in volumes):
+            raise TypeError("from_volume wants closed polyhedra, each a Scene")
+        solids = [volume._model for volume in volumes]
+        faces = [operator.index(face) for face in from_faces]
+        if source is None and not solids and not faces:
+            raise ValueError("say what looks: give a source, from_volume or from_faces")
         with followed(progress, "weak") as told:
             question = _question(threads, told, budget, two_sided)
+            looking = None if source is None else self._source(source)
             return WeakView(
-                self, *_sightline.weakly_visible(self._model, self._source(source), conservative, question)
+                self, *_sightline.weakly_visible(self._model, looking, solids, faces, conservative, question)
             )
 
     def partition(
@@ -365,6 +390,8 @@ class Scene:
         counts = counts_of(grid)
         if sum((counts is not None, volumes is not None, bool(leaves))) > 1:
             raise ValueError("grid, volumes and leaves each say what cells lie within; give one of them")
+        if volumes is not None and not isinstance(volumes, Scene):
+            raise TypeError(f"volumes is a {type(volumes).__name__}; give rooms as one Scene")
         rooms = None if volumes is None else volumes._model
         with followed(progress, "cells") as told:
             question = _question(threads, told, budget)
@@ -435,20 +462,28 @@ class Scene:
 
     def verify(
         self,
-        certificate: Union[Certificate, str, "os.PathLike[str]"],
+        certificate: Union[Certificate, str, Dict[str, Any], "os.PathLike[str]"],
         *,
         threads: int = 0,
         progress: Progress = None,
         budget: float = 0,
     ) -> Verdict:
-        """Checks a certificate, its text, or the file of a path, by code that shares nothing with what made it."""
-        if isinstance(certificate, os.PathLike):
+        """Checks a certificate, its text, data or file, by code that shares nothing with what made it."""
+        if isinstance(certificate, os.PathLike) or isinstance(certificate, str) and "{" not in certificate:
             with open(certificate, encoding="utf-8") as file:
                 text = file.read()
         else:
             text = certificate.text if isinstance(certificate, Certificate) else certificate
+            if isinstance(text, dict):
+                text = json.dumps(text)
+            if not isinstance(text, str):
+                raise TypeError(f"a {type(text).__name__} is no certificate; give one, its text, or a file's path")
         with followed(progress, "verify") as told:
             return Verdict(*_sightline.verify(self._model, text, _question(threads, told, budget)))
+
+
+def _of_loops(points: NDArray[Any], corners: Any, loops: Any, faces: Any) -> Scene:
+    return Scene(points, corners, offsets=loops, face_offsets=faces)
 
 
 def read(path: Path, *, coordinates: str = "exact", flip: bool = False) -> Scene:

@@ -101,6 +101,55 @@ def test_the_program_says_the_same(tmp_path):
     assert [[str(x) for x in p] for p in info["box"]] == said["box"]
 
 
+def box(low, high):
+    """A box that looks outwards."""
+    V = [[(low, high)[(k >> d) & 1][d] for d in range(3)] for k in range(8)]
+    return V, [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
+
+
+@pytest.mark.parametrize("conservative", [False, True])
+def test_what_a_solid_sees_is_what_the_program_says(tmp_path, conservative):
+    V, F = box((0, 0, 0), (9, 9, 9))
+    W, G = box((1, 1, 1), (2, 2, 2))
+    card = [[1, 1, 8], [2, 1, 8], [2, 2, 8]]  # looks up, away from the cube below it
+    room = sightline.Scene(
+        V + W + card, [f[::-1] for f in F] + [[i + 8 for i in g] for g in G] + [[16, 17, 18]]
+    )
+    cloud = sightline.Scene(*box((1, 1, "15/2"), (3, 3, "17/2")))
+    room.write(tmp_path / "room.qoff"), cloud.write(tmp_path / "cloud.qoff")
+    options = ["--conservative"] if conservative else []
+
+    of_cube = room.weakly_visible(from_faces=np.arange(6, 12), conservative=conservative)
+    if not conservative:
+        assert of_cube.visible.tolist() == list(range(6)), "its own faces look outwards, and the card away from it"
+    said = by_program(tmp_path, "weak", tmp_path / "room.qoff", "--from-faces", "6,7,8,9,10,11", *options)
+    assert said["visible"] == of_cube.visible.tolist() and said["hidden"] == of_cube.hidden.tolist()
+
+    of_cloud = room.weakly_visible(from_volume=cloud, conservative=conservative)
+    assert 12 in of_cloud.visible, "within the cloud"
+    said = by_program(tmp_path, "weak", tmp_path / "room.qoff", "--from-volume", tmp_path / "cloud.qoff", *options)
+    assert said["visible"] == of_cloud.visible.tolist() and said["hidden"] == of_cloud.hidden.tolist()
+    assert conservative or of_cloud.certificate().verify() and of_cube.certificate().verify()
+
+    both = room.weakly_visible(0, from_volume=[cloud], from_faces=range(6, 12), conservative=conservative)
+    assert set(of_cloud.visible) | set(of_cube.visible) <= set(both.visible)
+
+
+def test_what_is_no_solid_is_refused():
+    room = sightline.Scene(*box((0, 0, 0), (9, 9, 9)))
+    for options, error in (
+        ({}, ValueError),
+        ({"from_faces": [0, 1]}, ValueError),  # open
+        ({"from_faces": [6]}, IndexError),
+        ({"from_faces": [-1]}, IndexError),
+        ({"from_faces": [0.5]}, TypeError),
+        ({"from_volume": lamp_and_lid()}, ValueError),
+        ({"from_volume": [box((0, 0, 0), (1, 1, 1))]}, TypeError),
+    ):
+        with pytest.raises(error):
+            room.weakly_visible(**options)
+
+
 @pytest.mark.parametrize("two_sided", [False, True])
 def test_the_program_says_the_same_of_a_path(tmp_path, two_sided):
     file = tmp_path / "triangles.off"
@@ -146,7 +195,10 @@ def test_the_program_takes_the_certificates(tmp_path):
         answer.certificate().save(tmp_path / "certificate.json")
         subprocess.run([program, "verify", file, tmp_path / "certificate.json"], check=True, capture_output=True)
         assert sightline.verify(scene, tmp_path / "certificate.json")
+        assert sightline.verify(scene, str(tmp_path / "certificate.json"))
         assert sightline.verify(scene, (tmp_path / "certificate.json").read_text())
+    with pytest.raises(FileNotFoundError):
+        scene.verify("no such file.json")
 
 
 def test_a_false_certificate_is_rejected():
@@ -157,6 +209,9 @@ def test_a_false_certificate_is_rejected():
     assert not verdict and not verdict.accepted and verdict.why
     with pytest.raises(ValueError):
         scene.verify("{}")
+    with pytest.raises(TypeError, match="no certificate"):
+        scene.verify(None)
+    assert scene.verify(certificate.data)
 
 
 def test_what_is_no_question_is_refused():
@@ -176,7 +231,20 @@ def test_what_is_no_question_is_refused():
         for ask in (scene.see, scene.order, scene.tracker().move_to):
             with pytest.raises(error):
                 ask(eye)
-    for source, error in ((3, IndexError), (-1, IndexError), ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], ValueError)):
+    for source, error in (
+        (3, IndexError),
+        (-1, IndexError),
+        (10**30, IndexError),
+        (True, TypeError),
+        (0.5, TypeError),
+        ([0, 1], TypeError),
+        (np.array([0, 1]), TypeError),
+        ("0,0,1 1,0,1 0,1,1", TypeError),
+        ([], ValueError),
+        ([[]], ValueError),
+        ([[[0, 0, 0], [1, 0, 0], [0, 1, 0]], []], ValueError),
+        ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], ValueError),
+    ):
         with pytest.raises(error):
             scene.weakly_visible(source)
     with pytest.raises(ValueError, match="budget"):
@@ -226,6 +294,35 @@ def test_budget_progress_and_other_threads():
     assert len(ticks) > 20 * min(seconds, 1)  # the interpreter went on meanwhile
     with pytest.raises(sightline.OutOfBudget):
         scene.order((-3, -5, 5), budget=1e-6)
+
+
+def test_ctrl_c_ends_what_has_no_progress_and_work_that_is_left_ends_before_the_process():
+    script = """
+import atexit, os, signal, threading, time
+import numpy as np
+atexit.register(lambda: print("ended", flush=True))
+import sightline
+
+n = 700
+x, y = np.meshgrid(np.arange(n), np.arange(n))
+V = np.stack([x, y, np.random.default_rng(1).integers(0, 50, x.shape)], -1).reshape(-1, 3).astype(float)
+i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+F = np.concatenate([np.stack([i, i + 1, i + n], 1), np.stack([i + 1, i + n + 1, i + n], 1)])
+start = time.perf_counter()
+sightline.Scene(V, F)
+whole = time.perf_counter() - start
+start = time.perf_counter()
+threading.Timer(0.1 * whole, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+try:
+    sightline.Scene(V, F)
+    print("made")
+except KeyboardInterrupt:
+    print("interrupted", (time.perf_counter() - start) / whole)
+"""
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=100)
+    said = done.stdout.split()
+    assert done.returncode == 0 and done.stderr == "" and said[0] == "interrupted" and said[-1] == "ended"
+    assert float(said[1]) < 0.6
 
 
 def test_what_progress_raises_ends_the_question():

@@ -32,6 +32,11 @@ def test_generate_is_what_the_program_generates():
         sightline.generate("no such family")
     with pytest.raises(ValueError, match="ulps"):
         sightline.generate("hinged", ulps="near")
+    for name, number in (("size", -1), ("seed", -1), ("seed", 2**64), ("ulps", 10**30)):
+        with pytest.raises(ValueError, match=name):
+            sightline.generate("hinged", **{name: number})
+    with pytest.raises(TypeError):
+        sightline.generate("hinged", size=1.5)
 
 
 def test_what_a_family_knows_is_right():
@@ -95,11 +100,28 @@ def test_ways_to_answer():
     for function in (mask, lambda *a: set(right(*a)), lambda *a: {"visible": right(*a), "abstained": []}):
         assert sightline.judge(function, **options).total["right"] == 2
     assert sightline.judge(lambda V, F, eye: {"abstained": range(len(F))}, **options).total["abstained"] == 2
-    for answer in ([10**6], [-1], [0.5], None, "all"):
+    for ask in (sightline.judge, sightline.fuzz):
+        with pytest.raises(TypeError, match="no function"):
+            ask(None)
+    for answer in ([10**6], [-1], [0.5], None, "all", {"seen": [0]}):
         report = sightline.judge(lambda V, F, eye: answer, **options)
         assert report.total["invalid"] == 2 and report.smallest.why
     crashed = sightline.judge(lambda V, F, eye: 1 // 0, **options)
     assert crashed.total["crashed"] == 2 and "ZeroDivisionError" in crashed.smallest.why
+
+
+def test_truth_values_may_be_a_list_and_have_to_be_one_for_each_face():
+    def said(make):
+        return sightline.judge(
+            lambda V, F, eye: make(np.isin(np.arange(len(F)), right(V, F, eye))), families="boxes", ulps=0, cases=3
+        )
+
+    for make in (list, np.ndarray.tolist, tuple, lambda m: {"visible": m}, lambda m: {"visible": m.tolist()}):
+        report = said(make)
+        assert report and report.total["right"] == 3
+    for make in (lambda m: m[:-1], lambda m: [*m, False], lambda m: [True, *np.flatnonzero(m)]):
+        report = said(make)
+        assert report.total["invalid"] == 3 and "truth value" in report.failures[0].why
 
 
 def test_orders_and_weak_visibility():

@@ -56,7 +56,7 @@ commands = {
         Scene.weakly_visible,
         {
             **dict.fromkeys(("from-face", "from"), "source"),
-            **dict.fromkeys(("from-volume", "from-faces", "beside-rays"), program_alone),
+            "beside-rays": program_alone,
             **dict.fromkeys(("partition", "all-borders"), "Scene.partition()"),
             "along": "Scene.see_along()",
             **dict.fromkeys(("method", "rays", "cells", "event-edges", "surfaces"), program_alone),

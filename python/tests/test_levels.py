@@ -100,8 +100,30 @@ def test_rooms_hold_their_cells_and_regions_are_fewer():
         scene.cells(volumes=boxes((low, high), (low, high)))
     with pytest.raises(ValueError, match="give one of them"):
         scene.cells(volumes=rooms, grid=(1, 1, 1))
+    with pytest.raises(TypeError, match="volumes is a list"):
+        scene.cells(volumes=[rooms])
     with pytest.raises(ValueError, match="most is 0"):
         cells.coarse(0)
+
+
+def test_each_cell_shows_what_it_sees():
+    scene = two_rooms()
+    pvs = scene.pvs()
+    for cell in list(pvs.visible)[::4]:
+        certificate = pvs.certificate(cell)
+        assert certificate.verify()
+        data = certificate.data
+        through = {data["fragments"][entry["fragment"]]["face"] for entry in data["visible"]}
+        assert through | set(pvs.cells[cell].faces) == set(pvs.visible[cell])
+    with pytest.raises(KeyError):
+        pvs.certificate(len(pvs.cells))
+    closed = sightline.read(corpus / "cube.off")
+    turned = sightline.Scene(closed.points(exact=True), [face[::-1] for face in closed.faces()])
+    room = turned.pvs()
+    (cell,) = [cell for cell in room.visible if len(room.cells[cell].portals) == 0]
+    assert len(room.visible[cell]) == 6
+    with pytest.raises(ValueError, match="no portals"):
+        room.certificate(cell)
 
 
 def test_covered_parts_of_walls_are_the_faces():

@@ -81,8 +81,9 @@ def test_rays_of_all_kinds():
     down = square.trace(np.array([[0.5, 0.5, 2], [3, 3, 3]], np.float32), (0, 0, -1))
     assert down.faces.tolist() == [0, -1] and down.t[0] == 2 and len(down) == 2
     assert square.trace((0, 0, 1), [[0, 0, -1], [0, 0, 1]]).faces.tolist() == [0, -1]
-    along = square.trace(("-1", Fraction(1, 3), 0), (1, 0, 0))
+    along = square.trace(("-1", "1/3", 0), (1, 0, 0))
     assert along[0] == [(0, 0, 1, 2, (0, Fraction(1, 3), 0))]
+    assert along.points.tolist() == [[0, pytest.approx(1 / 3), 0]]
     leaving = square.trace((0.5, 0.5, 0), (0, 0, 1)), square.trace((0.5, 0.5, 0), (0, 0, 1), closed=True)
     assert [rays.faces[0] for rays in leaving] == [-1, 0] and leaving[1][0][0].t == 0
     assert square.trace(np.empty((0, 3)), (0, 0, 1)).faces.shape == (0,)

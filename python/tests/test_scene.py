@@ -1,6 +1,8 @@
 """Scenes from what people have: each number is taken as it is, and what is no scene is refused with a sentence."""
 
+import copy
 import decimal
+import pickle
 import sys
 import types
 from fractions import Fraction
@@ -105,6 +107,9 @@ def test_polygons_and_holes():
         (square, np.zeros((1, 1, 3), int), ValueError, "shape"),
         (square, np.array([0, 1, 2]), ValueError, "offsets"),
         (square, 7, TypeError, ""),
+        (np.ma.masked_array(square, square == 1), [[0, 1, 2]], ValueError, "V has numbers that are masked"),
+        (square, np.ma.masked_array([[0, 1, 2, 0]], [[0, 0, 0, 1]]), ValueError, "F has numbers that are masked"),
+        ("town.obj", None, TypeError, "sightline.read"),
     ],
 )
 def test_what_is_no_scene_is_refused(V, F, error, words):
@@ -207,6 +212,20 @@ def test_files(tmp_path):
     with pytest.raises(sightline.InputError) as caught:
         sightline.read(tmp_path / "none.obj")
     assert caught.value.line is None
+
+
+def test_scenes_are_pickled_and_copied_exactly():
+    V = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [1, 1, 0], [2, 1, 0], [1, 2, 0]], float)
+    rounded = sightline.Scene(V / 3, [[[0, 1, 2], [5, 4, 3]], [3, 4, 5]])
+    exact = sightline.Scene([["1/3", 0, 10**40], [1, 0, 0], [0, 1, Fraction(1, 7)]], [[0, 1, 2]])
+    for scene in (rounded, exact, sightline.Scene(np.empty((0, 3)), [])):
+        for again in (pickle.loads(pickle.dumps(scene)), copy.deepcopy(scene)):
+            assert again.points(exact=True).tolist() == scene.points(exact=True).tolist()
+            assert [np.concatenate(f).tolist() if isinstance(f, list) else f.tolist() for f in again.faces()] == [
+                np.concatenate(f).tolist() if isinstance(f, list) else f.tolist() for f in scene.faces()
+            ]
+            assert again.areas.tolist() == scene.areas.tolist()
+    assert pickle.loads(pickle.dumps(rounded)).points().dtype == float
 
 
 def test_what_is_left_out_is_said():

@@ -2,6 +2,11 @@
 
 #include "program.h"
 
+#include <fcntl.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <map>
 
 namespace program {
@@ -214,6 +219,66 @@ TEST_F(Command_line, compare_wants_an_eye_of_three_numbers_if_any) {
 TEST_F(Command_line, generate_wants_a_family_that_there_is) {
   expect_usage_error({"generate", "castle", "--out", path("a.off").string()}, "castle");
   EXPECT_FALSE(fs::exists(path("a.off")));
+}
+
+TEST_F(Command_line, what_would_be_ignored_is_refused) {
+  for (const std::vector<std::string>& command : {std::vector<std::string>{"order", cube, "--eye", "5,5,5"},
+                                                  {"weak", cube, "--from-face", "0"},
+                                                  {"shadow", cube, "--light", "5,5,5"},
+                                                  {"pvs", cube}})
+    for (const std::vector<std::string>& option : {std::vector<std::string>{"--field", "30"},
+                                                   {"--look", "1,0,0"},
+                                                   {"--up", "1,0,0"},
+                                                   {"--shade", "none"},
+                                                   {"--size", "64x64"},
+                                                   {"--background", "#000000"}}) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), option.begin(), option.end());
+      expect_usage_error(words, "add --svg FILE");
+    }
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"weak", cube, "--from-face", "0", "--eye", "1,1,1"}, {"pvs", cube, "--eye", "1,1,1"}})
+    expect_usage_error(words, "--eye");
+  const std::string part = path("part.pvs").string(), report = path("report.json").string();
+  ASSERT_EQ(run({"pvs", cube, "--out", part}).code, done);
+  expect_usage_error({"merge", part, "--out", path("level.bsp").string()}, ".bsp");
+  ASSERT_EQ(run({"report", cube, "--questions", "order", "--cases", "1", "--json", report}).code, done);
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--questions", "see"}, {"--cases", "2"}, {"--quick"}, {"--limit", "3"}}) {
+    std::vector<std::string> words{"report", "--merge", report, "--html", path("report.html").string()};
+    words.insert(words.end(), option.begin(), option.end());
+    expect_usage_error(words, option[0]);
+  }
+}
+
+/// What a command writes to a terminal that is its standard error.
+static std::string on_a_terminal(const std::vector<std::string>& words) {
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (child == 0) {
+    dup2(open("/dev/null", O_WRONLY), 1);
+    std::vector<char*> arguments;
+    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+    arguments.push_back(nullptr);
+    execv(arguments[0], arguments.data());
+    _exit(127);
+  }
+  std::string text;
+  char bytes[4096];
+  for (ssize_t n = 0; (n = read(terminal, bytes, sizeof bytes)) > 0;) text.append(bytes, static_cast<std::size_t>(n));
+  close(terminal);
+  int status = 0;
+  waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0) << text;
+  return text;
+}
+
+TEST_F(Command_line, a_bar_says_how_long_it_may_take) {
+  const std::string told = on_a_terminal({executable, "fuzz", "see", "--seconds", "4"});
+  EXPECT_NE(told.find("fuzzing [####"), std::string::npos) << told;
+  EXPECT_NE(told.find("%, about 1 s left"), std::string::npos) << told;
+  EXPECT_EQ(told.find("about 3 s left"), std::string::npos) << "before two seconds: " << told;
+  EXPECT_EQ(on_a_terminal({executable, "fuzz", "see", "--seconds", "1", "--quiet"}), "");
 }
 
 }  // namespace program

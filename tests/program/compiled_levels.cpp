@@ -130,6 +130,11 @@ TEST_F(Compiled_levels, own_tables_are_refuted_by_sightlines_leaf_by_leaf) {
 TEST_F(Compiled_levels, a_copy_has_the_exact_table) {
   const std::string wrong = level("wrong.bsp", {0x0f, 0x0b, 0x0d, 0x0f}), copy = path("copy.bsp").string();
   ASSERT_EQ(run({"pvs", wrong, "--out", copy}).code, done);
+  for (const char* picture : {"--svg", "--html", "--obj", "--mesh"}) {
+    const std::string ending = std::string(picture) == "--mesh" ? "ply" : picture + 2;
+    const Outcome drawn = run({"pvs", wrong, "--out", copy, picture, path("drawn." + ending).string()});
+    EXPECT_EQ(drawn.code, usage) << drawn;
+  }
   const Json said = compared(copy);
   EXPECT_EQ(said["visible"], 10);
   expect_wrong(said, "leaves, the file's", 0, 0);

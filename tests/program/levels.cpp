@@ -149,6 +149,47 @@ TEST_F(Levels, what_was_done_before_an_end_is_not_done_again) {
   EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
 }
 
+TEST_F(Levels, what_a_budget_left_open_is_asked_again_and_nothing_else) {
+  const std::string house = path("house.off").string();
+  ASSERT_EQ(run({"generate", "rooms", "--size", sanitized ? "1" : "2", "--seed", "3", "--out", house}).code, done);
+  ASSERT_EQ(run({"pvs", house, "--out", out("whole.pvs")}).code, done);
+  // Half of the blocks are there, the others have no time.
+  std::filesystem::create_directories(path("again.pvs.parts"));
+  for (int block = 0; block < 64; block += 2)
+    ASSERT_EQ(run({"pvs", house, "--shard", std::to_string(block) + "/64", "--out",
+                   out("again.pvs.parts/" + std::to_string(block) + "-of-64.pvs")})
+                  .code,
+              done);
+  const auto again = [&](const std::string& seconds) {
+    return run({"pvs", house, "--resume", "--out", out("again.pvs"), "--budget", seconds, "--json", "-"});
+  };
+  Outcome open;
+  for (double seconds = 0.01; !std::filesystem::exists(path("again.pvs")); seconds *= 1.3) {
+    open = again(std::to_string(seconds));
+    ASSERT_EQ(open.code, undecided) << open;  // at first there is no time for the cells
+  }
+  EXPECT_EQ(open.json()["result"]["blocks_kept"], 32);
+  const auto kept = [&] {
+    const std::filesystem::directory_iterator files(path("again.pvs.parts"));
+    return std::distance(begin(files), end(files));
+  };
+  ASSERT_TRUE(std::filesystem::exists(path("again.pvs.parts")));
+  const auto count = kept();
+  EXPECT_GE(count, 32);
+  EXPECT_LT(count, 64);
+  const Outcome last = again("0");
+  ASSERT_EQ(last.code, done) << last;
+  EXPECT_EQ(last.json()["result"]["blocks_kept"], count);
+  EXPECT_EQ(bytes_of("again.pvs"), bytes_of("whole.pvs"));
+  EXPECT_FALSE(std::filesystem::exists(path("again.pvs.parts")));
+}
+
+TEST_F(Levels, a_cell_that_is_not_asked_about_is_refused_before_the_work) {
+  for (const char* cell : {"1000000", "4000000000"})
+    EXPECT_EQ(run({"pvs", rooms, "--show", cell, "--resume", "--out", out("shown.pvs")}).code, usage);
+  EXPECT_FALSE(std::filesystem::exists(path("shown.pvs.parts")));
+}
+
 /// SIGHTLINE_LONG: so many times as often.
 TEST_F(Levels, a_worker_that_is_killed_at_any_moment_goes_on_to_the_same_table) {
   const char* const more = std::getenv("SIGHTLINE_LONG");
