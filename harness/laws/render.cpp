@@ -332,6 +332,11 @@ Outcome quartered(const Seen& seen) {
     quarter.up[k] /= 2;
     quarter.look[k] += quarter.up[k] - quarter.right[k];
   }
+  // Where doubles hold it exactly: a field whose sides are close to a line may be turned over by a rounding.
+  for (std::size_t k = 0; k < 3; ++k)
+    if (2 * quarter.right[k] != seen.pixels.right[k] || 2 * quarter.up[k] != seen.pixels.up[k] ||
+        exact(quarter.look[k]) != exact(seen.pixels.look[k]) + exact(quarter.up[k]) - exact(quarter.right[k]))
+      return Outcome::not_applicable();
   return quarters_of(means<Transparent>(seen, seen.pixels), means<Transparent>(seen, quarter), seen.pixels,
                      seen.pixels.width / 2, seen.pixels.height / 2, quarter.width);
 }
