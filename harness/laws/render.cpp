@@ -276,40 +276,69 @@ Outcome by_layers(const Seen& seen) {
   return check(blended_painting(sorted.polygons, seen.pixels, Image_kernel::exact, tints, serial()), "newell", false);
 }
 
+/// The means of what a view sees; with glass, of all layers.
+template <bool Transparent>
+Mean_image means(const Seen& seen, const Pixel_view& pixels) {
+  const Exact_view view(seen.scene, pixels.eye, field_of(pixels));
+  if (Transparent) return blended_means(view, pixels, glass(seen.scene), serial());
+  Visible_options alone;
+  alone.threads = 1;
+  const auto surface = visible_surface(view, Piece_boxes(seen.scene), field_of_view(view), alone);
+  return visible_means(
+      view, surface, pixels,
+      [](std::uint32_t piece) {
+        return Colour{piece % 2 + 1.0, piece % 3 * 1.0, 1};
+      },
+      serial());
+}
+
+/// Whether pixels of an image, those of its first columns and rows, have the means of four pixels each of a finer one.
+Outcome quarters_of(const Mean_image& coarse, const Mean_image& fine, const Pixel_view& pixels, std::uint32_t columns,
+                    std::uint32_t rows, std::uint32_t fine_width) {
+  for (std::size_t y = 0; y < rows; ++y)
+    for (std::size_t x = 0; x < columns; ++x) {
+      const std::size_t i = y * pixels.width + x, first = 2 * y * fine_width + 2 * x;
+      for (std::size_t k = 0; k < 3; ++k) {
+        double sum = 0;
+        for (const std::size_t at :
+             {std::size_t{0}, std::size_t{1}, std::size_t{fine_width}, fine_width + std::size_t{1}})
+          sum += fine.colours[first + at][k] / 4;
+        if (!(std::fabs(sum - coarse.colours[i][k]) < 1e-7))
+          return Outcome::failed(place(pixels, i) + " is not the mean of its quarters");
+      }
+    }
+  return {};
+}
+
 /// The means of an image are those of four pixels each in one of twice its size.
 template <bool Transparent>
 Outcome refined(const Seen& seen) {
-  const auto means = [&](const Pixel_view& pixels) {
-    const Exact_view view(seen.scene, pixels.eye, field_of(pixels));
-    if (Transparent) return blended_means(view, pixels, glass(seen.scene), serial());
-    Visible_options alone;
-    alone.threads = 1;
-    const auto surface = visible_surface(view, Piece_boxes(seen.scene), field_of_view(view), alone);
-    return visible_means(
-        view, surface, pixels,
-        [](std::uint32_t piece) {
-          return Colour{piece % 2 + 1.0, piece % 3 * 1.0, 1};
-        },
-        serial());
-  };
   Pixel_view twice = seen.pixels;
   twice.width *= 2;
   twice.height *= 2;
-  const Mean_image coarse = means(seen.pixels), fine = means(twice);
-  for (std::size_t i = 0; i < coarse.colours.size(); ++i) {
-    const std::size_t x = i % seen.pixels.width, y = i / seen.pixels.width;
+  const Mean_image coarse = means<Transparent>(seen, seen.pixels), fine = means<Transparent>(seen, twice);
+  for (std::size_t i = 0; i < coarse.covered.size(); ++i)
     if (!(coarse.covered[i] > -1e-9 && coarse.covered[i] < 1 + 1e-8))
       return Outcome::failed(place(seen.pixels, i) + " is covered " + std::to_string(coarse.covered[i]) + " times");
-    for (std::size_t k = 0; k < 3; ++k) {
-      double sum = 0;
-      for (const std::size_t at :
-           {std::size_t{0}, std::size_t{1}, std::size_t{twice.width}, twice.width + std::size_t{1}})
-        sum += fine.colours[2 * y * twice.width + 2 * x + at][k] / 4;
-      if (!(std::fabs(sum - coarse.colours[i][k]) < 1e-7))
-        return Outcome::failed(place(seen.pixels, i) + " is not the mean of its quarters");
-    }
+  return quarters_of(coarse, fine, seen.pixels, seen.pixels.width, seen.pixels.height, twice.width);
+}
+
+/// The same of the upper left quarter of what is seen, in an image of its own: so up is up, and left is left.
+template <bool Transparent>
+Outcome quartered(const Seen& seen) {
+  Pixel_view quarter = seen.pixels;
+  for (std::size_t k = 0; k < 3; ++k) {
+    quarter.right[k] /= 2;
+    quarter.up[k] /= 2;
+    quarter.look[k] += quarter.up[k] - quarter.right[k];
   }
-  return {};
+  // Where doubles hold it exactly: a field whose sides are close to a line may be turned over by a rounding.
+  for (std::size_t k = 0; k < 3; ++k)
+    if (2 * quarter.right[k] != seen.pixels.right[k] || 2 * quarter.up[k] != seen.pixels.up[k] ||
+        exact(quarter.look[k]) != exact(seen.pixels.look[k]) + exact(quarter.up[k]) - exact(quarter.right[k]))
+      return Outcome::not_applicable();
+  return quarters_of(means<Transparent>(seen, seen.pixels), means<Transparent>(seen, quarter), seen.pixels,
+                     seen.pixels.width / 2, seen.pixels.height / 2, quarter.width);
 }
 
 }  // namespace render_subject
@@ -334,6 +363,8 @@ Subject render() {
       check_of("layers", "what lets light through is sorted as exact rays meet it", by_layers),
       check_of("refine", "a pixel's mean is that of its quarters", refined<false>),
       check_of("refine_layers", "so it is where faces let light through", refined<true>),
+      check_of("quarter", "the upper left quarter of a field has the means of its pixels", quartered<false>),
+      check_of("quarter_layers", "so it is where faces let light through", quartered<true>),
   };
   add_laws(subject, {"permute", "translate", "scale", "bystander"});
   return subject;

@@ -59,10 +59,10 @@ struct Folder {
 };
 
 // What `mutate list` prints of a source: for each mutant its id, and the rest of its line without the file's name.
-std::vector<std::pair<std::string, std::string>> listed(const std::string& source) {
+std::vector<std::pair<std::string, std::string>> listed(const std::string& source, const std::string& options = "") {
   const Folder folder(source);
   const std::string command =
-      "python3 " SIGHTLINE_SOURCE_DIR "/tests/faults/mutate list --root " + folder.path.string();
+      "python3 " SIGHTLINE_SOURCE_DIR "/tests/faults/mutate list --root " + folder.path.string() + options;
   std::FILE* const pipe = popen(command.c_str(), "r");
   std::string text;
   for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
@@ -128,6 +128,13 @@ TEST(Mutants, keep_their_ids_where_the_file_changes_elsewhere) {
     EXPECT_TRUE(ids_before.insert(id).second) << row;
     EXPECT_EQ(ids.count(id), row.find("all.size") == std::string::npos ? 1u : 0u) << row;
   }
+}
+
+TEST(Mutants, are_chosen_by_their_ids) {
+  if (!has_python()) GTEST_SKIP() << "no python3 here";
+  const auto all = listed(made_up);
+  const auto two = listed(made_up, " --ids " + all[7].first + "," + all[2].first);
+  EXPECT_EQ(two, (std::vector{all[2], all[7]}));
 }
 
 }  // namespace

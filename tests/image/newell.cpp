@@ -261,4 +261,27 @@ TEST(Newell_degenerate, what_reaches_behind_the_eye_is_compared_by_planes) {
 TEST(Newell_kernels, are_one_on_dyadic_scenes) { image_test::expect_kernels_agree(newell); }
 TEST(Newell_kernels, leave_out_what_is_not_finite) { image_test::expect_without_infinite(newell); }
 
+TEST(Newell_kernels, in_floats_tell_no_depths_apart_that_floats_do_not) {
+  // Two squares 2^-30 apart, the nearer one first and last: in floats one of the two orders is wrong.
+  std::array<std::size_t, 3> wrong{};
+  for (const bool nearer_first : {false, true}) {
+    const Rational hair(1, 1 << 30);
+    Polygon_soup soup;
+    for (const bool nearer : {nearer_first, !nearer_first}) {
+      std::vector<Point_id> loop;
+      for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+        loop.push_back(soup.add_point(x, y, nearer ? Rational(-4) : Rational(-4 - hair)));
+      soup.add_face(loop);
+    }
+    const Scene scene(soup);
+    const Pixel_view pixels{{0, 0, 0}, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, 8, 8};
+    for (const Image_kernel kernel : {Image_kernel::exact, Image_kernel::double_numbers, Image_kernel::float_numbers})
+      for (const std::uint32_t piece : newell(scene, pixels, kernel).pieces)
+        wrong[static_cast<std::size_t>(kernel)] += piece == (nearer_first ? 1u : 0u);
+  }
+  EXPECT_EQ(wrong[static_cast<std::size_t>(Image_kernel::exact)], 0u);
+  EXPECT_EQ(wrong[static_cast<std::size_t>(Image_kernel::double_numbers)], 0u);
+  EXPECT_GT(wrong[static_cast<std::size_t>(Image_kernel::float_numbers)], 0u);
+}
+
 }  // namespace

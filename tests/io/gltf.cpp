@@ -194,6 +194,9 @@ TEST(Read_glb, what_is_no_such_file_is_refused_with_its_byte) {
   for (std::size_t length = 1; length < whole.size(); ++length)
     EXPECT_TRUE(why(whole.substr(0, length)).starts_with("it: byte ")) << length;
   EXPECT_NE(why(whole + "more").find("data behind"), std::string::npos);
+  EXPECT_NE(why(whole.substr(0, whole.size() - 1)).find("get all of it"), std::string::npos);
+  EXPECT_TRUE(why(whole.substr(0, whole.size() - 1)).starts_with("it: byte 8: the file should have"))
+      << "at its length";
   EXPECT_NE(why("glTF" + whole.substr(4, 4).replace(0, 1, "\1") + whole.substr(8)).find("version 1"),
             std::string::npos);
   EXPECT_NE(why(file_of("{\"asset\": ", "")).find("no JSON"), std::string::npos);

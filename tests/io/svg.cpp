@@ -25,6 +25,14 @@ TEST(Svg, names_polygons_that_have_a_name_and_no_others) {
       << text;
 }
 
+TEST(Svg, clips_polygons_a_little_beyond_the_frame) {
+  Svg svg(100, 100);
+  svg.polygon({{-50, 50}, {50, 0}, {50, 100}}, "#ff0000", "#000000", 1);  // ten beyond is as far as it goes
+  svg.polygon({{150, 50}, {50, 100}, {50, 0}}, "#ff0000", "#000000", 1);
+  EXPECT_NE(svg.text().find("points=\"-10,30 50,0 50,100 -10,70\""), std::string::npos) << svg.text();
+  EXPECT_NE(svg.text().find("points=\"110,70 50,100 50,0 110,30\""), std::string::npos) << svg.text();
+}
+
 TEST(Svg, writes_words_in_black_unless_told_otherwise) {
   Svg svg(100, 100, "none");
   svg.label(5, 5, 12, "plain");

@@ -87,6 +87,8 @@ TEST(Visibility_table, with_cells_comes_back_symmetric) {
   std::string below = bytes;
   below.back() = below[below.size() - 2] = '\x01';  // of the last cell: that it sees cell 0, which is below it
   EXPECT_THROW(read_table({"t", below}), Input_error);
+  below.pop_back();  // and nothing behind it
+  EXPECT_THROW(read_table({"t", below}), Input_error);
 }
 
 /// The part of a table with the faces and lower cells of a shard.

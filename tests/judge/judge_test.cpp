@@ -643,6 +643,18 @@ TEST(Rays, that_touch_follow_the_law_or_are_excused) {
   EXPECT_FALSE(contact({{0, 0, 5}, {0, 0, -1}}, Met_side::front, 4));
 }
 
+TEST(Rays, to_the_farthest_that_touch_it_do_not_meet_nothing_where_they_met_more_before) {
+  const Polygon_soup soup = tower({0, 1});
+  const Query query = rays({{{0, 0, 5}, {Rational(1, 5), 0, -1}}});  // through the upper one, on the lower one's edge
+  const Scene scene(soup);
+  Ray_rule rule;
+  rule.excuse_touching = rule.farthest = true;
+  const std::vector<Ray_truth> truths = ray_truths(soup, scene, query.rays, rule);
+  ASSERT_EQ(truths.size(), 1u);
+  EXPECT_EQ(truths[0].right, (Faces{0}));
+  EXPECT_FALSE(truths[0].nothing);
+}
+
 /// The first faces by rationals and the law alone: where the line meets the plane, and whether that is in the convex
 /// face; nothing is asked of a ray in a plane.
 std::optional<Faces> first_by_force(const Polygon_soup& soup, const Exact_ray& ray) {

@@ -2,6 +2,8 @@
 
 #include "grid.h"
 
+#include <sightline/kernel/scene/scene.h>
+
 #include <algorithm>
 
 using namespace kernel_test;
@@ -674,6 +676,35 @@ Located_point located(const Grid& grid, const std::array<Integer, 3>& x, const I
   }
   return q;
 }
+TEST(Orientation, of_small_planes_is_decided_by_doubles_and_of_others_exactly) {
+  // Of the planes of a corner; and of three that nearly have a direction in common.
+  for (const bool flat : {false, true}) {
+    const Integer far = flat ? Integer(1) << 60 : Integer(1);
+    Polygon_soup soup;
+    const auto face = [&](const Exact_point& p, const Exact_point& q, const Exact_point& r) {
+      std::vector<Point_id> loop;
+      for (const Exact_point& at : {p, q, r}) loop.push_back(soup.add_point(at[0], at[1], at[2]));
+      soup.add_face(loop);
+    };
+    const Rational x = far;
+    face({0, 0, 0}, {x, 0, flat ? 1 : 0}, {0, x, 0});
+    face({0, 0, 0}, {0, x, 0}, {flat ? x : Rational(0), 0, flat ? Rational(0) : x});
+    face({0, 0, 0}, {flat ? x : Rational(0), 0, flat ? Rational(0) : x}, {x, flat ? x : Rational(0), flat ? 2 : 0});
+    const Scene scene(soup);
+    const Predicates predicates = scene.predicates();
+    const auto plane = [&](std::size_t k) { return scene.pieces()[k].support; };
+    ASSERT_EQ(scene.pieces().size(), 3u);
+    Predicate_counts counts;
+    const Sign sign = predicates.orientation(plane(0), plane(1), plane(2), counts);
+    EXPECT_NE(sign, CGAL::ZERO);
+    EXPECT_EQ(predicates.orientation(plane(1), plane(0), plane(2), counts), -sign);
+    EXPECT_EQ(predicates.orientation(plane(1), plane(1), plane(2), counts), CGAL::ZERO);
+    EXPECT_EQ(counts.filtered, flat ? 0u : 2u);
+    EXPECT_EQ(counts.gmp, flat ? 2u : 0u);
+    EXPECT_EQ(counts.combinatorial, 1u);
+  }
+}
+
 }  // namespace
 
 TEST(Side_of_a_located_point, agrees_with_rationals_on_the_plane_and_beside_it) {

@@ -90,5 +90,24 @@ TEST(Level_cells, of_a_level_with_a_hole_have_a_way_out) {
     }));
 }
 
+TEST(Level_cells, of_a_box_of_walls_without_thickness_have_no_way_out) {
+  // A cube whose faces come twice, one way round and the other: neither side is solid, and no way leads through.
+  Polygon_soup soup;
+  for (int k = 0; k < 8; ++k) soup.add_point((k & 1) * 2, (k & 2) * 1, (k & 4) / 2);
+  for (const std::array<Point_id, 4>& face :
+       {std::array<Point_id, 4>{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}) {
+    soup.add_face(face);
+    soup.add_face(std::array<Point_id, 4>{face[3], face[2], face[1], face[0]});
+  }
+  const Level_cells level(soup);
+  const Cell_id inside = level.at({1, 1, 1}), beside = level.at({Rational(17, 8), 1, 1});
+  ASSERT_NE(inside, no_cell);
+  ASSERT_NE(beside, no_cell);
+  EXPECT_FALSE(level.cells()[inside].is_solid);
+  EXPECT_FALSE(level.cells()[beside].is_solid);
+  EXPECT_TRUE(level.way_out({1, 1, 1}).empty());
+  EXPECT_FALSE(level.way_out({Rational(17, 8), 1, 1}).empty());
+}
+
 }  // namespace
 }  // namespace sightline

@@ -73,6 +73,37 @@ TEST(Cell_pvs, is_the_same_on_any_number_of_threads_and_in_shards) {
   }
 }
 
+TEST(Cell_pvs, has_sightlines_from_cell_to_cell_whose_ends_are_in_them) {
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
+  const Cell_pvs pvs = mutually_visible_cells(level);
+  EXPECT_GT(pvs.counters.by_lines, 0u);  // most of what is visible is found without a search
+  const Cell_pvs_search search(level);
+  std::size_t asked = 0;
+  for (Cell_id from = 0; from < level.cells().size(); ++from)
+    for (const Cell_id to : pvs.visible[from]) {
+      const auto ends = search.sightline(from, to);
+      ASSERT_TRUE(ends);
+      EXPECT_EQ(level.at((*ends)[0]), from);  // also where a neighbour is thinner than the way to it is long
+      EXPECT_EQ(level.at((*ends)[1]), to);
+      ++asked;
+    }
+  EXPECT_EQ(asked, 2 * pvs.counters.visible);
+}
+
+TEST(Pvs, that_a_search_does_not_decide_is_decided_by_events) {
+  const Level_cells level(corpus_scene("general/two_rooms.map"));
+  Pvs_options options;
+  options.search.cells = 1;
+  options.search.rays = 0;
+  const Pvs pvs = potentially_visible(level, options);
+  EXPECT_GT(pvs.counters.by_events, 0u);
+  EXPECT_EQ(pvs.counters.undecided, 0u);
+  EXPECT_EQ(pvs.visible, potentially_visible(level).visible);
+  const Cell_pvs cells = mutually_visible_cells(level, options);
+  EXPECT_GT(cells.counters.by_events, 0u);
+  EXPECT_EQ(cells.visible, mutually_visible_cells(level).visible);
+}
+
 TEST(Cell_pvs, out_of_time_is_undecided) {
   const Level_cells level(corpus_scene("general/two_rooms.map"));
   Pvs_options options;

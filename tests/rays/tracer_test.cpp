@@ -180,6 +180,21 @@ TEST(Trace, faces_closer_than_doubles_tell_are_ordered_exactly) {
   EXPECT_EQ(hits(soup, up.exact()), (Hits{{0, back, 2, 2}, {1, back, 2 + gap, 2 + gap}}));
 }
 
+TEST(Trace, scenes_smaller_than_the_least_double_are_met_exactly) {
+  // Two squares about the origin, of a size whose inverse no double holds; the origin is all that a double hits there.
+  const Rational size = Rational(1) / Rational(Integer("1" + std::string(330, '0')));
+  Polygon_soup soup;
+  for (const int z : {-1, 1}) square(soup, {-size, -size, z * size}, 2, 2 * size);
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  for (const double x : {0.0, 0x1p-1074}) {
+    const Double_ray up{{x, 0, 0}, {0, 0, 1}};
+    Ray_counters counters;
+    EXPECT_EQ(tracer.first(up.exact(), open, counters).size(), x == 0 ? 1u : 0u);
+    EXPECT_EQ(tracer.nearest(up, open, counters).face, x == 0 ? 1u : Ray_tracer::Nearest::nothing);
+  }
+}
+
 TEST(Trace, rays_from_afar_are_as_sure) {
   const Polygon_soup soup = generate::make("city", 20, 9);
   const Scene scene(soup);

@@ -180,6 +180,17 @@ TEST(Shadow_volume, is_all_that_is_behind_a_face_within_the_box) {
   EXPECT_EQ(shadow_volume(Scene(Polygon_soup()), {1, 2, 3}).soup.face_count(), 0u);
 }
 
+TEST(Shadow_volume, moves_with_its_scene) {
+  for (const int by : {0, -100, 100}) {  // the origin is in the box, beyond it and before it
+    Polygon_soup soup;
+    level(soup, by, by, by, 4);
+    level(soup, by + 1, by + 1, by + 1, 1);
+    const Shadow_volume made = shadow_volume(Scene(soup), Sun{{0, 0, 1}});
+    EXPECT_EQ(made.box, (std::array<Exact_point, 2>{Exact_point{by - 1, by - 1, by - 1}, {by + 5, by + 5, by + 2}}));
+    EXPECT_EQ(volume(made.soup), 16 + 1);
+  }
+}
+
 TEST(Shadow_volume, is_what_rays_say_and_closed) {
   generate::Random random(5);
   for (std::uint64_t seed = 0; seed < 6; ++seed) {

@@ -209,6 +209,22 @@ TEST(Set_operations, merge_the_pieces_of_a_face_and_say_whose_it_is) {
   EXPECT_LT(area(box({0, 0, 0}, {longest, longest, longest}))[0], std::numeric_limits<double>::infinity());
 }
 
+TEST(Set_operations, leave_faces_whole_that_nothing_cuts) {
+  // A prism over an L, whose two ends are cut into pieces, and a box far from it.
+  const std::vector<std::array<int, 2>> outline{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 3}, {0, 3}};
+  const auto count = static_cast<Point_id>(outline.size());
+  Polygon_soup prism;
+  std::vector<Point_id> low, high;
+  for (const int z : {0, 1})
+    for (const auto& [x, y] : outline) prism.add_point(x, y, z);
+  for (Point_id k = 0; k < count; ++k) low.push_back(count - 1 - k), high.push_back(count + k);
+  prism.add_face(low), prism.add_face(high);
+  for (Point_id k = 0; k < count; ++k) prism.add_face({k, (k + 1) % count, count + (k + 1) % count, count + k});
+  const Set_result result = of(Set_operation::unite, {prism, box({10, 0, 0}, {11, 1, 1})});
+  EXPECT_EQ(result.soup.face_count(), 8u + 6u);
+  EXPECT_EQ(volume(result.soup), 5 + 1);
+}
+
 TEST(Set_operations, give_a_hole_to_the_face_around_it_though_an_island_in_it_touches_it) {
   // A block less two prisms that leave a triangle between them, which touches the hole's outline in one corner.
   const auto prism = [](const std::vector<std::array<Rational, 2>>& outline) {
