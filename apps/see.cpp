@@ -279,7 +279,7 @@ Seen see(const Scene& scene, const Exact_point& eye, const std::string& kernel, 
 static Exit run(const See_arguments& arguments) {
   const Common& common = arguments.common;
   if (!arguments.eye.empty()) parse_point(arguments.eye, "--eye");  // a usage error comes before a long read
-  arguments.view.check_usage();
+  arguments.view.check_usage(!arguments.svg.empty() || arguments.frustum);
   if (arguments.kernel != "exact" &&
       (!arguments.certificate.empty() || !arguments.svg.empty() || !arguments.html.empty() || !arguments.mesh.empty() ||
        arguments.frustum || arguments.lines || arguments.method != "regions"))

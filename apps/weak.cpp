@@ -11,6 +11,8 @@
 #include <sightline/algorithms/weak_visibility/certificate.h>
 #include <sightline/kernel/vectors.h>
 
+#include <tuple>
+
 namespace sightline::app {
 
 namespace {
@@ -452,6 +454,12 @@ Exit run_weak(const Weak_arguments& arguments) {
   }
   if ((method == "sample" || method == "doubles") && !arguments.certificate.empty())
     throw Usage_error("--method " + method + " proves nothing: leave out --certificate, or take --method lines");
+  const Weak_task usual;
+  for (const auto& [option, its, is_given] :
+       {std::tuple("--rays", "sample", arguments.task.rays != usual.rays),
+        {"--cells", "lines", arguments.task.cells != usual.cells},
+        {"--event-edges", "lines", arguments.task.event_edges != usual.event_edges}})
+    if (is_given && method != its) throw Usage_error(fmt::format("{} is for --method {}: leave it out", option, its));
   const bool as_obj = arguments.surfaces.ends_with(".obj");
   if (!arguments.surfaces.empty() && method != "events")
     throw Usage_error("--surfaces are those of events: add --method events");

@@ -223,6 +223,7 @@ TEST_F(Command_line, generate_wants_a_family_that_there_is) {
 
 TEST_F(Command_line, what_would_be_ignored_is_refused) {
   for (const std::vector<std::string>& command : {std::vector<std::string>{"order", cube, "--eye", "5,5,5"},
+                                                  {"see", cube, "--eye", "5,5,5"},
                                                   {"weak", cube, "--from-face", "0"},
                                                   {"shadow", cube, "--light", "5,5,5"},
                                                   {"pvs", cube}})
@@ -239,6 +240,13 @@ TEST_F(Command_line, what_would_be_ignored_is_refused) {
   for (const std::vector<std::string>& words :
        {std::vector<std::string>{"weak", cube, "--from-face", "0", "--eye", "1,1,1"}, {"pvs", cube, "--eye", "1,1,1"}})
     expect_usage_error(words, "--eye");
+  for (const std::vector<std::string>& words : {std::vector<std::string>{"--rays", "10"},
+                                                {"--method", "events", "--cells", "10"},
+                                                {"--method", "sample", "--event-edges", "10"}}) {
+    std::vector<std::string> all{"weak", cube, "--from-face", "0"};
+    all.insert(all.end(), words.begin(), words.end());
+    expect_usage_error(all, "is for --method");
+  }
   const std::string part = path("part.pvs").string(), report = path("report.json").string();
   ASSERT_EQ(run({"pvs", cube, "--out", part}).code, done);
   expect_usage_error({"merge", part, "--out", path("level.bsp").string()}, ".bsp");

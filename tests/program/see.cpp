@@ -121,10 +121,10 @@ TEST_F(See, lists_lines_where_faces_cross_alike_in_any_order_of_the_faces) {
 }
 
 TEST_F(See, shows_lines_in_a_field_as_without_it) {
-  const std::vector<std::string> looking{crossing, "--eye", "-3,-4,3", "--look", "3,4,-3", "--field", "120", "--lines"};
-  std::vector<std::string> in_field = looking;
-  in_field.emplace_back("--frustum");
-  EXPECT_EQ(see(looking)["result"]["lines"], see(in_field)["result"]["lines"]);
+  const std::vector<std::string> whole{crossing, "--eye", "-3,-4,3", "--lines"};
+  std::vector<std::string> in_field = whole;
+  in_field.insert(in_field.end(), {"--look", "3,4,-3", "--field", "120", "--frustum"});
+  EXPECT_EQ(see(whole)["result"]["lines"], see(in_field)["result"]["lines"]);
 }
 
 TEST_F(See, sees_no_floor_of_which_a_keel_leaves_a_line) {

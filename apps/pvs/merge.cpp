@@ -1,0 +1,52 @@
+// sightline merge: the parts of a table together.
+
+#include "pvs.h"
+#include "tables.h"
+
+#include <sightline/io/file.h>
+
+namespace sightline::app {
+
+namespace {
+
+struct Merge_arguments {
+  std::vector<std::string> parts;
+  std::string out;
+};
+
+Exit run_merge(const Merge_arguments& arguments) {
+  if (arguments.out.ends_with(".bsp"))
+    throw Usage_error(
+        "--out: a level has a table of leaves, which parts do not hold: `pvs LEVEL --out FILE.bsp` makes it");
+  std::vector<Visibility_table> parts;
+  for (const std::string& file : arguments.parts) {
+    const std::string bytes = read_input(file);
+    parts.push_back(read_table({file, bytes}));
+  }
+  try {
+    const Visibility_table table = merged(parts, arguments.parts);
+    write_table(arguments.out, table);
+    if (arguments.out != "-")
+      row("merged", fmt::format("{} parts: {} cells, {} faces, {} pairs visible, {} undecided", parts.size(),
+                                table.rows.size(), table.faces.size(), count_of(table, &Visibility_table::Row::visible),
+                                count_of(table, &Visibility_table::Row::undecided)));
+  } catch (const Merge_error& error) {
+    throw std::runtime_error(std::string("merge: ") + error.what());
+  }
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_merge(Command program) {
+  const Command command = program.add_command("merge", "Makes one table of the parts that `pvs --shard` wrote");
+  auto a = std::make_shared<Merge_arguments>();
+  command.add_option("PARTS", a->parts, "tables of one scene, with the same options").required().reads_file();
+  command.add_option("--out", a->out, "write the table: .json, .csv, or else binary").required().writes_file();
+  command.footer(
+      "Refuses parts of other scenes or options, a face twice, and a face in none; then it says which shards "
+      "to run again.");
+  command.set_action([a] { return run_merge(*a); });
+}
+
+}  // namespace sightline::app

@@ -1,0 +1,151 @@
+#include "table_maker.h"
+
+#include <sightline/io/binary.h>
+#include <sightline/io/file.h>
+
+#include <algorithm>
+#include <bit>
+#include <system_error>
+#include <utility>
+
+namespace sightline::app {
+
+namespace fs = std::filesystem;
+
+Table_maker::Table_maker(const Pvs_arguments& arguments, const std::string& division, const Polygon_soup& soup,
+                         const Level_cells& level, const Stopwatch& watch)
+    : arguments_(arguments), level_(level), watch_(watch), faces_(soup.face_count()), search_(level, options()) {
+  question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), arguments.candidates,
+                          arguments.common.seed, arguments.outside ? ", outside" : "", division,
+                          arguments.cells_too ? ", cells too" : "");
+  if (arguments.cells_too) cell_search_.emplace(level, options());
+}
+
+Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
+  // 1. What was made before.
+  const bool keep = arguments_.resume && ranks.is_first();
+  const fs::path folder = keep ? kept_folder() : fs::path();
+  std::vector<Visibility_table> parts(table_blocks);
+  std::vector<std::string> names;
+  std::vector<std::uint32_t> missing;
+  const auto shard_of_block = [&](std::uint32_t b) {
+    return Shard{own.shard + own.shards * b, own.shards * table_blocks};
+  };
+  for (std::uint32_t b = 0; b < table_blocks; ++b) {
+    const auto [shard, shards] = shard_of_block(b);
+    names.push_back((folder / fmt::format("{}-of-{}.pvs", shard, shards)).string());
+    std::optional<Visibility_table> before = keep ? kept(names[b]) : std::nullopt;
+    if (before) parts[b] = *std::move(before);
+    else missing.push_back(b);
+  }
+  blocks_kept_ = table_blocks - static_cast<std::uint32_t>(missing.size());
+  block_count_ = blocks_left_ = missing.size();
+
+  // 2. The others.
+  ranks.share(
+      fmt::format("{}, shard {}/{}", question_, own.shard, own.shards), missing,
+      [&](std::uint32_t b) { return bytes_of(part(shard_of_block(b))); },
+      [&](std::uint32_t b, const std::string& answer) {
+        parts[b] = counted(read_part(names[b], answer));
+        --blocks_left_;
+        const bool whole = std::all_of(
+            parts[b].rows.begin(), parts[b].rows.end(),
+            [](const Visibility_table::Row& row) { return row.undecided.empty() && row.cells_undecided.empty(); });
+        if (keep && whole) write_bytes(names[b], table_bytes(parts[b]));  // what time left open is asked again
+      });
+  return ranks.is_first() ? joined(parts, names) : Visibility_table{};
+}
+
+void Table_maker::remove_kept() const {
+  std::error_code error;
+  fs::remove_all(arguments_.out + ".parts", error);
+}
+
+Table_maker::Part Table_maker::part(const Shard& own) {
+  const auto [shard, shards] = own;
+  const Pvs pvs = search_.ask(shard, shards);
+  Part part{{question_, std::vector<bool>(level_.cells().size()), std::vector<bool>(faces_), {}}, {pvs.counters, {}}};
+  for (std::size_t f = shard; f < faces_; f += shards) part.table.faces[f] = true;
+  for (Cell_id c = 0; c < level_.cells().size(); ++c)
+    if (pvs.is_asked[c] != 0) {
+      part.table.cells[c] = true;
+      part.table.rows.push_back({pvs.visible[c], pvs.undecided[c]});
+    }
+  if (cell_search_) add_cells(part, shard, shards);
+  return part;
+}
+
+Visibility_table Table_maker::counted(Part part) {
+  counts_.faces += part.counts.faces;
+  counts_.cells += part.counts.cells;
+  counts_.cell_seconds += part.counts.cell_seconds;
+  return std::move(part.table);
+}
+
+std::string Table_maker::bytes_of(const Part& part) {
+  std::string bytes;
+  store_counters(bytes, part.counts.faces);
+  store_counters(bytes, part.counts.cells);
+  store(bytes, part.counts.cell_seconds);
+  return bytes + table_bytes(part.table);
+}
+
+Table_maker::Part Table_maker::read_part(const std::string& name, std::string_view bytes) {
+  Part part;
+  load_counters(bytes, part.counts.faces);
+  load_counters(bytes, part.counts.cells);
+  part.counts.cell_seconds = load<double>(bytes, 0, std::endian::little);
+  bytes.remove_prefix(sizeof(double));
+  part.table = read_table({name, bytes});
+  return part;
+}
+
+Pvs_options Table_maker::options() {
+  Pvs_options options;
+  options.outside = arguments_.outside;
+  options.threads = arguments_.common.threads;
+  options.search.seed = arguments_.common.seed;
+  options.progress = [this](std::size_t done, std::size_t all) {
+    progress_((block_count_ - blocks_left_) * all + done, block_count_ * all);
+  };
+  options.search.out_of_time = out_of_time(arguments_.common, watch_);
+  return options;
+}
+
+void Table_maker::add_cells(Part& part, std::uint32_t shard, std::uint32_t shards) {
+  const Stopwatch watch;
+  const Cell_pvs pvs = cell_search_->ask(shard, shards);
+  part.counts.cells = pvs.counters;
+  Visibility_table& table = part.table;
+  table.lower_cells.resize(table.cells.size());
+  for (std::size_t c = shard; c < table.cells.size(); c += shards) table.lower_cells[c] = true;
+  std::size_t r = 0;
+  for (Cell_id c = 0; c < table.cells.size(); ++c) {
+    if (!table.cells[c]) continue;
+    table.rows[r].cells = pvs.visible[c];
+    table.rows[r++].cells_undecided = pvs.undecided[c];
+  }
+  part.counts.cell_seconds = watch.seconds();
+}
+
+fs::path Table_maker::kept_folder() const {
+  const fs::path folder = arguments_.out + ".parts";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw std::runtime_error(folder.string() + ": cannot be made (" + error.message() + "); name another --out");
+  return folder;
+}
+
+std::optional<Visibility_table> Table_maker::kept(const fs::path& path) const {
+  if (!fs::exists(path)) return std::nullopt;
+  try {
+    const std::string bytes = read_bytes(path);
+    Visibility_table table = read_table({path.string(), bytes});
+    if (table.question == question_) return table;
+  } catch (const Input_error&) {
+  }
+  return std::nullopt;
+}
+
+}  // namespace sightline::app
