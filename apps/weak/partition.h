@@ -1,8 +1,8 @@
 #pragma once
 // sightline weak --partition: where the light of sources changes on a face.
 
-#include "methods/methods.h"
-#include "methods/weak.h"
+#include "../methods/methods.h"
+#include "../methods/weak.h"
 
 namespace sightline::app {
 

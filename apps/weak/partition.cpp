@@ -1,6 +1,6 @@
-#include "weak_partition.h"
+#include "partition.h"
 
-#include "weak_partition_picture.h"
+#include "partition_picture.h"
 
 namespace sightline::app {
 

@@ -1,7 +1,7 @@
 #pragma once
 // Pictures of partitions, and what rays at random make of a face.
 
-#include "support/common.h"
+#include "../support/common.h"
 
 #include <sightline/algorithms/weak_visibility/occluders.h>
 #include <sightline/algorithms/weak_visibility/partition/partition.h>

@@ -1,4 +1,4 @@
-#include "weak_partition_picture.h"
+#include "partition_picture.h"
 
 #include <sightline/harness/generate/random.h>
 #include <sightline/io/svg.h>
