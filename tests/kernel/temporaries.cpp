@@ -87,12 +87,12 @@ TEST(Temporaries, are_not_taken_by_what_keeps_a_pointer) {
                 keeps_second<Doubles_search, Occluders, Doubles_search_options>);
 
   static_assert(keeps<Light_partitioner, Scene>);
-  static_assert(keeps<Along_scene, Occluders, Exact_point, Exact_point>);
+  static_assert(keeps<Along_scene, Occluders, Exact_point, Exact_point, std::function<void()>>);
   static_assert(keeps<Ray_tracer, Scene>);
   static_assert(keeps<Pvs_search, Level_cells> && keeps<Pvs_search, Level_cells, Pvs_options>);
   static_assert(keeps<Cell_pvs_search, Level_cells> && keeps<Cell_pvs_search, Level_cells, Pvs_options>);
-  static_assert(keeps<image_detail::Image_faces, Exact_view, Pixel_view> &&
-                keeps<image_detail::Image_faces, Scene, Pixel_view, Image_kernel>);
+  static_assert(keeps<image_detail::Image_faces, Exact_view, Pixel_view, Image_options> &&
+                keeps<image_detail::Image_faces, Scene, Pixel_view, Image_kernel, Image_options>);
 
   // harness/
   static_assert(keeps<Visible_reference, Exact_view, Visible_surface<Exact_view>>);
