@@ -85,12 +85,17 @@ commands = {
             "show": "visible[cell]",
             "eye": picture,
             "out": "table()",
-            **dict.fromkeys(("certificates", "shard", "resume"), program_alone),
+            "certificates": "PotentiallyVisible.certificate()",
+            **dict.fromkeys(("shard", "resume"), program_alone),
         },
     ),
     "boolean": (
         sightline.boolean,
-        {"out": "Scene.write()", **dict.fromkeys(("round", "snap"), "Scene.write() says what its format cannot hold")},
+        {
+            "out": "Scene.write()",
+            "repair": "none is the only one",
+            **dict.fromkeys(("round", "snap"), "Scene.write() says what its format cannot hold"),
+        },
     ),
     "verify": (
         Scene.verify,
