@@ -1,5 +1,5 @@
-// To be read after covering.cpp and weak_lines.h, from top to bottom: sightlines, which prove that a fragment is
-// visible; trees, which prove that one is hidden; and the check, step by step.
+// To be read after covering.cpp, weak_lines.h and boxes.h, from top to bottom: sightlines, which prove that a fragment
+// is visible; trees, which prove that one is hidden; and the check, step by step.
 
 #include <sightline/algorithms/verify/weak.h>
 
