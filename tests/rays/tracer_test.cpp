@@ -165,6 +165,28 @@ TEST(Trace, doubles_decide_unless_a_ray_is_close_to_an_edge) {
     }
 }
 
+/// A tree of boxes is worth its nodes: what is behind the face that is met is not looked at, though doubles could not
+/// tell whether it is met.
+TEST(Trace, doubles_decide_before_a_seam_that_is_hidden) {
+  const Rational half(1, 2);
+  Polygon_soup soup;
+  const auto add = [&](const std::vector<std::array<int, 2>>& corners, const Rational& z) {
+    std::vector<Point_id> loop;
+    for (const auto& [x, y] : corners) loop.push_back(soup.add_point(Rational(x), Rational(y), z));
+    soup.add_face(loop);
+  };
+  add({{0, 0}, {4, 0}, {4, 1}, {1, 1}, {1, 3}, {0, 3}}, 0);  // in two pieces, which meet at its notch
+  add({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, half);
+  const Scene scene(soup);
+  ASSERT_EQ(scene.pieces().size(), 3u);
+  const Ray_tracer tracer(scene);
+  Ray_counters counters;
+  EXPECT_EQ(tracer.nearest({{1, 1, 3}, {0, 0, -1}}, open, counters).face, 1u);
+  EXPECT_EQ(counters.exact_pieces, 0u);
+  EXPECT_EQ(tracer.nearest({{1, 1, -3}, {0, 0, 1}}, open, counters).face, 0u);
+  EXPECT_GE(counters.exact_pieces, 1u);
+}
+
 TEST(Trace, faces_closer_than_doubles_tell_are_ordered_exactly) {
   const Rational gap = Rational(1) / Rational(Integer(1) << 90);
   Polygon_soup soup;
