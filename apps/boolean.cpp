@@ -92,11 +92,9 @@ bool is_inside_out(const Polygon_soup& solid) {
 
 /// Whether a .qoff of a surface can be read by all commands.
 bool has_short_denominator(const Polygon_soup& soup) {
-  Integer all = 1;
-  for (std::size_t k = 0; k < soup.coordinates.size(); ++k) {
-    all = lcm(all, Rational(soup.coordinates[k]).get_den());
-    if (bit_length(all) > largest_common_denominator_bits) return false;
-  }
+  detail::Common_denominator common;  // as its reader asks
+  for (std::size_t k = 0; k < soup.coordinates.size(); ++k)
+    if (!common.include(soup.coordinates[k].get_den())) return false;
   return true;
 }
 
@@ -383,8 +381,7 @@ void add_boolean(Command program) {
       "Example: sightline boolean difference block.off drill.off --out bored.qoff --json -\n"
       "         sightline boolean union level.map --out level.qoff\n"
       "What has no volume is left out. A surface that is not closed is refused with its open edges, of which --json "
-      "lists "
-      "all, exit code 3.");
+      "lists all, exit code 3.");
   command.set_action([a, command] { return run(*a, command); });
 }
 

@@ -81,10 +81,6 @@ class Pvs_search {
 /// or `outside` asks for it.
 std::vector<char> asked_cells(const Level_cells& level, bool outside);
 
-/// By cell, whether it is asked about: rooms without a way out; or all cells that are not solid, where there are none,
-/// or `outside` asks for it.
-std::vector<char> asked_cells(const Level_cells& level, bool outside);
-
 /// The open parts of a cell's walls, as sources that look out of it.
 std::vector<std::vector<Exact_point>> portals_of(const Level_cells& level, Cell_id cell);
 

@@ -4,19 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace sightline::certificate_check {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t few = 8;  // boxes of a leaf
 
 /// The box about two points of a segment's coordinates, which are known up to `error` each.
-Outward_box box_about(std::array<double, 3> a, const std::array<double, 3>& b, const std::array<double, 3>& error) {
-  Outward_box box{Polygon{}};
+Outward_box box_about(const std::array<double, 3>& a, const std::array<double, 3>& b,
+                      const std::array<double, 3>& error) {
+  Outward_box box;
   for (std::size_t k = 0; k < 3; ++k) {
     box.low[k] = std::min(a[k], b[k]) - error[k];
     box.high[k] = std::max(a[k], b[k]) + error[k];
@@ -27,8 +26,6 @@ Outward_box box_about(std::array<double, 3> a, const std::array<double, 3>& b, c
 }  // namespace
 
 Outward_box::Outward_box(const Polygon& points) {
-  low.fill(infinity);
-  high.fill(-infinity);
   for (const Exact_point& p : points)
     for (std::size_t k = 0; k < 3; ++k) {
       const double nearest = nearest_double(p[k]);
@@ -57,7 +54,7 @@ Boxes::Boxes(const std::vector<Outward_box>& boxes) : boxes_(boxes), order_(boxe
 
 void Boxes::add(std::uint32_t begin, std::uint32_t end) {
   const std::size_t at = nodes_.size();
-  nodes_.push_back({Outward_box{Polygon{}}, begin, end, 0});
+  nodes_.push_back({{}, begin, end, 0});
   for (std::uint32_t i = begin; i < end; ++i) nodes_[at].box.join(boxes_[order_[i]]);
   if (end - begin <= few) return;
   // Halves by their middles, along the longest side.

@@ -6,14 +6,17 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace sightline::certificate_check {
 
 /// low <= x <= high for all coordinates x of what it holds; the ends may be infinite.
 struct Outward_box {
-  std::array<double, 3> low{}, high{};
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{infinity, infinity, infinity}, high{-infinity, -infinity, -infinity};
 
+  Outward_box() = default;  ///< holds nothing
   explicit Outward_box(const Polygon& points);
   bool meets(const Outward_box& other) const;
   void join(const Outward_box& other);

@@ -137,15 +137,20 @@ void View_arguments::add_to(Command command, const std::string& usual) {
   canvas.add_to(command, usual);
 }
 
-void View_arguments::check_usage(bool has_picture) const {
+const char* View_arguments::first_given() const {
   for (const auto& [option, is_given] : {std::pair("--look", !look.empty()),
                                          {"--up", !up.empty()},
                                          {"--field", field != 0},
                                          {"--shade", shade != View_arguments{}.shade},
                                          {"--size", !canvas.size.empty()},
                                          {"--background", !canvas.background.empty()}})
-    if (is_given && !has_picture)
-      throw Usage_error(std::string(option) + " is of a picture: add --svg FILE, or leave it out");
+    if (is_given) return option;
+  return nullptr;
+}
+
+void View_arguments::check_usage(bool has_picture) const {
+  if (const char* option = first_given(); option != nullptr && !has_picture)
+    throw Usage_error(std::string(option) + " is of a picture: add --svg FILE, or leave it out");
   check_usage();
 }
 

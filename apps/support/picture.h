@@ -62,7 +62,8 @@ struct View_arguments {
 
   /// `usual`: what the help says of the size where none is given.
   void add_to(Command command, const std::string& usual = "by default 960 wide, and as high as what there is to see");
-  void check_usage() const;  ///< before a long read. Errors: Usage_error
+  void check_usage() const;         ///< before a long read. Errors: Usage_error
+  const char* first_given() const;  ///< the name of an option that is not as it is by default; null: none
   /// The same, and that none is given where there is no picture.
   void check_usage(bool has_picture) const;
   /// Fitted to the points that are shown, or to all of the scene: what is not given of direction, field and height is

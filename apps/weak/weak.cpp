@@ -21,16 +21,11 @@ static Exit run_weak(const Weak_arguments& arguments) {
   const bool is_partition = arguments.partition.asked_for();
   if (is_partition || !arguments.along.empty()) {
     const std::string name = is_partition ? "--partition" : "--along";
-    const View_arguments& view = arguments.view;
+    const char* const given = arguments.view.first_given();
     for (const auto& [other, is_given] : {std::pair("--obj", !arguments.obj.empty()),
                                           {"--mesh", !arguments.mesh.empty()},
                                           {"--eye", !arguments.eye.empty()},
-                                          {"--look", !view.look.empty()},
-                                          {"--up", !view.up.empty()},
-                                          {"--field", view.field != 0},
-                                          {"--shade", view.shade != View_arguments{}.shade},
-                                          {"--size", !view.canvas.size.empty()},
-                                          {"--background", !view.canvas.background.empty()},
+                                          {given, given != nullptr},
                                           {"--html", !arguments.html.empty()},
                                           {"--surfaces", !arguments.surfaces.empty()}})
       if (is_given)
