@@ -35,7 +35,7 @@ struct Line_mark {
 
 /// Part of a line that bounds a group.
 struct Line_run {
-  std::uint32_t group;
+  std::uint32_t group, line;
   std::uint32_t from, to;  // places among the vertices of lines
   bool forwards;
 };
@@ -163,6 +163,7 @@ class Assembler {
       for (const Piece_corner& corner : operands_.corners(kept[i].piece))
         if (const std::uint32_t id = vertices_.of_point(corner.point); id != no_id) is_corner_[id] = true;
     find_runs();
+    find_crossings();
     split_runs();
     // 3. Faces, in the order of the operands'.
     vertex_points_.assign(vertices_.size(), no_id);
@@ -237,13 +238,13 @@ class Assembler {
           steps.emplace_back(place[edges[j].from], 1);
           steps.emplace_back(place[edges[j].to], -1);
         }
-        add_runs(steps, edges[i].group);
+        add_runs(steps, edges[i].group, line);
       }
     }
   }
 
   /// An edge that runs from a to b adds 1 behind a, and takes it away behind b: also where b comes first.
-  void add_runs(std::vector<std::pair<std::uint32_t, int>>& steps, std::uint32_t group) {
+  void add_runs(std::vector<std::pair<std::uint32_t, int>>& steps, std::uint32_t group, std::uint32_t line) {
     std::sort(steps.begin(), steps.end());
     int net = 0;
     std::uint32_t since = 0;
@@ -252,11 +253,23 @@ class Assembler {
       for (j = i; j < steps.size() && steps[j].first == steps[i].first; ++j) step += steps[j].second;
       if (step == 0) continue;
       const std::uint32_t here = steps[i].first;
-      if (net != 0) runs_.push_back({group, since, here, net > 0});
+      if (net != 0) runs_.push_back({group, line, since, here, net > 0});
       is_corner_[on_lines_[here]] = true;
       net += step;
       since = here;
     }
+  }
+
+  /// Runs on several lines that go on through a vertex: where three cross, what is inside may be every second of the
+  /// six sectors, and then none of them ends there.
+  void find_crossings() {
+    std::vector<std::uint32_t> line_through(vertices_.size(), no_id);
+    for (const Line_run& run : runs_)
+      for (std::uint32_t place = run.from + 1; place < run.to; ++place) {
+        const std::uint32_t vertex = on_lines_[place];
+        if (line_through[vertex] == no_id) line_through[vertex] = run.line;
+        else if (line_through[vertex] != run.line) is_corner_[vertex] = true;
+      }
   }
 
   void split_runs() {

@@ -3,9 +3,11 @@
 #include <sightline/algorithms/verify/solids.h>
 
 #include <sightline/algorithms/verify/covering.h>
+#include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/numbered_points.h>
 #include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/polygons.h>
+#include <sightline/algorithms/verify/set_aside.h>
 #include <sightline/algorithms/verify/solid_faces.h>
 
 #include <algorithm>
@@ -526,6 +528,8 @@ class Solid_check {
         for (const Number p : loop)
           if (side(plane, homogeneous(points_[p])) != 0)
             reject("a face of the result is not planar near " + name(points_[p]));
+      if (self_intersecting(Face(result, f)))
+        reject(name("face", f) + " of the result crosses itself, or winds round some of it otherwise than once");
       for (const std::vector<Number>& loop : loops) planes[plane].add(loop, 1);
     }
     for (const auto& [loop, same] : kept)

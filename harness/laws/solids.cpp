@@ -215,8 +215,33 @@ std::vector<Polygon_soup> block_with_island(Random& random) {
   return solids;
 }
 
+/// Four prisms with a face through one point: in each of these faces three others cross.
+std::vector<Polygon_soup> prisms_through_a_point(Random& random) {
+  const Exact_point at = generate::lattice(random, 5);
+  std::vector<Polygon_soup> solids(4);
+  for (Polygon_soup& solid : solids) {
+    Exact_point front, u;
+    do {
+      front = generate::lattice(random, 2);
+      u = cross(front, generate::lattice(random, 2));
+    } while (is_zero(u));
+    const Exact_point v = cross(front, u);
+    generate::Points base(3);  // counterclockwise, the point inside
+    Exact_point along;
+    for (std::size_t k = 0; k < 3; ++k) {
+      base[0][k] = at[k] + 8 * u[k];
+      base[1][k] = at[k] + 4 * (v[k] - u[k]);
+      base[2][k] = at[k] - 4 * (v[k] + u[k]);
+      along[k] = -3 * front[k];
+    }
+    add_prism(solid, base, along);
+  }
+  return solids;
+}
+
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random) {
   if (random.chance(1, 24)) return block_with_island(random);
+  if (random.chance(1, 48)) return prisms_through_a_point(random);
   Polygon_soup folded;  // now and then, bases that are folded flat
   if (random.chance(1, 16)) folded = generate::soup_of({generate::folded_loop(random), generate::folded_loop(random)});
   const Polygon_soup& faces = folded.face_count() > 0 ? folded : scene.soup;
@@ -277,7 +302,8 @@ std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t 
   return {};
 }
 
-std::string flaw_by_volumes(const std::vector<Polygon_soup>& solids) {
+std::string flaw_by_volumes(const std::vector<Polygon_soup>& given) {
+  const std::vector<Polygon_soup> solids(given.begin(), given.begin() + std::min<std::ptrdiff_t>(std::ssize(given), 3));
   const Polygon_soup &a = solids[0], &b = solids[1];
   const auto of = [](const std::vector<Polygon_soup>& some, Set_operation operation) {
     return volume(result_of(some, operation).soup);

@@ -17,8 +17,9 @@ namespace sightline::harness {
 std::vector<Polygon_soup> solids_of(const Posed_scene& scene, Random& random);
 
 /// What is wrong with the four set operations on some solids; empty: nothing. By points: in the result iff the
-/// operands' winding numbers say so. By volumes, as rationals: what is in the union and in the intersection adds up to
-/// the solids, and so on. By the surface: closed, no vertex inside an edge, edges of other than two faces listed.
+/// operands' winding numbers say so. By volumes, as rationals, of three solids at most: what is in the union and in the
+/// intersection adds up to the solids, and so on. By the surface: closed, no vertex inside an edge, edges of other than
+/// two faces listed.
 std::string flaw_by_points(const std::vector<Polygon_soup>& solids, std::size_t points, Random& random);
 std::string flaw_by_volumes(const std::vector<Polygon_soup>& solids);
 std::string flaw_of_surfaces(const std::vector<Polygon_soup>& solids);

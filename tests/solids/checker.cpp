@@ -9,6 +9,7 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/verify/solid_faces.h>
 #include <sightline/algorithms/verify/solids.h>
+#include <sightline/harness/generate/solids.h>
 
 #include <gtest/gtest.h>
 
@@ -232,6 +233,26 @@ TEST(Checker, refuses_what_all_but_one_of_its_steps_would_accept) {
   }
   EXPECT_TRUE(verify_solids(std::vector{cube}, uncut({cube}), &cube).accepted);
   EXPECT_FALSE(verify_solids(std::vector{cube}, uncut({cube}), &turned).accepted);
+}
+
+TEST(Checker, refuses_a_result_whose_faces_cross_themselves) {
+  // Three prisms about an edge, in every second sector: their tops together have the boundary of one hexagon that goes
+  // through itself where they meet.
+  const std::array<std::array<int, 2>, 6> around{{{4, 0}, {2, 4}, {-2, 4}, {-4, 0}, {-2, -4}, {2, -4}}};
+  Polygon_soup prisms, crossing;
+  for (const std::size_t k : {0, 2, 4})
+    generate::add_prism(prisms, {{0, 0, 0}, {around[k + 1][0], around[k + 1][1], 0}, {around[k][0], around[k][1], 0}},
+                        {0, 0, 1});
+  for (Point_id p = 0; p < prisms.point_count(); ++p)
+    crossing.add_point(prisms.point(p)[0], prisms.point(p)[1], prisms.point(p)[2]);
+  for (Face_id f = 0; f < prisms.face_count(); ++f)
+    if (f % 5 != 1) crossing.add_face(prisms.loop(f));  // all but the tops
+  std::vector<Point_id> loop;
+  for (const std::size_t k : {0, 1, 4, 5, 2, 3}) loop.push_back(crossing.add_point(around[k][0], around[k][1], 1));
+  crossing.add_face(loop);
+  EXPECT_TRUE(verify_solids(std::vector{prisms}, uncut({prisms}), &prisms).accepted);
+  EXPECT_EQ(verify_solids(std::vector{prisms}, uncut({prisms}), &crossing).why,
+            "face 12 of the result crosses itself, or winds round some of it otherwise than once");
 }
 
 TEST(Checker, takes_neighbours_for_one_patch_only_if_their_fronts_are_on_one_side) {

@@ -273,6 +273,22 @@ TEST(Set_operations, list_edges_of_four_faces) {
   EXPECT_EQ(std::max(p, q), (Exact_point{1, 1, 1}));
 }
 
+/// Where three lines of a face's plane cross, what is kept of it may be every second of six sectors: then none of the
+/// lines turns there, and yet the point is a corner.
+TEST(Set_operations, have_a_corner_where_three_edges_of_one_face_cross) {
+  std::vector<Polygon_soup> solids{
+      box({-4, -5, -3}, {5, 4, 0}), box({-3, -4, -5}, {0, 5, 4}), box({-5, -3, -4}, {4, 0, 5}), {}};
+  generate::add_prism(solids[3], {{12, -6, -6}, {-6, 12, -6}, {-6, -6, 12}}, {-9, -9, -9});
+  generate::Random random(7);
+  EXPECT_EQ(harness::flaw_by_points(solids, 30, random), "");
+  EXPECT_EQ(harness::flaw_of_surfaces(solids), "");
+  const Set_result result = of(Set_operation::differ, solids);
+  std::size_t at_the_point = 0;
+  for (Face_id f = 0; f < result.soup.face_count(); ++f)
+    for (const Point_id p : result.soup.loop(f)) at_the_point += result.soup.point(p) == Exact_point{0, 0, 0};
+  EXPECT_EQ(at_the_point, 24u);  // each of six sectors of four planes
+}
+
 TEST(Set_operations, take_many_operands_at_once) {
   std::vector<Polygon_soup> lattice;
   for (int x = 0; x < 3; ++x)
