@@ -141,21 +141,29 @@ Weak_answer weak_answer(const Events_answer& found) {
 
 Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Weak_source>& sources, Weak_options search,
                                std::size_t most_edges, Events_options events, Weakly_visible& found) {
+  constexpr std::size_t few_events = 1000000;
   std::size_t all_edges = 0;
   for (std::uint32_t piece = 0; piece < occluders.scene().pieces().size(); ++piece) all_edges += occluders.size(piece);
-  events.events = std::numeric_limits<std::size_t>::max();
   Event_counters counters;
-  while (!found.undecided.empty() && !(events.out_of_time && events.out_of_time())) {
-    // 1. More cells.
+  for (std::size_t most = few_events; !found.undecided.empty() && !(events.out_of_time && events.out_of_time());
+       most = 16 * most) {
+    // 1. Events, as many as are soon looked at: where lines touch edges, cells never suffice.
+    const bool all = most_edges >= all_edges;
+    events.events = all ? std::numeric_limits<std::size_t>::max() : most;
+    counters += settle_by_events(occluders, sources, all_edges, events, found);
+    if (all || found.undecided.empty()) break;
+
+    // 2. More cells.
+    most_edges *= 2;
     search.search.cells *= 4;
     search.search.open *= 4;
     search.search.bisections += 4;
     search.faces = found.undecided;
     Weakly_visible more = weakly_visible(occluders, sources, search);
     for (const Weak_status status : {Weak_status::visible, Weak_status::hidden}) {
-      std::vector<Face_id>&all = found.of(status), &own = more.of(status);
-      const auto middle = all.insert(all.end(), own.begin(), own.end());
-      std::inplace_merge(all.begin(), middle, all.end());
+      std::vector<Face_id>&all_of = found.of(status), &own = more.of(status);
+      const auto middle = all_of.insert(all_of.end(), own.begin(), own.end());
+      std::inplace_merge(all_of.begin(), middle, all_of.end());
     }
     std::move(more.pairs.begin(), more.pairs.end(), std::back_inserter(found.pairs));
     std::stable_sort(found.pairs.begin(), found.pairs.end(),
@@ -163,12 +171,6 @@ Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Wea
     found.undecided = std::move(more.undecided);
     found.open = std::move(more.open);
     found.counters += more.counters;
-
-    // 2. Events among more edges.
-    const bool all = most_edges >= all_edges;
-    most_edges *= 2;
-    counters += settle_by_events(occluders, sources, most_edges, events, found);
-    if (all) break;
   }
   return counters;
 }

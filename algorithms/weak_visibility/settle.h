@@ -64,9 +64,10 @@ inline constexpr std::size_t usual_event_edges = 300;
 Event_counters settle_by_events(const Occluders& occluders, const std::vector<Weak_source>& sources,
                                 std::size_t most_edges, const Events_options& options, Weakly_visible& found);
 
-/// Goes on with what a search and events left undecided, for as long as it takes: in each round four times the cells
-/// and cells that may stay open, and then events where twice the edges are near. It ends when nothing is undecided,
-/// time runs out, or events that looked at all edges leave something. `search`, `most_edges`: what was tried before.
+/// Goes on with what a search and events left undecided, for as long as it takes: in each round events however many
+/// edges are near, but only a million of them, in the next sixteen times as many; and then four times the cells, and
+/// cells that may stay open. It ends when nothing is undecided, time runs out, or, after as many rounds as double
+/// `most_edges` to all edges, events without a bound leave something. `search`, `most_edges`: what was tried before.
 /// Post: as of settle_by_events. Exact: yes. Proof: P-71, P-73
 Event_counters decide_the_rest(const Occluders& occluders, const std::vector<Weak_source>& sources, Weak_options search,
                                std::size_t most_edges, Events_options events, Weakly_visible& found);

@@ -248,8 +248,10 @@ Line_search::Refutation Line_search::cut(std::uint32_t d, const Cell_cut& by, Pa
     const std::uint32_t number = static_cast<std::uint32_t>(domains_.size());
     domains_.push_back(std::move(piece));
     parents_.push_back(d);
+    const std::size_t known = lemmas_.size();
     const Refutation r = part(number);
     domains_[number].reset();
+    forget_lemmas(known);  // what was learned in the part holds nowhere else
     if (r.status == Weak_status::visible) return r;
     if (r.status == Weak_status::undecided) both.status = Weak_status::undecided;
     both.used |= r.used;
@@ -450,7 +452,7 @@ std::vector<Line_search::Edge_sign> Line_search::signs_of(const Candidate& block
 
 Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line, Refutation& ended) {
   using Relaxation = Cell_proofs::Relaxation;
-  if (by_lemma(d, ended)) return Look::ended;
+  if (by_lemma(ended)) return Look::ended;
   Line_domain& domain = *domains_[d];
   // 1. What the polygons alone do not decide.
   cell_ = {&domain, &lines_, &occluders_->frame(), {}};
@@ -458,7 +460,7 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
     const Side_row& r = row(domain, path_[k].line);
     if (r.decided == path_[k].sign) continue;
     if (r.decided == -path_[k].sign) {
-      ended = conclude(d, {{k, Rational(1), {}, {}}});
+      ended = conclude({{k, Rational(1), {}, {}}});
       return Look::ended;
     }
     cell_.rows.push_back({k, path_[k], &r});
@@ -469,7 +471,7 @@ Line_search::Look Line_search::look_for_line(std::uint32_t d, Line_weights& line
   // 2. The relaxation: no line, or weights to start from.
   std::vector<Multiplier> proof;
   const auto ends_with = [&](bool proved) {
-    if (proved) ended = conclude(d, proof);
+    if (proved) ended = conclude(proof);
     return proved;
   };
   const double value = proofs_.relax(cell_, *counters_);
@@ -522,7 +524,7 @@ std::vector<Line_weights> Line_search::starts_of(const Line_domain& domain) {
   return starts;
 }
 
-bool Line_search::by_lemma(std::uint32_t d, Refutation& ended) {
+bool Line_search::by_lemma(Refutation& ended) {
   if (path_.empty()) return false;
   const std::uint32_t newest = path_.back().line;
   if (lemmas_of_.size() <= newest) return false;
@@ -531,9 +533,6 @@ bool Line_search::by_lemma(std::uint32_t d, Refutation& ended) {
     if (!std::all_of(lemma.literals.begin(), lemma.literals.end(),
                      [&](const Literal& l) { return sign_[l.line] == l.sign; }))
       continue;
-    std::uint32_t above = d;
-    while (above > lemma.domain) above = parents_[above];
-    if (above != lemma.domain) continue;
     ++counters_->learned;
     Used used;
     for (std::size_t k = 0; k < std::min(path_.size(), used.size()); ++k)
@@ -546,9 +545,16 @@ bool Line_search::by_lemma(std::uint32_t d, Refutation& ended) {
   return false;
 }
 
-Line_search::Refutation Line_search::conclude(std::uint32_t d, const std::vector<Multiplier>& multipliers) {
+void Line_search::forget_lemmas(std::size_t kept) {
+  while (lemmas_.size() > kept) {
+    for (const Literal& literal : lemmas_.back().literals) lemmas_of_[literal.line].pop_back();
+    lemmas_.pop_back();
+  }
+}
+
+Line_search::Refutation Line_search::conclude(const std::vector<Multiplier>& multipliers) {
   ++counters_->empty;
-  Lemma lemma{{}, {}, d};
+  Lemma lemma;
   Used used;
   for (const Multiplier& m : multipliers) {
     const Literal& literal = path_[m.place];

@@ -59,7 +59,6 @@ class Line_search {
   struct Lemma {
     std::vector<Weak_step::Term> terms;
     std::vector<Literal> literals;
-    std::uint32_t domain;
   };
   /// An edge of a blocking piece, and the sign that its line has inside.
   struct Edge_sign {
@@ -147,10 +146,12 @@ class Line_search {
 
   // ---- What is learned
 
-  bool by_lemma(std::uint32_t d, Refutation& ended);
+  bool by_lemma(Refutation& ended);
 
   /// A leaf by multipliers that have been checked, and a lemma for cells to come.
-  Refutation conclude(std::uint32_t d, const std::vector<Multiplier>& multipliers);
+  Refutation conclude(const std::vector<Multiplier>& multipliers);
+  /// All but the first so many.
+  void forget_lemmas(std::size_t kept);
 
   // ---- A line that nothing blocks
 

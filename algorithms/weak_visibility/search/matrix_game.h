@@ -48,7 +48,7 @@ class Matrix_game {
 
   /// What the value would be with one more row: a few steps from where solve() ended. Pre: solve(). Post: nothing has
   /// changed.
-  Number value_with(std::span<const Number> row) {
+  Number value_with(std::span<const Number> row) requires std::is_floating_point_v<Number> {
     const std::vector<Number> before = tableau_;
     const std::vector<std::size_t> basic = basic_, other = other_;
     // The new variable's place in the tableau: its column times the inverse of the basis, which stands in the places of
@@ -85,24 +85,51 @@ class Matrix_game {
 
  private:
   static constexpr bool is_exact = !std::is_floating_point_v<Number>;
+  using Entry = std::conditional_t<is_exact, Integer, Number>;
   static constexpr int shift = 2, max_steps = 300;
   // Exact games that take more steps are not solved, and say so by what is checked.
   static constexpr int careful_after = 150;
 
   // The linear program: most sum of y >= 0 with sum_k y_k (a(k, c) + shift) <= 1 in each column c. The tableau is
   // condensed: a line for each basic variable, a place for each other one; variables k < rows are y_k, rows + c is the
-  // slack of column c.
-  Number& at(std::size_t line, std::size_t place) { return tableau_[line * (rows_ + 1) + place]; }
+  // slack of column c. Exact entries are integers over denominator_; so that they are short, y_k is measured in units
+  // of scales_[k], and the slack of c in parts of which there are scales_[rows + c].
+  Entry& at(std::size_t line, std::size_t place) { return tableau_[line * (rows_ + 1) + place]; }
   void start() {
-    tableau_.assign((columns_ + 1) * (rows_ + 1), Number(1));
-    for (std::size_t c = 0; c < columns_; ++c)
-      for (std::size_t k = 0; k < rows_; ++k) at(c, k) = entries_[k * columns_ + c] + shift;
-    for (std::size_t k = 0; k < rows_; ++k) at(columns_, k) = -1;
+    tableau_.assign((columns_ + 1) * (rows_ + 1), Entry(1));
+    if constexpr (is_exact) {
+      denominator_ = 1;
+      choose_scales();
+      for (std::size_t c = 0; c < columns_; ++c) {
+        for (std::size_t k = 0; k < rows_; ++k) {
+          const Rational entry = (entries_[k * columns_ + c] + shift) * scales_[rows_ + c] * scales_[k];
+          at(c, k) = entry.get_num();
+        }
+        at(c, rows_) = scales_[rows_ + c];
+      }
+      for (std::size_t k = 0; k < rows_; ++k) at(columns_, k) = -scales_[k];
+    } else {
+      for (std::size_t c = 0; c < columns_; ++c)
+        for (std::size_t k = 0; k < rows_; ++k) at(c, k) = entries_[k * columns_ + c] + shift;
+      for (std::size_t k = 0; k < rows_; ++k) at(columns_, k) = -1;
+    }
     at(columns_, rows_) = 0;
     basic_.resize(columns_);
     other_.resize(rows_);
     for (std::size_t c = 0; c < columns_; ++c) basic_[c] = rows_ + c;
     for (std::size_t k = 0; k < rows_; ++k) other_[k] = k;
+  }
+  /// What a column's denominators have in common, then what is left of those of each row.
+  void choose_scales() {
+    scales_.assign(rows_ + columns_, Integer(0));
+    for (std::size_t c = 0; c < columns_; ++c)
+      for (std::size_t k = 0; k < rows_; ++k)
+        scales_[rows_ + c] = gcd(scales_[rows_ + c], entries_[k * columns_ + c].get_den());
+    for (std::size_t k = 0; k < rows_; ++k) {
+      scales_[k] = 1;
+      for (std::size_t c = 0; c < columns_; ++c)
+        scales_[k] = lcm(scales_[k], Integer(entries_[k * columns_ + c].get_den() / scales_[rows_ + c]));
+    }
   }
   void run() {
     for (int step = 0; step < max_steps; ++step) {
@@ -113,33 +140,53 @@ class Matrix_game {
       pivot(leaving, entering);
     }
   }
+  /// Whether what place k costs is less than what place l does, both in units of before they were scaled.
+  bool costs_less(std::size_t k, std::size_t l) {
+    if constexpr (is_exact) {
+      const auto scaled = [&](std::size_t one, std::size_t by) {  // its cost times what is below the other's
+        Integer cost = at(columns_, one);
+        if (other_[one] >= rows_) cost *= scales_[other_[one]];
+        if (other_[by] < rows_) cost *= scales_[other_[by]];
+        return cost;
+      };
+      return scaled(k, l) < scaled(l, k);
+    } else {
+      return at(columns_, k) < at(columns_, l);
+    }
+  }
   std::size_t entering_row(int step) {
     std::size_t best = rows_;
-    Number least = is_exact ? 0 : -1e-11;
     for (std::size_t k = 0; k < rows_; ++k) {
-      const Number& cost = at(columns_, k);
-      if (cost >= least) continue;
+      if (at(columns_, k) >= (is_exact ? Entry(0) : Entry(-1e-11))) continue;
+      if (best != rows_ && !costs_less(k, best)) continue;
       best = k;
-      least = cost;
       if (step > careful_after) break;  // the first one: no cycles for long
     }
     return best;
   }
   std::size_t leaving_column(std::size_t entering) {
     std::size_t best = columns_;
-    Number least = 0;
-    for (std::size_t c = 0; c < columns_; ++c) {
-      const Number& slope = at(c, entering);
-      if (slope <= (is_exact ? 0 : 1e-11)) continue;
-      const Number ratio = at(c, rows_) / slope;
-      if (best == columns_ || ratio < least || (ratio == least && basic_[c] < basic_[best])) {
-        best = c;
-        least = ratio;
+    const auto is_less = [&](std::size_t c, std::size_t d) {
+      if constexpr (is_exact) {
+        const int order = cmp(at(c, rows_) * at(d, entering), at(d, rows_) * at(c, entering));
+        return order < 0 || (order == 0 && basic_[c] < basic_[d]);
+      } else {
+        const Number one = at(c, rows_) / at(c, entering), other = at(d, rows_) / at(d, entering);
+        return one < other || (one == other && basic_[c] < basic_[d]);
       }
+    };
+    for (std::size_t c = 0; c < columns_; ++c) {
+      if (at(c, entering) <= (is_exact ? Entry(0) : Entry(1e-11))) continue;
+      if (best == columns_ || is_less(c, best)) best = c;
     }
     return best;
   }
   void pivot(std::size_t line, std::size_t place) {
+    if constexpr (is_exact) pivot_integers(line, place);
+    else pivot_numbers(line, place);
+    std::swap(basic_[line], other_[place]);
+  }
+  void pivot_numbers(std::size_t line, std::size_t place) {
     const Number inverse = 1 / at(line, place);
     Number* own = &at(line, 0);
     for (std::size_t k = 0; k <= rows_; ++k) own[k] *= inverse;
@@ -152,7 +199,25 @@ class Matrix_game {
       other[place] = 0;
       for (std::size_t k = 0; k <= rows_; ++k) other[k] -= factor * own[k];
     }
-    std::swap(basic_[line], other_[place]);
+  }
+  /// All over the pivot instead of the one before it, which divides what comes of it.
+  void pivot_integers(std::size_t line, std::size_t place) {
+    const Integer pivot = at(line, place);
+    Integer* own = &at(line, 0);
+    for (std::size_t c = 0; c <= columns_; ++c) {
+      if (c == line) continue;
+      Integer* other = &at(c, 0);
+      const Integer factor = other[place];
+      for (std::size_t k = 0; k <= rows_; ++k) {
+        if (k == place) continue;
+        other[k] *= pivot;
+        mpz_submul(other[k].get_mpz_t(), factor.get_mpz_t(), own[k].get_mpz_t());
+        mpz_divexact(other[k].get_mpz_t(), other[k].get_mpz_t(), denominator_.get_mpz_t());
+      }
+      other[place] = -factor;
+    }
+    own[place] = denominator_;
+    denominator_ = pivot;
   }
   Number finish() {
     x_.assign(columns_, 0);
@@ -160,26 +225,34 @@ class Matrix_game {
     tight_columns_.clear();
     tight_rows_.clear();
     Number columns = 0, rows = 0;
-    const auto positive = [](const Number& x) { return x > 0 ? x : Number(0); };
+    const auto in_its_unit = [&](const Entry& x, std::size_t variable) -> Number {
+      if (x <= 0) return Number(0);
+      if constexpr (is_exact) return Number(Integer(x * scales_[variable]));
+      else return x;
+    };
     for (std::size_t c = 0; c < columns_; ++c)
       if (basic_[c] < rows_) {
-        rows += y_[basic_[c]] = positive(at(c, rows_));
+        rows += y_[basic_[c]] = in_its_unit(at(c, rows_), basic_[c]);
         tight_rows_.push_back(basic_[c]);
       }
     for (std::size_t k = 0; k < rows_; ++k)
       if (other_[k] >= rows_) {
-        columns += x_[other_[k] - rows_] = positive(at(columns_, k));
+        columns += x_[other_[k] - rows_] = in_its_unit(at(columns_, k), other_[k]);
         tight_columns_.push_back(other_[k] - rows_);
       }
     if (!(columns > 0) || !(rows > 0)) return 1;  // entries beyond what was asked for: weights that prove nothing
     for (Number& x : x_) x /= columns;
     for (Number& y : y_) y /= rows;
-    return 1 / rows - shift;
+    if constexpr (is_exact) return Number(denominator_) / rows - shift;
+    else return 1 / rows - shift;
   }
 
   std::function<bool()> out_of_time_;
   std::size_t columns_ = 0, rows_ = 0;
-  std::vector<Number> entries_, tableau_, x_, y_;
+  std::vector<Number> entries_, x_, y_;
+  std::vector<Entry> tableau_;
+  Integer denominator_ = 1;      // of exact entries
+  std::vector<Integer> scales_;  // of exact ones, by variable
   std::vector<std::size_t> basic_, other_, tight_columns_, tight_rows_;
 };
 
