@@ -1,6 +1,6 @@
 // sightline cells: the convex cells of a level, the walls between them, what is solid, and ways out.
 
-#include "support/leaves.h"
+#include "support/cell_file.h"
 #include "support/page.h"
 
 #include <sightline/algorithms/levels/cells.h>
@@ -18,13 +18,10 @@ namespace {
 
 struct Cells_arguments {
   Common common;
-  unsigned candidates = 5;
   std::vector<std::string> seals;
   std::string out, html;
   Division_arguments division;
 };
-
-Json ids_json(const std::vector<std::uint32_t>& ids) { return Json(ids); }
 
 /// A point from which there should be no way out.
 struct Seal {
@@ -49,36 +46,6 @@ std::vector<Seal> seals_of(const Cells_arguments& arguments) {
       seals.push_back({place.name + " at " + Page::text(place.origin), std::move(place.origin), true});
   }
   return seals;
-}
-
-/// The whole of it: points once, by number; with the convex region of each cell where there are regions.
-Json cells_json(const Level_cells& level, const std::vector<std::uint32_t>& regions) {
-  Json points = Json::array(), cells = Json::array(), walls = Json::array();
-  for (const Exact_point& p : level.points()) points.push_back(point_json(p));
-  for (const Level_cell& cell : level.cells())
-    cells.push_back({{"solid", cell.is_solid},
-                     {"outside", cell.is_outside},
-                     {"winding", cell.winding},
-                     {"region", cell.region},
-                     {"leaf", cell.leaf},
-                     {"faces", ids_json(cell.faces)},
-                     {"walls", ids_json(cell.walls)}});
-  for (std::size_t c = 0; c < regions.size(); ++c)
-    cells[c]["convex_region"] = regions[c] == no_cell ? Json() : Json(regions[c]);
-  for (const Cell_wall& wall : level.walls()) {
-    Json open = Json::array();
-    for (const std::vector<std::uint32_t>& part : wall.open) open.push_back(ids_json(part));
-    Json faces = Json::array({ids_json(wall.faces_front), ids_json(wall.faces_behind)});
-    walls.push_back({{"cells", Json::array({Json(wall.front), wall.behind == no_cell ? Json() : Json(wall.behind)})},
-                     {"corners", ids_json(wall.corners)},
-                     {"open", std::move(open)},
-                     {"faces", std::move(faces)}});
-  }
-  return {{"format", "sightline cells 1"},
-          {"scene", level.scene().file()},
-          {"points", std::move(points)},
-          {"cells", std::move(cells)},
-          {"walls", std::move(walls)}};
 }
 
 /// The faces, and cells to walk through: rooms first, then what has no end, then solids; ways out of --seal.
@@ -141,26 +108,18 @@ Exit run(const Cells_arguments& arguments) {
   const Common& common = arguments.common;
   const Polygon_soup soup = common.read();
   const std::vector<Seal> given = seals_of(arguments);
-  Progress progress("dividing");
-  Cell_options options;
-  options.candidates = arguments.candidates;
-  options.seed = common.seed;
-  options.threads = common.threads;
   const Division division = arguments.division.division(common, soup);
-  options.tree = division.tree;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Stopwatch watch;
-  const Level_cells level(soup, options);
+  const Level_cells level = cells_of(common, soup, division);
   std::vector<std::uint32_t> regions;  // by cell
   if (division.kind == Division::Kind::regions) regions = division.groups(level);
   std::uint32_t region_count = 0;
   for (const std::uint32_t region : regions)
     if (region != no_cell) region_count = std::max(region_count, region + 1);
   const double seconds = watch.seconds();
-  progress.clear();
   const Scene& scene = level.scene();
   const Cell_counters& c = level.counters();
-  if (!arguments.out.empty()) write_file(arguments.out, to_text(cells_json(level, regions)) + "\n");
+  if (!arguments.out.empty()) write_file(arguments.out, cells_text(level, soup, division, regions));
 
   Json leaks = Json::array();
   std::vector<Seal> seals;
@@ -225,16 +184,15 @@ void add_cells(Command program) {
       program.add_command("cells", "The convex cells of a level, solid and empty, the portals between them, and leaks");
   auto a = std::make_shared<Cells_arguments>();
   a->common.add_to(command);
-  command.add_option("--candidates", a->candidates, "face planes tried for each node of the tree")
-      .check(range(1, 1000))
-      .show_default();
   command.add_option(
       "--seal", a->seals,
       "a point X,Y,Z of a room from which there should be no way out, or `entities`: all places of a .map where "
       "something "
       "stands (players, lamps; not those in solid cells). May be repeated. Exit code 1 where there is a way out");
   a->division.add_to(command);
-  command.add_option("--out", a->out, "write points, cells and walls as JSON").writes_file().check(ending(".json"));
+  command.add_option("--out", a->out, "write points, cells and walls as JSON, which `pvs --cells` reads")
+      .writes_file()
+      .check(ending(".json"));
   command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")
       .writes_file()
       .check(ending(".html"));

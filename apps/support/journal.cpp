@@ -40,13 +40,13 @@ void check_resumed(const std::string& file, const nlohmann::json& found, const J
   if (found["asked"].size() != head["asked"].size()) refuse("was begun with other options");
 }
 
-static std::string hash_text(std::string_view bytes) {
+std::string hash_of_bytes(std::string_view bytes) {
   std::uint64_t hash = 0xcbf29ce484222325u;
   for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   return fmt::format("{:016x}", hash);
 }
 
-std::string content_hash(const std::string& file) { return hash_text(read_bytes(file)); }
+std::string content_hash(const std::string& file) { return hash_of_bytes(read_bytes(file)); }
 
 Json hashes_of_words(const std::vector<std::string>& words) {
   Json hashes = Json::object();

@@ -17,7 +17,9 @@ Json resumed_head(const std::string& command, Json asked);
 /// first option that is another, or the version.
 void check_resumed(const std::string& file, const nlohmann::json& found, const Json& head);
 
-/// A number for the bytes of a file, as text: FNV-1a of 64 bits. Errors: Input_error where it cannot be read.
+/// A number for bytes, as text: FNV-1a of 64 bits.
+std::string hash_of_bytes(std::string_view bytes);
+/// The same of a file's. Errors: Input_error where it cannot be read.
 std::string content_hash(const std::string& file);
 /// The same of each file that a command line names, by name: its program, as PATH has it, and words that are files.
 Json hashes_of_words(const std::vector<std::string>& words);

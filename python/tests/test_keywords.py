@@ -81,6 +81,7 @@ commands = {
         Scene.pvs,
         {
             "cells-too": "Cells.pairs()",
+            "cells": "Cells.pvs()",
             "coarse": "Cells.coarse()",
             "show": "visible[cell]",
             "eye": picture,
