@@ -1,6 +1,7 @@
 // sightline cells: the convex cells of a level, the walls between them, what is solid, and ways out.
 
 #include "support/cell_file.h"
+#include "support/drawing.h"
 #include "support/page.h"
 
 #include <sightline/algorithms/levels/cells.h>
@@ -19,7 +20,7 @@ namespace {
 struct Cells_arguments {
   Common common;
   std::vector<std::string> seals;
-  std::string out, html;
+  std::string out, html, mesh;
   Division_arguments division;
 };
 
@@ -104,6 +105,73 @@ void write_page(const std::string& file, const Level_cells& level, const std::ve
   page.write(file);
 }
 
+/// By cell a colour of those in turn, another one than its neighbours have where there are enough; cells of one region
+/// have one. Greedy.
+std::vector<std::size_t> colours_of(const Level_cells& level, const std::vector<std::uint32_t>& regions) {
+  const auto number_of = [&](Cell_id cell) {
+    return regions.empty() || regions[cell] == no_cell ? cell : regions[cell];
+  };
+  constexpr std::size_t most = drawing_colours::in_turn.size();
+  std::vector<std::vector<std::uint32_t>> neighbours(level.cells().size());
+  for (const Cell_wall& wall : level.walls()) {
+    if (wall.behind == no_cell || level.cells()[wall.front].is_solid || level.cells()[wall.behind].is_solid) continue;
+    const std::uint32_t front = number_of(wall.front), behind = number_of(wall.behind);
+    if (front == behind) continue;
+    neighbours[front].push_back(behind);
+    neighbours[behind].push_back(front);
+  }
+  std::vector<std::size_t> colours(level.cells().size(), most);  // by number; `most`: none yet
+  for (std::uint32_t number = 0; number < colours.size(); ++number) {
+    std::array<std::size_t, most> taken{};
+    for (const std::uint32_t other : neighbours[number])
+      if (colours[other] < most) ++taken[colours[other]];
+    const std::size_t first = number % most;  // so that all are used
+    std::size_t& own = colours[number] = first;
+    for (std::size_t k = 0; k < most; ++k)
+      if (taken[(first + k) % most] < taken[own]) own = (first + k) % most;
+  }
+  std::vector<std::size_t> by_cell;
+  for (Cell_id cell = 0; cell < level.cells().size(); ++cell) by_cell.push_back(colours[number_of(cell)]);
+  return by_cell;
+}
+
+/// Cells as polyhedra, each with its own walls, fronts outwards, and what they are within.
+Grouped_polygons drawing_of(const Level_cells& level, const Division& division,
+                            const std::vector<std::uint32_t>& regions) {
+  Grouped_polygons polygons;
+  for (std::size_t k = 0; k < drawing_colours::in_turn.size(); ++k)
+    polygons.add_group(fmt::format("room-{}", k), drawing_colours::in_turn.at(k));
+  const std::uint32_t outside = polygons.add_group("without-end", {205, 212, 222}),
+                      solid = polygons.add_group("solid", drawing_colours::hidden);
+  const std::vector<std::size_t> colours = colours_of(level, regions);
+  std::vector<std::uint32_t> cells, groups;
+  const std::vector<std::uint32_t> group_of =
+      division.kind == Division::Kind::regions ? regions : division.groups(level);
+  for (Cell_id cell = 0; cell < level.cells().size(); ++cell) {
+    const Level_cell& here = level.cells()[cell];
+    const std::uint32_t group = here.is_solid     ? solid
+                                : here.is_outside ? outside
+                                                  : static_cast<std::uint32_t>(colours[cell]);
+    for (const std::uint32_t w : here.walls) {
+      const Cell_wall& wall = level.walls()[w];
+      std::vector<Exact_point> corners = level.polygon(wall.corners);
+      if (wall.front == cell) std::reverse(corners.begin(), corners.end());
+      polygons.add_polygon(group, Grouped_polygons::no_face, corners);
+      cells.push_back(cell);
+      groups.push_back(division.kind == Division::Kind::leaves ? here.leaf : group_of[cell]);
+    }
+  }
+  polygons.add_column("cell", std::move(cells));
+  switch (division.kind) {
+    case Division::Kind::none: break;
+    case Division::Kind::leaves: polygons.add_column("leaf", std::move(groups)); break;
+    case Division::Kind::boxes: polygons.add_column("box", std::move(groups)); break;
+    case Division::Kind::volumes: polygons.add_column("volume", std::move(groups)); break;
+    case Division::Kind::regions: polygons.add_column("convex_region", std::move(groups)); break;
+  }
+  return polygons;
+}
+
 Exit run(const Cells_arguments& arguments) {
   const Common& common = arguments.common;
   const Polygon_soup soup = common.read();
@@ -120,6 +188,8 @@ Exit run(const Cells_arguments& arguments) {
   const Scene& scene = level.scene();
   const Cell_counters& c = level.counters();
   if (!arguments.out.empty()) write_file(arguments.out, cells_text(level, soup, division, regions));
+
+  if (!arguments.mesh.empty()) write_drawings("", arguments.mesh, drawing_of(level, division, regions));
 
   Json leaks = Json::array();
   std::vector<Seal> seals;
@@ -193,6 +263,7 @@ void add_cells(Command program) {
   command.add_option("--out", a->out, "write points, cells and walls as JSON, which `pvs --cells` reads")
       .writes_file()
       .check(ending(".json"));
+  add_mesh_option(command, a->mesh, "cells as polyhedra, neighbours in other colours, with cells' ids,");
   command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")
       .writes_file()
       .check(ending(".html"));
