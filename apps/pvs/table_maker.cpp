@@ -52,7 +52,8 @@ Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
             parts[b].rows.begin(), parts[b].rows.end(),
             [](const Visibility_table::Row& row) { return row.undecided.empty() && row.cells_undecided.empty(); });
         if (keep && whole) write_bytes(names[b], table_bytes(parts[b]));  // what time left open is asked again
-      });
+      },
+      [this](std::size_t done, std::size_t all) { progress_(done, all); });
   return ranks.is_first() ? joined(parts, names) : Visibility_table{};
 }
 
