@@ -31,6 +31,7 @@ struct Boolean_arguments {
   std::string operation, out, json, certificate, html, mesh, inside = "positive", coordinates = "exact",
                                                              round = "double", repair = "none";
   std::vector<std::string> solids;
+  Scene_format format;
   bool snap = false;
   int threads = 0;
 };
@@ -248,7 +249,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   Read_options reading;
   reading.round_to_double = a.coordinates == "double";
   std::vector<Polygon_soup> solids;
-  for (const std::string& file : a.solids) solids.push_back(read_scene(input_path(file), reading));
+  for (const std::string& file : a.solids) solids.push_back(a.format.read(file, reading));
   const double read_seconds = watch.seconds();
   watch = {};
   Set_options options;
@@ -366,6 +367,7 @@ void add_boolean(Command program) {
       .required()
       .expected(1, 1 << 20)
       .reads_file();
+  a->format.add_to(command);
   command
       .add_option(
           "--out", a->out,
@@ -382,8 +384,7 @@ void add_boolean(Command program) {
   add_mesh_option(command, a->mesh,
                   "the exact result in convex pieces, by solids, with the face of the solid that each is of,");
   command.add_option("--html", a->html, "write a page to look at: the result, each face in its solid's colour")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   command
       .add_option("--inside", a->inside,
                   "where a surface winds round its inside: a positive, nonzero or odd number of "

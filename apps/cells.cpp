@@ -261,12 +261,10 @@ void add_cells(Command program) {
       "stands (players, lamps; not those in solid cells). May be repeated. Exit code 1 where there is a way out");
   a->division.add_to(command);
   command.add_option("--out", a->out, "write points, cells and walls as JSON, which `pvs --cells` reads")
-      .writes_file()
-      .check(ending(".json"));
+      .writes_file(".json");
   add_mesh_option(command, a->mesh, "cells as polyhedra, neighbours in other colours, with cells' ids,");
   command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   command.footer(
       "Example: sightline cells level.map --seal 64,64,24 --out cells.json\n"
       "A cell is solid where the faces close up and have it behind them; a portal is what faces leave open "

@@ -24,6 +24,7 @@ namespace {
 
 struct Fuzz_arguments {
   std::string command, family, only, check, scene, query, out = "sightline-fuzz", json, shard;
+  Scene_format format;                 ///< of the scene
   bool resume = false, quiet = false;  ///< quiet: an output takes standard output
   double seconds = 60, case_seconds = 120;
   std::size_t scenes = 0, reduce_seconds = 120, most_faces = harness::Fuzz_options{}.most_faces;
@@ -290,10 +291,12 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
   }
   if (arguments.resume && (!arguments.scene.empty() || !arguments.only.empty()))
     throw Usage_error("--resume is of a sequence of scenes: leave it out, or --case and --scene");
+  if (arguments.scene.empty() && !arguments.format.name.empty())
+    throw Usage_error("--format is of a --scene from standard input: leave it out");
   watch_for_crashes();
   const std::string checks = arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
   if (!arguments.scene.empty()) {
-    Polygon_soup soup = read_scene(input_path(arguments.scene));
+    Polygon_soup soup = arguments.format.read(arguments.scene);
     harness::Posed_query query;
     if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
     generate::Posed_scene& scene = query.scene;
@@ -365,6 +368,7 @@ void add_fuzz(Command program) {
       .show_default();
   command.add_option("--case", a->only, "run one case alone, FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER");
   command.add_option("--scene", a->scene, "run a scene of a file alone").reads_file();
+  a->format.add_to(command);
   command.add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them")
       .reads_file();
   command.add_option("--check", a->check, "with --case or --scene: this check only");

@@ -505,7 +505,7 @@ void add_judge(Command program) {
       .check(range(0, 1024))
       .show_default();
   command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
-  command.add_option("--html", a->html, "write a page to look at").writes_file().check(ending(".html"));
+  command.add_option("--html", a->html, "write a page to look at").writes_file(".html");
   command
       .add_option("--keep", a->keep, "a folder for the smallest case that breaks the contract: scene, query and answer")
       .check(not_empty());

@@ -235,14 +235,11 @@ void add_pvs(Command program) {
   for (const Option& way : ways) cells.excludes(way);
   command.add_option("--show", a->show, "print what this cell sees; may be repeated");
   add_mesh_option(command, a->mesh, "faces visible, hidden, undecided from --show, and the cells,");
-  command.add_option("--obj", a->obj, "the same as OBJ").writes_file().check(ending(".obj"));
+  command.add_option("--obj", a->obj, "the same as OBJ").writes_file(".obj");
   command
       .add_option("--svg", a->svg, "draw the rooms and what --show sees of them, without what has its back to the eye")
-      .writes_file()
-      .check(ending(".svg"));
-  command.add_option("--html", a->html, "write a page to look at: click a cell, and what it sees")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".svg");
+  command.add_option("--html", a->html, "write a page to look at: click a cell, and what it sees").writes_file(".html");
   command.add_option("--eye", a->eye, "with --svg: X,Y,Z; by default a place outside the scene").check(not_empty());
   a->view.add_to(command);
   command

@@ -303,6 +303,69 @@ TEST_F(Outputs, are_read_again_from_standard_input) {
   expect_refused({"verify", "-", "-"}, "reads standard input already");
 }
 
+TEST_F(Outputs, and_standard_input_is_read_in_the_format_that_is_said_by_all_commands) {
+  // Tetrahedra in thirds: its first line is that of OFF.
+  const std::string text = "OFF\n4 4 0\n0 0 0\n1/3 0 0\n0 1/3 0\n0 0 1/3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  const std::string scene = file("scene", text), qoff = file("scene.qoff", text),
+                    rays = file("rays", "1,1,1,-1,-1,-1\n"), walk = file("walk", "1,2,3\n"),
+                    certificate = path("c.json").string();
+  const std::vector<std::vector<std::string>> commands{
+      {"info"},
+      {"bsp"},
+      {"order", "--eye", "3,4,5"},
+      {"graph"},
+      {"cutset", "--path", walk},
+      {"see", "--eye", "3,4,5", "--certificate", certificate},
+      {"verify", certificate},
+      {"weak", "--from-face", "2"},
+      {"render", "--eye", "3,4,5", "--size", "32x32", "--json", path("r.json").string()},
+      {"cells"},
+      {"pvs"},
+      {"compare", "see", "--eye", "3,4,5"},
+      {"trace", "--rays", rays},
+      {"shadow", "--light", "3,4,5"},
+      {"boolean", "union"},
+      {"fuzz", "see", "--scene"},
+      {"reduce", "--out", path("small.qoff").string()}};
+  const std::set<std::string> behind{"fuzz", "boolean", "reduce"};
+  for (std::vector<std::string> words : commands) {
+    SCOPED_TRACE(words[0]);
+    const auto run_on = [&](const std::string& name, const std::vector<std::string>& more) {
+      std::vector<std::string> all = words;
+      all.insert(behind.contains(words[0]) ? all.end() : all.begin() + 1, name);
+      all.insert(all.end(), more.begin(), more.end());
+      if (words[0] == "reduce") all.insert(all.end(), {"--", "sh", "-c", "test -s {} && exit 1"});
+      return run(all);
+    };
+    input_ = "/dev/null";
+    EXPECT_EQ(run_on(qoff, {}).code, done);
+    const Outcome not_of_it = run_on(qoff, {"--format", "qoff"});
+    EXPECT_EQ(not_of_it.code, usage) << not_of_it;
+    EXPECT_NE(not_of_it.err.find("--format"), std::string::npos) << not_of_it;
+    input_ = scene;
+    const Outcome said = run_on("-", {"--format", "qoff"});
+    EXPECT_EQ(said.code, done) << said;
+    // As what its content shows, or what is wrong: what to do is told in one line.
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{}, {"--format", "obj"}, {"--format", "glb"}}) {
+      const Outcome wrong = run_on("-", more);
+      EXPECT_EQ(wrong.code, bad_input) << wrong;
+      EXPECT_TRUE(wrong.one_line_of_error()) << wrong;
+      EXPECT_NE(wrong.err.find(more.empty() ? "(read as off; --format says otherwise)"
+                                            : "(read as " + more[1] + "; --format says so)"),
+                std::string::npos)
+          << wrong;
+    }
+  }
+  input_ = (corpus / "robust" / "nodes.gltf").string();
+  EXPECT_EQ(run({"info", "-", "--format", "gltf"}).code, done);
+  input_ = file("unknown", "hello\n");
+  const Outcome unknown = run({"info", "-"});
+  EXPECT_EQ(unknown.code, bad_input) << unknown;
+  EXPECT_NE(unknown.err.find("say which with --format"), std::string::npos) << unknown;
+  EXPECT_EQ(run({"info", "-", "--format", "dwg"}).code, usage);
+}
+
 TEST_F(Outputs, with_the_ending_of_another_format_are_refused) {
   const std::string scene = file("s.off", cube);
   for (const char* name : {"a.png", "a.svg.gz", "a.json"})
