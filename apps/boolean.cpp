@@ -1,5 +1,6 @@
 // sightline boolean: set operations on solids, exactly.
 
+#include "support/drawing.h"
 #include "support/page.h"
 #include "support/solid_file.h"
 
@@ -27,9 +28,10 @@ namespace sightline::app {
 namespace {
 
 struct Boolean_arguments {
-  std::string operation, out, json, certificate, html, inside = "positive", coordinates = "exact", round = "double",
-                                                       repair = "none";
+  std::string operation, out, json, certificate, html, mesh, inside = "positive", coordinates = "exact",
+                                                             round = "double", repair = "none";
   std::vector<std::string> solids;
+  Scene_format format;
   bool snap = false;
   int threads = 0;
 };
@@ -210,6 +212,31 @@ void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_res
   page.write(a.html);
 }
 
+/// The result as convex pieces, each in the colour of the solid that it is of, with what it is a part of.
+Grouped_polygons drawing_of(const Boolean_arguments& a, const Hole_free& flat, const Set_result& result) {
+  const Scene scene(flat.soup);
+  Grouped_polygons polygons;
+  for (std::size_t k = 0; k < a.solids.size(); ++k) {
+    std::string name = std::filesystem::path(a.solids[k]).stem().string();
+    std::replace_if(
+        name.begin(), name.end(), [](unsigned char c) { return c <= ' ' || c >= 0x7f; }, '_');
+    const auto& colours = drawing_colours::in_turn;
+    polygons.add_group(fmt::format("{}-{}", k, name), colours.at(k % colours.size()));
+  }
+  std::vector<std::uint32_t> operands, faces, turned;
+  add_pieces(polygons, scene, [&](std::uint32_t piece) {
+    const Result_face& face = result.faces[flat.face_of[scene.pieces()[piece].face]];
+    operands.push_back(face.operand);
+    faces.push_back(face.face);
+    turned.push_back(face.turned ? 1 : 0);
+    return face.operand;
+  });
+  polygons.add_column("operand", std::move(operands));
+  polygons.add_column("operand_face", std::move(faces));
+  polygons.add_column("turned", std::move(turned));
+  return polygons;
+}
+
 Exit run(const Boolean_arguments& a, const Command& command) {
   const bool rounds = !a.out.empty() && format_of_ending(a.out) != Format::qoff;
   if (!rounds && (a.snap || a.round == "float"))
@@ -222,7 +249,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   Read_options reading;
   reading.round_to_double = a.coordinates == "double";
   std::vector<Polygon_soup> solids;
-  for (const std::string& file : a.solids) solids.push_back(read_scene(input_path(file), reading));
+  for (const std::string& file : a.solids) solids.push_back(a.format.read(file, reading));
   const double read_seconds = watch.seconds();
   watch = {};
   Set_options options;
@@ -257,6 +284,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
     write_file(a.certificate,
                [&](std::ostream& out) { write_solid_certificate(out, solid_certificate(*operands, options, result)); });
   if (!a.html.empty()) write_page(a, flat, result);
+  if (!a.mesh.empty()) write_drawings("", a.mesh, drawing_of(a, flat, result));
   Json not_manifold = Json::array();
   for (const Crowded_edge& edge : result.crowded)
     not_manifold.push_back({{"from", point_json(result.soup.point(edge.from))},
@@ -339,6 +367,7 @@ void add_boolean(Command program) {
       .required()
       .expected(1, 1 << 20)
       .reads_file();
+  a->format.add_to(command);
   command
       .add_option(
           "--out", a->out,
@@ -352,9 +381,10 @@ void add_boolean(Command program) {
           "write what `sightline verify A CERTIFICATE --solid B ...` reads: all fragments, and why each is kept")
       .writes_file();
   command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
+  add_mesh_option(command, a->mesh,
+                  "the exact result in convex pieces, by solids, with the face of the solid that each is of,");
   command.add_option("--html", a->html, "write a page to look at: the result, each face in its solid's colour")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   command
       .add_option("--inside", a->inside,
                   "where a surface winds round its inside: a positive, nonzero or odd number of "

@@ -1,6 +1,7 @@
 // sightline cells: the convex cells of a level, the walls between them, what is solid, and ways out.
 
-#include "support/leaves.h"
+#include "support/cell_file.h"
+#include "support/drawing.h"
 #include "support/page.h"
 
 #include <sightline/algorithms/levels/cells.h>
@@ -18,13 +19,10 @@ namespace {
 
 struct Cells_arguments {
   Common common;
-  unsigned candidates = 5;
   std::vector<std::string> seals;
-  std::string out, html;
+  std::string out, html, mesh;
   Division_arguments division;
 };
-
-Json ids_json(const std::vector<std::uint32_t>& ids) { return Json(ids); }
 
 /// A point from which there should be no way out.
 struct Seal {
@@ -49,36 +47,6 @@ std::vector<Seal> seals_of(const Cells_arguments& arguments) {
       seals.push_back({place.name + " at " + Page::text(place.origin), std::move(place.origin), true});
   }
   return seals;
-}
-
-/// The whole of it: points once, by number; with the convex region of each cell where there are regions.
-Json cells_json(const Level_cells& level, const std::vector<std::uint32_t>& regions) {
-  Json points = Json::array(), cells = Json::array(), walls = Json::array();
-  for (const Exact_point& p : level.points()) points.push_back(point_json(p));
-  for (const Level_cell& cell : level.cells())
-    cells.push_back({{"solid", cell.is_solid},
-                     {"outside", cell.is_outside},
-                     {"winding", cell.winding},
-                     {"region", cell.region},
-                     {"leaf", cell.leaf},
-                     {"faces", ids_json(cell.faces)},
-                     {"walls", ids_json(cell.walls)}});
-  for (std::size_t c = 0; c < regions.size(); ++c)
-    cells[c]["convex_region"] = regions[c] == no_cell ? Json() : Json(regions[c]);
-  for (const Cell_wall& wall : level.walls()) {
-    Json open = Json::array();
-    for (const std::vector<std::uint32_t>& part : wall.open) open.push_back(ids_json(part));
-    Json faces = Json::array({ids_json(wall.faces_front), ids_json(wall.faces_behind)});
-    walls.push_back({{"cells", Json::array({Json(wall.front), wall.behind == no_cell ? Json() : Json(wall.behind)})},
-                     {"corners", ids_json(wall.corners)},
-                     {"open", std::move(open)},
-                     {"faces", std::move(faces)}});
-  }
-  return {{"format", "sightline cells 1"},
-          {"scene", level.scene().file()},
-          {"points", std::move(points)},
-          {"cells", std::move(cells)},
-          {"walls", std::move(walls)}};
 }
 
 /// The faces, and cells to walk through: rooms first, then what has no end, then solids; ways out of --seal.
@@ -137,30 +105,91 @@ void write_page(const std::string& file, const Level_cells& level, const std::ve
   page.write(file);
 }
 
+/// By cell a colour of those in turn, another one than its neighbours have where there are enough; cells of one region
+/// have one. Greedy.
+std::vector<std::size_t> colours_of(const Level_cells& level, const std::vector<std::uint32_t>& regions) {
+  const auto number_of = [&](Cell_id cell) {
+    return regions.empty() || regions[cell] == no_cell ? cell : regions[cell];
+  };
+  constexpr std::size_t most = drawing_colours::in_turn.size();
+  std::vector<std::vector<std::uint32_t>> neighbours(level.cells().size());
+  for (const Cell_wall& wall : level.walls()) {
+    if (wall.behind == no_cell || level.cells()[wall.front].is_solid || level.cells()[wall.behind].is_solid) continue;
+    const std::uint32_t front = number_of(wall.front), behind = number_of(wall.behind);
+    if (front == behind) continue;
+    neighbours[front].push_back(behind);
+    neighbours[behind].push_back(front);
+  }
+  std::vector<std::size_t> colours(level.cells().size(), most);  // by number; `most`: none yet
+  for (std::uint32_t number = 0; number < colours.size(); ++number) {
+    std::array<std::size_t, most> taken{};
+    for (const std::uint32_t other : neighbours[number])
+      if (colours[other] < most) ++taken[colours[other]];
+    const std::size_t first = number % most;  // so that all are used
+    std::size_t& own = colours[number] = first;
+    for (std::size_t k = 0; k < most; ++k)
+      if (taken[(first + k) % most] < taken[own]) own = (first + k) % most;
+  }
+  std::vector<std::size_t> by_cell;
+  for (Cell_id cell = 0; cell < level.cells().size(); ++cell) by_cell.push_back(colours[number_of(cell)]);
+  return by_cell;
+}
+
+/// Cells as polyhedra, each with its own walls, fronts outwards, and what they are within.
+Grouped_polygons drawing_of(const Level_cells& level, const Division& division,
+                            const std::vector<std::uint32_t>& regions) {
+  Grouped_polygons polygons;
+  for (std::size_t k = 0; k < drawing_colours::in_turn.size(); ++k)
+    polygons.add_group(fmt::format("room-{}", k), drawing_colours::in_turn.at(k));
+  const std::uint32_t outside = polygons.add_group("without-end", {205, 212, 222}),
+                      solid = polygons.add_group("solid", drawing_colours::hidden);
+  const std::vector<std::size_t> colours = colours_of(level, regions);
+  std::vector<std::uint32_t> cells, groups;
+  const std::vector<std::uint32_t> group_of =
+      division.kind == Division::Kind::regions ? regions : division.groups(level);
+  for (Cell_id cell = 0; cell < level.cells().size(); ++cell) {
+    const Level_cell& here = level.cells()[cell];
+    const std::uint32_t group = here.is_solid     ? solid
+                                : here.is_outside ? outside
+                                                  : static_cast<std::uint32_t>(colours[cell]);
+    for (const std::uint32_t w : here.walls) {
+      const Cell_wall& wall = level.walls()[w];
+      std::vector<Exact_point> corners = level.polygon(wall.corners);
+      if (wall.front == cell) std::reverse(corners.begin(), corners.end());
+      polygons.add_polygon(group, Grouped_polygons::no_face, corners);
+      cells.push_back(cell);
+      groups.push_back(division.kind == Division::Kind::leaves ? here.leaf : group_of[cell]);
+    }
+  }
+  polygons.add_column("cell", std::move(cells));
+  switch (division.kind) {
+    case Division::Kind::none: break;
+    case Division::Kind::leaves: polygons.add_column("leaf", std::move(groups)); break;
+    case Division::Kind::boxes: polygons.add_column("box", std::move(groups)); break;
+    case Division::Kind::volumes: polygons.add_column("volume", std::move(groups)); break;
+    case Division::Kind::regions: polygons.add_column("convex_region", std::move(groups)); break;
+  }
+  return polygons;
+}
+
 Exit run(const Cells_arguments& arguments) {
   const Common& common = arguments.common;
   const Polygon_soup soup = common.read();
   const std::vector<Seal> given = seals_of(arguments);
-  Progress progress("dividing");
-  Cell_options options;
-  options.candidates = arguments.candidates;
-  options.seed = common.seed;
-  options.threads = common.threads;
   const Division division = arguments.division.division(common, soup);
-  options.tree = division.tree;
-  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
   const Stopwatch watch;
-  const Level_cells level(soup, options);
+  const Level_cells level = cells_of(common, soup, division);
   std::vector<std::uint32_t> regions;  // by cell
   if (division.kind == Division::Kind::regions) regions = division.groups(level);
   std::uint32_t region_count = 0;
   for (const std::uint32_t region : regions)
     if (region != no_cell) region_count = std::max(region_count, region + 1);
   const double seconds = watch.seconds();
-  progress.clear();
   const Scene& scene = level.scene();
   const Cell_counters& c = level.counters();
-  if (!arguments.out.empty()) write_file(arguments.out, to_text(cells_json(level, regions)) + "\n");
+  if (!arguments.out.empty()) write_file(arguments.out, cells_text(level, soup, division, regions));
+
+  if (!arguments.mesh.empty()) write_drawings("", arguments.mesh, drawing_of(level, division, regions));
 
   Json leaks = Json::array();
   std::vector<Seal> seals;
@@ -225,19 +254,17 @@ void add_cells(Command program) {
       program.add_command("cells", "The convex cells of a level, solid and empty, the portals between them, and leaks");
   auto a = std::make_shared<Cells_arguments>();
   a->common.add_to(command);
-  command.add_option("--candidates", a->candidates, "face planes tried for each node of the tree")
-      .check(range(1, 1000))
-      .show_default();
   command.add_option(
       "--seal", a->seals,
       "a point X,Y,Z of a room from which there should be no way out, or `entities`: all places of a .map where "
       "something "
       "stands (players, lamps; not those in solid cells). May be repeated. Exit code 1 where there is a way out");
   a->division.add_to(command);
-  command.add_option("--out", a->out, "write points, cells and walls as JSON").writes_file().check(ending(".json"));
+  command.add_option("--out", a->out, "write points, cells and walls as JSON, which `pvs --cells` reads")
+      .writes_file(".json");
+  add_mesh_option(command, a->mesh, "cells as polyhedra, neighbours in other colours, with cells' ids,");
   command.add_option("--html", a->html, "write a page to look at: cells to walk through, and ways out of --seal")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   command.footer(
       "Example: sightline cells level.map --seal 64,64,24 --out cells.json\n"
       "A cell is solid where the faces close up and have it behind them; a portal is what faces leave open "

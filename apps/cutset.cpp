@@ -336,11 +336,9 @@ void add_cutset(Command program) {
       .add_option("--svg", a->svg,
                   "draw up to twelve of the frames: on-view faces, those green that became on-view since the frame "
                   "drawn before, and the cut-set as an outline")
-      .writes_file()
-      .check(ending(".svg"));
+      .writes_file(".svg");
   command.add_option("--html", a->html, "write a page to look at, which plays the path: on-view faces and the cut-set")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   a->canvas.add_to(command, "by default each frame is 300 wide");
   command.footer(
       "Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"

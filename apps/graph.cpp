@@ -469,8 +469,7 @@ void add_graph(Command program) {
   command
       .add_option("--html", a->html,
                   "write a page to look at: components, cycles, and what is in front of and behind a face")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   add_mesh_option(command, a->mesh, "faces alone and in cycles, with their components,");
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads").writes_file();
   command.footer(

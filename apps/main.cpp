@@ -40,7 +40,7 @@ static bool is_without_end(const std::exception& error) {
 /// Does what the command line asks for, and says what went wrong.
 static Exit run(int argc, char** argv) {
   Program program("sightline", "Exact 3D visibility: who can see what, with answers that can be checked.");
-  program.set_version(std::string(SIGHTLINE_VERSION) + ' ' + library_versions());
+  program.set_version(program_version() + ' ' + library_versions());
   program.root().footer(
       "An OUTPUT is written whole or not at all, and is no FILE of the same command; - is standard output or input.\n"
       "Exit codes: 0 done; 1 a check failed, or methods disagree; 2 usage; 3 bad input, or an output that cannot be "

@@ -337,10 +337,9 @@ void add_order(Command program) {
       .add_option("--certificate", a->certificate,
                   "write what `sightline verify` reads: of the order; with --skip-hidden of what is seen")
       .writes_file();
-  command.add_option("--svg", a->svg, "draw the order as a painter would").writes_file().check(ending(".svg"));
+  command.add_option("--svg", a->svg, "draw the order as a painter would").writes_file(".svg");
   command.add_option("--html", a->html, "write a page to look at, in which a slider paints back to front")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   add_mesh_option(command, a->mesh, "the fragments, back to front,");
   a->view.add_to(command);
   command.footer(

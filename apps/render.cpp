@@ -219,7 +219,7 @@ void add_render(Command program) {
   command.add_option("--samples", a->samples, "n x n rays a pixel; for --method rays")
       .check(range(1, 64))
       .show_default();
-  command.add_option("--png", a->png, "the picture").writes_file().check(ending(".png"));
+  command.add_option("--png", a->png, "the picture").writes_file(".png");
   a->tints.add_to(command);
   a->view.add_to(command);
   command.footer(

@@ -420,14 +420,12 @@ void add_see(Command program) {
   command.add_option("--certificate", a->certificate, "write what `sightline verify` reads, unless --budget runs out")
       .writes_file();
   command.add_option("--svg", a->svg, "draw the visible parts; the n-th polygon of face 7 has the id face-7-n")
-      .writes_file()
-      .check(ending(".svg"));
+      .writes_file(".svg");
   command
       .add_option("--html", a->html,
                   "write a page to look at: the visible parts in the scene, and unrolled as the eye sees them; with "
                   "--lines what hides an edge")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   add_mesh_option(command, a->mesh, "the visible parts, and the faces without,");
   a->view.add_to(command);
   command.footer(

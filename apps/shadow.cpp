@@ -338,8 +338,7 @@ void add_shadow(Command program) {
   command
       .add_option("--svg", a->svg,
                   "draw the scene from an eye: lit parts bright, shadowed ones grey, what is turned away darkest")
-      .writes_file()
-      .check(ending(".svg"));
+      .writes_file(".svg");
   command.add_option("--eye", a->eye, "the eye X,Y,Z of the picture; by default a place outside the scene")
       .check(not_empty());
   a->view.add_to(command);
@@ -353,8 +352,7 @@ void add_shadow(Command program) {
   add_mesh_option(command, a->mesh, "the parts lit, in shadow and turned away,");
   command
       .add_option("--obj", a->obj, "the same as OBJ; groups are light-0-lit and so on where there are several lights")
-      .writes_file()
-      .check(ending(".obj"));
+      .writes_file(".obj");
   command.footer(
       "A face is lit where a light strictly in front of it sees it, as `sightline see --eye` does; of a shadow the "
       "JSON "

@@ -200,11 +200,11 @@ static Verdict verdict_on_solids(const Polygon_soup& soup, const Common& common,
   Read_options reading;
   reading.round_to_double = common.coordinates == "double";
   std::vector<Polygon_soup> solids{soup};
-  for (const std::string& other : files.others) solids.push_back(read_scene(input_path(other), reading));
+  for (const std::string& other : files.others) solids.push_back(common.format.read(other, reading));
   std::optional<Polygon_soup> result;
   if (!files.result.empty()) {
     reading.any_denominator = true;  // each of its new points has one of its own
-    result = read_scene(input_path(files.result), reading);
+    result = common.format.read(files.result, reading);
   }
   Solid_certificate certificate;
   try {

@@ -4,7 +4,9 @@
 #include <sightline/io/format.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <ostream>
 
 namespace sightline {
@@ -22,5 +24,10 @@ void write_scene(const Polygon_soup& soup, const std::filesystem::path& path, Fo
 /// Writes a scene to a file in the format that its ending says (.ply: text). Throws as above, and std::runtime_error
 /// where the ending says none.
 void write_scene(const Polygon_soup& soup, const std::filesystem::path& path);
+
+/// The same, and calls `progress` all the while with how many bytes are made, and then with how many of how many are
+/// written. What it throws is thrown on, and what was there before stays.
+void write_scene(const Polygon_soup& soup, const std::filesystem::path& path,
+                 const std::function<void(std::size_t done, std::size_t all)>& progress);
 
 }  // namespace sightline

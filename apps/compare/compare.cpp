@@ -151,14 +151,11 @@ void add_compare(Command program) {
       .check(whole_number() & range(1, 10'000'000))
       .show_default();
   command.add_option("--ray-file", a->ray_file, "trace: instead, a file with X,Y,Z,DX,DY,DZ a line").reads_file();
-  command.add_option("--svg", a->svg, "weak, render: plot the seconds and the errors")
-      .writes_file()
-      .check(ending(".svg"));
+  command.add_option("--svg", a->svg, "weak, render: plot the seconds and the errors").writes_file(".svg");
   command
       .add_option("--html", a->html,
                   "write a page to look at: what each took and has wrong; of see and weak, in which faces")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   a->tints.add_to(command);
   a->view.add_to(command, "of what is drawn for render by default 512x512; of the plot 860x560");
   command.footer(

@@ -3,11 +3,13 @@
 #include "fuzz.h"
 
 #include "case_watch.h"
+#include "../support/journal.h"
 #include "../support/query.h"
 #include "../support/shard.h"
 
 #include <sightline/harness/laws/fuzz.h>
 #include <sightline/harness/laws/subjects.h>
+#include <sightline/io/file.h>
 #include <sightline/io/read.h>
 #include <sightline/io/write.h>
 #include <sightline/algorithms/weak_visibility/occluders.h>
@@ -22,7 +24,8 @@ namespace {
 
 struct Fuzz_arguments {
   std::string command, family, only, check, scene, query, out = "sightline-fuzz", json, shard;
-  bool quiet = false;  ///< an output takes standard output
+  Scene_format format;                 ///< of the scene
+  bool resume = false, quiet = false;  ///< quiet: an output takes standard output
   double seconds = 60, case_seconds = 120;
   std::size_t scenes = 0, reduce_seconds = 120, most_faces = harness::Fuzz_options{}.most_faces;
   std::uint64_t seed = 1;
@@ -47,14 +50,21 @@ Json tallies_json(const std::map<std::string, harness::Tally>& tallies) {
     all[name] = {{"passed", tally.passed}, {"undecided", tally.undecided}, {"not_applicable", tally.not_applicable}};
   return all;
 }
+std::map<std::string, harness::Tally> tallies_from_json(const nlohmann::json& all) {
+  std::map<std::string, harness::Tally> tallies;
+  for (const auto& [name, tally] : all.items())
+    tallies[name] = {tally.at("passed").get<std::size_t>(), tally.at("undecided").get<std::size_t>(),
+                     tally.at("not_applicable").get<std::size_t>()};
+  return tallies;
+}
 void print_tallies(const std::string& title, const std::map<std::string, harness::Tally>& tallies) {
   std::cout << fmt::format("{:<28} {:>10} {:>10} {:>14}\n", title, "passed", "undecided", "not applicable");
   for (const auto& [name, tally] : tallies)
     std::cout << fmt::format("  {:<26} {:>10} {:>10} {:>14}\n", name, tally.passed, tally.undecided,
                              tally.not_applicable);
 }
-void print_finding(const std::string& where, const harness::Disagreement& found) {
-  std::cout << fmt::format("DISAGREEMENT in {}, check '{}':\n  {}\n", where, found.check, found.what);
+void print_finding(const std::string& where, const std::string& check, const std::string& what) {
+  std::cout << fmt::format("DISAGREEMENT in {}, check '{}':\n  {}\n", where, check, what);
 }
 
 /// The scene with its question, and the command that replays it.
@@ -86,71 +96,150 @@ Exit run_one(const harness::Subject& subject, const generate::Posed_scene& scene
     row(name, words[static_cast<std::size_t>(outcome.state)]);
   };
   if (const auto found = harness::first_disagreement(subject, scene, seed, check, tell)) {
-    print_finding(where, *found);
+    print_finding(where, found->check, found->what);
     return Exit::disagreement;
   }
   row("cases", fmt::format("{}, {} undecided", cases, undecided));
   return Exit::done;
 }
 
+/// What was done of a sequence of scenes, and what came of it.
+struct Fuzzed {
+  harness::Fuzz_summary summary;
+  double seconds = 0;
+  Json finding;  // of the summary's last scene; null: none
+};
+
+Json fuzzed_json(const harness::Fuzz_summary& summary) {
+  return {{"scenes", summary.scenes},
+          {"cases", summary.cases},
+          {"undecided", summary.undecided},
+          {"checks", tallies_json(summary.by_check)},
+          {"families", tallies_json(summary.by_family)}};
+}
+
+/// What --resume keeps in a file beside --json: how far the sequence was followed, once a second and at the end.
+class Kept_fuzzing {
+ public:
+  Kept_fuzzing(const Fuzz_arguments& arguments, const Shard& own)
+      : file_(arguments.json + ".done"),
+        head_(resumed_head("fuzz", {{"COMMAND", arguments.command},
+                                    {"--seed", arguments.seed},
+                                    {"--family", arguments.family},
+                                    {"--max-faces", arguments.most_faces},
+                                    {"--shard", fmt::format("{}/{}", own.shard, own.shards)}})) {}
+
+  /// Goes on from what is there. Errors: std::runtime_error where it is of another question, or damaged.
+  void load(Fuzzed& fuzzed, std::optional<harness::Fuzz_place>& place) const {
+    if (!std::filesystem::exists(file_)) return;
+    const nlohmann::json found = parse_json(read_bytes(file_), file_);
+    check_resumed(file_, found, head_);
+    try {
+      const nlohmann::json& counters = found.at("counters");
+      fuzzed.summary = {counters.at("scenes").get<std::size_t>(), counters.at("cases").get<std::size_t>(),
+                        counters.at("undecided").get<std::size_t>(), tallies_from_json(counters.at("checks")),
+                        tallies_from_json(counters.at("families"))};
+      fuzzed.seconds = found.at("seconds").get<double>();
+      fuzzed.finding = found.at("finding");
+      place.emplace(harness::Fuzz_place{harness::Random(0), found.at("drawn").get<std::size_t>()});
+      place->random.set_state(found.at("random").get<std::string>());
+    } catch (const std::exception&) {
+      throw std::runtime_error(file_ + ": is damaged; delete the file to begin anew");
+    }
+  }
+  void save(const Fuzzed& fuzzed, const harness::Fuzz_place& place) const {
+    Json json = head_;
+    json.update({{"seconds", fuzzed.seconds},
+                 {"drawn", place.drawn},
+                 {"counters", fuzzed_json(fuzzed.summary)},
+                 {"finding", fuzzed.finding},
+                 {"random", place.random.state()}});
+    write_file(file_, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
+  }
+
+ private:
+  std::string file_;
+  Json head_;
+};
+
+/// What was found, made small and written.
+Json reduced_finding(const Fuzz_arguments& arguments, const harness::Subject& subject,
+                     const harness::Finding& finding) {
+  const std::string replay = replay_of(arguments, finding.which);
+  harness::Reduce_options limits;
+  const Stopwatch since;
+  limits.out_of_time = [&] {
+    begin_case(replay, arguments.case_seconds, "making the case small that this replays");
+    return since.seconds() > static_cast<double>(arguments.reduce_seconds);
+  };
+  const harness::Reduced reduced =
+      harness::reduce(subject, finding.scene, finding.which.parameters.seed, finding.disagreement, limits);
+  end_case();
+  return {
+      {"case", to_string(finding.which)},
+      {"check", finding.disagreement.check},
+      {"what", finding.disagreement.what},
+      {"replay", replay},
+      {"reduced", write_failing(arguments, reduced.scene, finding.which.parameters.seed, finding.disagreement.check)},
+      {"faces", finding.scene.soup.face_count()},
+      {"faces_reduced", reduced.scene.soup.face_count()},
+      {"runs", reduced.tests},
+      {"finished", reduced.finished}};
+}
+
 Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) {
-  const auto [shard, shards] = shard_of(arguments.shard);
-  Countdown time("fuzzing", arguments.seconds);
+  const Shard own = shard_of(arguments.shard);
+  if (arguments.resume && (arguments.json.empty() || arguments.json == "-"))
+    throw Usage_error("--resume keeps what is done beside an output: name it with --json FILE");
+  const Kept_fuzzing kept(arguments, own);
+  Fuzzed fuzzed;
   harness::Fuzz_options options;
+  if (arguments.resume) kept.load(fuzzed, options.from);
+  const double seconds_before = fuzzed.seconds;
+  const std::size_t scenes_before = fuzzed.summary.scenes;
+  Countdown time("fuzzing", arguments.seconds - seconds_before);
   options.seed = arguments.seed;
   options.scenes = arguments.scenes;
-  options.shard = shard;
-  options.shards = shards;
+  options.shard = own.shard;
+  options.shards = own.shards;
   options.family = arguments.family;
   options.most_faces = arguments.most_faces;
   options.out_of_time = [&] { return time.over() && arguments.scenes == 0; };
   options.begin = [&](const harness::Fuzz_case& which) {
     begin_case(replay_of(arguments, which), arguments.case_seconds);
   };
-  harness::Fuzz_summary summary;
-  std::optional<harness::Finding> finding;
-  try {
-    finding = harness::fuzz(subject, options, summary);
-  } catch (const std::invalid_argument& error) {
-    throw Usage_error(error.what());
-  }
-  const double seconds = time.seconds();
-  end_case();
-
-  std::string replay, smaller;
-  harness::Reduced reduced;
-  if (finding) {
-    replay = replay_of(arguments, finding->which);
-    harness::Reduce_options limits;
-    const Stopwatch since;
-    limits.out_of_time = [&] {
-      begin_case(replay, arguments.case_seconds, "making the case small that this replays");
-      return since.seconds() > static_cast<double>(arguments.reduce_seconds);
+  std::optional<harness::Fuzz_place> place = options.from;
+  Stopwatch since_kept;
+  if (arguments.resume)
+    options.at = [&](const harness::Fuzz_place& at) {
+      place = at;
+      if (since_kept.seconds() < 1) return;
+      fuzzed.seconds = seconds_before + time.seconds();
+      kept.save(fuzzed, at);
+      since_kept = {};
     };
-    reduced = harness::reduce(subject, finding->scene, finding->which.parameters.seed, finding->disagreement, limits);
+  if (fuzzed.finding.is_null()) {
+    std::optional<harness::Finding> finding;
+    try {
+      finding = harness::fuzz(subject, options, fuzzed.summary);
+    } catch (const std::invalid_argument& error) {
+      throw Usage_error(error.what());
+    }
+    fuzzed.seconds = seconds_before + time.seconds();
     end_case();
-    smaller = write_failing(arguments, reduced.scene, finding->which.parameters.seed, finding->disagreement.check);
+    if (finding) fuzzed.finding = reduced_finding(arguments, subject, *finding);
+    if (arguments.resume) kept.save(fuzzed, place.value());
   }
 
+  const harness::Fuzz_summary& summary = fuzzed.summary;
+  const Json& found = fuzzed.finding;
   if (!arguments.json.empty()) {
-    Json result{{"subject", subject.name}, {"seed", arguments.seed}, {"shard", {shard, shards}}, {"finding", nullptr}};
-    if (finding)
-      result["finding"] = {{"case", to_string(finding->which)},
-                           {"check", finding->disagreement.check},
-                           {"what", finding->disagreement.what},
-                           {"replay", replay},
-                           {"reduced", smaller},
-                           {"faces", finding->scene.soup.face_count()},
-                           {"faces_reduced", reduced.scene.soup.face_count()}};
-    const Json document{{"command", "fuzz"},
-                        {"result", std::move(result)},
-                        {"counters",
-                         {{"scenes", summary.scenes},
-                          {"cases", summary.cases},
-                          {"undecided", summary.undecided},
-                          {"checks", tallies_json(summary.by_check)},
-                          {"families", tallies_json(summary.by_family)}}},
-                        {"seconds", {{"fuzz", seconds}}}};
+    const Json document{
+        {"command", "fuzz"},
+        {"result",
+         {{"subject", subject.name}, {"seed", arguments.seed}, {"shard", {own.shard, own.shards}}, {"finding", found}}},
+        {"counters", fuzzed_json(summary)},
+        {"seconds", {{"fuzz", fuzzed.seconds}}}};
     write_file(arguments.json, to_text(document, 1) + "\n");
   }
   if (!arguments.quiet) {
@@ -158,17 +247,19 @@ Exit run_many(const Fuzz_arguments& arguments, const harness::Subject& subject) 
     print_tallies("family", summary.by_family);
     row("scenes", fmt::format("{} from seed {}", summary.scenes, arguments.seed));
     row("cases", fmt::format("{}, {} undecided; {:.0f} a second", summary.cases, summary.undecided,
-                             static_cast<double>(summary.cases) / seconds));
-    if (finding) {
-      print_finding("case " + to_string(finding->which), finding->disagreement);
-      row("as found", replay);
-      row("reduced",
-          fmt::format("from {} faces to {} in {} runs{}", finding->scene.soup.face_count(),
-                      reduced.scene.soup.face_count(), reduced.tests, reduced.finished ? "" : ", not to the end"));
-      row("smallest", smaller);
+                             static_cast<double>(summary.cases) / std::max(fuzzed.seconds, 1e-3)));
+    if (options.from) row("resumed", fmt::format("{} scenes of {:.0f} s were there", scenes_before, seconds_before));
+    if (!found.is_null()) {
+      const auto text = [&](const char* key) { return found.at(key).get<std::string>(); };
+      print_finding("case " + text("case"), text("check"), text("what"));
+      row("as found", text("replay"));
+      row("reduced", fmt::format("from {} faces to {} in {} runs{}", found.at("faces").get<std::size_t>(),
+                                 found.at("faces_reduced").get<std::size_t>(), found.at("runs").get<std::size_t>(),
+                                 found.at("finished").get<bool>() ? "" : ", not to the end"));
+      row("smallest", text("reduced"));
     }
   }
-  return finding ? Exit::disagreement : Exit::done;
+  return found.is_null() ? Exit::done : Exit::disagreement;
 }
 
 /// Errors: Usage_error where the source is no convex polygon.
@@ -196,11 +287,16 @@ Exit run_fuzz(const Fuzz_arguments& arguments) {
   if (!arguments.json.empty()) {
     const std::string stem = (std::filesystem::path(arguments.out) / arguments.command).string();
     check_files({}, {{"--json", arguments.json}, {"--out", stem + ".qoff"}, {"--out", stem + ".json"}});
+    if (arguments.resume) check_files({}, {{"--resume", arguments.json + ".done"}, {"--out", stem + ".json"}});
   }
+  if (arguments.resume && (!arguments.scene.empty() || !arguments.only.empty()))
+    throw Usage_error("--resume is of a sequence of scenes: leave it out, or --case and --scene");
+  if (arguments.scene.empty() && !arguments.format.name.empty())
+    throw Usage_error("--format is of a --scene from standard input: leave it out");
   watch_for_crashes();
   const std::string checks = arguments.check.empty() ? "" : fmt::format(" --check '{}'", arguments.check);
   if (!arguments.scene.empty()) {
-    Polygon_soup soup = read_scene(input_path(arguments.scene));
+    Polygon_soup soup = arguments.format.read(arguments.scene);
     harness::Posed_query query;
     if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
     generate::Posed_scene& scene = query.scene;
@@ -264,12 +360,15 @@ void add_fuzz(Command program) {
   command.add_option("--shard", a->shard,
                      "I/N: of the scenes of that sequence those whose number is I modulo N; by default what "
                      "SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT say");
+  command.add_flag("--resume", a->resume,
+                   "keep beside --json how far it is, and go on from there: with other --seconds or --scenes too");
   command.add_option("--family", a->family, "only scenes of this family (`sightline generate --help` lists them)");
   command.add_option("--max-faces", a->most_faces, "pass over scenes of more faces")
       .check(whole_number())
       .show_default();
   command.add_option("--case", a->only, "run one case alone, FAMILY:SEED:SIZE:ULPS:X,Y,Z:POWER");
   command.add_option("--scene", a->scene, "run a scene of a file alone").reads_file();
+  a->format.add_to(command);
   command.add_option("--query", a->query, "with --scene: the eye and the source, as `generate --query` writes them")
       .reads_file();
   command.add_option("--check", a->check, "with --case or --scene: this check only");

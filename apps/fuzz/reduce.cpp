@@ -19,6 +19,7 @@ namespace {
 
 struct Reduce_arguments {
   std::string scene, query, out, html;
+  Scene_format format;
   std::vector<std::string> program;
   int code = -1;  ///< any but 0
   double limit = 10, seconds = 600;
@@ -73,7 +74,7 @@ Exit run(const Reduce_arguments& arguments) {
   if (!arguments.query.empty())
     check_files({{"SCENE", arguments.scene}, {"--query", arguments.query}},
                 {{"--out", arguments.out}, {"the query beside --out,", reduced_query}});
-  Polygon_soup soup = read_scene(input_path(arguments.scene));
+  Polygon_soup soup = arguments.format.read(arguments.scene);
   harness::Posed_query query;
   if (!arguments.query.empty()) query = read_query(arguments.query, soup.face_count());
   generate::Posed_scene& scene = query.scene;
@@ -137,6 +138,7 @@ void add_reduce(Command program) {
   command.add_option("SCENE", a->scene, "a scene for which it fails: .obj .off .ply .stl .qoff")
       .required()
       .reads_file();
+  a->format.add_to(command);
   command
       .add_option("PROGRAM", a->program,
                   "after --: the program and its arguments; {} stands for the scene's file, {query} for the query's")
@@ -155,8 +157,7 @@ void add_reduce(Command program) {
                   "but 0 and 124")
       .check(range(0, 255));
   command.add_option("--html", a->html, "write a page to look at: the scene that is left, its eye and its source")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   command.add_option("--limit", a->limit, "seconds for a run of the program")
       .check(positive() & finite_number())
       .show_default();

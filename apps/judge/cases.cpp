@@ -3,6 +3,7 @@
 #include "cases.h"
 
 #include "../support/common.h"
+#include "../support/journal.h"
 #include "../support/limited_process.h"
 
 #include <sightline/io/read.h>
@@ -66,11 +67,13 @@ std::vector<Case_group> groups_of_scenes(const Case_choice& choice, const Case_o
     };
     groups.push_back({file.filename().string(), "-",
                       "--scenes " + shell_word(file.string()) + (query ? " --ask " + shell_word(choice.ask) : ""), make,
-                      0, "as it is given", [make, options](std::uint64_t seed, std::int64_t ulps) {
+                      0, "as it is given",
+                      [make, options](std::uint64_t seed, std::int64_t ulps) {
                         const Judge_case given = make(seed);
                         if (!given.not_asked.empty()) return given;
                         return judge::moved(given, askew(given.soup, ulps), options);
-                      }});
+                      },
+                      file.string()});
   }
   return groups;
 }
@@ -106,12 +109,17 @@ std::vector<Case_group> groups_of_families(const Case_choice& choice, const Case
                         [family, parameters, options](std::uint64_t seed, std::int64_t ulps) mutable {
                           parameters.seed = seed, parameters.ulps = ulps;
                           return case_of(*family, parameters, options);
-                        }});
+                        },
+                        ""});
     }
   return groups;
 }
 
 }  // namespace
+
+std::string identity(const Case_group& group) {
+  return group.family + ' ' + (group.file.empty() ? group.distance : content_hash(group.file));
+}
 
 std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options) {
   return choice.scenes.empty() ? groups_of_families(choice, options) : groups_of_scenes(choice, options);

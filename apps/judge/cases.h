@@ -33,7 +33,11 @@ struct Case_group {
   /// The same case so many ulps of its size from there: a family's as far from its degeneracy; of a scene of somebody's
   /// the eye, the source or the second solid is moved, askew to the axes.
   std::function<Judge_case(std::uint64_t seed, std::int64_t ulps)> moved;
+  std::string file;  ///< of the scene; none: a family's
 };
+
+/// What tells a group from others of the same number, for --resume: its name, distance, and the content of its file.
+std::string identity(const Case_group& group);
 
 /// Errors: Usage_error naming the option.
 std::vector<Case_group> groups_of(const Case_choice& choice, const Case_options& options);

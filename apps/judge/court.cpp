@@ -85,17 +85,36 @@ Judged Court::judge(const Judge_case& asked, std::uint64_t seed) const {
         throw std::logic_error(fmt::format(
             "the library says of face {} what its construction excludes (seed {}); please report it", face, seed));
   try {
-    std::ostringstream text;
-    write_scene(asked.soup, text, *format_of_ending(scene()));
-    write_temporary(scene(), text.view());
+    write_case(asked);
   } catch (const Not_representable& error) {
     judged.not_asked = "the format cannot hold the scene";
     return judged;
   }
-  write_temporary(query(), judge::to_json(asked.query).dump() + "\n");
-  fs::remove_all(answer());
   run(asked, truth, judged);
   return judged;
+}
+
+/// The files of a case, without an answer.
+void Court::write_case(const Judge_case& asked) const {
+  std::ostringstream text;
+  write_scene(asked.soup, text, *format_of_ending(scene()));
+  write_temporary(scene(), text.view());
+  write_temporary(query(), judge::to_json(asked.query).dump() + "\n");
+  fs::remove_all(answer());
+}
+
+std::optional<std::string> Court::said() const {
+  if (!fs::is_regular_file(answer())) return std::nullopt;
+  return read_bytes(answer());
+}
+
+void Court::put_back(const Judge_case& asked, const std::optional<std::string>& said) const {
+  write_case(asked);
+  if (said) write_temporary(answer(), *said);
+}
+
+judge::Answer Court::read(const Judge_case& asked, const std::string& said) const {
+  return judge::read_answer(said, asked.query.question, asked.soup.face_count(), asked.query.rays.size());
 }
 
 void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
@@ -138,8 +157,7 @@ void Court::run(const Judge_case& asked, const judge::Truth& truth, Judged& judg
 void Court::grade_answer(const Judge_case& asked, const judge::Truth& truth, Judged& judged) const {
   try {
     if (!fs::exists(answer())) throw std::invalid_argument("it wrote no answer");
-    judged.answer = judge::read_answer(read_bytes(answer()), asked.query.question, asked.soup.face_count(),
-                                       asked.query.rays.size());
+    judged.answer = read(asked, read_bytes(answer()));
     judged.grade = judge::grade(truth, judged.answer);
   } catch (const std::runtime_error& error) {  // no file that can be read
     judged.mark = judge::Mark::invalid;

@@ -1,6 +1,7 @@
 // sightline judge: somebody else's program, asked many cases and graded against the exact truth.
 
 #include "../support/shard.h"
+#include "kept.h"
 #include "page.h"
 #include "picture.h"
 #include "table.h"
@@ -23,7 +24,7 @@ struct Judge_arguments {
   double time = 10, budget = 20, reduce = 0;
   std::uint64_t memory = 1024;
   int threads = 0;
-  bool two_sided = false, cycles = false, excuse_touching = false,
+  bool two_sided = false, cycles = false, excuse_touching = false, resume = false,
        quiet = false;  // quiet: an output takes standard output
 
   Case_options case_options() const {
@@ -174,11 +175,16 @@ class Common_guess {
  public:
   Common_guess(Question question, bool two_sided) : readings_(readings_of(question)), two_sided_(two_sided) {}
 
-  void add(const Judge_case& asked, const Judged& wrong, const Truth_options& options) {
+  /// Returns what readings are left. `kept`: those that were left before.
+  const std::vector<Reading>& add(const Judge_case& asked, const Judged& wrong, const Truth_options& options,
+                                  const std::vector<Reading>* kept) {
     ++wrong_;
     supported_ = supported_ || lists_faces(wrong.answer);
-    std::erase_if(readings_,
-                  [&](Reading reading) { return !is_right(reading, asked.soup, asked.query, wrong.answer, options); });
+    std::erase_if(readings_, [&](Reading reading) {
+      return kept != nullptr ? std::find(kept->begin(), kept->end(), reading) == kept->end()
+                             : !is_right(reading, asked.soup, asked.query, wrong.answer, options);
+    });
+    return readings_;
   }
   void add(const Kinds& kinds) {
     kinds_.concave_right += kinds.concave_right, kinds_.concave_wrong += kinds.concave_wrong;
@@ -218,6 +224,30 @@ void check_kept(const Judge_arguments& arguments) {
     for (const std::string& ending : {arguments.format, std::string("json"), std::string("answer"), std::string("svg")})
       outputs.push_back({"--keep", (std::filesystem::path(arguments.keep) / (stem + ending)).string()});
   check_files(inputs, outputs);
+}
+
+/// What all cases are asked alike, by options' names. Programs are known by their files, too.
+Json asked_json(const Judge_arguments& a, const Court& court, const Shard& own) {
+  const Case_choice& choice = a.choice;
+  return {{"--program", a.program},
+          {"--program's files", hashes_of_words(court.words())},
+          {"--query", a.query},
+          {"--contract", a.contract},
+          {"--families", choice.families},
+          {"--ulps", choice.ulps},
+          {"--size", choice.size},
+          {"--scenes", choice.scenes},
+          {"--ask", choice.ask.empty() ? "" : choice.ask + ' ' + content_hash(choice.ask)},
+          {"--cases", a.cases},
+          {"--seed", a.seed},
+          {"--shard", fmt::format("{}/{}", own.shard, own.shards)},
+          {"--time", a.time},
+          {"--memory", a.memory},
+          {"--budget", a.budget},
+          {"--format", a.format},
+          {"--two-sided", a.two_sided},
+          {"--cycles", a.cycles},
+          {"--excuse-touching", a.excuse_touching}};
 }
 
 /// Explains the smallest of the wrong cases that broke the contract, for the page: as many as one looks at.
@@ -276,11 +306,17 @@ Exit run(const Judge_arguments& arguments) {
   if (of_solids && arguments.two_sided)
     throw Usage_error("--two-sided is not of --query boolean: fronts look outwards; leave it out");
   if (!of_rays && arguments.excuse_touching) throw Usage_error("--excuse-touching is of --query trace only");
+  if (arguments.resume && (arguments.json.empty() || arguments.json == "-"))
+    throw Usage_error("--resume keeps what is done beside an output: name it with --json FILE");
   check_kept(arguments);
   const std::vector<Case_group> groups = groups_of(arguments.choice, arguments.case_options());
   const Court court(arguments.court_options());
   const std::uint64_t cases = arguments.choice.ask.empty() ? arguments.cases : 1;
-  const auto [shard, shards] = shard_of(arguments.shard);
+  const Shard own = shard_of(arguments.shard);
+  const auto [shard, shards] = own;
+  std::optional<Kept_cases> kept_cases;
+  if (arguments.resume)
+    kept_cases.emplace(arguments.json + ".done", resumed_head("judge", asked_json(arguments, court, own)));
   const Stopwatch watch;
   Progress progress("judging");
   Json document{{"command", "judge"},
@@ -297,17 +333,36 @@ Exit run(const Judge_arguments& arguments) {
   Judged smallest_case;
   Common_guess common(arguments.case_options().question, arguments.two_sided);
   std::vector<std::vector<Judged>> judged(groups.size());
-  std::size_t done = 0;
+  std::size_t done = 0, done_before = 0;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const Case_group& group = groups[g];
+    const std::string of = arguments.resume ? identity(group) : "";
     for (std::uint64_t k = 0; k < cases; ++k) {
-      if ((g * cases + k) % shards != shard) continue;
-      const Judge_case asked = group.make(arguments.seed + k);
-      const Judged& c = judged[g].emplace_back(court.judge(asked, arguments.seed + k));
+      const std::size_t number = g * cases + k;
+      if (number % shards != shard) continue;
+      // 1. The case, as it was judged before, or now.
+      const std::uint64_t seed = arguments.seed + k;
+      const Kept_case* const before = kept_cases ? kept_cases->find(number, of) : nullptr;
+      std::optional<Judge_case> made;
+      if (before == nullptr || before->judged.breaks || before->said) made = group.make(seed);
+      Kept_case now;
+      if (before == nullptr) now.judged = court.judge(*made, seed);
+      else now = *before;
+      if (before == nullptr && arguments.resume && now.judged.not_asked.empty() &&
+          (now.judged.breaks || now.judged.mark == Mark::wrong || now.judged.answer.surface))
+        now.said = court.said();
+      if (before != nullptr && now.said && now.judged.mark != Mark::invalid && now.judged.mark != Mark::crashed)
+        now.judged.answer = court.read(*made, *now.said);
+      const Judged& c = judged[g].emplace_back(now.judged);
       progress(++done, groups.size() * cases / shards + 1);
+      done_before += before != nullptr;
+
+      // 2. What it says of the program.
       if (!c.not_asked.empty()) reasons[c.not_asked] = reasons.value(c.not_asked, std::size_t{0}) + 1;
       common.add(c.kinds);
-      if (c.mark == Mark::wrong) common.add(asked, c, arguments.court_options().truth);
+      if (c.mark == Mark::wrong)
+        now.readings = common.add(*made, c, arguments.court_options().truth, before ? &before->readings : nullptr);
+      if (before == nullptr && kept_cases) kept_cases->add(number, of, now);
       if (!c.breaks) continue;
       failures.push_back(
           {{"family", group.family},
@@ -321,6 +376,7 @@ Exit run(const Judge_arguments& arguments) {
            {"again", command_again(arguments, fmt::format("{} --cases 1 --seed {}", group.again, c.seed))}});
       if (!smallest.is_null() && smallest["faces"] <= c.faces) continue;
       smallest = failures.back();
+      if (before != nullptr && !arguments.keep.empty()) court.put_back(*made, now.said);
       smallest["files"] =
           arguments.keep.empty() ? std::vector<std::string>() : court.keep_files(arguments.keep, "smallest");
       smallest_of = &group;
@@ -366,6 +422,7 @@ Exit run(const Judge_arguments& arguments) {
   if (!arguments.quiet) {
     print_table(document);
     print_verdict(document);
+    if (arguments.resume) row("resumed", fmt::format("{} of {} cases were there", done_before, done));
   }
   return total["breaches"] == 0 ? Exit::done : Exit::disagreement;
 }
@@ -423,6 +480,8 @@ void add_judge(Command program) {
   command.add_option("--shard", a->shard,
                      "I/N: of all cases those whose number is I modulo N; by default what SLURM_ARRAY_TASK_ID and "
                      "SLURM_ARRAY_TASK_COUNT say");
+  command.add_flag("--resume", a->resume,
+                   "keep each case that is judged beside --json, and ask for none again that is there");
   command.add_option("--time", a->time, "seconds for a case").check(positive() & finite_number()).show_default();
   command.add_option("--memory", a->memory, "MB for a case")
       .check(whole_number())
@@ -446,7 +505,7 @@ void add_judge(Command program) {
       .check(range(0, 1024))
       .show_default();
   command.add_option("--json", a->json, "write everything as JSON to this file, - for standard output").writes_file();
-  command.add_option("--html", a->html, "write a page to look at").writes_file().check(ending(".html"));
+  command.add_option("--html", a->html, "write a page to look at").writes_file(".html");
   command
       .add_option("--keep", a->keep, "a folder for the smallest case that breaks the contract: scene, query and answer")
       .check(not_empty());

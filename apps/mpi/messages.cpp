@@ -31,13 +31,14 @@ class Mpi_messages final : public Messages {
       throw std::length_error("an answer of 2^31 bytes and more, which no message holds; divide by --shard instead");
     MPI_Send(bytes.data(), static_cast<int>(bytes.size()), MPI_BYTE, static_cast<int>(to), 0, MPI_COMM_WORLD);
   }
-  Message receive() override {
+  Message receive(const std::function<void()>& meanwhile) override {
     // MPI's own waiting takes a processor; units of work take much longer than these pauses.
     MPI_Status status;
     for (std::chrono::microseconds pause{20};; pause = std::min(2 * pause, std::chrono::microseconds{2000})) {
       int is_there = 0;
       MPI_Iprobe(MPI_ANY_SOURCE, 0, MPI_COMM_WORLD, &is_there, &status);
       if (is_there != 0) break;
+      meanwhile();
       std::this_thread::sleep_for(pause);
     }
     int size = 0;

@@ -3,6 +3,7 @@
 // which is loaded where there are several, so that a program that is started alone loads no MPI.
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -22,8 +23,8 @@ class Messages {
   /// Errors: std::length_error for 2^31 bytes and more. What MPI itself cannot do ends all processes, with its words.
   virtual void send(std::uint32_t to, std::string_view bytes) = 0;
   /// The next message of whoever it is; those of one sender come in their order. Waits without keeping a processor
-  /// busy.
-  virtual Message receive() = 0;
+  /// busy, and calls `meanwhile` some hundred times a second.
+  virtual Message receive(const std::function<void()>& meanwhile) = 0;
   /// Says that there are no more. Waits until all have said so.
   virtual void end() = 0;
 };

@@ -86,7 +86,8 @@ bool write_certificates(const Pvs_arguments& arguments, const Level_cells& level
         faces.resize(number(1));
         for (std::size_t i = 0; i < faces.size(); ++i) faces[i] = number(i + 2);
         write_file((folder / name_of(cell)).string(), std::string_view(answer).substr(4 * (faces.size() + 2)));
-      });
+      },
+      [&](std::size_t done, std::size_t all) { progress(done, all); });
   if (!ranks.is_first()) return true;
   Json index = Json::array(), rest = Json::array();
   for (Cell_id cell = 0; cell < table.cells.size(); ++cell) {

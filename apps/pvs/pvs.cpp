@@ -15,17 +15,6 @@
 
 namespace sightline::app {
 
-Level_cells cells_of(const Pvs_arguments& arguments, const Polygon_soup& soup, Space_tree tree) {
-  Progress progress("dividing");
-  Cell_options options;
-  options.candidates = arguments.candidates;
-  options.seed = arguments.common.seed;
-  options.threads = arguments.common.threads;
-  options.tree = std::move(tree);
-  options.progress = arguments.common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
-  return Level_cells(soup, options);
-}
-
 std::function<bool()> out_of_time(const Common& common, const Stopwatch& watch) {
   if (common.budget <= 0) return {};
   return [&common, &watch] { return watch.seconds() > common.budget; };
@@ -54,13 +43,18 @@ Exit run_into_level(const Pvs_arguments& arguments) {
     throw Usage_error("--out FILE.bsp is about leaves alone: leave out --shard, --resume, --show and --certificates");
   if (!arguments.svg.empty() || !arguments.html.empty() || !arguments.obj.empty() || !arguments.mesh.empty())
     throw Usage_error("--out FILE.bsp draws nothing: leave out --svg, --html, --obj and --mesh, or name another --out");
-  if (const Division_arguments& d = arguments.division; !d.grid.empty() || !d.volumes.empty() || d.coarse > 0)
-    throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --grid, --volumes and --coarse");
+  if (const Division_arguments& d = arguments.division;
+      !d.grid.empty() || !d.volumes.empty() || d.coarse > 0 || !arguments.cells.empty())
+    throw Usage_error("--out FILE.bsp is about the level's leaves: leave out --cells, --grid, --volumes and --coarse");
   const std::string bytes = compiled_level(common, "--out FILE.bsp");
   const Quake_level file = read_quake_level({common.scene, bytes});
   const Polygon_soup soup = common.read();
   const Stopwatch watch;
-  const Level_cells level = cells_of(arguments, soup, space_tree(file, common.scene));
+  Division division;
+  division.candidates = arguments.division.candidates;
+  division.seed = common.seed;
+  division.tree = space_tree(file, common.scene);
+  const Level_cells level = cells_of(common, soup, division);
   const double cells_seconds = watch.seconds();
   Progress progress("looking");
   Pvs_options options;
@@ -106,7 +100,7 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   if (!ranks.is_alone() && arguments.out.ends_with(".bsp"))
     throw Usage_error("--out FILE.bsp is asked of one process: call it without mpirun");
   if (arguments.out.ends_with(".bsp")) return run_into_level(arguments);
-  if (!ranks.is_alone() && common.scene == "-")
+  if (!ranks.is_alone() && (common.scene == "-" || arguments.cells == "-"))
     throw Usage_error("of several processes one alone has a standard input: name a file that all can read");
   const Shard own = shard_of(arguments.shard);
   if (arguments.resume && (arguments.out.empty() || arguments.out == "-"))
@@ -119,9 +113,13 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
   if (arguments.svg.empty() && !arguments.eye.empty())
     throw Usage_error("--eye is the eye of the picture: add --svg FILE, or leave it out");
   const Polygon_soup soup = common.read();
-  const Division division = arguments.division.division(common, soup);
+  std::optional<Cell_file> file;
+  if (!arguments.cells.empty()) file.emplace(arguments.cells, soup);
+  Division division = file ? file->division() : arguments.division.division(common, soup);
   const Stopwatch watch;
-  const Level_cells level = cells_of(arguments, soup, division.tree);
+  const Level_cells level = cells_of(common, soup, division);
+  if (file) division.known_regions = file->checked_regions(level);
+  file.reset();
   const double cells_seconds = watch.seconds();
 
   const std::vector<char> asked = asked_cells(level, arguments.outside);
@@ -130,7 +128,7 @@ Exit run_pvs(const Pvs_arguments& arguments, Ranks& ranks) {
       throw Usage_error(
           fmt::format("--show {}: no such cell, or one that is not asked about; `sightline cells` lists them", cell));
 
-  Table_maker maker(arguments, division.question, soup, level, watch);
+  Table_maker maker(arguments, division, soup, level, watch);
   const bool in_blocks = arguments.resume || !ranks.is_alone();
   const Visibility_table table = in_blocks ? maker.make_in_blocks(own, ranks) : maker.make(own);
   maker.clear();
@@ -225,23 +223,23 @@ void add_pvs(Command program) {
           "write the table: .json, .csv, or else binary; .bsp: a copy of SCENE, a compiled level, with what its "
           "leaves see in the place of its own table")
       .writes_file();
-  command.add_option("--candidates", a->candidates, "face planes tried for each node of the tree of cells")
-      .check(range(1, 1000))
-      .show_default();
   command.add_flag("--outside", a->outside, "ask about cells too from which there is a way out of the level");
   command.add_flag("--cells-too", a->cells_too,
                    "find the pairs of cells of which some point of the one sees some point of the other, too");
-  a->division.add_to(command);
+  const std::vector<Option> ways = a->division.add_to(command);
+  const Option cells = command
+                           .add_option("--cells", a->cells,
+                                       "the cells that `cells SCENE --out FILE` wrote, and that of them which they are "
+                                       "within: boxes, volumes or convex regions")
+                           .reads_file();
+  for (const Option& way : ways) cells.excludes(way);
   command.add_option("--show", a->show, "print what this cell sees; may be repeated");
   add_mesh_option(command, a->mesh, "faces visible, hidden, undecided from --show, and the cells,");
-  command.add_option("--obj", a->obj, "the same as OBJ").writes_file().check(ending(".obj"));
+  command.add_option("--obj", a->obj, "the same as OBJ").writes_file(".obj");
   command
       .add_option("--svg", a->svg, "draw the rooms and what --show sees of them, without what has its back to the eye")
-      .writes_file()
-      .check(ending(".svg"));
-  command.add_option("--html", a->html, "write a page to look at: click a cell, and what it sees")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".svg");
+  command.add_option("--html", a->html, "write a page to look at: click a cell, and what it sees").writes_file(".html");
   command.add_option("--eye", a->eye, "with --svg: X,Y,Z; by default a place outside the scene").check(not_empty());
   a->view.add_to(command);
   command
@@ -259,7 +257,8 @@ void add_pvs(Command program) {
       "         sightline merge part?.pvs --out level.pvs\n"
       "         mpirun -n 3 sightline pvs level.map --threads 1 --resume --out level.pvs\n"
       "         sightline pvs level.bsp --out better.bsp\n"
-      "Cells are those of `sightline cells` with the same --candidates, --seed, --leaves, --grid and --volumes. Exit "
+      "Cells are those of `sightline cells` with the same --candidates, --seed, --leaves, --grid and --volumes; with "
+      "--cells FILE, whatever --seed is. Exit "
       "code 4: pairs are undecided; in a .bsp their leaves see each other.");
   command.set_action([a] { return Ranks::together([&](Ranks& ranks) { return run_pvs(*a, ranks); }); });
 }

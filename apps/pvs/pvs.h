@@ -1,7 +1,7 @@
 #pragma once
 // What the sources of `sightline pvs` share: its command line, and the cells that it asks about.
 
-#include "../support/leaves.h"
+#include "../support/cell_file.h"
 #include "../support/picture.h"
 
 #include <sightline/algorithms/levels/cell_pvs.h>
@@ -19,15 +19,11 @@ constexpr std::uint32_t table_blocks = 64;  // parts that --resume saves what is
 struct Pvs_arguments {
   Common common;
   View_arguments view;
-  unsigned candidates = 5;
-  std::string out, shard, svg, html, eye, obj, mesh, certificates;
+  std::string out, cells, shard, svg, html, eye, obj, mesh, certificates;
   bool outside = false, resume = false, cells_too = false;
   Division_arguments division;
   std::vector<std::uint32_t> show;
 };
-
-/// The cells of a level. Errors: Out_of_budget: there is no table without them.
-Level_cells cells_of(const Pvs_arguments& arguments, const Polygon_soup& soup, Space_tree tree);
 
 /// Whether the budget is over, for what then leaves the rest undecided; empty: there is none.
 std::function<bool()> out_of_time(const Common& common, const Stopwatch& watch);

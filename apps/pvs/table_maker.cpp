@@ -12,12 +12,12 @@ namespace sightline::app {
 
 namespace fs = std::filesystem;
 
-Table_maker::Table_maker(const Pvs_arguments& arguments, const std::string& division, const Polygon_soup& soup,
+Table_maker::Table_maker(const Pvs_arguments& arguments, const Division& division, const Polygon_soup& soup,
                          const Level_cells& level, const Stopwatch& watch)
     : arguments_(arguments), level_(level), watch_(watch), faces_(soup.face_count()), search_(level, options()) {
-  question_ = fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), arguments.candidates,
-                          arguments.common.seed, arguments.outside ? ", outside" : "", division,
-                          arguments.cells_too ? ", cells too" : "");
+  question_ =
+      fmt::format("scene {:016x}, candidates {}, seed {}{}{}{}", fingerprint(soup), division.candidates, division.seed,
+                  arguments.outside ? ", outside" : "", division.question, arguments.cells_too ? ", cells too" : "");
   if (arguments.cells_too) cell_search_.emplace(level, options());
 }
 
@@ -52,7 +52,8 @@ Visibility_table Table_maker::make_in_blocks(const Shard& own, Ranks& ranks) {
             parts[b].rows.begin(), parts[b].rows.end(),
             [](const Visibility_table::Row& row) { return row.undecided.empty() && row.cells_undecided.empty(); });
         if (keep && whole) write_bytes(names[b], table_bytes(parts[b]));  // what time left open is asked again
-      });
+      },
+      [this](std::size_t done, std::size_t all) { progress_(done, all); });
   return ranks.is_first() ? joined(parts, names) : Visibility_table{};
 }
 

@@ -18,7 +18,7 @@ namespace sightline::app {
 class Table_maker {
  public:
   /// Pre: `watch` runs since the question was asked, and outlives the maker, as the other things do.
-  Table_maker(const Pvs_arguments& arguments, const std::string& division, const Polygon_soup& soup,
+  Table_maker(const Pvs_arguments& arguments, const Division& division, const Polygon_soup& soup,
               const Level_cells& level, const Stopwatch& watch);
 
   /// Of all faces, and lower cells of pairs, whose id is shard modulo shards.

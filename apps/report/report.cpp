@@ -3,6 +3,7 @@
 #include "examples.h"
 
 #include "../judge/cases.h"
+#include "../support/journal.h"
 #include "../support/shard.h"
 
 #include <sightline/harness/generate/families.h>
@@ -15,6 +16,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <set>
 
 namespace sightline::app {
 
@@ -255,56 +257,72 @@ Answered answered(const Unit& unit, const Report_arguments& a, const Report_effo
 
 // ---- What is done already
 
-/// A file beside --json that holds what is done, a unit a line, until the report is written whole.
-class Journal {
+/// What is done, in a file beside --json, a unit a line, until the report is written whole.
+class Kept_units {
  public:
-  Journal(const Report_arguments& a, const Json& asked, std::uint32_t shard, std::uint32_t shards, std::size_t units)
-      : path_(a.json + ".units"), head_{{"asked", asked}, {"shard", {shard, shards}}, {"units", units}} {}
+  Kept_units(const Report_arguments& a, const Json& asked, const Shard& own,
+             const std::vector<Report_program>& programs)
+      : journal_(a.json + ".units", resumed_head("report", asked_by_option(a, asked, own, programs))) {}
 
-  /// The rows of units that were asked before, with the same options.
-  std::map<std::size_t, Answered> kept() const {
+  /// What was answered of these units before, where their scenes' files are what they were; and goes on behind it.
+  std::map<std::size_t, Answered> begin(const std::vector<Unit>& units) {
+    for (const Unit& unit : units) identities_.push_back(identity_of(unit));
     std::map<std::size_t, Answered> all;
-    if (!fs::exists(path_)) return all;
-    std::istringstream lines(read_bytes(path_));
-    std::string line;
-    if (!std::getline(lines, line) || nlohmann::json::parse(line, nullptr, false) != nlohmann::json(head_)) return all;
-    while (std::getline(lines, line)) {
-      const nlohmann::json value = nlohmann::json::parse(line, nullptr, false);
-      if (value.is_discarded()) break;  // it was being written when the program ended
-      Answered answers;
-      try {
-        for (const nlohmann::json& row : value.at("rows")) answers.rows.push_back(report::row_from_json(row));
-        answers.not_asked = value.at("not_asked");
-        all[value.at("unit").get<std::size_t>()] = std::move(answers);
+    for (const nlohmann::json& line : journal_.lines()) try {
+        const auto number = line.at("unit").get<std::size_t>();
+        if (number >= units.size()) continue;
+        if (line.at("of") != identities_[number]) {
+          changed_.insert(number);
+          continue;
+        }
+        Answered answers;
+        for (const nlohmann::json& row : line.at("rows")) answers.rows.push_back(report::row_from_json(row));
+        answers.not_asked = line.at("not_asked");
+        all[number] = std::move(answers);
       } catch (const std::exception&) {
-        break;
+        continue;  // no line of ours: its unit is asked again
       }
-    }
+    for (const auto& [number, answers] : all) changed_.erase(number);
+    journal_.begin();
     return all;
-  }
-
-  /// Begins anew, with what is kept.
-  void begin(const std::map<std::size_t, Answered>& kept) {
-    out_.open(path_, std::ios::binary | std::ios::trunc);
-    out_ << to_text(head_) << '\n';
-    for (const auto& [unit, answers] : kept) add(unit, answers);
-    if (!out_) throw std::runtime_error(path_ + ": cannot be written; name another --json, or leave out --resume");
   }
   void add(std::size_t unit, const Answered& answers) {
     Json rows = Json::array();
     for (const report::Row& row : answers.rows) rows.push_back(report::to_json(row));
-    out_ << to_text({{"unit", unit}, {"rows", std::move(rows)}, {"not_asked", answers.not_asked}}) << std::endl;
+    journal_.add(
+        {{"unit", unit}, {"of", identities_[unit]}, {"rows", std::move(rows)}, {"not_asked", answers.not_asked}});
   }
-  void remove() {
-    out_.close();
-    std::error_code ignored;
-    fs::remove(path_, ignored);
-  }
+  void remove() { journal_.remove(); }
+  std::size_t changed() const { return changed_.size(); }  ///< units that were answered of another scene
 
  private:
-  std::string path_;
-  Json head_;
-  std::ofstream out_;
+  static Json asked_by_option(const Report_arguments& a, const Json& asked, const Shard& own,
+                              const std::vector<Report_program>& programs) {
+    Json named = Json::object();
+    for (const auto& [option, value] : asked.items()) named[option == "scenes" ? "SCENES" : "--" + option] = value;
+    if (!a.ask.empty()) named["--ask"] = a.ask + ' ' + content_hash(a.ask);
+    Json files = Json::object();
+    for (const Report_program& program : programs) files.update(hashes_of_words(split_words(program.command)));
+    named["--program's files"] = std::move(files);
+    named["--shard"] = fmt::format("{}/{}", own.shard, own.shards);
+    return named;
+  }
+  /// A file is read once, whatever is asked of it.
+  std::string identity_of(const Unit& unit) {
+    if (unit.group.file.empty()) return fmt::format("{} {}", unit.question->name, identity(unit.group));
+    const auto [found, is_new] = hashes_.try_emplace(unit.group.file);
+    if (is_new) try {
+        found->second = identity(unit.group);
+      } catch (const Input_error& error) {
+        found->second = error.what();  // as it is said where it is asked about
+      }
+    return fmt::format("{} {}", unit.question->name, found->second);
+  }
+
+  Journal journal_;
+  std::vector<std::string> identities_;
+  std::map<std::string, std::string> hashes_;  // by file
+  std::set<std::size_t> changed_;
 };
 
 // ---- Output
@@ -405,7 +423,8 @@ Exit run(const Report_arguments& given) {
   const Report_arguments a = completed(given);
   const Report_limits limits{a.limit, a.memory << 20};
   const Report_effort effort = report_effort(a.quick);
-  const auto [shard, shards] = shard_of(a.shard);
+  const Shard own = shard_of(a.shard);
+  const auto [shard, shards] = own;
   std::vector<Report_program> programs;
   for (const std::string& program : a.programs) {
     programs.push_back(report_program(program, limits));
@@ -416,12 +435,9 @@ Exit run(const Report_arguments& given) {
   // 1. Every unit of this shard that is not done.
   const Stopwatch watch;
   const std::vector<Unit> units = units_of(a);
-  Journal journal(a, asked_json(a), shard, shards, units.size());
+  std::optional<Kept_units> kept_units;
   std::map<std::size_t, Answered> done;
-  if (a.resume) {
-    done = journal.kept();
-    journal.begin(done);
-  }
+  if (a.resume) done = kept_units.emplace(a, asked_json(a), own, programs).begin(units);
   const std::size_t kept = done.size();
   report::Report report;
   {
@@ -436,7 +452,7 @@ Exit run(const Report_arguments& given) {
       }
       is_first = false;
       const Answered& answers = done[unit.number] = answered(unit, a, effort, limits, programs);
-      if (a.resume) journal.add(unit.number, answers);
+      if (kept_units) kept_units->add(unit.number, answers);
     }
   }
   report.asked = asked_json(a);
@@ -474,8 +490,14 @@ Exit run(const Report_arguments& given) {
   }
   report.seconds = watch.seconds();
   write(a, report);
-  if (a.resume) journal.remove();
-  if (a.resume && !a.quiet) row("resumed", fmt::format("{} of {} units were there", kept, done.size()));
+  if (kept_units) kept_units->remove();
+  if (kept_units && !a.quiet)
+    row("resumed",
+        fmt::format("{} of {} units were there{}", kept, done.size(),
+                    kept_units->changed() == 0
+                        ? ""
+                        : fmt::format("; {} more were of files that have changed since, and were asked again",
+                                      kept_units->changed())));
   if (!a.quiet) row("seconds", fmt::format("{:.1f}", report.seconds));
   return broken ? Exit::disagreement : Exit::done;
 }
@@ -499,9 +521,9 @@ void add_report(Command program) {
       .add_option("--ask", a->ask,
                   "of scenes: a file with the query to ask, as --keep writes it, and one question in --questions")
       .reads_file();
-  command.add_option("--html", a->html, "write the page to look at").writes_file().check(ending(".html"));
+  command.add_option("--html", a->html, "write the page to look at").writes_file(".html");
   command.add_option("--json", a->json, "write all rows as JSON to this file, - for standard output").writes_file();
-  command.add_option("--svg", a->svg, "write a picture: seconds against errors").writes_file().check(ending(".svg"));
+  command.add_option("--svg", a->svg, "write a picture: seconds against errors").writes_file(".svg");
   command.add_option("--questions", a->questions, "which, with commas; by default all")
       .delimiter(',')
       .check(one_of(questions));

@@ -10,18 +10,59 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
 
 namespace sightline::app {
 
+/// By name; text and binary PLY say themselves which they are.
+static constexpr std::array<std::pair<const char*, Format>, 9> format_names{{{"obj", Format::obj},
+                                                                             {"off", Format::off},
+                                                                             {"qoff", Format::qoff},
+                                                                             {"ply", Format::ply},
+                                                                             {"stl", Format::stl},
+                                                                             {"map", Format::map},
+                                                                             {"bsp", Format::bsp},
+                                                                             {"glb", Format::glb},
+                                                                             {"gltf", Format::gltf}}};
+
+void Scene_format::add_to(Command of) {
+  command = of;
+  std::vector<std::string> names;
+  for (const auto& [one, format] : format_names) names.emplace_back(one);
+  of.add_option("--format", name, "of standard input, where its content does not show it, as of qoff and gltf")
+      .check(one_of(names));
+}
+
+Polygon_soup Scene_format::read(const std::string& file, const Read_options& options) const {
+  if (!name.empty() && !command->reads_standard_input())
+    throw Usage_error("--format is of standard input, and the endings of files say theirs: leave it out");
+  if (file != "-") return read_scene(file, options);
+  const std::string bytes = read_input(file), called = input_path(file).string();
+  std::optional<Format> format = detail::format_of_content({called, bytes});
+  for (const auto& [one, known] : format_names)
+    if (name == one) format = known;
+  if (!format) throw std::runtime_error(called + ": its content shows no format; say which with --format");
+  try {
+    return read_scene(bytes, *format, called, options);
+  } catch (const Input_error& error) {
+    const auto as =
+        std::find_if(format_names.begin(), format_names.end(), [&](const auto& one) { return one.second == *format; });
+    throw std::runtime_error(
+        fmt::format("{} (read as {}; --format says {})", error.what(), as->first, name.empty() ? "otherwise" : "so"));
+  }
+}
+
 void Common::add_to(Command of) {
   command = of;
-  of.add_option(
-        "SCENE", scene,
-        "a scene: .obj .off .ply .stl .gltf .glb .qoff .map .bsp; - for standard input, whose content shows the format")
+  of.add_option("SCENE", scene,
+                "a scene: .obj .off .ply .stl .gltf .glb .qoff .map .bsp; - for standard input, whose content or "
+                "--format shows "
+                "what it is")
       .required()
       .reads_file();
+  format.add_to(of);
   of.add_option("--json", json, "write everything as JSON to this file, - for standard output").writes_file();
   of.add_option("--coordinates", coordinates,
                 "what decimals mean: exact (0.1 is 1/10) or double (rounded first, as in other programs)")
@@ -51,7 +92,7 @@ std::function<void(std::size_t, std::size_t)> Common::within_budget(
 Polygon_soup Common::read() const {
   Read_options options;
   options.round_to_double = coordinates == "double";
-  Polygon_soup soup = read_scene(input_path(scene), options);
+  Polygon_soup soup = format.read(scene, options);
   return flip ? generate::faces_reversed(soup) : soup;
 }
 

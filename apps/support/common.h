@@ -4,6 +4,7 @@
 #include "command.h"
 #include "files.h"
 
+#include <sightline/io/format.h>
 #include <sightline/kernel/counters.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/sign.h>
@@ -18,9 +19,21 @@ namespace sightline::app {
 
 using Json = nlohmann::ordered_json;
 
+/// A scene of a file, or of standard input, and what that is: option --format.
+struct Scene_format {
+  std::string name;  ///< empty: the content shows it
+  std::optional<Command> command;
+
+  void add_to(Command of);
+  /// Errors: Input_error; std::runtime_error of standard input, which says what to do; Usage_error where it is said of
+  /// no standard input.
+  Polygon_soup read(const std::string& file, const Read_options& options = {}) const;
+};
+
 /// The options that every command on a scene has.
 struct Common {
   std::string scene;
+  Scene_format format;
   std::string json;  ///< a file, "-" for standard output, or empty
   std::string coordinates = "exact";
   bool flip = false;  ///< each loop of the scene backwards

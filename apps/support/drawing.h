@@ -16,6 +16,9 @@ namespace drawing_colours {
 using Colour = std::array<std::uint8_t, 3>;
 inline constexpr Colour seen{241, 175, 75}, hidden{141, 150, 165}, open{190, 71, 209}, source{223, 32, 64},
     other{90, 160, 215};
+/// Of things that are to be told apart, to be used in turn; told apart by the colour-blind too (Okabe and Ito).
+inline constexpr std::array<Colour, 7> in_turn{
+    {{230, 159, 0}, {86, 180, 233}, {0, 158, 115}, {240, 228, 66}, {0, 114, 178}, {213, 94, 0}, {204, 121, 167}}};
 }  // namespace drawing_colours
 
 /// Adds --mesh FILE; `what` says what of the command's is in it.

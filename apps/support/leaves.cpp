@@ -13,25 +13,35 @@
 
 namespace sightline::app {
 
-void Division_arguments::add_to(Command command) {
-  command.add_flag("--leaves", leaves, "of a compiled level (.bsp): cells within its own leaves, by number");
-  command
-      .add_option(
-          "--grid", grid,
-          "NX,NY,NZ: cells within even boxes, so many along each axis of the box about the scene; box (x, y, z) "
-          "is number x + NX (y + NY z), and those at the rim go on without end")
-      .check(not_empty());
-  command
-      .add_option("--volumes", volumes,
-                  "cells within volumes, rooms say: a file of convex closed polyhedra that do not overlap, each a "
-                  "connected component, with points of its own; by first faces they are volume 0, 1, ...")
-      .reads_file()
-      .check(not_empty());
-  command
-      .add_option("--coarse", coarse,
-                  "put cells that are not solid together while they are convex together and no face is inside, until "
-                  "so many regions are left, or no two can be put together")
-      .check(range(1, 1000000000));
+std::vector<Option> Division_arguments::add_to(Command command) {
+  const Option by_candidates =
+      command.add_option("--candidates", candidates, "face planes tried for each node of the tree of cells")
+          .check(range(1, 1000))
+          .show_default();
+  const Option by_leaves =
+      command.add_flag("--leaves", leaves, "of a compiled level (.bsp): cells within its own leaves, by number");
+  const Option by_boxes =
+      command
+          .add_option(
+              "--grid", grid,
+              "NX,NY,NZ: cells within even boxes, so many along each axis of the box about the scene; box (x, y, z) "
+              "is number x + NX (y + NY z), and those at the rim go on without end")
+          .check(not_empty());
+  const Option by_volumes =
+      command
+          .add_option("--volumes", volumes,
+                      "cells within volumes, rooms say: a file of convex closed polyhedra that do not overlap, each a "
+                      "connected component, with points of its own; by first faces they are volume 0, 1, ...")
+          .reads_file()
+          .check(not_empty());
+  const Option by_regions =
+      command
+          .add_option(
+              "--coarse", coarse,
+              "put cells that are not solid together while they are convex together and no face is inside, until "
+              "so many regions are left, or no two can be put together")
+          .check(range(1, 1000000000));
+  return {by_candidates, by_leaves, by_boxes, by_volumes, by_regions};
 }
 
 std::array<std::uint32_t, 3> Division_arguments::counts() const {
@@ -56,6 +66,8 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
   if (static_cast<int>(leaves) + !grid.empty() + !volumes.empty() + (coarse > 0) > 1)
     throw Usage_error("--leaves, --grid, --volumes and --coarse each say what is asked about: leave out all but one");
   Division division;
+  division.candidates = candidates;
+  division.seed = common.seed;
   if (leaves) {
     const std::string bytes = compiled_level(common, "--leaves");
     division.kind = Division::Kind::leaves;
@@ -95,11 +107,22 @@ Division Division_arguments::division(const Common& common, const Polygon_soup& 
 }
 
 std::vector<std::uint32_t> Division::groups(const Level_cells& level) const {
-  if (kind == Kind::regions) return convex_regions(level, regions);
+  if (kind == Kind::regions) return known_regions.empty() ? convex_regions(level, regions) : known_regions;
   std::vector<std::uint32_t> groups;
   for (const Level_cell& cell : level.cells())
     groups.push_back(kind == Kind::boxes || (kind == Kind::volumes && cell.leaf < volumes) ? cell.leaf : no_cell);
   return groups;
+}
+
+Level_cells cells_of(const Common& common, const Polygon_soup& soup, const Division& division) {
+  Progress progress("dividing");
+  Cell_options options;
+  options.candidates = division.candidates;
+  options.seed = division.seed;
+  options.threads = common.threads;
+  options.tree = division.tree;
+  options.progress = common.within_budget([&](std::size_t done, std::size_t all) { progress(done, all); });
+  return Level_cells(soup, options);
 }
 
 std::string compiled_level(const Common& common, const std::string& wanted) {

@@ -24,25 +24,33 @@ struct Division {
   std::array<std::uint32_t, 3> counts{};  ///< of boxes
   std::uint32_t volumes = 0;
   std::size_t regions = 0;  ///< at most
+  unsigned candidates = 5;  ///< of the tree of faces, with its seed
+  std::uint64_t seed = 1;
+  std::vector<std::uint32_t> known_regions;  ///< by cell, where they are known already
 
   /// By cell the box, volume or region that it is in; no_cell: none.
   std::vector<std::uint32_t> groups(const Level_cells& level) const;
 };
 
-/// Options --leaves, --grid, --volumes and --coarse, of which there may be one.
+/// How cells are made: option --candidates, and --leaves, --grid, --volumes and --coarse, of which there may be one.
 struct Division_arguments {
+  unsigned candidates = 5;
   bool leaves = false;
   std::string grid;     // "NX,NY,NZ", or empty
   std::string volumes;  // a file, or empty
   std::size_t coarse = 0;
 
-  void add_to(Command command);
+  /// Returns the options.
+  std::vector<Option> add_to(Command command);
   /// What they ask for. Errors: Usage_error, and Input_error for files.
   Division division(const Common& common, const Polygon_soup& soup) const;
 
  private:
   std::array<std::uint32_t, 3> counts() const;
 };
+
+/// The cells of a level, with a bar. Errors: Out_of_budget: there is no answer without them.
+Level_cells cells_of(const Common& common, const Polygon_soup& soup, const Division& division);
 
 /// The bytes of SCENE where it is a compiled level. Errors: Usage_error that begins with `wanted` where it is none.
 std::string compiled_level(const Common& common, const std::string& wanted);

@@ -5,6 +5,7 @@
 #include "files.h"
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,7 +55,8 @@ Check not_empty() {
   return made(
       {[](std::string& text) { return text.empty() ? "is empty; leave the option out, or give it a value" : ""; }, ""});
 }
-Check ending(const std::string& wanted) {
+/// Of a file to write: its name has this ending, or none.
+static Check ending(const std::string& wanted) {
   return made({[wanted](std::string& text) {
                  const std::string found = std::filesystem::path(text).extension().string();
                  return found.empty() || CLI::detail::to_lower(found) == wanted
@@ -90,6 +92,7 @@ static constexpr const char *input_file = "FILE", *output_file = "OUTPUT";
 
 Option Option::reads_file() const { return Option(*option_->type_name(input_file)).check(not_empty()); }
 Option Option::writes_file() const { return Option(*option_->type_name(output_file)).check(not_empty()); }
+Option Option::writes_file(const std::string& wanted) const { return writes_file().check(ending(wanted)); }
 Option Option::check(const Check& check) const { return Option(*option_->check(*check.validator)); }
 Option Option::show_default() const { return Option(*option_->capture_default_str()); }
 Option Option::delimiter(char between) const { return Option(*option_->delimiter(between)); }
@@ -168,10 +171,12 @@ static std::vector<Named_file> files_of(const CLI::App& app, std::string_view ki
       for (const std::string& name : option->results()) files.push_back({option->get_name(), name});
   return files;
 }
-bool Command::writes_standard_output() const {
-  const std::vector<Named_file> outputs = files_of(*app_, output_file);
-  return std::any_of(outputs.begin(), outputs.end(), [](const Named_file& output) { return output.name == "-"; });
+/// Whether one of them is standard input or output.
+static bool have_standard(const std::vector<Named_file>& files) {
+  return std::any_of(files.begin(), files.end(), [](const Named_file& file) { return file.name == "-"; });
 }
+bool Command::writes_standard_output() const { return have_standard(files_of(*app_, output_file)); }
+bool Command::reads_standard_input() const { return have_standard(files_of(*app_, input_file)); }
 
 void Command::check_outputs(const std::vector<Named_file>& more) const {
   check_files(files_of(*app_, input_file), files_of(*app_, output_file), more);

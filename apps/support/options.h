@@ -54,8 +54,6 @@ Check positive();
 Check not_negative();
 Check folder();  ///< one that is there
 Check not_empty();
-/// Of a file to write: its name has this ending, or none.
-Check ending(const std::string& wanted);
 /// What CLI11's own conversions leave out: they wrap -1 to 2^64 - 1, and let nan through every range.
 Check whole_number();
 Check finite_number();
@@ -72,6 +70,7 @@ class Option {
   /// held to the other files of the command line before the command's action (check_files).
   Option reads_file() const;
   Option writes_file() const;
+  Option writes_file(const std::string& wanted) const;  ///< with this ending, or none
   Option check(const Check& check) const;
   Option show_default() const;  ///< in the help: what its variable holds now
   Option delimiter(char between) const;
@@ -127,6 +126,7 @@ class Command {
   Command_words words() const;
   std::vector<Command_words> commands() const;  ///< of a program, in the order in which they were added
   bool writes_standard_output() const;          ///< once the command line is read: an output is "-"
+  bool reads_standard_input() const;            ///< the same of what is read
   /// Holds outputs that no option names to the files of the command line and to each other, as check_files does. Once
   /// the command line is read. Errors: Usage_error.
   void check_outputs(const std::vector<Named_file>& more) const;

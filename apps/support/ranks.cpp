@@ -99,24 +99,25 @@ Exit Ranks::follow(const std::function<Exit(Ranks&)>& action) {
   } catch (const std::exception& error) {
     tell(other_error, error);
   }
-  messages_->receive();  // that there is no more; after an error it never comes
+  messages_->receive([] {});  // that there is no more; after an error it never comes
   messages_->end();
   return Exit::done;
 }
 
 void Ranks::share(const std::string& question, const std::vector<std::uint32_t>& units, const Work& work,
-                  const Take& take) {
-  if (!is_alone()) return is_first() ? hand_out(question, units, take) : help(question, work);
+                  const Take& take, const Tell& tell) {
+  if (!is_alone()) return is_first() ? hand_out(question, units, take, tell) : help(question, work);
   for (const std::uint32_t one : units) take(one, work(one));
 }
 
-void Ranks::hand_out(const std::string& question, const std::vector<std::uint32_t>& units, const Take& take) {
+void Ranks::hand_out(const std::string& question, const std::vector<std::uint32_t>& units, const Take& take,
+                     const Tell& tell) {
   std::vector<std::uint32_t> unit_of(messages_->size());  // by process: what it works at
   std::vector<std::uint32_t> idle;
   std::size_t next = 0, taken = 0;
   // 1. Whoever is free gets the next unit, before its answer to the last one is looked at.
   while (taken < units.size() || idle.size() + 1 < messages_->size()) {
-    const Message message = messages_->receive();
+    const Message message = messages_->receive([&] { tell(taken, units.size()); });
     const std::string_view rest = std::string_view(message.bytes).substr(1);
     const Kind kind = static_cast<Kind>(message.bytes[0]);
     if (kind == ready && rest != question)
@@ -145,7 +146,7 @@ void Ranks::hand_out(const std::string& question, const std::vector<std::uint32_
 void Ranks::help(const std::string& question, const Work& work) {
   messages_->send(0, message_of(ready, question));
   for (;;) {
-    const Message message = messages_->receive();
+    const Message message = messages_->receive([] {});
     if (message.bytes[0] == no_more) return;
     messages_->send(0, message_of(answer, work(load<std::uint32_t>(message.bytes, 1, std::endian::little))));
   }

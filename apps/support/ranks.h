@@ -8,6 +8,7 @@
 #include <sightline/kernel/counters.h>
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -30,16 +31,20 @@ class Ranks {
   bool is_first() const { return is_alone() || messages_->rank() == 0; }
 
   using Work = std::function<std::string(std::uint32_t unit)>;
+  using Tell = std::function<void(std::size_t done, std::size_t all)>;
   using Take = std::function<void(std::uint32_t unit, const std::string& answer)>;
   /// Calls take(unit, work(unit)) once for each unit: `work` where somebody is free, in any order; `take` in the first,
-  /// whose list of units counts. Alone, in the order of the list. `question`: what all must have been asked alike.
+  /// whose list of units counts. Alone, in the order of the list. Where others work, the first calls `tell` with how
+  /// many units are done, of how many, while it waits. `question`: what all must have been asked alike.
   /// Errors: std::runtime_error in the first where a process was asked something else; what an action throws. Pre: all
   /// come here as often.
-  void share(const std::string& question, const std::vector<std::uint32_t>& units, const Work& work, const Take& take);
+  void share(const std::string& question, const std::vector<std::uint32_t>& units, const Work& work, const Take& take,
+             const Tell& tell);
 
  private:
   explicit Ranks(Messages* messages) : messages_(messages) {}
-  void hand_out(const std::string& question, const std::vector<std::uint32_t>& units, const Take& take);
+  void hand_out(const std::string& question, const std::vector<std::uint32_t>& units, const Take& take,
+                const Tell& tell);
   void help(const std::string& question, const Work& work);
   Exit lead(const std::function<Exit(Ranks&)>& action);
   Exit follow(const std::function<Exit(Ranks&)>& action);

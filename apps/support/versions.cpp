@@ -9,6 +9,8 @@
 
 namespace sightline::app {
 
+std::string program_version() { return SIGHTLINE_VERSION; }
+
 std::string library_versions() {
   constexpr int cgal = CGAL_VERSION_NR, boost = BOOST_VERSION;  // 1MMmmbiiii; MMmmmbb
   return fmt::format("(CGAL {}.{}.{}, GMP {}, MPFR {}, oneTBB {}, Boost {}.{}.{})", cgal / 10000000 - 100,

@@ -1,9 +1,11 @@
 #pragma once
-// What the program stands on.
+// Which program this is, and what it stands on.
 
 #include <string>
 
 namespace sightline::app {
+
+std::string program_version();
 
 /// "(CGAL 5.5.1, GMP 6.2.1, ...)": of headers as they were compiled, of libraries as they are found when it runs.
 std::string library_versions();

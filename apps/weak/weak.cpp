@@ -216,16 +216,14 @@ void add_weak(Command program) {
       .add_option(
           "--svg", a->svg,
           "draw the faces from an eye: visible ones orange, hidden ones grey; what has its back to the eye is left out")
-      .writes_file()
-      .check(ending(".svg"));
+      .writes_file(".svg");
   command
       .add_option("--html", a->html,
                   "write a page to look at: what is visible, hidden, undecided; of a face its sightline, or its proof "
                   "as a tree to walk")
-      .writes_file()
-      .check(ending(".html"));
+      .writes_file(".html");
   add_mesh_option(command, a->mesh, "faces visible, hidden, undecided, and the sources,");
-  command.add_option("--obj", a->obj, "the same as OBJ").writes_file().check(ending(".obj"));
+  command.add_option("--obj", a->obj, "the same as OBJ").writes_file(".obj");
   command
       .add_option(
           "--eye", a->eye,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <random>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,11 @@ class Random {
   void shuffle(std::vector<T>& items) {
     for (std::size_t i = items.size(); i > 1; --i) std::swap(items[i - 1], items[below(i)]);
   }
+
+  /// Where the sequence of numbers is, as text; and from there on.
+  std::string state() const;
+  /// Errors: std::invalid_argument where the text is none of state().
+  void set_state(const std::string& text);
 
  private:
   std::mt19937_64 engine_;

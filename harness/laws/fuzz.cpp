@@ -101,10 +101,12 @@ std::optional<Finding> fuzz(const Subject& subject, const Fuzz_options& options,
   for (const generate::Family& f : generate::families())
     if (options.family.empty() || f.name == options.family) families.push_back(&f);
   if (families.empty()) generate::family(options.family);  // says which there are
-  Random random(options.seed);
+  Fuzz_place place = options.from.value_or(Fuzz_place{Random(options.seed)});
+  auto& [random, drawn] = place;
   std::size_t unfit = 0;  // in a row
-  std::size_t drawn = 0;  // of all shards
-  while ((options.scenes == 0 || drawn < options.scenes) && !(options.out_of_time && options.out_of_time())) {
+  for (;;) {
+    if (options.at) options.at(place);
+    if ((options.scenes != 0 && drawn >= options.scenes) || (options.out_of_time && options.out_of_time())) break;
     const generate::Family& family = *families[random.below(families.size())];
     const Fuzz_case which = draw_case(family, random);
     if (options.begin) options.begin(which);

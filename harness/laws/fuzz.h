@@ -81,6 +81,12 @@ Reduced reduce(const Subject& subject, const Posed_scene& scene, std::uint64_t s
 
 // ---- Many
 
+/// Where a sequence of cases is.
+struct Fuzz_place {
+  Random random;
+  std::size_t drawn = 0;  ///< of all shards
+};
+
 struct Fuzz_options {
   std::uint64_t seed = 1;
   std::size_t scenes = 0;  ///< 0: no limit; of all shards together
@@ -90,6 +96,8 @@ struct Fuzz_options {
   std::size_t most_faces = 40;                  ///< scenes of more faces are passed over
   std::function<bool()> out_of_time;            ///< asked before each scene
   std::function<void(const Fuzz_case&)> begin;  ///< told before each scene
+  std::optional<Fuzz_place> from;               ///< where the sequence goes on; it then takes the summary on, too
+  std::function<void(const Fuzz_place&)> at;    ///< told before each scene is drawn, and at the end of time
 };
 
 struct Fuzz_summary {

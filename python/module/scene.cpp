@@ -171,7 +171,10 @@ Model read(const std::string& file, bool round, bool flip, const Question& quest
 
 void write(const Model& model, const std::string& file) {
   try {
-    write_scene(model.soup(), file);
+    answer_to(plain_question(), [model, file](const Asking& asking) {
+      write_scene(model.soup(), file, asking.progress);
+      return true;
+    });
   } catch (const Not_representable& error) {
     throw py::value_error(error.what());
   } catch (const std::runtime_error& error) {

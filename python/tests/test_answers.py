@@ -391,6 +391,37 @@ def test_interrupts_end_a_question_at_once(name):
     assert time.perf_counter() - sent[0] < 5
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="signals")
+def test_interrupts_end_writing_and_leave_the_old_file(tmp_path):
+    n = 250
+    x, y = np.meshgrid(np.arange(n) / 7, np.arange(n) / 7)  # exact decimals of some fifty digits
+    i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()
+    F = np.concatenate([np.stack([i, i + 1, i + n], 1), np.stack([i + 1, i + n + 1, i + n], 1)])
+    V = np.stack([x, y, x * y], -1).reshape(-1, 3)
+    scene, other = sightline.Scene(V, F), sightline.Scene(V, F[::-1])
+    file = tmp_path / "a.off"
+    start = time.perf_counter()
+    scene.write(file)
+    whole, old = time.perf_counter() - start, file.read_bytes()
+    assert old.startswith(f"OFF\n{len(V)} {len(F)} 0\n".encode()) and old.count(b"\n") == 2 + len(V) + len(F)
+    sent = []
+
+    def interrupt():
+        sent.append(time.perf_counter())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    threading.Timer(0.2 * whole, interrupt).start()
+    with pytest.raises(KeyboardInterrupt):
+        other.write(file)
+    assert time.perf_counter() - sent[0] < max(0.3, 0.3 * whole)
+    time.sleep(whole)  # nothing goes on to write it either
+    assert file.read_bytes() == old and [f.name for f in tmp_path.iterdir()] == ["a.off"]
+    with pytest.raises(OSError, match="none"):
+        scene.write(tmp_path / "none" / "a.off")
+    with pytest.raises(ValueError, match="STL"):
+        sightline.Scene([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], [[0, 1, 2, 3]]).write(tmp_path / "a.stl")
+
+
 def test_pictures():
     pytest.importorskip("matplotlib")
     scene = lamp_and_lid()

@@ -15,7 +15,7 @@ program_alone = "of the program alone"
 #: What means the same for every command.
 everywhere = {
     "help": "help()", "quiet": "nothing is printed", "json": "answers are objects", "certificate": "certificate()",
-    "coordinates": read, "flip": read, "svg": picture, "html": picture, "mesh": picture, "obj": picture,
+    "coordinates": read, "flip": read, "format": read, "svg": picture, "html": picture, "mesh": picture, "obj": picture,
     "look": picture, "up": picture, "field": picture, "shade": picture, "size": picture, "background": picture,
     "seed": "answers do not depend on it",
 }  # fmt: skip
@@ -81,6 +81,7 @@ commands = {
         Scene.pvs,
         {
             "cells-too": "Cells.pairs()",
+            "cells": "Cells.pvs()",
             "coarse": "Cells.coarse()",
             "show": "visible[cell]",
             "eye": picture,

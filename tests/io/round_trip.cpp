@@ -2,6 +2,7 @@
 
 #include "soup_text.h"
 
+#include <sightline/io/file.h>
 #include <sightline/io/write.h>
 #include <sightline/io/exact_text.h>
 
@@ -205,6 +206,33 @@ TEST(Write_scene, to_a_file_goes_by_its_ending) {
     EXPECT_NE(std::string(error.what()).find("none/a.obj: cannot be written: No such file or directory"),
               std::string::npos)
         << error.what();
+  }
+
+  // Told all the while, the bytes are the same; whoever says no at any moment leaves the old file as it was.
+  Polygon_soup many;
+  for (int k = 0; k < 20000; ++k) many.add_point(k, 0.5, -1.0);
+  many.add_face({0, 1, 2});
+  write_scene(many, folder / "many.off");
+  const std::string bytes = read_bytes(folder / "many.off");
+  std::vector<std::array<std::size_t, 2>> told;
+  const auto write_until = [&](std::size_t calls) {
+    told.clear();
+    write_scene(many, folder / "told.off", [&](std::size_t done, std::size_t all) {
+      if (told.size() == calls) throw std::domain_error("no");
+      told.push_back({done, all});
+    });
+  };
+  write_until(1000);
+  EXPECT_EQ(read_bytes(folder / "told.off"), bytes);
+  EXPECT_GE(told.size(), 2 * (bytes.size() >> 17)) << "a few times a megabyte";
+  EXPECT_EQ(told.front()[1], 0u);
+  EXPECT_EQ(told.back(), (std::array{bytes.size(), bytes.size()}));
+  const std::size_t calls = told.size();
+  write_scene(soup, folder / "told.off");
+  for (std::size_t k = 0; k < calls; ++k) {
+    EXPECT_THROW(write_until(k), std::domain_error);
+    EXPECT_EQ(text_of(read_scene(folder / "told.off")), text_of(soup));
+    EXPECT_FALSE(fs::exists(folder / "told.off.partial"));
   }
 
   // What cannot be written leaves the old file as it was.

@@ -89,6 +89,41 @@ TEST(Fuzz_options, shards_run_together_what_one_run_does_and_each_its_own) {
   EXPECT_EQ(together, all);
 }
 
+TEST(Fuzz_options, from_any_place_the_same_sequence_goes_on_to_the_same_finding) {
+  harness::Subject subject;
+  std::size_t asked = 0;
+  subject.answer = [&](const Posed_scene& posed) {
+    Answer answer = all_alike(posed);
+    if (++asked == 30) answer.flaw = "the thirtieth";
+    return answer;
+  };
+  std::vector<harness::Fuzz_place> places;
+  std::vector<harness::Fuzz_summary> summaries;
+  harness::Fuzz_options options;
+  options.shard = 1, options.shards = 2;
+  harness::Fuzz_summary whole;
+  options.at = [&](const harness::Fuzz_place& at) {
+    places.push_back(at);
+    summaries.push_back(whole);
+  };
+  const auto found = harness::fuzz(subject, options, whole);
+  ASSERT_TRUE(found);
+  ASSERT_GE(places.size(), 60u);
+  options.at = {};
+  for (const std::size_t k : {std::size_t{0}, std::size_t{1}, places.size() / 2, places.size() - 1}) {
+    harness::Fuzz_summary rest = summaries[k];
+    asked = rest.scenes;
+    options.from = harness::Fuzz_place{generate::Random(9), places[k].drawn};
+    options.from->random.set_state(places[k].random.state());  // by way of text
+    const auto again = harness::fuzz(subject, options, rest);
+    ASSERT_TRUE(again);
+    EXPECT_EQ(to_string(again->which), to_string(found->which)) << k;
+    EXPECT_EQ(rest.scenes, whole.scenes);
+    EXPECT_EQ(rest.by_family.size(), whole.by_family.size());
+  }
+  EXPECT_THROW(generate::Random(1).set_state("1 2 3"), std::invalid_argument);
+}
+
 TEST(First_disagreement, runs_the_named_check_alone_and_each_with_numbers_of_its_own) {
   std::vector<std::uint64_t> drawn;
   harness::Subject subject;

@@ -1,9 +1,9 @@
 // The command line: help that teaches, and usage errors.
 
 #include "program.h"
+#include "terminal.h"
 
 #include <fcntl.h>
-#include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -258,28 +258,6 @@ TEST_F(Command_line, what_would_be_ignored_is_refused) {
     words.insert(words.end(), option.begin(), option.end());
     expect_usage_error(words, option[0]);
   }
-}
-
-/// What a command writes to a terminal that is its standard error.
-static std::string on_a_terminal(const std::vector<std::string>& words) {
-  int terminal = -1;
-  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
-  if (child == 0) {
-    dup2(open("/dev/null", O_WRONLY), 1);
-    std::vector<char*> arguments;
-    for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
-    arguments.push_back(nullptr);
-    execv(arguments[0], arguments.data());
-    _exit(127);
-  }
-  std::string text;
-  char bytes[4096];
-  for (ssize_t n = 0; (n = read(terminal, bytes, sizeof bytes)) > 0;) text.append(bytes, static_cast<std::size_t>(n));
-  close(terminal);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_EQ(status, 0) << text;
-  return text;
 }
 
 TEST_F(Command_line, a_bar_says_how_long_it_may_take) {

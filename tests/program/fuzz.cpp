@@ -32,6 +32,103 @@ TEST_F(Fuzz, one_seed_is_one_sequence_and_seconds_end_it) {
     EXPECT_NE(r.out.find(word), std::string::npos) << word << r;
 }
 
+TEST_F(Fuzz, goes_on_where_it_was_and_does_nothing_again) {
+  const std::string json = path("io.json").string(), kept = json + ".done";
+  const auto fuzz = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"fuzz", "io", "--seed", "3", "--shard", "1/2"};
+    words.insert(words.end(), more.begin(), more.end());
+    return run(words);
+  };
+  const Json whole = fuzz({"--scenes", "60", "--json", "-"}).json();
+  EXPECT_EQ(whole["counters"]["scenes"], 30);
+  // 1. A part, the rest, and once more.
+  ASSERT_EQ(fuzz({"--scenes", "25", "--json", json, "--resume"}).code, done);
+  const Outcome rest = fuzz({"--scenes", "60", "--json", json, "--resume"});
+  ASSERT_EQ(rest.code, done) << rest;
+  EXPECT_NE(rest.out.find("12 scenes"), std::string::npos) << rest;
+  const Json resumed = Json::parse(read_file(json));
+  EXPECT_EQ(resumed["counters"], whole["counters"]);
+  EXPECT_EQ(resumed["result"], whole["result"]);
+  const Outcome nothing = fuzz({"--scenes", "60", "--json", json, "--resume"});
+  EXPECT_NE(nothing.out.find("30 scenes"), std::string::npos) << nothing;
+  EXPECT_EQ(Json::parse(read_file(json))["counters"], whole["counters"]);
+
+  // 2. Seconds are those of all runs.
+  Json state = Json::parse(read_file(kept));
+  const auto with = [&](const char* key, const Json& value) {
+    Json other = state;
+    other[key] = value;
+    file("io.json.done", other.dump());
+  };
+  with("seconds", 1000);
+  const Outcome over = fuzz({"--seconds", "900", "--json", json, "--resume"});
+  EXPECT_EQ(over.code, done) << over;
+  EXPECT_EQ(Json::parse(read_file(json))["counters"], whole["counters"]);
+
+  // 3. What was found is found.
+  with("finding", {{"case", "bars:1"},
+                   {"check", "qoff"},
+                   {"what", "another scene"},
+                   {"replay", "sightline fuzz io --case bars:1"},
+                   {"reduced", "sightline fuzz"},
+                   {"faces", 3},
+                   {"faces_reduced", 1},
+                   {"runs", 9},
+                   {"finished", true}});
+  const Outcome found = fuzz({"--scenes", "60", "--json", json, "--resume"});
+  EXPECT_EQ(found.code, disagreement) << found;
+  EXPECT_NE(found.out.find("another scene"), std::string::npos) << found;
+
+  // 4. What is of another question, or damaged, is refused.
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& names) {
+    std::vector<std::string> words{"--scenes", "60", "--json", json, "--resume"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Outcome r = run([&] {
+      std::vector<std::string> all{"fuzz", "io"};
+      all.insert(all.end(), words.begin(), words.end());
+      return all;
+    }());
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find(names), std::string::npos) << r;
+  };
+  const std::vector<std::string> same{"--seed", "3", "--shard", "1/2"};
+  refused({"--seed", "4", "--shard", "1/2"}, "--seed: 3, not 4");
+  refused({"--seed", "3", "--shard", "0/2"}, "--shard: 1/2, not 0/2");
+  refused({"--seed", "3", "--shard", "1/2", "--max-faces", "9"}, "--max-faces: 40, not 9");
+  refused({"--seed", "3", "--shard", "1/2", "--family", "bars"}, "--family: nothing, not bars");
+  with("sightline", "0.0.9");
+  refused(same, "version 0.0.9");
+  with("random", "1 2 3");
+  refused(same, "damaged");
+  file("io.json.done", "{");
+  refused(same, "io.json.done");
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"--scenes", "3", "--resume"}, {"--case", "bars:1", "--resume", "--json", json}})
+    EXPECT_EQ(fuzz(words).code, usage);
+}
+
+TEST_F(Fuzz, killed_at_any_moment_goes_on_to_the_same_counts) {
+  const std::string json = path("see.json").string();
+  const std::vector<std::string> fuzz{"fuzz", "see", "--scenes", sanitized ? "6" : "30", "--seed", "5", "--json"};
+  const auto to = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> words = fuzz;
+    words.push_back(name);
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  const Json whole = run(to("-", {})).json();
+  int killed = 0;
+  for (double seconds = 1.3; killed < 40; seconds += 0.1) {
+    const Outcome r = run(to(json, {"--resume"}), {.seconds = sanitized ? seconds / 10 : seconds});
+    if (r.code == done) break;
+    ASSERT_EQ(r.code, -1) << r;
+    ++killed;
+  }
+  RecordProperty("killed", killed);
+  EXPECT_EQ(Json::parse(read_file(json))["counters"], whole["counters"]);
+}
+
 TEST_F(Fuzz, a_case_and_a_scene_with_its_query_run_alone) {
   const Outcome r = run({"fuzz", "weak", "--case", "hinged:7:0:1:0,0,0:-30"});
   EXPECT_EQ(r.code, done) << r;

@@ -83,6 +83,106 @@ TEST_F(Judge, asks_a_share_of_the_cases_where_others_ask_the_rest) {
   EXPECT_EQ(run({"judge", "--program", nothing, "--query", "see", "--shard", "3/3"}).code, usage);
 }
 
+TEST_F(Judge, killed_in_the_middle_goes_on_where_it_was) {
+  // Answers that are wrong in every way: what is wrong with each kind is kept.
+  for (const auto& [query, answer] : {std::pair<std::string, std::string>{"see", "echo 0 > $3"},
+                                      {"order", "echo 0 > $3"},
+                                      {"weak", "printf \"{\\377\" > $3"},
+                                      {"trace", "for ray in $(grep -o origin $2); do echo none; done > $3"},
+                                      {"boolean", "cp $1 $3"}}) {
+    SCOPED_TRACE(query);
+    const std::string log = path("log").string();
+    const std::string script =
+        file("mine.sh", "echo x >> " + log + "\nif [ -e " + path("kill").string() + " ] && [ $(grep -c x " + log +
+                            ") = 4 ]; then kill -9 $PPID; sleep 1; fi\n" + answer + "\n");
+    const auto asked = [&](const std::string& name, const std::vector<std::string>& more) {
+      std::vector<std::string> words{"judge",
+                                     "--program",
+                                     "sh " + script + " {scene} {query} {answer}",
+                                     "--query",
+                                     query,
+                                     "--contract",
+                                     "exact",
+                                     "--families",
+                                     "stacked,hinged",
+                                     "--ulps",
+                                     "0,far",
+                                     "--cases",
+                                     "2",
+                                     "--keep",
+                                     path(name).string(),
+                                     "--json",
+                                     path(name + ".json").string()};
+      words.insert(words.end(), more.begin(), more.end());
+      fs::remove(log);
+      return run(words);
+    };
+    const auto lasting = [&](const std::string& name) {
+      Json json = Json::parse(read_file(path(name + ".json")));
+      json.erase("seconds");
+      Json& result = json["result"];
+      for (const char* rows : {"rows", "by_distance"})
+        for (Json& row : result[rows]) row.erase("seconds"), row.erase("bytes");
+      result["total"].erase("seconds"), result["total"].erase("bytes");
+      for (Json& kept : result["smallest"]["files"])
+        kept = fs::path(kept.get<std::string>()).filename().string() + read_file(kept.get<std::string>());
+      return json.dump(1, ' ', false, Json::error_handler_t::replace);
+    };
+    const auto calls = [&] {
+      const std::string text = read_file(log);
+      return std::count(text.begin(), text.end(), 'x');
+    };
+    ASSERT_EQ(asked("whole", {}).code, disagreement);
+    const auto all = calls(),
+               one_by_one =
+                   Json::parse(read_file(path("whole.json")))["result"]["total"]["asked"].get<std::ptrdiff_t>();
+    ASSERT_GE(one_by_one, 5);  // and what is asked about the smallest
+    // 1. Three cases are judged when it is killed, and not asked again.
+    file("kill", "");
+    const Outcome killed = asked("again", {"--resume"});
+    ASSERT_EQ(killed.code, -1) << killed;
+    EXPECT_EQ(calls(), 4);
+    fs::remove(path("kill"));
+    std::ofstream(path("again.json.done"), std::ios::app) << "{\"case\":3,\"o";  // as an end in the middle leaves it
+    const Outcome rest = asked("again", {"--resume"});
+    EXPECT_EQ(rest.code, disagreement) << rest;
+    EXPECT_EQ(calls(), all - 3);
+    EXPECT_EQ(lasting("again"), lasting("whole"));
+    // 2. What is done is not done again, but for what is looked for beside the smallest.
+    fs::remove_all(path("again"));
+    const Outcome done_before = asked("again", {"--resume"});
+    EXPECT_EQ(done_before.code, disagreement) << done_before;
+    EXPECT_NE(done_before.out.find("8 of 8 cases were there"), std::string::npos) << done_before;
+    EXPECT_EQ(calls(), all - one_by_one);
+    EXPECT_EQ(lasting("again"), lasting("whole"));
+    // 3. Other cases, or another program.
+    const Outcome seed = asked("again", {"--resume", "--seed", "2"});
+    EXPECT_EQ(seed.code, bad_input) << seed;
+    EXPECT_TRUE(seed.one_line_of_error()) << seed;
+    EXPECT_NE(seed.err.find("--seed: 1, not 2"), std::string::npos) << seed;
+    std::ofstream(script, std::ios::app) << "true\n";
+    const Outcome program = asked("again", {"--resume"});
+    EXPECT_EQ(program.code, bad_input) << program;
+    EXPECT_NE(program.err.find("--program's files"), std::string::npos) << program;
+    for (const std::string name : {"whole", "again"}) fs::remove_all(path(name));
+    fs::remove(path("again.json.done"));
+  }
+}
+
+TEST_F(Judge, resumed_asks_again_about_a_scene_that_changed) {
+  const std::string scene = tower(), json = path("j.json").string();
+  const std::vector<std::string> words{
+      "judge",   "--program", shell("echo 0 > $3"), "--query", "see", "--contract", "exact", "--scenes", scene,
+      "--cases", "3",         "--resume",           "--json",  json};
+  ASSERT_EQ(run(words).code, disagreement);
+  EXPECT_NE(run(words).out.find("3 of 3 cases were there"), std::string::npos);
+  std::ofstream(scene, std::ios::app) << "# another\n";
+  EXPECT_NE(run(words).out.find("0 of 3 cases were there"), std::string::npos);
+  EXPECT_NE(run(words).out.find("3 of 3 cases were there"), std::string::npos);
+  EXPECT_EQ(run({"judge", "--program", shell("true"), "--query", "see", "--contract", "exact", "--resume"}).code,
+            usage);
+}
+
 TEST_F(Judge, grades_orders_of_a_stack) {
   // `stacked`: unit squares one above the other; some order of their numbers is right from every eye.
   const std::vector<std::string> options{"--query", "order",  "--contract", "exact",  "--families",

@@ -37,6 +37,78 @@ TEST_F(Levels, cells_are_counted_and_written) {
   EXPECT_EQ(portals, result["portals"]);
 }
 
+TEST_F(Levels, cells_of_a_file_have_the_table_of_how_they_were_made) {
+  const std::string cells = out("cells.json"), house = out("house.off");
+  ASSERT_EQ(run({"generate", "rooms", "--size", "1", "--seed", "3", "--out", house}).code, done);
+  const std::vector<std::vector<std::string>> ways{{},
+                                                   {"--grid", "3,2,1"},
+                                                   {"--coarse", "4", "--candidates", "3"},
+                                                   {"--volumes", (corpus / "general" / "cube.off").string()}};
+  for (const std::vector<std::string>& way : ways) {
+    SCOPED_TRACE(way.empty() ? "" : way[0]);
+    const auto with = [&](std::vector<std::string> words, const std::vector<std::string>& more) {
+      words.insert(words.end(), more.begin(), more.end());
+      return run(words);
+    };
+    ASSERT_EQ(with({"cells", house, "--seed", "7", "--out", cells}, way).code, done);
+    const Outcome made = with({"pvs", house, "--seed", "7", "--out", out("made.pvs"), "--json", "-"}, way),
+                  read = run({"pvs", house, "--cells", cells, "--out", out("read.pvs"), "--json", "-"});
+    ASSERT_EQ(made.code, done) << made;
+    ASSERT_EQ(read.code, done) << read;
+    EXPECT_EQ(bytes_of("read.pvs"), bytes_of("made.pvs"));
+    EXPECT_EQ(read.json()["result"], made.json()["result"]);
+    // Parts of both are parts of one table.
+    ASSERT_EQ(with({"pvs", house, "--seed", "7", "--shard", "0/2", "--out", out("0.pvs")}, way).code, done);
+    ASSERT_EQ(run({"pvs", house, "--cells", cells, "--shard", "1/2", "--resume", "--out", out("1.pvs")}).code, done);
+    ASSERT_EQ(run({"merge", out("0.pvs"), out("1.pvs"), "--out", out("all.pvs")}).code, done);
+    EXPECT_EQ(bytes_of("all.pvs"), bytes_of("made.pvs"));
+  }
+}
+
+TEST_F(Levels, a_cell_file_of_another_scene_or_a_damaged_one_is_refused) {
+  const std::string cells = out("cells.json");
+  ASSERT_EQ(run({"cells", rooms, "--grid", "2,1,1", "--out", cells}).code, done);
+  const Json right = Json::parse(bytes_of("cells.json"));
+  const auto refused = [&](const std::string& scene, const std::string& says) {
+    const Outcome r = run({"pvs", scene, "--cells", cells, "--out", out("t.pvs")});
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find("cells.json:"), std::string::npos) << r;
+    EXPECT_NE(r.err.find(says), std::string::npos) << r;
+    EXPECT_FALSE(std::filesystem::exists(path("t.pvs")));
+  };
+  refused((corpus / "general" / "cube.off").string(), "another scene");
+  const auto damaged = [&](auto change, const std::string& says) {
+    Json other = right;
+    change(other);
+    std::ofstream(cells, std::ios::binary) << other.dump();
+    refused(rooms, says);
+  };
+  damaged([](Json& c) { c["points"][3][0] = "1/7"; }, "of its points number 3 is not");
+  damaged([](Json& c) { c["cells"][2]["leaf"] = 9; }, "of its cells number 2 is not");
+  damaged([](Json& c) { c["cells"].erase(c["cells"].size() - 1); }, "of its cells number");
+  damaged(
+      [](Json& c) {
+        c["walls"][0]["open"] = Json::array();
+        c["walls"][1]["corners"] = 3;
+      },
+      "of its walls number");
+  damaged([](Json& c) { c.erase("walls"); }, "of its walls number 0");
+  damaged([](Json& c) { c.erase("made"); }, "how its cells were made");
+  damaged([](Json& c) { c["format"] = "sightline cells 0"; }, "is no file of cells");
+  damaged([](Json& c) { c = Json::array(); }, "is no file of cells");
+  for (const char* key : {"by", "candidates", "seed", "question", "grid", "volumes", "tree", "sum"})
+    damaged([&](Json& c) { c["made"][key] = "leaves"; }, "is damaged");
+  damaged([](Json& c) { c["made"]["tree"]["nodes"][0][1] = 0; }, "is damaged");  // below itself
+  std::ofstream(cells, std::ios::binary) << right.dump().substr(0, 1000);
+  refused(rooms, "ends too early");
+  std::ofstream(cells, std::ios::binary) << right.dump();
+  EXPECT_EQ(run({"pvs", rooms, "--cells", cells, "--grid", "2,1,1"}).code, usage);
+  EXPECT_EQ(run({"pvs", rooms, "--cells", cells, "--candidates", "3"}).code, usage);
+  EXPECT_EQ(run({"pvs", rooms, "--cells", cells, "--out", cells}).code, usage);
+  EXPECT_EQ(run({"pvs", rooms, "--cells", cells}).code, done);
+}
+
 TEST_F(Levels, a_leak_is_found_and_a_solid_point_refused) {
   const Outcome leak = run({"cells", rooms, "--seal", "-20,0,0", "--json", "-"});
   EXPECT_EQ(leak.code, disagreement) << leak;

@@ -1,6 +1,7 @@
 // mpirun sightline pvs: processes that share the work of one table.
 
 #include "program.h"
+#include "terminal.h"
 
 #include <cstdlib>
 #include <map>
@@ -117,6 +118,36 @@ TEST_F(Mpi, processes_that_were_asked_something_else_are_refused) {
   EXPECT_TRUE(r.one_line_of_error()) << r;
   EXPECT_NE(r.err.find("asked another question"), std::string::npos) << r;
   EXPECT_FALSE(fs::exists(path("t.pvs")));
+}
+
+TEST_F(Mpi, the_first_process_shows_a_bar_on_a_terminal) {
+  const std::string house = at("house.off");
+  ASSERT_EQ(run({"generate", "rooms", "--size", sanitized ? "2" : "3", "--seed", "3", "--out", house}).code, done);
+  const auto told = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"mpirun",
+                                   "--quiet",
+                                   "--oversubscribe",
+                                   "-n",
+                                   "3",
+                                   "sh",
+                                   "-c",
+                                   "exec \"$@\" 2> /dev/tty",
+                                   "sh",
+                                   executable,
+                                   "pvs",
+                                   house,
+                                   "--threads",
+                                   "1",
+                                   "--out",
+                                   at("t.pvs")};
+    words.insert(words.end(), more.begin(), more.end());
+    return on_a_terminal(words);
+  };
+  const std::string bar = told({});
+  EXPECT_NE(bar.find("looking [###"), std::string::npos) << bar;
+  EXPECT_NE(bar.find("s left"), std::string::npos) << bar;
+  EXPECT_TRUE(bar.ends_with("\r\033[K")) << "taken away at the end: " << bar;
+  EXPECT_EQ(told({"--quiet"}), "");
 }
 
 }  // namespace program

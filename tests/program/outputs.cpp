@@ -6,7 +6,11 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include <array>
 #include <atomic>
+#include <cstring>
+#include <map>
+#include <set>
 
 namespace program {
 
@@ -299,6 +303,69 @@ TEST_F(Outputs, are_read_again_from_standard_input) {
   expect_refused({"verify", "-", "-"}, "reads standard input already");
 }
 
+TEST_F(Outputs, and_standard_input_is_read_in_the_format_that_is_said_by_all_commands) {
+  // Tetrahedra in thirds: its first line is that of OFF.
+  const std::string text = "OFF\n4 4 0\n0 0 0\n1/3 0 0\n0 1/3 0\n0 0 1/3\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+  const std::string scene = file("scene", text), qoff = file("scene.qoff", text),
+                    rays = file("rays", "1,1,1,-1,-1,-1\n"), walk = file("walk", "1,2,3\n"),
+                    certificate = path("c.json").string();
+  const std::vector<std::vector<std::string>> commands{
+      {"info"},
+      {"bsp"},
+      {"order", "--eye", "3,4,5"},
+      {"graph"},
+      {"cutset", "--path", walk},
+      {"see", "--eye", "3,4,5", "--certificate", certificate},
+      {"verify", certificate},
+      {"weak", "--from-face", "2"},
+      {"render", "--eye", "3,4,5", "--size", "32x32", "--json", path("r.json").string()},
+      {"cells"},
+      {"pvs"},
+      {"compare", "see", "--eye", "3,4,5"},
+      {"trace", "--rays", rays},
+      {"shadow", "--light", "3,4,5"},
+      {"boolean", "union"},
+      {"fuzz", "see", "--scene"},
+      {"reduce", "--out", path("small.qoff").string()}};
+  const std::set<std::string> behind{"fuzz", "boolean", "reduce"};
+  for (std::vector<std::string> words : commands) {
+    SCOPED_TRACE(words[0]);
+    const auto run_on = [&](const std::string& name, const std::vector<std::string>& more) {
+      std::vector<std::string> all = words;
+      all.insert(behind.contains(words[0]) ? all.end() : all.begin() + 1, name);
+      all.insert(all.end(), more.begin(), more.end());
+      if (words[0] == "reduce") all.insert(all.end(), {"--", "sh", "-c", "test -s {} && exit 1"});
+      return run(all);
+    };
+    input_ = "/dev/null";
+    EXPECT_EQ(run_on(qoff, {}).code, done);
+    const Outcome not_of_it = run_on(qoff, {"--format", "qoff"});
+    EXPECT_EQ(not_of_it.code, usage) << not_of_it;
+    EXPECT_NE(not_of_it.err.find("--format"), std::string::npos) << not_of_it;
+    input_ = scene;
+    const Outcome said = run_on("-", {"--format", "qoff"});
+    EXPECT_EQ(said.code, done) << said;
+    // As what its content shows, or what is wrong: what to do is told in one line.
+    for (const std::vector<std::string>& more :
+         {std::vector<std::string>{}, {"--format", "obj"}, {"--format", "glb"}}) {
+      const Outcome wrong = run_on("-", more);
+      EXPECT_EQ(wrong.code, bad_input) << wrong;
+      EXPECT_TRUE(wrong.one_line_of_error()) << wrong;
+      EXPECT_NE(wrong.err.find(more.empty() ? "(read as off; --format says otherwise)"
+                                            : "(read as " + more[1] + "; --format says so)"),
+                std::string::npos)
+          << wrong;
+    }
+  }
+  input_ = (corpus / "robust" / "nodes.gltf").string();
+  EXPECT_EQ(run({"info", "-", "--format", "gltf"}).code, done);
+  input_ = file("unknown", "hello\n");
+  const Outcome unknown = run({"info", "-"});
+  EXPECT_EQ(unknown.code, bad_input) << unknown;
+  EXPECT_NE(unknown.err.find("say which with --format"), std::string::npos) << unknown;
+  EXPECT_EQ(run({"info", "-", "--format", "dwg"}).code, usage);
+}
+
 TEST_F(Outputs, with_the_ending_of_another_format_are_refused) {
   const std::string scene = file("s.off", cube);
   for (const char* name : {"a.png", "a.svg.gz", "a.json"})
@@ -311,9 +378,14 @@ TEST_F(Outputs, with_the_ending_of_another_format_are_refused) {
 
 TEST_F(Outputs, for_programs_that_draw_are_of_all_commands_and_formats) {
   const std::string scene = (corpus / "general" / "two_rooms.off").string();
-  const std::vector<std::vector<std::string>> commands{
-      {"order", scene, "--eye", "1,1,1"},  {"see", scene, "--eye", "1,1,1"}, {"graph", scene},
-      {"weak", scene, "--from-face", "3"}, {"pvs", scene, "--show", "30"},   {"shadow", scene, "--light", "1,1,1"}};
+  const std::vector<std::vector<std::string>> commands{{"order", scene, "--eye", "1,1,1"},
+                                                       {"see", scene, "--eye", "1,1,1"},
+                                                       {"graph", scene},
+                                                       {"weak", scene, "--from-face", "3"},
+                                                       {"pvs", scene, "--show", "30"},
+                                                       {"shadow", scene, "--light", "1,1,1"},
+                                                       {"cells", scene},
+                                                       {"boolean", "union", scene}};
   for (std::vector<std::string> words : commands) {
     words.insert(words.end(), {"--mesh", path("drawn.ply").string()});
     EXPECT_EQ(run(words).code, done) << words[0];
@@ -328,6 +400,135 @@ TEST_F(Outputs, for_programs_that_draw_are_of_all_commands_and_formats) {
   // In its own order, with the place of each.
   EXPECT_NE(run({"order", scene, "--eye", "1,1,1", "--mesh", path("order.ply").string()}).code, usage);
   EXPECT_NE(read_file(path("order.ply")).find("property uint order\n"), std::string::npos);
+}
+
+/// A binary PLY as --mesh writes it: points, and for each polygon its corners and its numbers by name.
+struct Drawn_mesh {
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::vector<std::uint32_t>> polygons;
+  std::vector<std::map<std::string, std::int64_t>> numbers;
+};
+static Drawn_mesh read_mesh(const std::string& bytes) {
+  Drawn_mesh mesh;
+  const std::size_t end = bytes.find("end_header\n");
+  std::istringstream header(bytes.substr(0, end));
+  std::vector<std::pair<std::string, std::size_t>> properties;  // of polygons, behind their corners
+  std::size_t points = 0, polygons = 0;
+  bool is_long = false;
+  for (std::string line; std::getline(header, line);) {
+    std::istringstream words(line);
+    std::string word, type, name;
+    words >> word >> type;
+    if (word == "element" && type == "vertex") words >> points;
+    if (word == "element" && type == "face") words >> polygons;
+    if (word != "property" || polygons == 0) continue;
+    if (type == "list") words >> name, is_long = name == "uint";
+    else words >> name, properties.emplace_back(name, type == "uchar" ? 1 : 4);
+  }
+  const char* at = bytes.data() + end + std::string_view("end_header\n").size();
+  const auto take = [&]<class T>(T value) {
+    std::memcpy(&value, at, sizeof value);
+    at += sizeof value;
+    return value;
+  };
+  for (std::size_t i = 0; i < points; ++i) {
+    auto& p = mesh.points.emplace_back();
+    for (double& x : p) x = take(double{});
+  }
+  for (std::size_t i = 0; i < polygons; ++i) {
+    auto& corners = mesh.polygons.emplace_back(is_long ? take(std::uint32_t{}) : take(std::uint8_t{}));
+    for (std::uint32_t& corner : corners) corner = take(std::uint32_t{});
+    auto& numbers = mesh.numbers.emplace_back();
+    for (const auto& [name, size] : properties)
+      numbers[name] = size == 1 ? take(std::uint8_t{}) : name == "face" ? take(std::int32_t{}) : take(std::uint32_t{});
+  }
+  EXPECT_EQ(at, bytes.data() + bytes.size());
+  return mesh;
+}
+
+TEST_F(Outputs, of_cells_are_closed_polyhedra_whose_neighbours_have_other_colours) {
+  const std::string scene = (corpus / "general" / "two_rooms.map").string(), mesh = path("cells.ply").string(),
+                    all = path("cells.json").string();
+  for (const std::vector<std::string>& way : {std::vector<std::string>{}, {"--grid", "2,2,1"}, {"--coarse", "3"}}) {
+    std::vector<std::string> words{"cells", scene, "--mesh", mesh, "--out", all};
+    words.insert(words.end(), way.begin(), way.end());
+    ASSERT_EQ(run(words).code, done);
+    const Json file = Json::parse(read_file(all));
+    const Drawn_mesh drawn = read_mesh(read_file(mesh));
+    struct Polyhedron {
+      double volume = 0;
+      std::array<double, 3> area{};  // of all its walls, as vectors: nothing, where it is closed
+      std::set<std::int64_t> groups, within;
+    };
+    std::map<std::int64_t, Polyhedron> cells;
+    for (std::size_t i = 0; i < drawn.polygons.size(); ++i) {
+      Polyhedron& cell = cells[drawn.numbers[i].at("cell")];
+      cell.groups.insert(drawn.numbers[i].at("group"));
+      if (!way.empty()) cell.within.insert(drawn.numbers[i].at(way[0] == "--grid" ? "box" : "convex_region"));
+      const auto& corners = drawn.polygons[i];
+      for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+        const auto &p = drawn.points[corners[0]], &q = drawn.points[corners[k]], &r = drawn.points[corners[k + 1]];
+        for (std::size_t x = 0; x < 3; ++x) {
+          const std::size_t y = (x + 1) % 3, z = (x + 2) % 3;
+          cell.area.at(x) += (q[y] - p[y]) * (r[z] - p[z]) - (q[z] - p[z]) * (r[y] - p[y]);
+        }
+        cell.volume += p[0] * (q[1] * r[2] - q[2] * r[1]) - p[1] * (q[0] * r[2] - q[2] * r[0]) +
+                       p[2] * (q[0] * r[1] - q[1] * r[0]);
+      }
+    }
+    ASSERT_EQ(cells.size(), file["cells"].size());
+    for (const auto& [number, cell] : cells) {
+      const Json& said = file["cells"][static_cast<std::size_t>(number)];
+      EXPECT_GT(cell.volume, 0) << number;
+      for (const double x : cell.area) EXPECT_NEAR(x, 0, 1e-6) << number;
+      ASSERT_EQ(cell.groups.size(), 1u);
+      EXPECT_EQ(*cell.groups.begin() == 8, said["solid"].get<bool>()) << number;
+      EXPECT_EQ(*cell.groups.begin() == 7, said["outside"].get<bool>() && !said["solid"].get<bool>()) << number;
+      if (way.empty()) continue;
+      ASSERT_EQ(cell.within.size(), 1u);
+      if (way[0] == "--grid") EXPECT_EQ(*cell.within.begin(), said["leaf"]);
+      else if (!said["solid"]) EXPECT_EQ(*cell.within.begin(), said["convex_region"]);
+    }
+    std::size_t together = 0;
+    for (const Json& wall : file["walls"]) {
+      if (wall["cells"][1].is_null()) continue;
+      const auto group = [&](int k) {
+        return *cells.at(wall["cells"][static_cast<std::size_t>(k)].get<std::int64_t>()).groups.begin();
+      };
+      const auto& one = file["cells"][wall["cells"][0].get<std::size_t>()];
+      const auto& other = file["cells"][wall["cells"][1].get<std::size_t>()];
+      if (group(0) >= 7 || group(1) >= 7) continue;
+      ++together;
+      EXPECT_EQ(group(0) == group(1), one.contains("convex_region") && one["convex_region"] == other["convex_region"]);
+    }
+    EXPECT_GT(together, 3u);
+  }
+}
+
+TEST_F(Outputs, of_set_operations_say_whose_each_face_is) {
+  const std::string one = file("one.off", cube), mesh = path("b.ply").string();
+  const std::string other =
+      file("other.off",
+           "OFF\n8 6 0\n-2 -2 -2\n2 -2 -2\n2 1/2 -2\n-2 1/2 -2\n-2 -2 1/2\n2 -2 1/2\n2 1/2 1/2\n-2 "
+           "1/2 1/2\n4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n");
+  fs::rename(other, path("other.qoff"));
+  const Outcome r = run({"boolean", "difference", one, path("other.qoff").string(), "--mesh", mesh, "--json", "-"});
+  ASSERT_EQ(r.code, done) << r;
+  const Json result = r.json()["result"];
+  const Drawn_mesh drawn = read_mesh(read_file(mesh));
+  ASSERT_GE(drawn.polygons.size(), result["faces"].get<std::size_t>());
+  std::set<std::int64_t> faces, operands;
+  for (const auto& numbers : drawn.numbers) {
+    const std::int64_t face = numbers.at("face");
+    faces.insert(face);
+    operands.insert(numbers.at("operand"));
+    EXPECT_EQ(result["provenance"][static_cast<std::size_t>(face)],
+              (Json{numbers.at("operand"), numbers.at("operand_face")}));
+    EXPECT_EQ(numbers.at("group"), numbers.at("operand"));
+    EXPECT_EQ(numbers.at("turned"), numbers.at("operand"));  // what is cut out is bounded by backs
+  }
+  EXPECT_EQ(faces.size(), result["faces"]);
+  EXPECT_EQ(operands.size(), 2u);
 }
 
 // ---- A terminal

@@ -124,6 +124,69 @@ TEST_F(Report_command, of_shards_and_resumed_is_the_same) {
   EXPECT_FALSE(fs::exists(path("resumed.json.units")));
 }
 
+TEST_F(Report_command, resumed_asks_again_about_a_scene_that_changed_and_refuses_other_options) {
+  const std::string one = path("one.off").string(), two = path("two.off").string();
+  const auto becomes = [&](const std::string& scene, const char* name) {
+    fs::copy_file(corpus / "general" / name, scene, fs::copy_options::overwrite_existing);
+  };
+  const std::string program = file("mine.sh", ": > \"$3\"\n");
+  const auto ask = [&](const std::string& name, const std::vector<std::string>& more) {
+    std::vector<std::string> all{"report",    one,
+                                 two,         "--questions",
+                                 "see",       "--cases",
+                                 "1",         "--reduce",
+                                 "1",         "--quick",
+                                 "--program", "see=sh " + program + " {scene} {query} {answer}",
+                                 "--json",    path(name).string()};
+    all.insert(all.end(), more.begin(), more.end());
+    return run(all);
+  };
+  // 1. Both scenes are asked about, and then one of them is another.
+  becomes(one, "cube.off"), becomes(two, "cube.off");
+  const auto begun = [&] {
+    for (int k = 0; k < 2; ++k) {
+      const Outcome r = ask("r.json", {"--resume", "--budget", "1e-9"});
+      EXPECT_EQ(r.code, k == 0 ? undecided : done) << r;
+      if (k == 0) fs::copy_file(path("r.json.units"), path("units"), fs::copy_options::overwrite_existing);
+    }
+    fs::copy_file(path("units"), path("r.json.units"));  // of one.off
+  };
+  begun();
+  const Outcome same = ask("r.json", {"--resume"});
+  ASSERT_EQ(same.code, done) << same;
+  EXPECT_NE(same.out.find("1 of 2 units were there\n"), std::string::npos) << same;
+  begun();
+  becomes(one, "two_rooms.off");
+  const Outcome other = ask("r.json", {"--resume"});
+  ASSERT_EQ(other.code, done) << other;
+  EXPECT_NE(other.out.find("0 of 2 units were there; 1 more were of files that have changed since"), std::string::npos)
+      << other;
+  ASSERT_EQ(ask("whole.json", {}).code, done);
+  EXPECT_EQ(lasting(read_file(path("r.json"))), lasting(read_file(path("whole.json"))));
+
+  // 2. Another option, another program, and a file that is somebody else's: nothing is lost.
+  ASSERT_EQ(ask("r.json", {"--resume", "--budget", "1e-9"}).code, undecided);
+  const std::string units = read_file(path("r.json.units"));
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& names) {
+    const Outcome r = ask("r.json", more);
+    EXPECT_EQ(r.code, bad_input) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_NE(r.err.find(names), std::string::npos) << r;
+  };
+  refused({"--resume", "--seed", "2"}, "--seed: 1, not 2");
+  refused({"--resume", "--shard", "0/2"}, "--shard: 0/1, not 0/2");
+  file("mine.sh", "true; : > \"$3\"\n");
+  refused({"--resume"}, "--program's files");
+  EXPECT_EQ(read_file(path("r.json.units")), units);
+  std::string newer = units;
+  newer.replace(newer.find("\"sightline\":\"") + 13, 1, "9");
+  file("r.json.units", newer);
+  refused({"--resume"}, "version 9");
+  file("r.json.units", "my units");
+  refused({"--resume"}, "is no file of --resume");
+  EXPECT_EQ(read_file(path("r.json.units")), "my units");
+}
+
 TEST_F(Report_command, says_what_to_do_about_bad_input) {
   const std::string cube = (corpus / "general" / "cube.off").string();
   const std::string torn = file("torn.json", "{\"command\": \"rep"),
