@@ -133,7 +133,7 @@ bool exchange_terms(Weak_certificate& claim, Bytes& bytes, Member member) {
 
 inline const std::vector<Lie<Weak_certificate>>& lies_in(const Weak_certificate&) {
   using Claim = Weak_certificate;
-  using Kind = Claim::Node::Kind;
+  using Node_kind = Claim::Node::Kind;
   static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
       {{"of the true source",
         [](Claim& claim, const Posed_scene& truth, Bytes&) {
@@ -187,12 +187,12 @@ inline const std::vector<Lie<Weak_certificate>>& lies_in(const Weak_certificate&
         }},
        {"another leaf",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {
-          const auto node = any_node(claim, bytes, [](const auto& one) { return one.kind >= Kind::blocked; });
+          const auto node = any_node(claim, bytes, [](const auto& one) { return one.kind >= Node_kind::blocked; });
           if (!node) return false;
           const Claim::Node old = *node;
-          node->kind = bytes.below(2) == 0 ? Kind::away : Kind::blocked;
+          node->kind = bytes.below(2) == 0 ? Node_kind::away : Node_kind::blocked;
           node->index = any_of_first(claim.fragments, bytes);
-          return old.kind != node->kind || (old.kind == Kind::blocked && old.index != node->index);
+          return old.kind != node->kind || (old.kind == Node_kind::blocked && old.index != node->index);
         }},
        {"hidden by one fragment", hide_at_random<Leaves::blocked>},
        {"hidden by emptiness", hide_at_random<Leaves::empty>},
