@@ -39,19 +39,19 @@ struct Boolean_arguments {
 class Time_left {
  public:
   explicit Time_left(double seconds) : seconds_(seconds) {}
-  void ask(const std::string& what_it_was_at) const {
-    ask_with([&] { return what_it_was_at; });
+  void ask(const char* when) const {
+    ask_with([&] { return when; });
   }
   /// A share of a stage that is done with.
   void ask(const char* stage, std::size_t done, std::size_t all) const {
-    ask_with([&] { return fmt::format("{}% of {} done", all == 0 ? 0 : 100 * done / all, stage); });
+    ask_with([&] { return fmt::format("after {}% of {}", all == 0 ? 0 : 100 * done / all, stage); });
   }
 
  private:
   void ask_with(const auto& what) const {
     if (seconds_ > 0 && watch_.seconds() > seconds_)
       throw Out_of_budget(
-          fmt::format("undecided: the budget of {} s ran out, {}; nothing is written", seconds_, what()));
+          fmt::format("undecided: the budget of {} s ran out {}; nothing is written", seconds_, what()));
   }
   double seconds_;
   Stopwatch watch_;
@@ -263,7 +263,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   std::optional<Operands> operands;
   run_with_threads(a.threads, [&] {
     operands.emplace(solids);
-    time.ask("the solids on one grid");
+    time.ask("once the solids stood on one grid");
     refuse_flaws(a, solids, *operands);
     prepare_seconds = watch.seconds();
     watch = {};
@@ -275,14 +275,13 @@ Exit run(const Boolean_arguments& a, const Command& command) {
 
   // 3. What is written.
   const Hole_free flat = without_holes(result.soup);
-  time.ask("the operation done, its volume not");
+  time.ask("before its volume was known");
   const Rational size = volume(result.soup);
-  time.ask("the operation done, its surface not ready to be written");
+  time.ask("before its surface was ready to be written");
   const std::optional<Rounded_surface> rounding =
       a.out.empty() ? std::nullopt
-                    : write_solid(flat.soup, a.out, a.round == "float", a.snap, [&](std::size_t, std::size_t) {
-                        time.ask("the operation done, its points not rounded");
-                      });
+                    : write_solid(flat.soup, a.out, a.round == "float", a.snap,
+                                  [&](std::size_t, std::size_t) { time.ask("while its points were rounded"); });
   const auto before = [&](std::size_t written_face) {  // the face of flat.soup
     return rounding ? rounding->face_of[written_face] : static_cast<Face_id>(written_face);
   };

@@ -18,6 +18,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <malloc.h>
+
 #include <cmath>
 #include <ctime>
 
@@ -177,6 +179,7 @@ Row measured(const std::vector<Polygon_soup>& solids, Set_operation operation, s
     }
     Verify_options verifying;
     verifying.threads = 1;
+    malloc_trim(0);              // what was freed is no room for what is measured
     const Peak_memory checking;  // beside operands and certificate
     since = processor_seconds();
     for (int turn = 0; turn < 5 && (turn == 0 || processor_seconds() - since < 2); ++turn) {
