@@ -34,6 +34,29 @@ struct Boolean_arguments {
   Scene_format format;
   bool snap = false;
   int threads = 0;
+  double budget = 0;  ///< seconds; 0: none
+};
+
+/// Ends the work once its seconds are over; not while it writes.
+class Time_left {
+ public:
+  explicit Time_left(double seconds) : seconds_(seconds) {}
+  void ask(const char* when) const {
+    ask_with([&] { return when; });
+  }
+  /// A share of a stage that is done with.
+  void ask(const char* stage, std::size_t done, std::size_t all) const {
+    ask_with([&] { return fmt::format("after {}% of {}", all == 0 ? 0 : 100 * done / all, stage); });
+  }
+
+ private:
+  void ask_with(const auto& what) const {
+    if (seconds_ > 0 && watch_.seconds() > seconds_)
+      throw Out_of_budget(
+          fmt::format("undecided: the budget of {} s ran out {}; nothing is written", seconds_, what()));
+  }
+  double seconds_;
+  Stopwatch watch_;
 };
 
 template <class List>
@@ -186,12 +209,12 @@ std::vector<Json> brushes_of_faces(const std::string& file, const Read_options& 
 }
 
 /// The result, each face in the colour of the solid that it is of.
-void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_result& result) {
+void write_page(const Boolean_arguments& a, const Hole_free& flat, const Set_result& result, const Rational& size) {
   const Scene scene(flat.soup);
   Page page("boolean", scene);
   page.add_fact("operation", a.operation);
   page.add_fact("result", fmt::format("{} faces, {} points", result.soup.face_count(), result.soup.point_count()));
-  page.add_fact("volume", to_string(volume(result.soup)));
+  page.add_fact("volume", to_string(size));
   const auto of = [&](std::uint32_t piece) -> const Result_face& {
     return result.faces[flat.face_of[scene.pieces()[piece].face]];
   };
@@ -257,12 +280,17 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   options.inside = named(inside_rules, a.inside);
   options.keep_fragments = !a.certificate.empty();
   Progress progress(a.operation);
-  options.progress = [&](std::size_t done, std::size_t all) { progress(done, all); };
+  const Time_left time(a.budget);
+  options.progress = [&](std::size_t done, std::size_t all) {
+    time.ask("the operation", done, all);
+    progress(done, all);
+  };
   Set_result result;
   double prepare_seconds = 0;
   std::optional<Operands> operands;
   run_with_threads(a.threads, [&] {
     operands.emplace(solids);
+    time.ask("once the solids stood on one grid");
     refuse_flaws(a, solids, *operands);
     prepare_seconds = watch.seconds();
     watch = {};
@@ -274,8 +302,13 @@ Exit run(const Boolean_arguments& a, const Command& command) {
 
   // 3. What is written.
   const Hole_free flat = without_holes(result.soup);
+  time.ask("before its volume was known");
+  const Rational size = volume(result.soup);
+  time.ask("before its surface was ready to be written");
   const std::optional<Rounded_surface> rounding =
-      a.out.empty() ? std::nullopt : write_solid(flat.soup, a.out, a.round == "float", a.snap);
+      a.out.empty() ? std::nullopt
+                    : write_solid(flat.soup, a.out, a.round == "float", a.snap,
+                                  [&](std::size_t, std::size_t) { time.ask("while its points were rounded"); });
   const auto before = [&](std::size_t written_face) {  // the face of flat.soup
     return rounding ? rounding->face_of[written_face] : static_cast<Face_id>(written_face);
   };
@@ -283,7 +316,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
   if (!a.certificate.empty())
     write_file(a.certificate,
                [&](std::ostream& out) { write_solid_certificate(out, solid_certificate(*operands, options, result)); });
-  if (!a.html.empty()) write_page(a, flat, result);
+  if (!a.html.empty()) write_page(a, flat, result, size);
   if (!a.mesh.empty()) write_drawings("", a.mesh, drawing_of(a, flat, result));
   Json not_manifold = Json::array();
   for (const Crowded_edge& edge : result.crowded)
@@ -312,7 +345,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
                           {"faces", faces_written},
                           {"maximal_faces", result.soup.face_count()},
                           {"points", result.soup.point_count()},
-                          {"volume", to_string(volume(result.soup))},
+                          {"volume", to_string(size)},
                           {"area", surface},
                           {"not_manifold", not_manifold},
                           {"provenance", std::move(provenance)},
@@ -336,7 +369,7 @@ Exit run(const Boolean_arguments& a, const Command& command) {
     row("exact", fmt::format("its points have a common denominator of more than {} bits: `verify --result` reads {}, "
                              "other commands with --coordinates double",
                              largest_common_denominator_bits, a.out));
-  row("volume", digits_of(volume(result.soup), 17));
+  row("volume", digits_of(size, 17));
   row("edges", result.crowded.empty()
                    ? "each of two faces"
                    : fmt::format("{} of more than two faces: --json lists them", result.crowded.size()));
@@ -406,6 +439,11 @@ void add_boolean(Command program) {
                    "where rounding turns faces over, or makes them cross, move their corners until it does not");
   command.add_option("--threads", a->threads, "threads; 0: one for each processor. The output does not depend on it")
       .check(range(0, 1024))
+      .show_default();
+  command
+      .add_option("--budget", a->budget,
+                  "seconds; 0: no limit. Where they run out, nothing is written, and the exit code is 4")
+      .check(not_negative() & finite_number())
       .show_default();
   command.footer(
       "Example: sightline boolean difference block.off drill.off --out bored.qoff --json -\n"

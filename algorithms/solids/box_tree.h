@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 namespace sightline {
@@ -45,7 +46,7 @@ class Box_tree {
   void for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const;
 
  private:
-  static constexpr std::uint32_t leaf_size = 4;
+  static constexpr std::uint32_t leaf_size = 8;
   struct Node {
     Box box;
     std::uint32_t first, last;  // pieces order_[first, last)
@@ -56,7 +57,9 @@ class Box_tree {
     std::array<double, 3> at;
     std::uint32_t piece;
   };
-  void build(std::uint32_t node, std::vector<Centre>& centres, std::uint32_t first, std::uint32_t last);
+  void build(std::uint32_t node, std::vector<Centre>& centres, std::vector<Centre>& room, std::uint32_t first,
+             std::uint32_t last);
+  static void halve(std::span<Centre> centres, std::span<Centre> room, std::size_t axis, double low, double high);
 
   std::vector<Box> boxes_;            // by place in order_
   std::vector<std::uint32_t> order_;  // pieces

@@ -73,10 +73,10 @@ bool is_on_both_sides(const Operands& operands, std::size_t piece, std::size_t o
   return front && behind;
 }
 
-Pairs crossings(const Polygon_soup& soup) {
+Pairs crossings(const Polygon_soup& soup, const Rounding_progress& progress) {
   Operands operands(std::span(&soup, 1));
   Pairs pairs;
-  for (const Cut& cut : contacts(operands, Box_tree(operands)).cuts) {
+  for (const Cut& cut : contacts(operands, Box_tree(operands), progress).cuts) {
     const Face_id a = operands.pieces()[cut.piece].face, b = operands.pieces()[cut.other].face;
     if (a == b) continue;
     bool& goes_through = pairs[std::minmax(a, b)];
@@ -123,7 +123,8 @@ Place snapped_place(const Exact_point& p, Rounding to, int level, std::uint64_t 
 
 /// The surface with its points at other places, and what is broken there. Loops lose corners that repeat the one
 /// before, and faces of fewer than three corners vanish, if `merge`.
-Rounded_surface surface_at(const Polygon_soup& soup, const std::vector<Place>& places, bool triangulate, bool merge) {
+Rounded_surface surface_at(const Polygon_soup& soup, const std::vector<Place>& places, bool triangulate, bool merge,
+                           const Rounding_progress& progress) {
   Rounded_surface result;
   result.soup.file = soup.file;
   // 1. Points.
@@ -147,6 +148,7 @@ Rounded_surface surface_at(const Polygon_soup& soup, const std::vector<Place>& p
   if (sgn(farthest) == 0) result.farthest = 0;
   // 2. Faces.
   for (Face_id f = 0; f < soup.face_count(); ++f) {
+    if (progress) progress(f, soup.face_count());
     const auto placed = [&](std::span<const Point_id> loop) {
       std::vector<Point_id> corners;
       for (const Point_id p : loop)
@@ -175,16 +177,16 @@ Rounded_surface surface_at(const Polygon_soup& soup, const std::vector<Place>& p
 }
 
 /// What crosses that did not: by faces before, of which triangles of one may not cross, either.
-void add_crossing(Rounded_surface& surface, const Pairs& before) {
+void add_crossing(Rounded_surface& surface, const Pairs& before, const Rounding_progress& progress) {
   if (surface.moved == 0) return;
-  for (const auto& [pair, goes_through] : crossings(surface.soup)) {
+  for (const auto& [pair, goes_through] : crossings(surface.soup, progress)) {
     const auto known = before.find(std::minmax(surface.face_of[pair.first], surface.face_of[pair.second]));
     if (known == before.end() || (goes_through && !known->second)) surface.crossing.push_back(pair);
   }
 }
 
 /// What else is broken, once nothing crosses: the winding numbers on both sides of all fragments tell.
-void add_misplaced(Rounded_surface& surface) {
+void add_misplaced(Rounded_surface& surface, const Rounding_progress& progress) {
   if (surface.moved == 0 || !surface.is_sound()) return;
   const Operands operands(std::span(&surface.soup, 1));
   std::set<Face_id> faces;
@@ -193,6 +195,7 @@ void add_misplaced(Rounded_surface& surface) {
   else {
     Set_options options;
     options.keep_fragments = true;
+    options.progress = progress;
     for (const Result_fragment& fragment : set_operation(operands, options).fragments) {
       const int front = fragment.front.empty() ? 0 : fragment.front[0].number;
       int behind = front;
@@ -213,21 +216,24 @@ std::uint64_t mixed(std::uint64_t x) {
 
 }  // namespace
 
-Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate) {
+Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress) {
   std::vector<Place> places;
-  for (Point_id p = 0; p < soup.point_count(); ++p) places.push_back(nearest_place(soup.point(p), to));
-  Rounded_surface result = surface_at(soup, places, triangulate, false);
-  if (result.moved > 0) add_crossing(result, crossings(soup));
-  add_misplaced(result);
+  for (Point_id p = 0; p < soup.point_count(); ++p) {
+    if (progress) progress(p, soup.point_count());
+    places.push_back(nearest_place(soup.point(p), to));
+  }
+  Rounded_surface result = surface_at(soup, places, triangulate, false, progress);
+  if (result.moved > 0) add_crossing(result, crossings(soup, progress), progress);
+  add_misplaced(result, progress);
   return result;
 }
 
-Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate) {
+Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate, const Rounding_progress& progress) {
   constexpr std::size_t most_rounds = 40;
   constexpr std::uint32_t turns_on_a_grid = 6;
-  Rounded_surface first = rounded(soup, to, triangulate);
+  Rounded_surface first = rounded(soup, to, triangulate, progress);
   if (first.is_sound()) return first;
-  const Pairs before = crossings(soup);
+  const Pairs before = crossings(soup, progress);
   std::vector<Place> nearest;
   for (Point_id p = 0; p < soup.point_count(); ++p) nearest.push_back(nearest_place(soup.point(p), to));
   std::vector<Place> least_places = nearest;
@@ -253,9 +259,9 @@ Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate)
       places[p] = snapped_place(soup.point(p), to, static_cast<int>(turn / turns_on_a_grid), seed);
     }
     // 2. What that breaks, and mends.
-    Rounded_surface surface = surface_at(soup, places, triangulate, true);
-    add_crossing(surface, before);
-    add_misplaced(surface);
+    Rounded_surface surface = surface_at(soup, places, triangulate, true, progress);
+    add_crossing(surface, before, progress);
+    add_misplaced(surface, progress);
     if (surface.is_sound()) {
       surface.rounds = round;
       for (Point_id p = 0; p < soup.point_count(); ++p) surface.snapped += places[p] != nearest[p];

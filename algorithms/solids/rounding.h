@@ -5,6 +5,7 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <cstddef>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -35,18 +36,23 @@ struct Rounded_surface {
   std::size_t faults() const { return collapsed.size() + turned.size() + crossing.size() + misplaced.size(); }
 };
 
+using Rounding_progress = std::function<void(std::size_t done, std::size_t total)>;
+
 /// Rounds each coordinate to the nearest number, ties to even. Faces stay as they are if they are planar still, else
 /// they become the triangles that they would be cut into exactly. `triangulate`: all faces become triangles.
 /// Pre: a closed planar soup without holes that winds once round what is inside, as results do; coordinates within the
-/// numbers' range, or std::domain_error. Cost: O(n log n) and the pairs whose boxes meet. Exact: yes, all that it says
-/// of the rounded surface. Proof: P-117
-Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate = false);
+/// numbers' range, or std::domain_error. `progress` is told of what is done now and then, never of all; what it throws
+/// ends the work. Cost: O(n log n) and the pairs whose boxes meet. Exact: yes, all that it says of the rounded surface.
+/// Proof: P-117
+Rounded_surface rounded(const Polygon_soup& soup, Rounding to, bool triangulate = false,
+                        const Rounding_progress& progress = {});
 
 /// Rounds likewise, then moves the corners of faces that this breaks: round by round to the nearest point of a grid of
 /// the numbers' step, then to another one beside it, then of a grid twice as coarse, ... until the surface is sound.
 /// Points that meet become one, and faces without two different neighbours vanish. Post: sound, or, after a bound of
 /// rounds (40), what rounded() returns, with that number of rounds. A surface that was closed
-/// is closed. Pre, Exact: as above. Cost: that of rounded(), for each round.
-Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate = false);
+/// is closed. Pre, Exact, `progress`: as above. Cost: that of rounded(), for each round.
+Rounded_surface snapped(const Polygon_soup& soup, Rounding to, bool triangulate = false,
+                        const Rounding_progress& progress = {});
 
 }  // namespace sightline

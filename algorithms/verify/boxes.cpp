@@ -34,12 +34,6 @@ Outward_box::Outward_box(const Polygon& points) {
     }
 }
 
-bool Outward_box::meets(const Outward_box& other) const {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (high[k] < other.low[k] || low[k] > other.high[k]) return false;
-  return true;
-}
-
 void Outward_box::join(const Outward_box& other) {
   for (std::size_t k = 0; k < 3; ++k) {
     low[k] = std::min(low[k], other.low[k]);
@@ -47,16 +41,21 @@ void Outward_box::join(const Outward_box& other) {
   }
 }
 
-Boxes::Boxes(const std::vector<Outward_box>& boxes) : boxes_(boxes), order_(boxes.size()) {
+Boxes::Boxes(const std::vector<Outward_box>& boxes) : order_(boxes.size()) {
   std::iota(order_.begin(), order_.end(), 0);
-  if (!boxes.empty()) add(0, static_cast<std::uint32_t>(boxes.size()));
+  if (!boxes.empty()) add(boxes, 0, static_cast<std::uint32_t>(boxes.size()));
+  boxes_.reserve(boxes.size());
+  for (const std::uint32_t i : order_) boxes_.push_back(boxes[i]);
 }
 
-void Boxes::add(std::uint32_t begin, std::uint32_t end) {
-  const std::size_t at = nodes_.size();
-  nodes_.push_back({{}, begin, end, 0});
-  for (std::uint32_t i = begin; i < end; ++i) nodes_[at].box.join(boxes_[order_[i]]);
-  if (end - begin <= few) return;
+void Boxes::add(const std::vector<Outward_box>& boxes, std::uint32_t begin, std::uint32_t end) {
+  const auto at = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({{}, begin, end, at + 1});
+  for (std::uint32_t i = begin; i < end; ++i) nodes_[at].box.join(boxes[order_[i]]);
+  if (end - begin <= few) {
+    leaves_.push_back(at);
+    return;
+  }
   // Halves by their middles, along the longest side.
   const Outward_box& box = nodes_[at].box;
   std::size_t axis = 0;
@@ -64,31 +63,24 @@ void Boxes::add(std::uint32_t begin, std::uint32_t end) {
     if (box.high[k] - box.low[k] > box.high[axis] - box.low[axis]) axis = k;
   const std::uint32_t middle = begin + (end - begin) / 2;
   const auto key = [&](std::uint32_t i) {  // halved first: their sum may be beyond the range; never not a number
-    const double sum = boxes_[i].low[axis] / 2 + boxes_[i].high[axis] / 2;
+    const double sum = boxes[i].low[axis] / 2 + boxes[i].high[axis] / 2;
     return std::isnan(sum) ? 0 : sum;
   };
   std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                    [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
-  add(begin, middle);
-  nodes_[at].other = static_cast<std::uint32_t>(nodes_.size());
-  add(middle, end);
+  add(boxes, begin, middle);
+  add(boxes, middle, end);
+  nodes_[at].next = static_cast<std::uint32_t>(nodes_.size());
 }
 
 void Boxes::find(const Outward_box& part, std::vector<std::size_t>& found) const {
-  std::vector<std::size_t> open;
-  if (!nodes_.empty()) open.push_back(0);
-  while (!open.empty()) {
-    const std::size_t at = open.back();
-    open.pop_back();
+  for (std::uint32_t at = 0; at < nodes_.size();) {
     const Node& node = nodes_[at];
-    if (!node.box.meets(part)) continue;
-    if (node.other != 0) {
-      open.push_back(node.other);
-      open.push_back(at + 1);
-      continue;
-    }
+    const bool is_leaf = node.next == at + 1;
+    at = node.box.meets(part) ? at + 1 : node.next;
+    if (!is_leaf || !node.box.meets(part)) continue;
     for (std::uint32_t i = node.begin; i < node.end; ++i)
-      if (boxes_[order_[i]].meets(part)) found.push_back(order_[i]);
+      if (boxes_[i].meets(part)) found.push_back(order_[i]);
   }
 }
 

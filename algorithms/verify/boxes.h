@@ -1,5 +1,5 @@
 #pragma once
-// Boxes about polygons in doubles, rounded outwards: which of them a segment comes near.
+// Boxes about polygons in doubles, rounded outwards: which of them a segment comes near, and which meet each other.
 
 #include <sightline/algorithms/verify/polygons.h>
 
@@ -18,7 +18,10 @@ struct Outward_box {
 
   Outward_box() = default;  ///< holds nothing
   explicit Outward_box(const Polygon& points);
-  bool meets(const Outward_box& other) const;
+  bool meets(const Outward_box& other) const {
+    return !(high[0] < other.low[0] || low[0] > other.high[0] || high[1] < other.low[1] || low[1] > other.high[1] ||
+             high[2] < other.low[2] || low[2] > other.high[2]);
+  }
   void join(const Outward_box& other);
 };
 
@@ -32,19 +35,56 @@ class Boxes {
   /// is near the segment, times log n. Exact: none is left out. Proof: P-72b
   std::vector<std::size_t> near_segment(const Exact_point& from, const Exact_point& to) const;
 
+  /// The join of all.
+  Outward_box all() const { return nodes_.empty() ? Outward_box() : nodes_[0].box; }
+  /// All places, those of boxes that are near each other together.
+  const std::vector<std::uint32_t>& order() const { return order_; }
+  /// Adds the places of all boxes that meet `part`, each once.
+  void find(const Outward_box& part, std::vector<std::size_t>& found) const;
+  /// Pairs are found leaf by leaf, of so many: calls visit(i, j) for all boxes i of a leaf, and j of the same or of
+  /// later ones, that meet. Post: over all leaves each pair comes once.
+  std::size_t leaves() const { return leaves_.size(); }
+  template <class Visit>
+  void for_each_pair(std::size_t leaf, const Visit& visit) const;
+
  private:
-  /// Of the boxes order_[begin .. end); its halves are the next one and `other`, or none.
+  /// Of the boxes of places order_[begin .. end). Halves come after it, all of the first one before the second; what
+  /// comes after all of them is `next`. A leaf has none.
   struct Node {
     Outward_box box;
-    std::uint32_t begin, end, other;
+    std::uint32_t begin, end, next;
   };
 
-  void add(std::uint32_t begin, std::uint32_t end);
-  void find(const Outward_box& part, std::vector<std::size_t>& found) const;
+  void add(const std::vector<Outward_box>& boxes, std::uint32_t begin, std::uint32_t end);
 
-  std::vector<Outward_box> boxes_;
   std::vector<std::uint32_t> order_;
+  std::vector<Outward_box> boxes_;  // in that order
   std::vector<Node> nodes_;
+  std::vector<std::uint32_t> leaves_;  // places of nodes
 };
+
+template <class Visit>
+void Boxes::for_each_pair(std::size_t leaf, const Visit& visit) const {
+  const std::uint32_t here = leaves_[leaf];
+  const Node& mine = nodes_[here];
+  for (std::uint32_t i = mine.begin; i < mine.end; ++i)
+    for (std::uint32_t j = i + 1; j < mine.end; ++j)
+      if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+  for (std::uint32_t at = here + 1; at < nodes_.size();) {
+    const Node& node = nodes_[at];
+    const bool is_leaf = node.next == at + 1;
+    if (!node.box.meets(mine.box)) {
+      at = node.next;
+      continue;
+    }
+    ++at;
+    if (!is_leaf) continue;
+    for (std::uint32_t i = mine.begin; i < mine.end; ++i) {
+      if (!boxes_[i].meets(node.box)) continue;
+      for (std::uint32_t j = node.begin; j < node.end; ++j)
+        if (boxes_[i].meets(boxes_[j])) visit(order_[i], order_[j]);
+    }
+  }
+}
 
 }  // namespace sightline::certificate_check

@@ -5,37 +5,29 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 namespace sightline::certificate_check {
 
-// ---- Numbers near others; each step adds its rounding, in any rounding mode. Proof: P-116
+// ---- Numbers near others. Proof: P-116
 
-namespace {
-constexpr double rounding = 0x1p-52, of_errors = 1 + 0x1p-48;
-}  // namespace
-
-Near operator+(Near a, Near b) {
-  const double value = a.value + b.value;
-  return {value, (a.error + b.error + std::fabs(value) * rounding) * of_errors};
-}
-Near operator-(Near a, Near b) { return a + Near{-b.value, b.error}; }
-Near operator*(Near a, Near b) {
-  const double value = a.value * b.value;
-  return {value, (std::fabs(a.value) * b.error + std::fabs(b.value) * a.error + a.error * b.error +
-                  std::fabs(value) * rounding) *
-                     of_errors};
+Near operator/(Near a, Near b) {
+  constexpr double small = 0x1p-500, large = 0x1p500;
+  const double value = a.value / b.value, size = std::fabs(value), least = std::fabs(b.value) * (1 - 0x1p-50) - b.error;
+  if (!(least > small && least > b.error && size < large)) return {0, std::numeric_limits<double>::infinity()};
+  return {value, (a.error / least + size * (b.error / least) + size * Near::rounding + small) * Near::of_errors};
 }
 
 namespace {
 
 Near near(const Rational& x) {
-  constexpr double least = 0x1p-150, most = 0x1p150;  // so that no product of three differences or errors underflows
+  constexpr double least = 0x1p-150, most = 0x1p150;        // so that products of a few do not overflow
   const double value = x.get_d(), size = std::fabs(value);  // truncated
   if (sgn(x) == 0) return {0, 0};
   if (!(least <= size && size <= most)) return {0, std::numeric_limits<double>::infinity()};
-  return {value, size * rounding};
+  return {value, size * Near::rounding};
 }
 
 // ---- Sides and turns
@@ -66,12 +58,28 @@ Integer_vector normal_of(const std::vector<const Solid_point*>& corners) {
   return {};
 }
 
-std::array<Near, 3> near_cross(const std::array<Near, 3>& a, const std::array<Near, 3>& b) {
+Polygon points_of(const std::vector<const Solid_point*>& corners) {
+  Polygon points;
+  for (const Solid_point* p : corners) {
+    Exact_point& q = points.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      q[k] = Rational(p->exact[k], p->exact[3]);
+      q[k].canonicalize();
+    }
+  }
+  return points;
+}
+
+Near_point near_cross(const Near_point& a, const Near_point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-std::array<Near, 3> difference(const Solid_point& a, const Solid_point& b) {
-  return {a.near[0] - b.near[0], a.near[1] - b.near[1], a.near[2] - b.near[2]};
+Near_point difference(const Near_point& a, const Near_point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+/// Twice the area that is turned around.
+Near near_turn(const Near_point& p, const Near_point& q, const Near_point& r, std::size_t axis) {
+  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+  return (q[x] - p[x]) * (r[y] - p[y]) - (q[y] - p[y]) * (r[x] - p[x]);
 }
 
 }  // namespace
@@ -82,10 +90,12 @@ Solid_point::Solid_point(const Exact_point& p) : exact(homogeneous(p)), near{} {
 
 int turn_along(const Solid_point& p, const Solid_point& q, const Solid_point& r, std::size_t axis) {
   if (&r == &p || &r == &q) return 0;
-  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-  const Near turn =
-      (q.near[x] - p.near[x]) * (r.near[y] - p.near[y]) - (q.near[y] - p.near[y]) * (r.near[x] - p.near[x]);
-  return turn.sign() != 0 ? turn.sign() : sign_of_determinant(p.exact, q.exact, r.exact, x, y);
+  const int near = turn_along(p.near, q.near, r.near, axis);
+  return near != 0 ? near : sign_of_determinant(p.exact, q.exact, r.exact, (axis + 1) % 3, (axis + 2) % 3);
+}
+
+int turn_along(const Near_point& p, const Near_point& q, const Near_point& r, std::size_t axis) {
+  return near_turn(p, q, r, axis).sign();
 }
 
 Solid_face::Solid_face(std::vector<Number> of, const std::vector<Solid_point>& points)
@@ -103,13 +113,37 @@ Solid_face::Solid_face(std::vector<Number> of, const std::vector<Solid_point>& p
   for (std::size_t k = 1; k < 3; ++k)
     if (mpz_cmpabs(plane[k].get_mpz_t(), plane[axis].get_mpz_t()) > 0) axis = k;
   const std::size_t size = corners.size();
-  normal = near_cross(difference(*corners[size / 3], *corners[0]), difference(*corners[2 * size / 3], *corners[0]));
+  const Near_point& origin = corners[0]->near;
+  normal = near_cross(difference(corners[size / 3]->near, origin), difference(corners[2 * size / 3]->near, origin));
+}
+
+Near Solid_face::height(const Near_point& p) const {
+  const Near_point arm = difference(p, corners[0]->near);
+  return normal[0] * arm[0] + normal[1] * arm[1] + normal[2] * arm[2];
 }
 
 int Solid_face::side(const Solid_point& p) const {
-  const std::array<Near, 3> arm = difference(p, *corners[0]);
-  const Near height = normal[0] * arm[0] + normal[1] * arm[1] + normal[2] * arm[2];
-  return height.sign() != 0 ? height.sign() : certificate_check::side(plane, p.exact);
+  const int near = height(p.near).sign();
+  return near != 0 ? near : certificate_check::side(plane, p.exact);
+}
+
+Near_point Solid_face::lifted(Near_point p) const {
+  const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
+  const Near_point& origin = corners[0]->near;
+  p[axis] = origin[axis] - (normal[x] * (p[x] - origin[x]) + normal[y] * (p[y] - origin[y])) / normal[axis];
+  return p;
+}
+
+Outward_box Solid_face::box() const {
+  Outward_box box;
+  for (const Solid_point* p : corners)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [value, error] = p->near[k];
+      if (!std::isfinite(error)) return Outward_box(points_of(corners));
+      box.low[k] = std::min(box.low[k], value - 2 * error);
+      box.high[k] = std::max(box.high[k], value + 2 * error);
+    }
+  return box;
 }
 
 namespace {
@@ -139,23 +173,32 @@ bool is_less(const Homogeneous& p, const Homogeneous& q) {
   return false;
 }
 
+/// Whether a corner of another face is known to be on the plane, as it is a corner of a face there.
+bool is_known_on(const Solid_face& plane_of, const Solid_face& face, std::size_t corner) {
+  const auto &own = plane_of.numbers, &planes = face.corners[corner]->planes;
+  return std::find(planes.begin(), planes.end(), plane_of.plane_number) != planes.end() ||
+         std::find(own.begin(), own.end(), face.numbers[corner]) != own.end();
+}
+int side_of(const Solid_face& plane_of, const Solid_face& face, std::size_t corner) {
+  return is_known_on(plane_of, face, corner) ? 0 : plane_of.side(*face.corners[corner]);
+}
+
 /// How the corners of one face are to the plane of another.
 struct Sides {
   bool front = false, behind = false;
   std::size_t count_on = 0;
   std::array<std::size_t, 2> on{};  // places of the first two
+  bool both() const { return front && behind; }
 };
 
 Sides sides_of(const Solid_face& corners_of, const Solid_face& plane_of) {
   Sides sides;
   for (std::size_t k = 0; k < corners_of.numbers.size(); ++k) {
-    const auto& known = plane_of.numbers;
-    const bool is_corner = std::find(known.begin(), known.end(), corners_of.numbers[k]) != known.end();
-    const int side = is_corner ? 0 : plane_of.side(*corners_of.corners[k]);
+    const int side = side_of(plane_of, corners_of, k);
     sides.front |= side > 0;
     sides.behind |= side < 0;
     if (side == 0 && sides.count_on++ < 2) sides.on[sides.count_on - 1] = k;
-    if (sides.front && sides.behind) break;
+    if (sides.both()) break;
   }
   return sides;
 }
@@ -172,10 +215,116 @@ bool has_edge(const Solid_face& face, Solid_face::Number p, Solid_face::Number q
 
 /// Whether b, of which the corners are so to the plane of a, has no more than a point or a whole edge in common with a.
 bool is_little(const Solid_face& a, const Solid_face& b, const Sides& sides) {
-  if ((sides.front && sides.behind) || sides.count_on > 2) return false;
+  if (sides.both() || sides.count_on > 2) return false;
   if (sides.count_on < 2) return true;
   const auto p = b.numbers[sides.on[0]], q = b.numbers[sides.on[1]];
   return has_edge(b, p, q) && has_edge(a, p, q);
+}
+
+/// The turn from the edge that begins at one corner of a to a corner of b, as seen against a's axis, and then from a's
+/// front: zero at the edge's own ends.
+Near turn_at_edge(const Solid_face& a, std::size_t edge, const Solid_face& b, std::size_t corner) {
+  const std::size_t next = edge + 1 == a.corners.size() ? 0 : edge + 1;
+  if (b.numbers[corner] == a.numbers[edge] || b.numbers[corner] == a.numbers[next]) return {0, 0};
+  const Near turn = near_turn(a.corners[edge]->near, a.corners[next]->near, b.corners[corner]->near, a.axis);
+  return sgn(a.plane[a.axis]) > 0 ? turn : Near{-turn.value, turn.error};
+}
+/// Known not to be positive.
+bool is_outside(Near turn) { return turn.value <= -turn.error; }
+
+/// Whether doubles tell that b, which has corners strictly on both sides of a's plane, has nothing inside a.
+bool passes_by(const Solid_face& a, const Solid_face& b) {
+  // 1. The two ends of b's stretch in a's plane: between corners, or at one corner, with weights.
+  struct End {
+    std::array<std::size_t, 2> corners;
+    std::array<Near, 2> weights;
+  };
+  std::array<End, 2> ends;
+  std::size_t count = 0;
+  const auto is_full = [&] { return count == ends.size(); };
+  const std::size_t size = b.corners.size();
+  const auto height_of = [&](std::size_t k, bool& known) {
+    known = is_known_on(a, b, k);
+    return known ? Near{} : a.height(b.corners[k]->near);
+  };
+  bool was_on = false, is_on = false;
+  Near last = height_of(size - 1, was_on);
+  for (std::size_t k = 0; k < size; ++k) {
+    const Near here = height_of(k, is_on);
+    if (!is_on && here.sign() == 0) return false;
+    if (is_on || (!was_on && here.sign() != last.sign())) {
+      if (is_full()) return false;
+      const auto size_of = [](Near x) { return Near{std::fabs(x.value), x.error}; };
+      if (is_on) ends[count++] = {{k, k}, {Near{1, 0}, Near{}}};
+      else ends[count++] = {{k == 0 ? size - 1 : k - 1, k}, {size_of(here), size_of(last)}};
+    }
+    last = here;
+    was_on = is_on;
+  }
+  if (!is_full()) return false;
+  // 2. An edge that both are beyond, or on the line of.
+  const auto is_beyond = [&](std::size_t edge, const End& end) {
+    const Near turn = turn_at_edge(a, edge, b, end.corners[0]);
+    if (end.corners[0] == end.corners[1]) return is_outside(turn);
+    const Near other = turn_at_edge(a, edge, b, end.corners[1]);
+    return (is_outside(turn) && is_outside(other)) || is_outside(turn * end.weights[0] + other * end.weights[1]);
+  };
+  for (std::size_t edge = 0; edge < a.corners.size(); ++edge)
+    if (is_beyond(edge, ends[0]) && is_beyond(edge, ends[1])) return true;
+  return false;
+}
+
+/// Whether two corners of b in a's plane are beyond an edge of a, or on its line.
+bool are_beyond_an_edge(const Solid_face& a, const Solid_face& b, const std::array<std::size_t, 2>& corners) {
+  const std::size_t size = a.corners.size();
+  const auto all = [&](const auto& is_beyond) { return std::all_of(corners.begin(), corners.end(), is_beyond); };
+  for (std::size_t k = 0; k < size; ++k)
+    if (all([&](std::size_t corner) { return is_outside(turn_at_edge(a, k, b, corner)); })) return true;
+  const int sense = sgn(a.plane[a.axis]);
+  for (std::size_t k = 0; k < size; ++k)
+    if (all([&](std::size_t corner) {
+          return turn_along(*a.corners[k], *a.corners[k + 1 == size ? 0 : k + 1], *b.corners[corner], a.axis) * sense <=
+                 0;
+        }))
+      return true;
+  return false;
+}
+
+/// The sign of a coordinate of p less that of q.
+int order_along(const Solid_point& p, const Solid_point& q, std::size_t k) {
+  if (&p == &q) return 0;
+  const int near = (p.near[k] - q.near[k]).sign();
+  return near != 0 ? near : cmp(Integer(p.exact[k] * q.exact[3]), Integer(q.exact[k] * p.exact[3]));
+}
+
+/// Whether edges on one line have more in common than a point.
+bool overlap_on_a_line(std::array<const Solid_point*, 2> one, std::array<const Solid_point*, 2> other) {
+  std::size_t k = 0;
+  while (k < 2 && order_along(*one[0], *one[1], k) == 0) ++k;
+  if (order_along(*one[0], *one[1], k) > 0) std::swap(one[0], one[1]);
+  if (order_along(*other[0], *other[1], k) > 0) std::swap(other[0], other[1]);
+  return order_along(*one[0], *other[1], k) < 0 && order_along(*other[0], *one[1], k) < 0;
+}
+
+/// What faces in different planes have in common where that is told by few signs. Proof: P-115
+std::optional<Contact> simple_contact(const Solid_face& a, const Sides& of_a, const Solid_face& b, const Sides& of_b) {
+  // 1. Each is on one side of the other's plane: edges on the line of both planes.
+  if (!of_a.both() && !of_b.both()) {
+    if (of_a.count_on != 2 || of_b.count_on != 2) return std::nullopt;
+    const auto ends = [](const Solid_face& face, const Sides& sides) {
+      return std::array{face.corners[sides.on[0]], face.corners[sides.on[1]]};
+    };
+    return overlap_on_a_line(ends(a, of_a), ends(b, of_b)) ? Contact::edges : Contact::little;
+  }
+  // 2. One passes the other's plane with its inside, to which the other has only an edge: that is not inside.
+  if (of_a.both() != of_b.both()) {
+    const auto& [across, along, sides] = of_a.both() ? std::tie(a, b, of_b) : std::tie(b, a, of_a);
+    if (sides.count_on == 2 && are_beyond_an_edge(across, along, sides.on)) return Contact::little;
+    return std::nullopt;
+  }
+  // 3. Both do: the insides of what they have of that line are apart.
+  if (passes_by(a, b) || passes_by(b, a)) return Contact::little;
+  return std::nullopt;
 }
 
 /// What b has in common with a, as far as it is inside a.
@@ -247,7 +396,7 @@ std::pair<bool, bool> is_beyond_an_edge(const Solid_face& a, const Solid_face& b
 
 }  // namespace
 
-Contact contact_of(const Solid_face& a, const Solid_face& b) {
+bool is_in_plane_of(const Solid_face& a, const Solid_face& b) {
   const auto equal = [&](int factor) {
     for (std::size_t k = 0; k < 4; ++k)
       if (mpz_cmpabs(a.plane[k].get_mpz_t(), b.plane[k].get_mpz_t()) != 0 ||
@@ -255,7 +404,12 @@ Contact contact_of(const Solid_face& a, const Solid_face& b) {
         return false;
     return true;
   };
-  if (equal(1) || equal(-1)) {
+  return equal(1) || equal(-1);
+}
+
+Contact contact_of(const Solid_face& a, const Solid_face& b) {
+  const bool is_told = a.plane_number != Solid_face::no_number && b.plane_number != Solid_face::no_number;
+  if (is_told ? a.plane_number == b.plane_number : is_in_plane_of(a, b)) {
     auto [apart, little] = is_beyond_an_edge(a, b);
     if (!apart) std::tie(apart, little) = is_beyond_an_edge(b, a);
     return !apart ? Contact::crossed : little ? Contact::little : Contact::edges;
@@ -263,8 +417,11 @@ Contact contact_of(const Solid_face& a, const Solid_face& b) {
   // The smaller one first: few corners to a plane.
   const bool a_is_smaller = a.corners.size() < b.corners.size();
   const Solid_face &small = a_is_smaller ? a : b, &large = a_is_smaller ? b : a;
-  if (is_little(large, small, sides_of(small, large)) || is_little(small, large, sides_of(large, small)))
-    return Contact::little;
+  const Sides of_small = sides_of(small, large);
+  if (is_little(large, small, of_small)) return Contact::little;
+  const Sides of_large = sides_of(large, small);
+  if (is_little(small, large, of_large)) return Contact::little;
+  if (const auto simple = simple_contact(small, of_small, large, of_large)) return *simple;
   const Contact in_large = cuts_into(large, small);
   return in_large == Contact::edges ? std::max(in_large, cuts_into(small, large)) : in_large;
 }

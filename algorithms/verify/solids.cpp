@@ -1,7 +1,8 @@
-// To be read after covering.cpp and solid_faces.cpp: the fragments on grids of ranks, then the check, step by step.
+// To be read after covering.cpp, boxes.cpp and solid_faces.cpp: the check, step by step.
 
 #include <sightline/algorithms/verify/solids.h>
 
+#include <sightline/algorithms/verify/boxes.h>
 #include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/numbered_points.h>
@@ -18,84 +19,12 @@
 #include <optional>
 #include <span>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
 namespace sightline::certificate_check {
 namespace {
-
-/// Fragments by squares of grids over ranks of two of their coordinates: whole numbers from here on.
-class Rank_grid {
- public:
-  using Number = Numbered_points::Number;
-
-  struct Box {
-    std::array<std::uint32_t, 3> low, high;  // ranks
-  };
-
-  Rank_grid(const Numbered_points& points, const std::vector<Solid_point>& near, const std::vector<Solid_face>& faces)
-      : boxes_(faces.size()) {
-    while (side_ * side_ < faces.size()) ++side_;
-    for (std::size_t k = 0; k < 3; ++k) rank_faces(points, near, faces, k);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t x = (axis + 1) % 3, y = (axis + 2) % 3;
-      squares_[axis].resize(side_ * side_);
-      for (std::size_t i = 0; i < faces.size(); ++i)
-        for (std::size_t s = square(boxes_[i].low[x], x); s <= square(boxes_[i].high[x], x); ++s)
-          for (std::size_t t = square(boxes_[i].low[y], y); t <= square(boxes_[i].high[y], y); ++t)
-            squares_[axis][s * side_ + t].push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  /// The number of values below x.
-  std::uint32_t rank(const Rational& x, std::size_t k) const {
-    const auto at = std::lower_bound(values_[k].begin(), values_[k].end(), x,
-                                     [](const Rational* value, const Rational& than) { return *value < than; });
-    return static_cast<std::uint32_t>(at - values_[k].begin());
-  }
-  const Box& box(std::size_t i) const { return boxes_[i]; }
-  std::size_t side() const { return side_; }
-  std::size_t square(std::uint32_t rank, std::size_t k) const {
-    return std::min(side_ - 1, rank * side_ / std::max<std::size_t>(1, values_[k].size()));
-  }
-  /// Those in a square as seen along an axis.
-  const std::vector<std::uint32_t>& at(std::size_t axis, std::size_t x, std::size_t y) const {
-    return squares_[axis][x * side_ + y];
-  }
-
- private:
-  void rank_faces(const Numbered_points& points, const std::vector<Solid_point>& near,
-                  const std::vector<Solid_face>& faces, std::size_t k) {
-    std::vector<Number> sorted(near.size());
-    std::iota(sorted.begin(), sorted.end(), Number{0});
-    std::sort(sorted.begin(), sorted.end(), [&](Number i, Number j) {
-      const int known = (near[i].near[k] - near[j].near[k]).sign();
-      return known != 0 ? known < 0 : points[i][k] < points[j][k];
-    });
-    std::vector<std::uint32_t> ranks(near.size());
-    for (const Number number : sorted) {
-      if (values_[k].empty() || *values_[k].back() != points[number][k]) values_[k].push_back(&points[number][k]);
-      ranks[number] = static_cast<std::uint32_t>(values_[k].size() - 1);
-    }
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      boxes_[i].low[k] = boxes_[i].high[k] = ranks[faces[i].numbers[0]];
-      for (const Number number : faces[i].numbers) {
-        boxes_[i].low[k] = std::min(boxes_[i].low[k], ranks[number]);
-        boxes_[i].high[k] = std::max(boxes_[i].high[k], ranks[number]);
-      }
-    }
-  }
-
-  std::vector<Box> boxes_;  // of the fragments
-  std::array<std::vector<const Rational*>, 3> values_;
-  std::size_t side_ = 1;
-  std::array<std::vector<std::vector<std::uint32_t>>, 3> squares_;
-};
-
-bool boxes_meet(const Rank_grid::Box& a, const Rank_grid::Box& b) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
-  return true;
-}
 
 /// Sets of fragments that hang together.
 class Patches {
@@ -127,7 +56,23 @@ bool is_rotation(std::span<const Numbered_points::Number> a, std::span<const Num
   return false;
 }
 
-using Numbers = std::map<std::uint32_t, int>;
+/// How often operands wind round a point, where that is not 0; operands ascending.
+using Numbers = std::vector<std::pair<std::uint32_t, int>>;
+
+/// A sum of steps, in which operands that cancel are no longer: few at a time.
+void add_step(Numbers& sum, std::uint32_t operand, int step) {
+  const auto at = std::find_if(sum.begin(), sum.end(), [&](const auto& entry) { return entry.first == operand; });
+  if (at == sum.end()) {
+    sum.emplace_back(operand, step);
+  } else if ((at->second += step) == 0) {
+    *at = sum.back();
+    sum.pop_back();
+  }
+}
+Numbers in_order(Numbers sum) {
+  std::sort(sum.begin(), sum.end());
+  return sum;
+}
 
 class Solid_check {
  public:
@@ -142,9 +87,12 @@ class Solid_check {
     check_names();
     number_points(result);
     check_coverings();
-    const Rank_grid grid(points_, near_, faces_);
-    check_crossings(grid);
-    check_numbers(grid);
+    number_planes();
+    std::vector<Outward_box> boxes;
+    for (const Solid_face& face : faces_) boxes.push_back(face.box());
+    const Boxes tree(boxes);
+    check_crossings(tree);
+    check_numbers(tree);
     check_boundary();
     if (result != nullptr) check_result(*result);
     if (options_.progress) options_.progress(faces_.size(), faces_.size());
@@ -156,6 +104,8 @@ class Solid_check {
 
  private:
   using Number = Numbered_points::Number;
+  /// Of an operand: the fragments, each as often as it is part of a face.
+  using Parts = std::vector<std::pair<std::size_t, const Solid_certificate::Part*>>;
 
   /// All refer to something.
   void check_names() const {
@@ -211,7 +161,7 @@ class Solid_check {
 
   /// Each operand is its fragments, and closed.
   void check_coverings() const {
-    std::vector<std::vector<std::pair<std::size_t, const Solid_certificate::Part*>>> parts(operands_.size());
+    std::vector<Parts> parts(operands_.size());
     for (std::size_t i = 0; i < claim_.fragments.size(); ++i)
       for (const Solid_certificate::Part& part : claim_.fragments[i].parts) parts[part.operand].emplace_back(i, &part);
     for (std::uint32_t operand = 0; operand < operands_.size(); ++operand) {
@@ -241,17 +191,35 @@ class Solid_check {
         for (std::size_t& i : rejection.verdict.fragments) i = of[i];
         throw;
       }
-      Numbered_chain boundary;
-      for (const auto& [i, part] : parts[operand]) boundary.add(faces_[i].numbers, part->turned ? -1 : 1);
+      const Numbered_chain boundary = boundary_of(operand, parts[operand], covering);
       if (const auto point = boundary.nonzero(points_))
         reject("solid " + std::to_string(operand) + " is not closed near " + name(*point));
     }
   }
 
+  /// The sum of an operand's fragments: of a face of one loop, without pieces, that is the loop, as they tile it.
+  Numbered_chain boundary_of(std::uint32_t operand, const Parts& parts, const Covering& covering) const {
+    const Polygon_soup& soup = operands_[operand];
+    std::vector<bool> by_fragments(soup.face_count());
+    for (const auto& piece : covering.pieces) by_fragments[piece.face] = true;
+    std::vector<bool> is_tiled(soup.face_count());
+    for (const auto& [i, part] : parts) is_tiled[part->face] = true;
+    Numbered_chain boundary;
+    std::vector<Number> loop;
+    for (Face_id f = 0; f < soup.face_count(); ++f) {
+      if (soup.loop_count(f) != 1) by_fragments[f] = true;
+      if (by_fragments[f] || !is_tiled[f]) continue;
+      loop.clear();
+      for (const Point_id p : soup.loop(f)) loop.push_back(operand_numbers_[operand][p]);
+      boundary.add(loop, 1);
+    }
+    for (const auto& [i, part] : parts)
+      if (by_fragments[part->face]) boundary.add(faces_[i].numbers, part->turned ? -1 : 1);
+    return boundary;
+  }
+
   /// The operand's faces that are triangles, each the one fragment that names it: those are tiled.
-  std::vector<bool> whole_triangles(std::uint32_t operand,
-                                    const std::vector<std::pair<std::size_t, const Solid_certificate::Part*>>& parts,
-                                    const Covering& covering) const {
+  std::vector<bool> whole_triangles(std::uint32_t operand, const Parts& parts, const Covering& covering) const {
     const Polygon_soup& soup = operands_[operand];
     std::vector<std::size_t> times(soup.face_count());
     for (const auto& [i, part] : parts)
@@ -273,26 +241,46 @@ class Solid_check {
     return whole;
   }
 
+  /// Planes by number, and for each point those of the fragments that it is a corner of. Pre: fragments are planar.
+  void number_planes() {
+    std::unordered_multimap<std::size_t, const Solid_face*> known;  // by digits
+    std::uint32_t count = 0;
+    for (Solid_face& face : faces_) {
+      std::size_t digits = 0;
+      for (const Integer& n : face.plane)
+        for (std::size_t k = 0; k < mpz_size(n.get_mpz_t()); ++k)
+          digits =
+              (digits ^ digits >> 29 ^ mpz_getlimbn(n.get_mpz_t(), static_cast<mp_size_t>(k))) * 0x9e3779b97f4a7c15;
+      const auto [begin, end] = known.equal_range(digits);
+      const auto same =
+          std::find_if(begin, end, [&](const auto& entry) { return is_in_plane_of(face, *entry.second); });
+      face.plane_number = same != end ? same->second->plane_number : count++;
+      if (same == end) known.emplace(digits, &face);
+      for (const Number corner : face.numbers) {
+        std::vector<std::uint32_t>& planes = near_[corner].planes;
+        if (std::find(planes.begin(), planes.end(), face.plane_number) == planes.end())
+          planes.push_back(face.plane_number);
+      }
+    }
+  }
+
+  /// Whether two fragments are known to be of one tiling, so that they have no area in common.
+  bool are_tiles_of_one(std::size_t i, std::size_t j) const {
+    const Solid_certificate::Part &a = claim_.fragments[i].parts[0], &b = claim_.fragments[j].parts[0];
+    return a.operand == b.operand && a.face == b.face && a.piece == b.piece;
+  }
+
   /// No fragment is cut into by another one. Post: those are marked that may share more with another than whole edges.
-  void check_crossings(const Rank_grid& grid) {
-    for_each_below(grid.side() * grid.side(), 20, workers_, [&](std::size_t place) {
-      const std::size_t x = place / grid.side(), y = place % grid.side();
-      const std::vector<std::uint32_t>& here = grid.at(2, x, y);
-      for (std::size_t j = 0; j < here.size(); ++j)
-        for (std::size_t i = 0; i < j; ++i) {
-          const Rank_grid::Box &a = grid.box(here[i]), &b = grid.box(here[j]);
-          // Each pair once: where both are for the first time.
-          if (!boxes_meet(a, b) || grid.square(std::max(a.low[0], b.low[0]), 0) != x ||
-              grid.square(std::max(a.low[1], b.low[1]), 1) != y)
-            continue;
-          const Contact contact = contact_of(faces_[here[i]], faces_[here[j]]);
-          if (contact == Contact::crossed)
-            reject(name("fragment", here[i]) + " and " + name("fragment", here[j]) + " cross or overlap",
-                   {here[i], here[j]});
-          if (contact == Contact::little) continue;
-          for (const std::uint32_t touched : {here[i], here[j]})
-            std::atomic_ref(touched_[touched]).store(1, std::memory_order_relaxed);
-        }
+  void check_crossings(const Boxes& tree) {
+    for_each_below(tree.leaves(), 20, workers_, [&](std::size_t leaf) {
+      tree.for_each_pair(leaf, [&](std::size_t i, std::size_t j) {
+        if (i > j) std::swap(i, j);
+        const Contact contact = are_tiles_of_one(i, j) ? Contact::edges : contact_of(faces_[i], faces_[j]);
+        if (contact == Contact::crossed)
+          reject(name("fragment", i) + " and " + name("fragment", j) + " cross or overlap", {i, j});
+        if (contact == Contact::little) return;
+        for (const std::size_t touched : {i, j}) std::atomic_ref(touched_[touched]).store(1, std::memory_order_relaxed);
+      });
     });
   }
 
@@ -330,31 +318,62 @@ class Solid_check {
     Exact_point sum = points_[faces_[i].numbers[0]];
     Rational weights = 1;
     for (std::size_t k = 1; k < faces_[i].numbers.size(); ++k) {
-      const Rational weight = static_cast<unsigned long>(1 + (7 * k + 13 * attempt * k * k + 5 * attempt) % 11);
+      const Rational weight = weight_of(k, attempt);
       for (std::size_t c = 0; c < 3; ++c) sum[c] += weight * points_[faces_[i].numbers[k]][c];
       weights += weight;
     }
     for (Rational& x : sum) x /= weights;
     return sum;
   }
+  static unsigned long weight_of(std::size_t corner, std::size_t attempt) {
+    return static_cast<unsigned long>(1 + (7 * corner + 13 * attempt * corner * corner + 5 * attempt) % 11);
+  }
+
+  /// The same in doubles: of the point in the fragment's plane, two coordinates exactly; nothing where they do not tell
+  /// that it is inside.
+  std::optional<Near_point> near_point_inside(std::size_t i, std::size_t attempt) const {
+    const Solid_face& face = faces_[i];
+    const std::size_t size = face.corners.size();
+    Near_point p{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (c == face.axis) continue;
+      double sum = face.corners[0]->near[c].value, weights = 1;
+      for (std::size_t k = 1; k < size; ++k) {
+        const auto weight = static_cast<double>(weight_of(k, attempt));
+        sum += weight * face.corners[k]->near[c].value;
+        weights += weight;
+      }
+      p[c].value = sum / weights;
+    }
+    const int sense = sgn(face.plane[face.axis]);
+    for (std::size_t k = 0; k < size; ++k)
+      if (turn_along(face.corners[k]->near, face.corners[k + 1 == size ? 0 : k + 1]->near, p, face.axis) != sense)
+        return std::nullopt;
+    return face.lifted(p);
+  }
 
   /// The winding numbers just before a fragment's front, by a ray from a point in it along the axis in which its normal
-  /// is longest; nothing where that meets an edge.
-  std::optional<Numbers> numbers_at(const Rank_grid& grid, std::size_t i, const Exact_point& at) const {
-    const Solid_point p(at);
-    const std::size_t axis = faces_[i].axis, x_axis = (axis + 1) % 3, y_axis = (axis + 2) % 3;
-    const std::uint32_t x = grid.rank(at[x_axis], x_axis), y = grid.rank(at[y_axis], y_axis);
-    Numbers above;
-    // Between two values a point is in the square of either, whichever its rank says; boxes hold both.
-    for (const std::uint32_t j : grid.at(axis, grid.square(x, x_axis), grid.square(y, y_axis))) {
-      const Rank_grid::Box& box = grid.box(j);
-      if (j == i || box.low[x_axis] > x || x > box.high[x_axis] || box.low[y_axis] > y || y > box.high[y_axis])
-        continue;
+  /// is longest, to the end of all that is nearer; nothing where that meets an edge, or comes so near that it is not
+  /// told. Pre: the box is about the point.
+  template <class Corner, class Point>
+  std::optional<Numbers> numbers_at(const Boxes& tree, std::size_t i, const Point& p, Outward_box ray,
+                                    const Corner& corner) const {
+    const std::size_t axis = faces_[i].axis;
+    const Outward_box all = tree.all();
+    const bool is_up = all.high[axis] - ray.high[axis] <= ray.low[axis] - all.low[axis];
+    if (is_up) ray.high[axis] = Outward_box::infinity;
+    else ray.low[axis] = -Outward_box::infinity;
+    thread_local std::vector<std::size_t> met;
+    met.clear();
+    tree.find(ray, met);
+    Numbers sum;
+    for (const std::size_t j : met) {
+      if (j == i) continue;
       const Solid_face& face = faces_[j];
       bool left = false, right = false, on = false;
       const std::size_t size = face.corners.size();
       for (std::size_t k = 0; k < size && !(left && right); ++k) {
-        const int turn = turn_along(*face.corners[k], *face.corners[k + 1 == size ? 0 : k + 1], p, axis);
+        const int turn = turn_along(corner(face, k), corner(face, k + 1 == size ? 0 : k + 1), p, axis);
         left |= turn > 0;
         right |= turn < 0;
         on |= turn == 0;
@@ -363,15 +382,32 @@ class Solid_check {
       if (on) return std::nullopt;
       const int upwards = sgn(face.plane[axis]), here = face.side(p);
       if (here == 0) return std::nullopt;
-      if (here == upwards) continue;  // it is below
+      if ((here == upwards) == is_up) continue;  // it is on the other side
       for (const Solid_certificate::Part& part : claim_.fragments[j].parts)
-        above[part.operand] += part.turned ? -upwards : upwards;
+        add_step(sum, part.operand, part.turned == is_up ? -upwards : upwards);
     }
-    // The ray begins above the fragment; its front may be below.
-    if (sgn(faces_[i].plane[axis]) < 0)
-      for (const Solid_certificate::Part& part : claim_.fragments[i].parts) above[part.operand] -= part.turned ? -1 : 1;
-    std::erase_if(above, [](const auto& entry) { return entry.second == 0; });
-    return above;
+    // The ray begins on one side of the fragment; its front may be on the other.
+    if ((sgn(faces_[i].plane[axis]) > 0) != is_up)
+      for (const Solid_certificate::Part& part : claim_.fragments[i].parts)
+        add_step(sum, part.operand, part.turned ? 1 : -1);
+    return in_order(std::move(sum));
+  }
+  std::optional<Numbers> numbers_by_doubles(const Boxes& tree, std::size_t i, std::size_t attempt) const {
+    const std::optional<Near_point> p = near_point_inside(i, attempt);
+    if (!p) return std::nullopt;
+    Outward_box ray;
+    for (std::size_t k = 0; k < 3; ++k) {
+      ray.low[k] = (*p)[k].value - 2 * (*p)[k].error;
+      ray.high[k] = (*p)[k].value + 2 * (*p)[k].error;
+      if (!(ray.low[k] <= ray.high[k])) return std::nullopt;
+    }
+    return numbers_at(tree, i, *p, ray,
+                      [](const Solid_face& face, std::size_t k) -> const Near_point& { return face.corners[k]->near; });
+  }
+  std::optional<Numbers> numbers_by_integers(const Boxes& tree, std::size_t i, std::size_t attempt) const {
+    const Exact_point p = point_inside(i, attempt);
+    return numbers_at(tree, i, Solid_point(p), Outward_box(Polygon{p}),
+                      [](const Solid_face& face, std::size_t k) -> const Solid_point& { return *face.corners[k]; });
   }
 
   /// The same by a ray in any direction, past all fragments.
@@ -389,7 +425,7 @@ class Solid_check {
       return sgn(Integer(plane[0] * d[0] + plane[1] * d[1] + plane[2] * d[2]));
     };
     if (slope(faces_[i].plane) == 0) return std::nullopt;
-    Numbers beyond;
+    Numbers sum;
     for (std::size_t j = 0; j < faces_.size(); ++j) {
       if (j == i) continue;
       const Solid_face& face = faces_[j];
@@ -417,22 +453,20 @@ class Solid_check {
       if (outside) continue;
       if (on || here == 0) return std::nullopt;
       for (const Solid_certificate::Part& part : claim_.fragments[j].parts)
-        beyond[part.operand] += part.turned ? -along : along;
+        add_step(sum, part.operand, part.turned ? -along : along);
     }
     if (slope(faces_[i].plane) < 0)
       for (const Solid_certificate::Part& part : claim_.fragments[i].parts)
-        beyond[part.operand] -= part.turned ? -1 : 1;
-    std::erase_if(beyond, [](const auto& entry) { return entry.second == 0; });
-    return beyond;
+        add_step(sum, part.operand, part.turned ? 1 : -1);
+    return in_order(std::move(sum));
   }
 
   bool is_in_result(const Numbers& numbers) const {
     std::size_t inside = 0;
     bool first = false;
+    const bool is_positive = claim_.inside == "positive", is_nonzero = claim_.inside == "nonzero";
     for (const auto& [operand, number] : numbers) {
-      const bool is_inside = claim_.inside == "positive"  ? number > 0
-                             : claim_.inside == "nonzero" ? number != 0
-                                                          : number % 2 != 0;
+      const bool is_inside = is_positive ? number > 0 : is_nonzero ? number != 0 : number % 2 != 0;
       inside += is_inside;
       first |= is_inside && operand == 0;
     }
@@ -443,19 +477,21 @@ class Solid_check {
   }
 
   /// Before each fragment the solids wind round as it says, and its fate follows from that.
-  void check_numbers(const Rank_grid& grid) const {
+  void check_numbers(const Boxes& tree) const {
     Patches patches = this->patches();
     std::vector<std::uint32_t> least(faces_.size()), first;
-    for (std::uint32_t i = 0; i < faces_.size(); ++i) {
-      least[i] = patches.least(i);
+    for (std::uint32_t i = 0; i < faces_.size(); ++i) least[i] = patches.least(i);
+    for (const std::uint32_t i : tree.order())  // so that rays after one another meet the same
       if (least[i] == i) first.push_back(i);
-    }
     std::vector<Numbers> numbers(faces_.size());
     for_each_below(first.size(), 20, workers_, [&](std::size_t k) {
       const std::size_t i = first[k];
       std::optional<Numbers> found;
-      for (std::size_t attempt = 0; attempt < 4 && !found; ++attempt)
-        found = numbers_at(grid, i, point_inside(i, attempt));
+      constexpr std::size_t attempts = 4;
+      for (std::size_t attempt = 0; attempt < attempts && !found; ++attempt)
+        found = numbers_by_doubles(tree, i, attempt);
+      for (std::size_t attempt = 0; attempt < attempts && !found; ++attempt)
+        found = numbers_by_integers(tree, i, attempt);
       numbers[i] = found ? *found : numbers_by_brute_force(i);
     });
     for_each_below(faces_.size(), 1000, workers_, [&](std::size_t i) { check_fate(i, numbers[least[i]]); });
@@ -467,7 +503,7 @@ class Solid_check {
                     [](const auto& a, const auto& b) { return a.first == b.first && a.second == b.second; }))
       reject("before " + name("fragment", i) + " the solids wind round otherwise than it says", {i});
     Numbers behind = front;
-    for (const Solid_certificate::Part& part : fragment.parts) behind[part.operand] += part.turned ? -1 : 1;
+    for (const Solid_certificate::Part& part : fragment.parts) add_step(behind, part.operand, part.turned ? -1 : 1);
     const bool before = is_in_result(front), beyond = is_in_result(behind);
     const auto fate = before == beyond ? Solid_certificate::Fate::dropped
                       : before         ? Solid_certificate::Fate::turned

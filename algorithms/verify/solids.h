@@ -60,7 +60,8 @@ struct Solid_certificate {
 /// kept cancel. With a result, that (6) its faces are, plane by plane, what is kept, and none crosses itself.
 /// Degenerate: faces upon each other have common fragments; nothing kept is an empty result. Pre: none on the
 /// certificate; rejects whatever is wrong with it. Post: `why` is one line. Cost: O(n log n) for n fragments, and the
-/// pairs of which boxes meet, and what the rays' columns hold; quadratic at worst. Exact: yes. Proof: P-115
+/// pairs of which boxes meet, and the boxes that a ray from each patch meets; quadratic at worst. Exact: yes. Proof:
+/// P-115
 Verdict verify_solids(std::span<const Polygon_soup> operands, const Solid_certificate& certificate,
                       const Polygon_soup* result = nullptr, const Verify_options& options = {});
 

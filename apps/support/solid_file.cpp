@@ -26,7 +26,8 @@ Check solid_ending() {
   });
 }
 
-std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap) {
+std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap,
+                                           const Rounding_progress& progress) {
   const std::optional<Format> format = format_of_ending(out);
   if (format == Format::qoff) {
     write_scene(soup, out);
@@ -40,7 +41,7 @@ std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::
     }
   const Rounding to = to_float ? Rounding::to_float : Rounding::to_double;
   try {
-    Rounded_surface near = snap ? snapped(soup, to, triangles) : rounded(soup, to, triangles);
+    Rounded_surface near = snap ? snapped(soup, to, triangles, progress) : rounded(soup, to, triangles, progress);
     write_scene(near.soup, out);
     return near;
   } catch (const std::domain_error&) {

@@ -15,8 +15,10 @@ namespace sightline::app {
 Check solid_ending();
 
 /// Writes a surface, exactly if the format can hold it; else, or if floats are asked for, rounded, or snapped, which is
-/// returned. Pre: no holes. Errors: as write_scene.
-std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap);
+/// returned. Pre: no holes. Errors: as write_scene. `progress` is told of rounding; what it throws comes before
+/// anything is written.
+std::optional<Rounded_surface> write_solid(const Polygon_soup& soup, const std::string& out, bool to_float, bool snap,
+                                           const Rounding_progress& progress = {});
 
 Json rounding_json(const Rounded_surface& near);
 std::string rounding_text(const Rounded_surface& near);

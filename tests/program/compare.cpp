@@ -260,6 +260,42 @@ TEST_F(Budget, that_is_over_at_once_costs_hardly_more_than_reading_the_scene) {
   EXPECT_FALSE(fs::exists(picture));
 }
 
+TEST_F(Budget, that_runs_out_in_boolean_ends_each_of_its_stages_and_nothing_is_written) {
+  const std::string one = path("one.off").string(), other = path("other.off").string(), out = path("u.ply").string(),
+                    certificate = path("c.json").string(), page = path("u.html").string();
+  ASSERT_EQ(run({"generate", "convex_sphere", "--size", "30000", "--seed", "1", "--out", one}).code, done);
+  ASSERT_EQ(run({"generate", "convex_sphere", "--size", "30000", "--seed", "2", "--out", other}).code, done);
+  const std::vector<std::string> words{
+      "boolean", "union",     one, other,     "--out", out,      "--html",        page,       "--json",
+      "-",       "--threads", "1", "--round", "float", "--snap", "--certificate", certificate};
+  const Outcome whole = run(words);
+  ASSERT_EQ(whole.code, done) << whole;
+  for (const std::string& file : {out, certificate, page}) ASSERT_TRUE(fs::remove(file));
+  // 1. At once, and then later and later.
+  double read = 0;
+  for (const std::string& file : {one, other}) read += run({"info", file}).processor_seconds;
+  std::set<std::string> stages;
+  for (const double share : {1e-5, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5}) {
+    std::vector<std::string> late = words;
+    late.insert(late.end(), {"--budget", std::to_string(1e-6 + share * whole.processor_seconds)});
+    const Outcome r = run(late);
+    if (r.code == done && share > 0.1) continue;  // on a machine that is less busy now
+    ASSERT_EQ(r.code, undecided) << r;
+    EXPECT_TRUE(r.one_line_of_error()) << r;
+    EXPECT_EQ(r.out, "") << r;
+    EXPECT_NE(r.err.find("; nothing is written"), std::string::npos) << r;
+    for (const std::string& file : {out, certificate, page}) EXPECT_FALSE(fs::exists(file)) << r;
+    if (!sanitized) EXPECT_LT(r.processor_seconds, 1.5 * read + share * whole.processor_seconds + 0.3) << r;
+    stages.insert(r.err.substr(r.err.find("ran out ") + 8, 60));
+  }
+  EXPECT_GE(stages.size(), 3u);
+  // 2. What suffices changes nothing.
+  std::vector<std::string> in_time = words;
+  in_time.insert(in_time.end(), {"--budget", "1e6"});
+  EXPECT_EQ(run(in_time).code, done);
+  EXPECT_TRUE(fs::exists(out));
+}
+
 TEST_F(Budget, that_runs_out_in_pvs_leaves_the_rest_undecided_at_once) {
   const std::string house = path("house.off").string();
   ASSERT_EQ(run({"generate", "rooms", "--size", "3", "--out", house}).code, done);

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <random>
 #include <set>
@@ -80,14 +81,21 @@ bool is_edge(const Triangle& t, const std::set<Exact_point>& ends) {
   return false;
 }
 
-Contact contact_of(const std::vector<Exact_point>& a, const std::vector<Exact_point>& b) {
+/// With planes known: of each corner, which of the faces' planes hold it.
+Contact contact_of(const std::vector<Exact_point>& a, const std::vector<Exact_point>& b, bool with_planes = false) {
   Numbered_points points;
   std::array<std::vector<Numbered_points::Number>, 2> numbers;
   for (const Exact_point& p : a) numbers[0].push_back(points.add(p));
   for (const Exact_point& p : b) numbers[1].push_back(points.add(p));
   std::vector<Solid_point> near;
   for (Numbered_points::Number k = 0; k < points.size(); ++k) near.emplace_back(points[k]);
-  return certificate_check::contact_of(Solid_face(numbers[0], near), Solid_face(numbers[1], near));
+  std::array<Solid_face, 2> faces{Solid_face(numbers[0], near), Solid_face(numbers[1], near)};
+  for (std::uint32_t k = 0; k < 2 && with_planes; ++k) {
+    faces[k].plane_number = k == 1 && is_in_plane_of(faces[0], faces[1]) ? 0 : k;
+    for (Solid_point& p : near)
+      if (faces[k].side(p) == 0) p.planes.push_back(faces[k].plane_number);
+  }
+  return certificate_check::contact_of(faces[0], faces[1]);
 }
 
 TEST(Checker, what_faces_have_in_common_is_what_clipping_in_rationals_leaves) {
@@ -109,7 +117,7 @@ TEST(Checker, what_faces_have_in_common_is_what_clipping_in_rationals_leaves) {
     const Common common = common_of(t[0], t[1]);
     const bool is_whole = common.ends.size() < 2 || (is_edge(t[0], common.ends) && is_edge(t[1], common.ends));
     const std::vector<Exact_point> one(t[0].begin(), t[0].end()), other(t[1].begin(), t[1].end());
-    for (const Contact found : {contact_of(one, other), contact_of(other, one)}) {
+    for (const Contact found : {contact_of(one, other), contact_of(other, one), contact_of(one, other, true)}) {
       ASSERT_EQ(found == Contact::crossed, common.crossed) << k;
       ASSERT_TRUE(found != Contact::little || is_whole) << k;
       ++cases[common.crossed ? "crossed" : !is_whole ? "edges" : found == Contact::little ? "little" : "not told"];
@@ -119,6 +127,89 @@ TEST(Checker, what_faces_have_in_common_is_what_clipping_in_rationals_leaves) {
   EXPECT_GT(cases["edges"], test_scenes::least(100));
   EXPECT_GT(cases["little"], test_scenes::least(1500));
   EXPECT_LT(cases["not told"], cases["little"]);
+}
+
+TEST(Checker, edges_on_one_line_share_what_is_in_both) {
+  // Upright and lying triangles with edges on the axis x: what they share is a point, or part of an edge.
+  const auto lying = [](int from, int to) { return std::vector<Exact_point>{{from, 0, 0}, {to, 0, 0}, {from, 5, 0}}; };
+  const auto upright = [](int from, int to) {
+    return std::vector<Exact_point>{{to, 0, 0}, {from, 0, 0}, {from, 0, 5}};
+  };
+  for (int from = -4; from <= 4; ++from)
+    for (int to = from + 1; to <= 5; ++to) {
+      const int shared = std::min(to, 2) - std::max(from, 0);  // with that from 0 to 2
+      const Contact expected = shared <= 0 || (from == 0 && to == 2) ? Contact::little : Contact::edges;
+      for (const bool with_planes : {false, true}) {
+        EXPECT_EQ(contact_of(lying(0, 2), upright(from, to), with_planes), expected) << from << ' ' << to;
+        EXPECT_EQ(contact_of(upright(from, to), lying(0, 2), with_planes), expected) << from << ' ' << to;
+      }
+    }
+}
+
+TEST(Checker, stretches_of_one_line_that_touch_or_are_apart_are_little) {
+  // Triangles that both pass the axis x, from a tip to the middle of an edge: one ends at 0, the other begins near it.
+  const auto across = [](const Rational& tip, const Rational& middle, int y, int z) {
+    return std::vector<Exact_point>{{tip, 0, 0}, {middle, y, z}, {middle, -y, -z}};
+  };
+  const std::vector<Exact_point> left = across(-2, 0, 0, 3);
+  for (const auto& [y, z] : {std::pair{3, 0}, {1, 1}, {1, -4}, {7, 2}})
+    for (const Rational& gap : {Rational(0), Rational(1, 3), Rational(-1, 3), Rational(1, Integer(1) << 90)}) {
+      const std::vector<Exact_point> right = across(3 + gap, gap, y, z);
+      for (const bool with_planes : {false, true}) {
+        const Contact expected = gap < 0 ? Contact::crossed : Contact::little;
+        EXPECT_EQ(contact_of(left, right, with_planes), expected) << y << ' ' << z << ' ' << gap;
+        EXPECT_EQ(contact_of(right, left, with_planes), expected) << y << ' ' << z << ' ' << gap;
+      }
+    }
+}
+
+TEST(Checker, quotients_and_points_above_others_are_near_what_they_should_be) {
+  using certificate_check::Near;
+  std::mt19937_64 random(7);
+  const auto number = [&] {
+    return std::ldexp(static_cast<double>(random() >> 11) - 0x1p52, -50 + static_cast<int>(random() % 9));
+  };
+  int told = 0;
+  for (int k = 0; k < test_scenes::sample(5000); ++k) {
+    // 1. Of any two numbers near others.
+    const double a = number(), b = number(), scale = std::ldexp(1, -static_cast<int>(random() % 60));
+    const Rational da = exact(a * scale), db = exact(b * scale);
+    const Near quotient = Near{a, std::fabs(a * scale)} / Near{b, std::fabs(b * scale)};
+    for (const auto& [x, y] : {std::pair<Rational, Rational>{exact(a) + da, exact(b) - db},
+                               {exact(a) - da, exact(b) + db},
+                               {exact(a) - da, exact(b) - db}}) {
+      if (!std::isfinite(quotient.error)) continue;
+      ASSERT_LE(abs(Rational(x / y - exact(quotient.value))), exact(quotient.error)) << k;
+      ++told;
+    }
+    // 2. Of a face, above or below a point.
+    Numbered_points points;
+    std::vector<Numbered_points::Number> numbers;
+    std::vector<Solid_point> near;
+    for (int i = 0; i < 3; ++i) {
+      const Exact_point p{exact(number()) / 3, exact(number()) / 7, exact(number())};
+      numbers.push_back(points.add(p));
+      near.emplace_back(p);
+    }
+    const Solid_face face(numbers, near);
+    if (!face.has_plane()) continue;
+    certificate_check::Near_point p;
+    Exact_point q;
+    for (std::size_t c = 0; c < 3; ++c) {
+      p[c] = {number(), 0};
+      q[c] = exact(p[c].value);
+    }
+    const certificate_check::Near_point lifted = face.lifted(p);
+    Rational height = face.plane[3];
+    q[face.axis] = 0;
+    for (std::size_t c = 0; c < 3; ++c) height += face.plane[c] * q[c];
+    const Rational expected = -height / face.plane[face.axis];
+    ASSERT_LE(abs(Rational(expected - exact(lifted[face.axis].value))), exact(lifted[face.axis].error)) << k;
+    ASSERT_LT(lifted[face.axis].error, 0x1p-20) << k;
+  }
+  EXPECT_GT(told, test_scenes::least(5000));
+  EXPECT_FALSE(std::isfinite((Near{1, 0} / Near{0, 0}).error));
+  EXPECT_FALSE(std::isfinite((Near{1, 0} / Near{1, 1}).error));
 }
 
 TEST(Checker, edges_that_go_on_beyond_a_straight_corner_are_more_than_a_whole_edge) {
@@ -220,7 +311,22 @@ TEST(Checker, refuses_what_all_but_one_of_its_steps_would_accept) {
   Solid_certificate both = uncut({there}), rest = uncut({here});
   both.fragments.insert(both.fragments.end(), rest.fragments.begin(), rest.fragments.end());
   EXPECT_FALSE(verdict({here}, both).accepted);
-  // 5. What is kept is not closed, and a result that is another one.
+  // 5. Faces of one solid that cross each other: they are tiles of several faces.
+  const Polygon_soup across = box({1, 1, 1}, {3, 3, 3});
+  Polygon_soup crossed;
+  for (const Polygon_soup* part : {&cube, &across})
+    for (Point_id p = 0; p < 8; ++p) crossed.add_point(part->point(p)[0], part->point(p)[1], part->point(p)[2]);
+  for (Face_id f = 0; f < 12; ++f) {
+    std::vector<Point_id> loop(cube.loop(f % 6).begin(), cube.loop(f % 6).end());
+    for (Point_id& p : loop) p += f < 6 ? 0 : 8;
+    crossed.add_face(loop);
+  }
+  Solid_certificate as_one = uncut({cube, across});
+  as_one.operands = 1;
+  for (auto& fragment : as_one.fragments)
+    for (auto& part : fragment.parts) part.face += 6 * std::exchange(part.operand, 0);
+  EXPECT_TRUE(verdict({crossed}, as_one).why.ends_with("cross or overlap"));
+  // 6. What is kept is not closed, and a result that is another one.
   Solid_certificate right = uncut({cube, apart});
   EXPECT_FALSE(verify_solids(std::vector{cube, apart}, right, &cube).accepted);
   EXPECT_FALSE(verify_solids(std::vector{cube}, uncut({cube}), &apart).accepted);

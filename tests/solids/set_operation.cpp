@@ -5,6 +5,7 @@
 
 #include "../sample.h"
 
+#include <sightline/algorithms/solids/box_tree.h>
 #include <sightline/algorithms/solids/certificate.h>
 #include <sightline/algorithms/solids/measure.h>
 #include <sightline/algorithms/solids/rounding.h>
@@ -23,9 +24,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <random>
 #include <set>
 #include <sstream>
 
@@ -112,6 +115,46 @@ std::vector<Known> known() {
       {"a peak on an edge", {cube, peak}, {Rational(17, 2), 0, 8, Rational(17, 2)}},
       {"turned inside out", {cube, generate::faces_reversed(box({1, 1, 1}, {3, 3, 3}))}, {8, 0, 8, 8}},
   };
+}
+
+TEST(Box_tree, finds_each_pair_of_boxes_that_meet_once_however_many_middles_are_equal) {
+  std::mt19937 random(11);
+  for (int k = 0; k < test_scenes::sample(60); ++k) {
+    // Small boxes at few or many places, some of them far out.
+    const auto places = static_cast<int>(k % 4 == 0 ? 1 : k % 4 == 1 ? 3 : 40);
+    std::vector<Polygon_soup> boxes;
+    for (auto count = static_cast<int>(random() % 150); count >= 0; --count) {
+      std::array<Exact_point, 2> ends;
+      for (std::size_t c = 0; c < 3; ++c) {
+        ends[0][c] =
+            static_cast<long>(random() % static_cast<unsigned>(places)) * (k % 3 == 2 && count % 50 == 0 ? 100000 : 1);
+        ends[1][c] = ends[0][c] + Rational(static_cast<unsigned long>(random() % 3) + 1, 2);
+      }
+      boxes.push_back(box(ends[0], ends[1]));
+    }
+    const Operands operands(boxes);
+    const Box_tree tree(operands);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> found, expected;
+    for (std::size_t leaf = 0; leaf < tree.leaf_count(); ++leaf)
+      tree.for_each_pair(leaf, [&](std::uint32_t i, std::uint32_t j) { found.push_back(std::minmax(i, j)); });
+    std::vector<Box_tree::Box> all(operands.pieces().size());
+    for (std::size_t i = 0; i < all.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c) {
+        all[i].low[c] = 1e300;
+        all[i].high[c] = -1e300;
+        for (const Piece_corner& corner : operands.corners(i)) {
+          const double x = operands.points().approximate(corner.point, static_cast<int>(c));
+          all[i].low[c] = std::min(all[i].low[c], x);
+          all[i].high[c] = std::max(all[i].high[c], x);
+        }
+      }
+    for (std::uint32_t j = 0; j < all.size(); ++j)
+      for (std::uint32_t i = 0; i < j; ++i)
+        if (all[i].meets(all[j])) expected.emplace_back(i, j);
+    std::sort(found.begin(), found.end());
+    std::sort(expected.begin(), expected.end());
+    ASSERT_EQ(found, expected) << k;
+  }
 }
 
 TEST(Set_operations, of_touching_and_coincident_boxes_have_the_volumes_that_they_must) {

@@ -10,8 +10,11 @@
 #include <sightline/algorithms/solids/set_operation.h>
 #include <sightline/algorithms/solids/without_holes.h>
 #include <sightline/harness/generate/transform.h>
+#include <sightline/kernel/threads.h>
 
 #include <gtest/gtest.h>
+
+#include <utility>
 
 namespace {
 
@@ -75,6 +78,30 @@ TEST(Snapping, leaves_a_solid_where_rounding_does_not_or_says_that_it_could_not)
   RecordProperty("mended", mended);
   EXPECT_GT(broken, test_scenes::least(8));
   EXPECT_GT(2 * mended, broken);
+}
+
+TEST(Snapping, ends_where_its_progress_throws_and_goes_on_where_it_does_not) {
+  const Polygon_soup exact = without_holes(united(cubes(0, 6, 1L << 20))).soup;
+  const Rounded_surface whole = snapped(exact, Rounding::to_float);
+  ASSERT_GT(whole.rounds, 0u);
+  struct Over {};
+  Rounded_surface result;
+  std::size_t asked = 0, most = ~std::size_t{0};
+  const auto count = [&](std::size_t done, std::size_t all) {
+    EXPECT_LE(done, all);
+    if (++asked > most) throw Over();
+  };
+  const auto snap = [&] { run_with_threads(1, [&] { result = snapped(exact, Rounding::to_float, false, count); }); };
+  snap();
+  EXPECT_EQ(result.faults(), whole.faults());
+  const std::size_t in_all = std::exchange(asked, 0);
+  EXPECT_GT(in_all, 3 * exact.face_count());  // in each of its stages
+  for (const std::size_t share : {0, 1, 2, 3, 5, 9}) {
+    most = in_all * share / 10;
+    asked = 0;
+    EXPECT_THROW(snap(), Over) << share;
+    EXPECT_EQ(asked, most + 1);
+  }
 }
 
 TEST(Snapping, what_stood_upon_a_face_may_not_go_through_it) {

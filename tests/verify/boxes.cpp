@@ -71,6 +71,52 @@ TEST(Boxes, of_polygons_that_a_segment_meets_are_all_near_it) {
   EXPECT_LT(4 * near, 3 * all);  // and others are passed over
 }
 
+TEST(Boxes, that_meet_each_other_or_one_are_all_found_once) {
+  std::size_t pairs = 0, all = 0;
+  for (std::uint64_t seed = 0; seed < test_scenes::sample(300U); ++seed) {
+    Places places(seed);
+    std::vector<Outward_box> boxes;
+    for (int i = places.number(0, 120); i > 0; --i) {
+      const Exact_point corner = places.point(20);
+      Exact_point other = corner;
+      for (Rational& x : other) x += places.unit() * places.number(0, 6);
+      boxes.emplace_back(Polygon{corner, other});
+    }
+    const Boxes tree(boxes);
+    // 1. Pairs, leaf by leaf.
+    std::vector<std::pair<std::size_t, std::size_t>> found, expected;
+    for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf)
+      tree.for_each_pair(leaf,
+                         [&](std::size_t i, std::size_t j) { found.emplace_back(std::min(i, j), std::max(i, j)); });
+    for (std::size_t j = 0; j < boxes.size(); ++j)
+      for (std::size_t i = 0; i < j; ++i)
+        if (boxes[i].meets(boxes[j])) expected.emplace_back(i, j);
+    std::sort(found.begin(), found.end());
+    std::sort(expected.begin(), expected.end());
+    EXPECT_EQ(found, expected) << seed;
+    pairs += found.size();
+    all += boxes.size() * boxes.size() / 2;
+    // 2. Those that meet one, which may be without end.
+    for (const Outward_box& box : boxes) {
+      Outward_box part = box;
+      if (places.number(0, 1) == 0) part.high[1] = Outward_box::infinity;
+      std::vector<std::size_t> near, right;
+      tree.find(part, near);
+      for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (boxes[i].meets(part)) right.push_back(i);
+      std::sort(near.begin(), near.end());
+      EXPECT_EQ(near, right) << seed;
+    }
+    // 3. Each has a place in the order.
+    std::vector<std::uint32_t> order = tree.order();
+    std::sort(order.begin(), order.end());
+    for (std::uint32_t i = 0; i < order.size(); ++i) EXPECT_EQ(order[i], i);
+    EXPECT_EQ(order.size(), boxes.size());
+  }
+  EXPECT_GT(10 * pairs, all / 10);
+  EXPECT_LT(2 * pairs, all);
+}
+
 TEST(Boxes, hold_what_they_are_of) {
   for (std::uint64_t seed = 0; seed < test_scenes::sample(2000U); ++seed) {
     Places places(seed);
