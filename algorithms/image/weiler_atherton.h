@@ -82,12 +82,12 @@ class Clip_polygon {
 /// ones are; inside, what is behind it is dropped, and where something turns out to be in front of it, that is the
 /// clip polygon there. Polygons that pierce each other are cut by the line where they cross. Clip polygons are convex
 /// pieces, of up to 32 corners each; the outside of one is a union of convex windows, each with a list of its own,
-/// where Weiler and Atherton have one concave window with holes, so that what is there is cut more often; a polygon is
-/// cut by keeping it in the lists of several windows, never by new corners. Degenerate: of polygons in one plane the
-/// one seen from its front is the nearer, then by face id, then by number; pieces in whose plane the eye is are not
-/// seen; an empty scene is one part for each cone. Cost: windows, each times the polygons that come down to it: all of
-/// them at first. Parallel. Exact: as the view is. Ref: Weiler and Atherton, Hidden surface removal using polygon area
-/// sorting, SIGGRAPH 1977. Proof: P-83
+/// where Weiler and Atherton have one concave window with holes (concave_window.h), so that what is there is cut more
+/// often; a polygon is cut by keeping it in the lists of several windows, never by new corners. Degenerate: of polygons
+/// in one plane the one seen from its front is the nearer, then by face id, then by number; pieces in whose plane the
+/// eye is are not seen; an empty scene is one part for each cone. Cost: windows, each times the polygons that come down
+/// to it: all of them at first. Parallel. Exact: as the view is. Ref: Weiler and Atherton, Hidden surface removal using
+/// polygon area sorting, SIGGRAPH 1977. Proof: P-83
 template <View V>
 Visible_surface<V> weiler_atherton(const V& view, Cones<V> cones, const Visible_options& options = {}) {
   Visible_surface<V> surface;
