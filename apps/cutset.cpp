@@ -3,6 +3,7 @@
 #include "support/decisions.h"
 #include "support/page.h"
 #include "support/paths.h"
+#include "support/picture.h"
 
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/cutset/update_1977.h>
@@ -22,7 +23,7 @@ struct Cutset_arguments {
   Path_arguments path;
   Decision_arguments decisions;
   Canvas_arguments canvas;
-  std::string method = "tracker", svg, html;
+  std::string method = "tracker", svg, html, shade = "lambert";
   bool faces = false, check = false;
 };
 
@@ -264,7 +265,7 @@ static Exit run(const Cutset_arguments& arguments) {
         outlines.push_back(
             {frame.view, frame.nodes, frame.number,
              fmt::format("{}: {} on-view, {} tests", frame.number, frame.on_view, frame.counters.tests)});
-    write_file(arguments.svg, painted(graph, outlines, arguments.canvas));
+    write_file(arguments.svg, painted(graph, outlines, arguments.canvas, arguments.shade == "lambert"));
   }
 
   if (!arguments.html.empty()) write_page(arguments, graph, followed);
@@ -339,6 +340,7 @@ void add_cutset(Command program) {
       .writes_file(".svg");
   command.add_option("--html", a->html, "write a page to look at, which plays the path: on-view faces and the cut-set")
       .writes_file(".html");
+  add_shade_option(command, a->shade);
   a->canvas.add_to(command, "by default each frame is 300 wide");
   command.footer(
       "Example: sightline cutset bunny.off --orbit 360 --check --svg orbit.svg\n"

@@ -210,7 +210,9 @@ void add_render(Command program) {
           "bsp, graph: painted in the orders of `sightline order`")
       .check(one_of(image_methods))
       .show_default();
-  command.add_option("--kernel", a->kernel, "arithmetic of the painters, newell, scan-line, warnock and bsp")
+  command
+      .add_option("--kernel", a->kernel,
+                  "arithmetic of the painters, newell, scan-line, warnock, weiler-atherton, bsp and graph")
       .check(one_of({"exact", "double", "float"}))
       .show_default();
   command.add_option("--bits", a->bits, "of a depth: 1 to 31, or 32 for floats; for --method depth and weighted")

@@ -388,12 +388,21 @@ Json compare_result() {
       {{"visible", count},
        {"errors",
         object({{"wrongly_visible", count}, {"wrongly_hidden", count}, {"undecided", count}, {"unjudged", count}})}});
-  const Json render_rows = rows_of({{"bits?", count}}, {{"errors?", object({{"wrong", count},
-                                                                            {"wrong_share", number},
-                                                                            {"missing?", count},
-                                                                            {"largest_missing?", count},
-                                                                            {"largest?", number},
-                                                                            {"mean?", number}})}});
+  const Json of_centres = object({{"wrong", count},
+                                  {"wrong_share", number},
+                                  {"missing?", count},
+                                  {"largest_missing?", count},
+                                  {"largest?", number},
+                                  {"mean?", number}}),
+             of_squares = object({{"compared", count},
+                                  {"off", count},
+                                  {"off_share", number},
+                                  {"largest", number},
+                                  {"mean", number},
+                                  {"missing?", count},
+                                  {"largest_missing?", number}});
+  const Json render_rows =
+      rows_of({{"bits?", count}, {"samples?", count}}, {{"errors", any_of({of_centres, of_squares})}});
   const Json rays = object({{"rays", count}, {"missed", count}, {"invented", count}, {"wrong_face", count}});
   const Json trace_rows = rows_of(
       {}, {{"prepare", number}, {"errors", rays}, {"by_kind", {{"type", "object"}, {"additionalProperties", rays}}}});

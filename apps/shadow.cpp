@@ -14,8 +14,10 @@
 #include <sightline/io/format.h>
 #include <sightline/kernel/threads.h>
 
+#include <cmath>
 #include <iostream>
 #include <map>
+#include <utility>
 
 namespace sightline::app {
 
@@ -101,52 +103,171 @@ std::size_t axis_of(const Corners& corners) {
   return axis;
 }
 
+/// Twice its area.
+double size_of(const Corners& corners) {
+  Direction3 normal{};
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Direction3 n = cross(minus(corners[k - 1], corners[0]), minus(corners[k], corners[0]));
+    for (std::size_t i = 0; i < 3; ++i) normal[i] += n[i];
+  }
+  return std::sqrt(dot(normal, normal));
+}
+
 /// A part of what the eye sees, with how many lights reach it, and what shadows it from the last one that does not.
 struct Shown {
   std::uint32_t piece;
   Sign side;
   Corners corners;
+  bool is_small;  ///< in the picture
   std::size_t lights = 0;
   bool turned = false;  ///< to a light
   std::uint32_t by = Shadow_part::nothing;
 };
 
-/// What an eye sees, each part cut by the shadows on it.
-void draw(const Shadow_arguments& arguments, const Scene& scene, const Piece_boxes& boxes,
-          const std::vector<Shadows>& all, const Exact_point& eye) {
+using Flat_box = std::array<Flat_point, 2>;  // least, most
+Flat_box box_of(const std::vector<Flat_point>& points) {
+  Flat_box box{{{1e300, 1e300}, {-1e300, -1e300}}};
+  for (const Flat_point& p : points)
+    for (std::size_t k = 0; k < 2; ++k) {
+      box[0][k] = std::min(box[0][k], p[k]);
+      box[1][k] = std::max(box[1][k], p[k]);
+    }
+  return box;
+}
+
+/// The parts that a light makes of one side of a piece, found by where they are on it: a ground has thousands.
+class Parts_on_piece {
+ public:
+  void add(const Shadow_part& part) { parts_.push_back({&part, rounded_corners(part.vertices), {}}); }
+  bool empty() const { return parts_.empty(); }
+
+  void prepare() {
+    if (parts_.empty()) return;
+    axis_ = axis_of(parts_[0].corners);
+    whole_ = {{{1e300, 1e300}, {-1e300, -1e300}}};
+    for (One& one : parts_) {
+      one.box = box(one.corners);
+      for (std::size_t k = 0; k < 2; ++k) {
+        whole_[0][k] = std::min(whole_[0][k], one.box[0][k]);
+        whole_[1][k] = std::max(whole_[1][k], one.box[1][k]);
+      }
+    }
+    side_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(parts_.size()))), 1, 512);
+    cells_.assign(side_ * side_, {});
+    seen_.assign(parts_.size(), 0);
+    for (std::uint32_t i = 0; i < parts_.size(); ++i)
+      for_each_cell(parts_[i].box, [&](auto& cell) { cell.push_back(i); });
+  }
+
+  /// visit(part, what it has in common with a polygon of the piece), in their order.
+  template <class Visit>
+  void cut(const Corners& polygon, Visit visit) {
+    const Flat_box at = box(polygon);
+    ++asked_;
+    std::vector<std::uint32_t> near;
+    for_each_cell(at, [&](const auto& cell) {
+      for (const std::uint32_t i : cell)
+        if (std::exchange(seen_[i], asked_) != asked_ && are_near(parts_[i].box, at)) near.push_back(i);
+    });
+    std::sort(near.begin(), near.end());
+    for (const std::uint32_t i : near)
+      if (Corners common = common_part(polygon, parts_[i].corners, axis_); !common.empty())
+        visit(*parts_[i].part, std::move(common));
+  }
+
+ private:
+  struct One {
+    const Shadow_part* part;
+    Corners corners;
+    Flat_box box;
+  };
+
+  Flat_box box(const Corners& corners) const {
+    std::vector<Flat_point> points;
+    for (const Direction3& p : corners) points.push_back({p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]});
+    return box_of(points);
+  }
+  static bool are_near(const Flat_box& a, const Flat_box& b) {
+    return a[0][0] <= b[1][0] && b[0][0] <= a[1][0] && a[0][1] <= b[1][1] && b[0][1] <= a[1][1];
+  }
+  template <class Visit>
+  void for_each_cell(const Flat_box& box, Visit visit) {
+    const auto cell = [&](double x, std::size_t k) {
+      const double at = (x - whole_[0][k]) / (whole_[1][k] - whole_[0][k]) * static_cast<double>(side_);
+      return at > 0 ? std::min(side_ - 1, static_cast<std::size_t>(std::min(at, 1e9))) : 0;  // 0 for no number, too
+    };
+    for (std::size_t y = cell(box[0][1], 1); y <= cell(box[1][1], 1); ++y)
+      for (std::size_t x = cell(box[0][0], 0); x <= cell(box[1][0], 0); ++x) visit(cells_[y * side_ + x]);
+  }
+
+  std::vector<One> parts_;
+  std::size_t axis_ = 0, side_ = 1;
+  Flat_box whole_{};
+  std::vector<std::vector<std::uint32_t>> cells_;
+  std::vector<std::uint64_t> seen_;
+  std::uint64_t asked_ = 0;
+};
+
+/// What an eye sees, each part cut by the shadows on it; but what is smaller than a pixel is drawn whole, in the light
+/// of the largest part of it. Returns how many are.
+std::size_t draw(const Shadow_arguments& arguments, const Scene& scene, const Piece_boxes& boxes,
+                 const std::vector<Shadows>& all, const Exact_point& eye) {
+  std::size_t whole = 0;
   const sightline::app::View view = arguments.view.view(eye, scene);
   Svg svg = empty_picture(view);
   if (scene.counters().faces > 0) {
     const Exact_view seen_from(scene, eye, field_of(corner_rays(view)));
     Visible_options options;
     options.threads = arguments.common.threads;
+    options.progress = arguments.common.within_budget([](std::size_t, std::size_t) {});
     const auto surface = visible_surface(seen_from, boxes, field_of_view(seen_from), options);
     std::vector<Shown> shown;
-    for (const auto& part : surface.parts)
-      if (part.piece != surface.nothing)
-        shown.push_back(
-            {part.piece, seen_from.eye_side(part.piece), rounded_corners(vertices(seen_from, surface, part))});
+    for (const auto& part : surface.parts) {
+      if (part.piece == surface.nothing) continue;
+      const std::vector<Exact_point> corners = vertices(seen_from, surface, part);
+      std::vector<Flat_point> points;
+      for (const Exact_point& p : corners) points.push_back(projected(view, p));
+      const auto [least, most] = box_of(points);
+      const bool is_small = most[0] - least[0] < 1 && most[1] - least[1] < 1;
+      whole += is_small;
+      shown.push_back({part.piece, seen_from.eye_side(part.piece), rounded_corners(corners), is_small});
+    }
     for (const Shadows& of_light : all) {
-      std::multimap<std::uint32_t, const Shadow_part*> by_piece;
-      for (const Shadow_part& part : of_light.parts) by_piece.emplace(part.piece, &part);
+      std::map<std::pair<std::uint32_t, Sign>, Parts_on_piece> by_piece;  // the light is on that side
+      for (const Shadow_part& part : of_light.parts) by_piece[{part.piece, part.side}].add(part);
+      for (auto& [piece, parts] : by_piece) parts.prepare();
       std::vector<Shown> finer;
       for (Shown& one : shown) {
-        const auto [begin, end] = by_piece.equal_range(one.piece);
-        const std::size_t axis = axis_of(one.corners);
-        bool any = false;
-        for (auto at = begin; at != end; ++at) {
-          const Shadow_part& part = *at->second;
-          if (part.side != one.side) continue;  // the light is on the other side
-          any = true;
-          Shown cut = one;
-          cut.corners = common_part(one.corners, rounded_corners(part.vertices), axis);
-          if (cut.corners.empty()) continue;
-          cut.turned = true;
-          cut.lights += part.is_lit();
-          if (!part.is_lit()) cut.by = part.by;
-          finer.push_back(std::move(cut));
+        options.progress(0, shown.size());
+        const auto parts = by_piece.find({one.piece, one.side});
+        if (parts == by_piece.end()) {
+          finer.push_back(std::move(one));
+          continue;
         }
-        if (!any) finer.push_back(std::move(one));
+        const auto put = [&](Shown& to, const Shadow_part& part) {
+          to.turned = true;
+          to.lights += part.is_lit();
+          if (!part.is_lit()) to.by = part.by;
+        };
+        if (one.is_small) {
+          double most = -1;
+          const Shadow_part* largest = nullptr;
+          parts->second.cut(one.corners, [&](const Shadow_part& part, const Corners& common) {
+            if (const double size = size_of(common); size > most) {
+              most = size;
+              largest = &part;
+            }
+          });
+          if (largest != nullptr) put(one, *largest);
+          finer.push_back(std::move(one));
+          continue;
+        }
+        parts->second.cut(one.corners, [&](const Shadow_part& part, Corners&& common) {
+          Shown cut = one;
+          cut.corners = std::move(common);
+          put(cut, part);
+          finer.push_back(std::move(cut));
+        });
       }
       shown = std::move(finer);
     }
@@ -177,6 +298,7 @@ void draw(const Shadow_arguments& arguments, const Scene& scene, const Piece_box
     });
   }
   write_file(arguments.svg, svg.text());
+  return whole;
 }
 
 // ---- Other outputs
@@ -244,7 +366,8 @@ static Exit run(const Shadow_arguments& arguments) {
     all.push_back(shadows(light.view(scene), boxes, options));
   }
   const double seconds = watch.seconds();
-  if (!arguments.svg.empty()) draw(arguments, scene, boxes, all, eye_of(arguments.eye, scene));
+  const std::size_t whole =
+      arguments.svg.empty() ? 0 : draw(arguments, scene, boxes, all, eye_of(arguments.eye, scene));
   if (!arguments.obj.empty() || !arguments.mesh.empty())
     write_drawings(arguments.obj, arguments.mesh, drawing_of(scene, all));
 
@@ -321,6 +444,8 @@ static Exit run(const Shadow_arguments& arguments) {
                          arguments.two_sided ? "" : "; --two-sided counts back sides too"));
   row("lit by none", fmt::format("{}{}", dark_faces.size(), some));
   if (!volume_text.empty()) row("volume", volume_text);
+  if (whole > 0)
+    row("picture", fmt::format("{} parts smaller than a pixel are drawn whole, in the light of most of them", whole));
   row("seconds", fmt::format("{:.4f}", seconds));
   return Exit::done;
 }

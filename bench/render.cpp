@@ -1,7 +1,7 @@
 // Pictures: exact rays and exact areas against Embree and a depth buffer: bench_render [--max FACES] [--size PIXELS]
-// [--family NAME] [--out FOLDER] Tables on standard output; with --out also render.csv and render.svg. Each row is a
-// process of its own; seconds are of one thread, the best of up to three turns. A row that is wrong where it must not
-// be ends in FAILED.
+// [--family NAME] [--out FOLDER] Tables on standard output; with --out also render.csv, render.svg, and
+// antialiasing.svg: error against seconds. Each row is a process of its own; seconds are of one thread, the best of up
+// to three turns. A row that is wrong where it must not be ends in FAILED.
 
 #include "measure.h"
 
@@ -17,6 +17,7 @@
 #include <sightline/algorithms/point_visibility/exact_view.h>
 #include <sightline/algorithms/point_visibility/visible.h>
 #include <sightline/harness/compare/image_errors.h>
+#include <sightline/harness/compare/pixel_squares.h>
 #include <sightline/harness/generate/scenes.h>
 #include <sightline/io/plot.h>
 #include <sightline/kernel/vectors.h>
@@ -91,7 +92,7 @@ struct Family {
   std::string name;
   std::array<double, 3> from;
   std::size_t (*size)(double faces);
-  double most = 1e6;  // faces
+  double most = 1e6;  // faces that the generator makes
 };
 const std::array<Family, 4> families{{
     {"city", {-0.1, -0.2, 1.5}, [](double faces) { return static_cast<std::size_t>(faces / 5); }},
@@ -110,6 +111,7 @@ struct Row {
   bool right;
   double see, means;                                         // seconds
   std::array<double, 2> samples, mean_error, largest_error;  // of 4 x 4 and 16 x 16 rays, in shares of a pixel's square
+  double exact_error;  // of means by areas, the mean over some pixels, against areas in rationals; or -1
 };
 
 /// A colour that tells neighbours apart.
@@ -156,6 +158,23 @@ Row measure(Scene& scene, const Pixel_view& pixels) {
   const Exact_view view(scene, pixels.eye, field_of(pixels));
   const Mean_image means =
       visible_means(view, visible_surface(view, boxes, field_of_view(view), alone), pixels, colour_of, one_thread());
+  row.exact_error = -1;
+  if (scene.pieces().size() <= 150000) {
+    const Pixel_squares squares(scene, pixels);
+    std::vector<Tint> tints;
+    for (std::uint32_t i = 0; i < scene.pieces().size(); ++i) tints.push_back({colour_of(i), 1});
+    constexpr std::uint32_t along = 8;  // 8 x 8 pixels, evenly
+    row.exact_error = 0;
+    for (std::uint32_t k = 0; k < along * along; ++k) {
+      const std::uint32_t x = (2 * (k % along) + 1) * pixels.width / (2 * along),
+                          y = (2 * (k / along) + 1) * pixels.height / (2 * along);
+      const Layer right = squares.mean(x, y, tints);
+      const std::size_t i = std::size_t{y} * pixels.width + x;
+      double error = std::fabs(means.covered[i] - right.alpha);
+      for (std::size_t c = 0; c < 3; ++c) error = std::max(error, std::fabs(means.colours[i][c] - right.colour[c]));
+      row.exact_error += error / (along * along);
+    }
+  }
   // 4. The same by Embree.
   if (!app::has_rays()) return row;
   const app::Traced_scene traced = timed(row.build, [&] { return app::Traced_scene(scene, 1); });
@@ -183,14 +202,16 @@ bool pictures(double max_faces, std::uint32_t size, const std::string& only, con
              "centres s", "warnock s", "rays s", "+ tree s", "depth s", "/ rays", "/ both", "rays wr.", "depth wr.",
              "exact");
   std::string means = fmt::format(
-      "\nMeans over pixels; errors of a colour from 0 to 1\n{:<22} {:>8} {:>9} {:>9} {:>7} {:>9} {:>10} "
-      "{:>10} {:>9} {:>10} {:>10}\n",
-      "scene", "faces", "see s", "exact s", "/ see", "4 x 4 s", "mean err.", "largest", "16 x 16 s", "mean err.",
-      "largest");
+      "\nMeans over pixels; errors of a colour from 0 to 1; of exact against areas in rationals, in 64 pixels\n"
+      "{:<22} {:>8} {:>6} {:>9} {:>9} {:>7} {:>10} {:>9} {:>10} {:>10} {:>9} {:>10} {:>10}\n",
+      "scene", "faces", "size", "see s", "exact s", "/ see", "mean err.", "4 x 4 s", "mean err.", "largest",
+      "16 x 16 s", "mean err.", "largest");
   std::string csv =
       "scene,faces,centres_seconds,warnock_seconds,rays_seconds,tree_seconds,depth_seconds,rays_wrong,depth_wrong,tied,"
       "by_integers,see_seconds,exact_seconds,rays4_seconds,rays4_mean,rays4_largest,rays16_seconds,rays16_mean,"
-      "rays16_largest\n";
+      "rays16_largest,exact_mean,size\n";
+  Log_plot error_plot("Anti-aliasing: what it costs, and how far it is off", "seconds",
+                      "mean error of a colour from 0 to 1");
   Log_plot plot("Pictures of cities, soups, rooms and lattices", "faces", "seconds");
   bool ok = true;
   for (const Family& family : families)
@@ -210,15 +231,21 @@ bool pictures(double max_faces, std::uint32_t size, const std::string& only, con
                  r.centres / (r.rays + r.build), r.rays_wrong, r.depth_wrong, r.exact);
       std::fflush(stdout);
       means += fmt::format(
-          "{:<22} {:>8.0f} {:>9.4f} {:>9.4f} {:>7.2f} {:>9.4f} {:>10.2e} {:>10.2e} {:>9.4f} {:>10.2e} {:>10.2e}\n",
-          family.name, faces, r.see, r.means, r.means / r.see, r.samples[0], r.mean_error[0], r.largest_error[0],
-          r.samples[1], r.mean_error[1], r.largest_error[1]);
+          "{:<22} {:>8.0f} {:>6} {:>9.4f} {:>9.4f} {:>7.2f} {:>10.2e} {:>9.4f} {:>10.2e} {:>10.2e} {:>9.4f} {:>10.2e} "
+          "{:>10.2e}\n",
+          family.name, faces, pixels.width, r.see, r.means, r.means / r.see, r.exact_error, r.samples[0],
+          r.mean_error[0], r.largest_error[0], r.samples[1], r.mean_error[1], r.largest_error[1]);
       csv += fmt::format(
           "{},{:.0f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{},{},{},{},{:.6f},{:.6f},{:.6f},{:.3e},{:.3e},{:.6f},"
           "{:.3e},{:.3e}\n",
           family.name, faces, r.centres, r.warnock, r.rays, r.build, r.depth, r.rays_wrong, r.depth_wrong, r.tied,
           r.exact, r.see, r.means, r.samples[0], r.mean_error[0], r.largest_error[0], r.samples[1], r.mean_error[1],
-          r.largest_error[1]);
+          r.largest_error[1], r.exact_error, pixels.width);
+      if (r.exact_error >= 0) error_plot.add("exact areas", r.means, r.exact_error);
+      if (app::has_rays()) {
+        error_plot.add("4 x 4 rays", r.samples[0] + r.build, r.mean_error[0]);
+        error_plot.add("16 x 16 rays", r.samples[1] + r.build, r.mean_error[1]);
+      }
       plot.add("exact rays, " + family.name, faces, r.centres);
       plot.add("exact areas, " + family.name, faces, r.means);
       plot.add("Embree, " + family.name, faces, r.rays + r.build);
@@ -227,6 +254,7 @@ bool pictures(double max_faces, std::uint32_t size, const std::string& only, con
   if (!folder.empty()) {
     std::ofstream(folder + "/render.csv") << csv;
     std::ofstream(folder + "/render.svg") << plot.text();
+    std::ofstream(folder + "/antialiasing.svg") << error_plot.text();
   }
   return ok;
 }

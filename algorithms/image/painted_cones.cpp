@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace sightline::image_detail {
@@ -68,6 +69,24 @@ Approximate_eye_plane approximately_through(const Exact_view::Ray& a, const Exac
   return {n, size, a.size * b.error + b.size * a.error + 4 * a.error * b.error + 0x1p-50 * a.size * b.size + 0x1p-1000};
 }
 
+/// A ray of floats or doubles times the power of 2 that makes its largest entry less than 1, so that products of it
+/// stay in their range.
+template <class Number>
+Vector_of<Number> scaled(const Approximate_vector& v) {
+  int exponent = 0;
+  std::frexp(std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}), &exponent);
+  return {static_cast<Number>(std::ldexp(v.x, -exponent)), static_cast<Number>(std::ldexp(v.y, -exponent)),
+          static_cast<Number>(std::ldexp(v.z, -exponent))};
+}
+
+/// Whether rounded rays, with entries below 1 and one of at least 1/2, agree in half of their digits or more.
+template <class Number>
+bool are_close(const Vector_of<Number>& a, const Vector_of<Number>& b) {
+  const Vector_of<Number> n = cross(a, b);
+  return std::max({std::fabs(n[0]), std::fabs(n[1]), std::fabs(n[2])}) <
+         (std::is_same_v<Number, float> ? Number(0x1p-14) : Number(0x1p-27));
+}
+
 /// The ray behind ray k of a part.
 const Exact_view::Ray& next(std::span<const Exact_view::Ray> rays, std::size_t k) {
   return rays[k + 1 == rays.size() ? 0 : k + 1];
@@ -106,6 +125,39 @@ Painted_cones::Painted_cones(const Exact_view& view, const Visible_surface<Exact
       to.add_edge(Pixel_form(centres, approximately_through(parts[i][k], next(parts[i], k))));
   });
 }
+
+template <class Number>
+Painted_cones::Painted_cones(const Number_view<Number>& view, const Visible_surface<Number_view<Number>>& surface,
+                             const Pixel_centres& centres, const Image_options& options)
+    : cones_(centres, no_normal) {
+  const Pixel_view& pixels = centres.view();
+  const Number_image<Number> numbers(pixels);
+  std::array<double, 3> ahead = cross(pixels.right, pixels.up);
+  if (dot(ahead, pixels.look) < 0) ahead = {-ahead[0], -ahead[1], -ahead[2]};
+  for (const auto& part : surface.parts) {
+    if (options.progress) options.progress(0, surface.parts.size());
+    if (part.piece == surface.nothing) continue;
+    // Rays that are none bound nothing, and so near the one before the normal is noise: one of the two stands for both.
+    // Of fewer than three there is no inside.
+    std::vector<Vector_of<Number>> rays;
+    for (const auto& ray : surface.of(part))
+      if (const Vector_of<Number> v = scaled<Number>(view.approximate(ray));
+          !is_zero(v) && (rays.empty() || !are_close(rays.back(), v)))
+        rays.push_back(v);
+    while (rays.size() > 1 && are_close(rays.back(), rays.front())) rays.pop_back();
+    // All of a surface in the field of an image is before the eye; rounded rays of slivers may point anywhere.
+    const bool is_before = std::all_of(rays.begin(), rays.end(), [&](const Vector_of<Number>& v) {
+      return dot(std::array{double(v[0]), double(v[1]), double(v[2])}, ahead) > 0;
+    });
+    // Each two consecutive rays turn around the inside.
+    if (rays.size() < 3 || !is_before || !numbers.add(cones_, rays, Number_plane<Number>{{}, 1})) ++left_out_;
+    else pieces_.push_back(part.piece);
+  }
+}
+template Painted_cones::Painted_cones(const Number_view<float>&, const Visible_surface<Number_view<float>>&,
+                                      const Pixel_centres&, const Image_options&);
+template Painted_cones::Painted_cones(const Number_view<double>&, const Visible_surface<Number_view<double>>&,
+                                      const Pixel_centres&, const Image_options&);
 
 void Painted_cones::add_exactly(const std::vector<Painted_polygon>& polygons, const Image_options& options) {
   const Pixel_centres& centres = cones_.centres();

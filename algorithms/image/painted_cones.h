@@ -5,6 +5,7 @@
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/pixel_cones.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/number.h>
 
@@ -26,6 +27,11 @@ class Painted_cones {
   /// Exact: yes.
   Painted_cones(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_centres& centres,
                 const Image_options& options);
+  /// The same in the numbers of the view, without those that have fewer than three different rays, or one behind the
+  /// eye. Exact: no.
+  template <class Number>
+  Painted_cones(const Number_view<Number>& view, const Visible_surface<Number_view<Number>>& surface,
+                const Pixel_centres& centres, const Image_options& options);
   Painted_cones(const Painted_cones&) = delete;
   Painted_cones& operator=(const Painted_cones&) = delete;
 

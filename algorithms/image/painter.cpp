@@ -97,6 +97,23 @@ Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& sur
                  [&] { return image_detail::Painted_cones(view, surface, centres, options); });
 }
 
+template <class Number>
+static Piece_image paint_rounded(const Number_view<Number>& view, const Visible_surface<Number_view<Number>>& surface,
+                                 const Pixel_view& pixels, const Image_options& options) {
+  const image_detail::Pixel_centres centres(pixels);
+  return painted(centres, surface.parts.size(), options,
+                 [&] { return image_detail::Painted_cones(view, surface, centres, options); });
+}
+
+Piece_image paint(const Number_view<float>& view, const Visible_surface<Number_view<float>>& surface,
+                  const Pixel_view& pixels, const Image_options& options) {
+  return paint_rounded(view, surface, pixels, options);
+}
+Piece_image paint(const Number_view<double>& view, const Visible_surface<Number_view<double>>& surface,
+                  const Pixel_view& pixels, const Image_options& options) {
+  return paint_rounded(view, surface, pixels, options);
+}
+
 std::vector<Painted_polygon> heedless_order(const Scene& scene, const Pixel_view& pixels, Painter_key key,
                                             Image_kernel kernel, const Image_options& options) {
   std::vector<Painted_polygon> polygons;

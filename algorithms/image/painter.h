@@ -4,6 +4,7 @@
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/piece_image.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/scene/pixel_view.h>
 #include <sightline/kernel/scene/polygon_soup.h>
@@ -35,6 +36,13 @@ Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view
 /// parts, rows of them, and centres that they cover. Parallel. Exact: yes. Proof: P-80, P-83
 Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                   const Image_options& options = {});
+
+/// The same of a surface in floats or doubles: cones through rounded rays, in the numbers that they are in. Where two
+/// parts of it do not fit, a centre may be in both, or in none.
+Piece_image paint(const Number_view<float>& view, const Visible_surface<Number_view<float>>& surface,
+                  const Pixel_view& pixels, const Image_options& options = {});
+Piece_image paint(const Number_view<double>& view, const Visible_surface<Number_view<double>>& surface,
+                  const Pixel_view& pixels, const Image_options& options = {});
 
 /// By which depth, along the direction that one looks in, the heedless painter sorts: of a polygon's nearest corner,
 /// of its farthest one, or of all corners' mean.

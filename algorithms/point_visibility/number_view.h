@@ -13,6 +13,7 @@
 #include <sightline/kernel/traits/point_traits.h>
 #include <sightline/kernel/vectors.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -21,6 +22,7 @@
 #include <span>
 #include <stdexcept>
 #include <type_traits>
+#include <vector>
 
 namespace sightline {
 
@@ -40,14 +42,25 @@ class Number_view {
     Eye_plane_name p, q;
   };
 
-  Number_view(Scene&&, const Exact_point&) = delete;
-  Number_view(const Scene& scene, const Exact_point& eye)
+  /// `field`: as Exact_view has it.
+  Number_view(Scene&&, const Exact_point&, const std::vector<std::array<Integer, 3>>& = {}) = delete;
+  Number_view(const Scene& scene, const Exact_point& eye, const std::vector<std::array<Integer, 3>>& field = {})
       : scene_(&scene), eye_point_(eye), directions_(scene.points().size()), forms_(scene.pieces().size()) {
     for (std::size_t k = 0; k < 3; ++k) eye_[k] = number::from(eye[k]);
     Rational units = (scene.position({1, 0, 0, 1})[0] - scene.position({0, 0, 0, 1})[0]) *
                      scene.points().divisor();  // of a grid step
     mpq_mul_2exp(units.get_mpq_t(), units.get_mpq_t(), static_cast<mp_bitcnt_t>(scene.points().shift()));
     box_units_ = nearest_double(Rational(1 / units));
+    for (const std::array<Integer, 3>& normal : field) {
+      const auto scale =
+          static_cast<mp_bitcnt_t>(std::max({bit_length(normal[0]), bit_length(normal[1]), bit_length(normal[2])}));
+      Vector& side = field_.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        Rational x(normal[k]);
+        mpq_div_2exp(x.get_mpq_t(), x.get_mpq_t(), scale);
+        side[k] = number::from(x);
+      }
+    }
   }
 
   const Scene& scene() const { return *scene_; }
@@ -57,6 +70,8 @@ class Number_view {
   Plane edge(std::uint32_t p, std::uint32_t q) const {
     return {cross(direction(p), direction(q)), Eye_plane_name::edge(p, q)};
   }
+  std::size_t field_sides() const { return field_.size(); }
+  Plane field_side(std::uint32_t k) const { return {field_[k], Eye_plane_name::field(k)}; }
   Plane axis(std::uint32_t k) const { return {unit(k, FT(1)), Eye_plane_name::axis(k)}; }
   Plane crossing(std::uint32_t f, std::uint32_t g) const {
     const Vector &m = form(f).q,
@@ -160,6 +175,7 @@ class Number_view {
   Exact_point eye_point_;
   Vector eye_;
   double box_units_ = 1;  // the length of a unit of the file in approximate coordinates
+  std::vector<Vector> field_;
   Lazy_table<Vector, 16> directions_;
   Lazy_table<Form, 16> forms_;
 };

@@ -63,7 +63,7 @@ class Separation_finder {
   using Polygon = Convex_polygon<Traits>;
   using Triple = std::array<double, 3>;
 
-  /// Pre: the traits outlive it. Exact traits only.
+  /// Pre: the traits outlive it. Exact traits, or what kernels.h says.
   explicit Separation_finder(Traits&&) = delete;
   explicit Separation_finder(const Traits& traits) : traits_(&traits) {}
 

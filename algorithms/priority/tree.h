@@ -313,7 +313,7 @@ class Tree_builder {
 
 /// A tree of all pieces of the scene. Degenerate: coplanar pieces lie on one node together; pieces that cross stay in a
 /// cycle, or, with `split`, are cut. Cost: a search of the graph for every few levels; without `split` no face is cut.
-/// Pre: exact traits. Exact: yes. Proof: P-37
+/// Pre: exact traits, or what kernels.h says. Exact: as the traits are. Proof: P-37
 template <Bounded_traits Traits>
 Priority_tree<Traits> build_priority_tree(const Traits& traits, const Priority_tree_options& options = {}) {
   priority_detail::Tree_builder<Traits> builder(traits, options);

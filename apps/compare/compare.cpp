@@ -120,6 +120,11 @@ void add_compare(Command program) {
       .check(whole_number())
       .check(range(1, 32))
       .show_default();
+  command.add_option("--samples", a->samples, "render: n x n rays a pixel of Embree, against exact means, with commas")
+      .delimiter(',')
+      .check(whole_number())
+      .check(range(2, 64))
+      .show_default();
   command
       .add_option("--near", a->near,
                   "see: their near plane; by default from the scene's box, at least 1/4096 of the far one")
@@ -174,6 +179,9 @@ void add_compare(Command program) {
       "Example: sightline compare rooms.off weak --from \"1,1,2 1,2,2 2,2,2 2,1,2\" --rays 100,10000 --svg weak.svg\n"
       "render. Of the pixels whose centres are no ties: wrong: those that show another face than an exact ray meets "
       "first; missing: faces that are shown nowhere, with the most pixels of one.\n"
+      "Of means over pixels: off: by more than half a step of 255. exact: of up to 256 pixels, most of them where "
+      "something ends, against areas in rationals by no code of its own; missing: faces that are at centres. Rays: of "
+      "all pixels, against exact; missing: faces with an area that no ray meets, with the largest in pixels.\n"
       "Example: sightline compare town.off render --size 1024x1024\n"
       "trace. Of a million rays: missed: no face is said to be met where one is; invented: one is where none is; wrong "
       "face: another than those that are met first. Embree has corners and rays in floats, and no faces edge-on.\n"

@@ -19,6 +19,7 @@ struct Compare_arguments {
   std::size_t max_fragments = 3000;
   std::vector<std::uint32_t> sizes{256, 1024};
   std::vector<int> bits{16, 24, 32};
+  std::vector<unsigned> samples{4};  ///< render: n x n rays a pixel
   double near = 0, far = 0;
   Source_arguments sources;
   std::vector<std::size_t> rays{100, 1000, 10000, 100000};

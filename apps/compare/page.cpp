@@ -12,7 +12,8 @@ namespace {
 /// "depth buffer, float, 256 pixels, 16 bits".
 std::string asked_name(const Json& row) {
   std::string name = row["method"].get<std::string>() + ", " + row["kernel"].get<std::string>();
-  for (const auto& [key, unit] : {std::pair("size", "pixels"), std::pair("bits", "bits"), std::pair("rays", "rays")})
+  for (const auto& [key, unit] : {std::pair("size", "pixels"), std::pair("bits", "bits"), std::pair("rays", "rays"),
+                                  std::pair("samples", "squared rays a pixel")})
     if (row.contains(key)) name += ", " + to_text(row[key]) + " " + unit;
   return name;
 }

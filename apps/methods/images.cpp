@@ -12,8 +12,8 @@
 #include <sightline/algorithms/image/weiler_atherton.h>
 #include <sightline/algorithms/point_visibility/boxes.h>
 #include <sightline/algorithms/point_visibility/visible.h>
-#include <sightline/algorithms/priority/eye_order.h>
-#include <sightline/algorithms/priority/tree.h>
+#include <sightline/algorithms/point_visibility/number_view.h>
+#include <sightline/algorithms/priority/kernels.h>
 
 #include <map>
 #include <set>
@@ -23,7 +23,7 @@ namespace sightline::app {
 
 bool has_image_kernels(const std::string& method) {
   return method.starts_with("painter") || method == "newell" || method == "scan-line" || method == "warnock" ||
-         method == "bsp";
+         method == "weiler-atherton" || method == "bsp" || method == "graph";
 }
 bool is_built(const std::string& method) { return method != "rays" || has_rays(); }
 bool is_true_method(const std::string& method) {
@@ -55,26 +55,44 @@ static std::vector<Painted_polygon> by_tree(Scene& scene, const Exact_point& eye
   return polygons;
 }
 
-/// The same by the priority graph, exactly.
-static std::vector<Painted_polygon> by_graph(const Scene& scene, const Exact_point& eye, const Image_options& options) {
-  const Exact_traits traits(scene);
-  const Priority_tree<Exact_traits> tree = build_priority_tree(traits, {true, false, options.progress});
+/// The same by the priority graph.
+template <class Traits>
+std::vector<Painted_polygon> by_graph_in(const Traits& traits, const Exact_point& eye, const Image_options& options) {
+  const Priority_tree<Traits> tree = build_priority_tree(traits, {true, false, options.progress});
   std::vector<Painted_polygon> polygons;
-  for (const Convex_polygon<Exact_traits>& polygon : back_to_front(traits, tree, eye, options.progress).polygons) {
+  for (const Convex_polygon<Traits>& polygon : back_to_front(traits, tree, eye, options.progress).polygons) {
     Painted_polygon& painted = polygons.emplace_back(Painted_polygon{polygon.piece, {}});
-    for (const Corner<Exact_traits>& corner : polygon) painted.corners.push_back(traits.position(*corner.vertex));
+    for (const Corner<Traits>& corner : polygon) painted.corners.push_back(traits.position(*corner.vertex));
   }
   return polygons;
+}
+static std::vector<Painted_polygon> by_graph(const Scene& scene, const Exact_point& eye, const std::string& kernel,
+                                             const Image_options& options) {
+  if (kernel == "exact") return by_graph_in(Exact_traits(scene), eye, options);
+  try {
+    return kernel == "float" ? by_graph_in(Float_traits(scene), eye, options)
+                             : by_graph_in(Double_traits(scene), eye, options);
+  } catch (const std::domain_error&) {
+    throw Usage_error("coordinates are beyond the range of --kernel " + kernel + ": take exact");
+  }
+}
+
+template <class V>
+Piece_image by_windows(const V& view, const Pixel_view& pixels, const Image_options& options) {
+  const Visible_options visible{options.threads, options.progress};
+  return paint(view, weiler_atherton(view, field_of_view(view), visible), pixels, options);
 }
 
 /// What a method shows that gives a visible surface.
 static Piece_image by_surface(const Scene& scene, const Pixel_view& pixels, const Image_task& task,
                               const Image_options& options) {
-  const Exact_view view(scene, pixels.eye, field_of(pixels));
+  const auto field = field_of(pixels);
   if (task.method == "weiler-atherton") {
-    const Visible_options visible{options.threads, options.progress};
-    return paint(view, weiler_atherton(view, field_of_view(view), visible), pixels, options);
+    if (task.kernel == "float") return by_windows(Number_view<float>(scene, pixels.eye, field), pixels, options);
+    if (task.kernel == "double") return by_windows(Number_view<double>(scene, pixels.eye, field), pixels, options);
+    return by_windows(Exact_view(scene, pixels.eye, field), pixels, options);
   }
+  const Exact_view view(scene, pixels.eye, field);
   Bsp2d_options trees;
   trees.threads = options.threads;
   trees.seed = task.seed;
@@ -89,7 +107,7 @@ static std::vector<Painted_polygon> painting(Scene& scene, const Pixel_view& pix
                                                        {"painter-max", Painter_key::farthest},
                                                        {"painter-mean", Painter_key::mean}};
   if (task.method == "bsp") return by_tree(scene, pixels.eye, task.kernel, options, task.seed);
-  if (task.method == "graph") return by_graph(scene, pixels.eye, options);
+  if (task.method == "graph") return by_graph(scene, pixels.eye, task.kernel, options);
   if (task.method == "newell") return newell_order(scene, pixels, kernel_of(task.kernel), options).polygons;
   return heedless_order(scene, pixels, keys.at(task.method), kernel_of(task.kernel));
 }

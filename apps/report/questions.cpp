@@ -74,12 +74,13 @@ Compare_arguments render_arguments(const Judge_case& asked, const Report_effort&
   a.command = "render";
   a.eye = point_text(asked.query.eye);
   a.bits = effort.bits;
+  a.samples.clear();
   a.view.canvas.size = fmt::format("{0}x{0}", effort.image_size);
   return a;
 }
 Verdict render_judged(const Json& row, std::size_t) {
-  if (!row.contains("errors")) return {};  // means of pixels, which are compared with nothing
   const Json& e = row["errors"];
+  if (e.contains("off")) return {e["off"] != 0 ? Verdict::wrong : Verdict::right, e["off_share"].get<double>()};
   return {e["wrong"] != 0 ? Verdict::wrong : Verdict::right, e["wrong_share"].get<double>()};
 }
 std::string render_again(const Compare_arguments& a, const Json& name) {

@@ -168,7 +168,14 @@ static std::set<Face_id> faces_of(const Face_graph& graph, const std::vector<boo
   return faces;
 }
 
-std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas) {
+/// A colour as it is in the light, or darker, by a shade from -1 to 1.
+static std::string shaded(const std::array<int, 3>& colour, double shade) {
+  const auto part = [&](int x) { return static_cast<int>(std::lround(x * (0.85 + 0.15 * shade))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(colour[0]), part(colour[1]), part(colour[2]));
+}
+
+std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas,
+                    bool lit) {
   // 1. All frames, each as high as the highest needs.
   const Scene& scene = graph.scene();
   const bool empty = scene.counters().faces == 0;
@@ -237,12 +244,19 @@ std::string painted(const Face_graph& graph, const std::vector<Outline>& outline
     }
     std::sort(order.begin(), order.end());
     std::map<Face_id, std::size_t> polygons;  // of each face, so far
+    const auto shade = [&](std::uint32_t i) {
+      std::vector<Exact_point> corners;
+      for (const Piece_corner& corner : scene.corners(scene.pieces()[i]))
+        corners.push_back(scene.position(corner.point));
+      return shade_of(corners);
+    };
     for (const auto& [far, i] : order) {
       const Face_id face = scene.pieces()[i].face;
       const bool is_born = number > 0 && !before[graph.node(i)];
       std::vector<Flat_point> polygon;
       for (const Piece_corner& corner : scene.corners(scene.pieces()[i])) polygon.push_back(at(corner.point));
-      svg.polygon(std::move(polygon), is_born ? "#a9d6a0" : "#e3e8ee", is_born ? "#5b9e6f" : "#9aa7b5",
+      const std::array<int, 3> colour = is_born ? std::array{0xa9, 0xd6, 0xa0} : std::array{0xe3, 0xe8, 0xee};
+      svg.polygon(std::move(polygon), shaded(colour, lit ? shade(i) : 1), is_born ? "#5b9e6f" : "#9aa7b5",
                   scene.pieces().size() > 3000 ? 0.15 : 0.4,
                   fmt::format("frame-{}-face-{}-{}", outline.number, face, ++polygons[face]),
                   fmt::format("face {}{}", face, is_born ? ", became on-view" : ""));

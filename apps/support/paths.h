@@ -49,6 +49,8 @@ inline constexpr std::size_t pictures_in_a_strip = 12;
 /// The frames beside each other: on-view faces, the far ones first by the distance of their middle (a sketch: `order`
 /// is exact), and the edges of the cut-set; under each frame how many faces became on-view and off-view since the
 /// frame before it in the picture, those that became on-view green. Face 7 of frame 2 has the ids frame-2-face-7-n.
-std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas);
+/// `lit`: faces are darker away from the light.
+std::string painted(const Face_graph& graph, const std::vector<Outline>& outlines, const Canvas_arguments& canvas,
+                    bool lit);
 
 }  // namespace sightline::app

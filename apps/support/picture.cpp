@@ -120,6 +120,14 @@ std::string ink_on(const std::string& background) {
   return colour[3] == 0 || 0.3 * colour[0] + 0.6 * colour[1] + 0.1 * colour[2] > 110 ? "#000000" : "#f4f3ef";
 }
 
+Option add_shade_option(Command command, std::string& shade) {
+  return command
+      .add_option("--shade", shade,
+                  "lambert: faces of a picture are lighter towards the light; none: one colour a face")
+      .check(one_of({"lambert", "none"}))
+      .show_default();
+}
+
 void View_arguments::add_to(Command command, const std::string& usual) {
   command.add_option("--look", look,
                      "direction X,Y,Z of the picture; by default to the middle of what there is to see");
@@ -129,11 +137,7 @@ void View_arguments::add_to(Command command, const std::string& usual) {
                   "width of the picture's view in degrees; by default so wide that what there is to see fills the "
                   "picture, 90 where it is all around the eye")
       .check(range(1.0, 170.0) & finite_number());
-  command
-      .add_option("--shade", shade,
-                  "lambert: faces of a picture are lighter towards the light; none: one colour a face")
-      .check(one_of({"lambert", "none"}))
-      .show_default();
+  add_shade_option(command, shade);
   canvas.add_to(command, usual);
 }
 

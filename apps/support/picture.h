@@ -54,6 +54,9 @@ struct View {
   bool lit = true;  ///< faces are lighter towards the light
 };
 
+/// Adds --shade to a command that draws.
+Option add_shade_option(Command command, std::string& shade);
+
 /// The options of a picture's view.
 struct View_arguments {
   std::string look, up, shade = "lambert";

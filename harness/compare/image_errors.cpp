@@ -1,8 +1,12 @@
 #include <sightline/harness/compare/image_errors.h>
 
+#include <sightline/kernel/vectors.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace sightline {
@@ -41,15 +45,52 @@ Colour_errors colour_errors(const Blended_image& truth, const Blended_image& ima
       ++errors.tied;
       continue;
     }
-    const Layer &right = truth.layers[i], &made = image.layers[i];
-    double error = 255 * std::fabs(right.alpha - made.alpha);
-    for (std::size_t k = 0; k < 3; ++k) error = std::max(error, std::fabs(right.colour[k] - made.colour[k]));
+    const double error = difference(truth.layers[i], image.layers[i]);
     errors.wrong += error > 0.5;
     errors.largest = std::max(errors.largest, error);
     sum += error;
   }
   if (errors.pixels > errors.tied) errors.mean = sum / static_cast<double>(errors.pixels - errors.tied);
   return errors;
+}
+
+double difference(const Layer& truth, const Layer& made) {
+  double most = 255 * std::fabs(truth.alpha - made.alpha);
+  for (std::size_t k = 0; k < 3; ++k) most = std::max(most, std::fabs(truth.colour[k] - made.colour[k]));
+  return most;
+}
+
+void Mean_errors::add(const Layer& truth, const Layer& made) {
+  const double error = difference(truth, made);
+  ++compared;
+  off += !(error <= 0.5);
+  largest = std::max(largest, error);
+  sum += error;
+}
+
+std::vector<double> seen_areas(const Exact_view& view, const Visible_surface<Exact_view>& surface,
+                               const Pixel_view& pixels) {
+  const std::array<double, 3> to_right = cross(pixels.up, pixels.look), to_up = cross(pixels.look, pixels.right),
+                              to_look = cross(pixels.right, pixels.up);
+  std::vector<double> areas(view.scene().counters().faces_read);
+  for (const auto& part : surface.parts) {
+    if (part.piece == surface.nothing) continue;
+    std::vector<std::array<double, 2>> corners;
+    for (const Exact_view::Ray& ray : surface.of(part)) {
+      const Approximate_vector d = view.approximate(ray);
+      const std::array<double, 3> v{d.x, d.y, d.z};
+      corners.push_back({dot(v, to_right) / dot(v, to_look), dot(v, to_up) / dot(v, to_look)});
+    }
+    double twice = 0;
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      const auto &o = corners[0], &p = corners[k - 1], &q = corners[k];
+      twice += (p[0] - o[0]) * (q[1] - o[1]) - (p[1] - o[1]) * (q[0] - o[0]);
+    }
+    // The image is 2 x 2; what doubles flatten is seen all the same.
+    areas[view.scene().pieces()[part.piece].face] +=
+        std::max(std::numeric_limits<double>::min(), std::fabs(twice) / 8 * pixels.width * pixels.height);
+  }
+  return areas;
 }
 
 }  // namespace sightline

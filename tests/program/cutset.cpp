@@ -90,6 +90,24 @@ TEST_F(Cutset, draws_its_frames) {
   EXPECT_EQ(titles, 2 * 10u + 1) << "two lines for every third of 30 frames, and what the colours mean";
 }
 
+/// The colours of faces in a picture's frames.
+std::set<std::string> fills_of(const std::string& svg) {
+  std::set<std::string> fills;
+  const std::string key = "fill=\"#";
+  for (std::size_t at = svg.find("<polygon"); at != std::string::npos; at = svg.find("<polygon", at + 1))
+    fills.insert(svg.substr(svg.find(key, at) + key.size(), 6));
+  return fills;
+}
+
+TEST_F(Cutset, shades_its_frames_unless_told_not_to) {
+  const std::string lit = path("lit.svg").string(), flat = path("flat.svg").string();
+  EXPECT_EQ(run({"cutset", cube, "--orbit", "30", "--svg", lit}).code, done);
+  EXPECT_EQ(run({"cutset", cube, "--orbit", "30", "--svg", flat, "--shade", "none"}).code, done);
+  EXPECT_EQ(fills_of(read_file(flat)), (std::set<std::string>{"a9d6a0", "e3e8ee"}));
+  EXPECT_GT(fills_of(read_file(lit)).size(), 4u);  // two colours by the sides of a cube
+  refused({"cutset", cube, "--orbit", "3", "--shade", "phong"}, usage, "--shade");
+}
+
 TEST_F(Cutset, finds_the_order_of_tests_with_the_fewest_expected) {
   const Json d = cutset({cube, "--decision-tree"});
   const Json& tree = d["result"]["decision_tree"];

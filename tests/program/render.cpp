@@ -61,7 +61,8 @@ TEST_F(Render, shows_the_same_faces_of_a_cube_by_every_method) {
     EXPECT_EQ(made["counters"]["kernel"], made["counters"].contains("bits") ? "float" : "exact") << method;
   }
   for (const char* kernel : {"float", "double", "exact"})
-    for (const char* method : {"newell", "scan-line", "warnock", "bsp", "painter-min", "painter-max", "painter-mean"})
+    for (const char* method : {"newell", "scan-line", "warnock", "weiler-atherton", "bsp", "graph", "painter-min",
+                               "painter-max", "painter-mean"})
       EXPECT_EQ(shown(with({"--method", method, "--kernel", kernel})), faces) << method << ", " << kernel;
   if (has_rays()) EXPECT_EQ(shown(with({"--method", "rays"})), faces);
 }
@@ -78,6 +79,12 @@ TEST_F(Render, from_beyond_floats_and_doubles_is_a_picture) {
     }
     render({huge, "--method", method});
   }
+  for (const char* kernel : {"float", "double"})
+    for (const char* eye : {"1e20,0,0", "1e400,0,0"})
+      for (const char* method : {"weiler-atherton", "graph", "bsp"})
+        EXPECT_TRUE(
+            shown(render({cube, "--eye", eye, "--field", "60", "--method", method, "--kernel", kernel})).empty())
+            << method << ", " << kernel;
   EXPECT_FALSE(shown(render({huge, "--method", "centres"})).empty());
 }
 
@@ -115,8 +122,11 @@ TEST_F(Render, lets_light_through) {
   for (const Json& row : json["result"]["rows"]) {
     const std::string method = row["method"];
     methods.insert(method);
-    if (method == "exact") EXPECT_FALSE(row.contains("errors"));  // means, not what is at centres
-    else if (row["kernel"] == "exact" || method == "depth" || method == "weighted") {
+    if (method == "exact") {  // means, not what is at centres
+      EXPECT_FALSE(row["errors"].contains("wrong"));
+      EXPECT_EQ(row["errors"]["compared"], 256);
+      EXPECT_EQ(row["errors"]["off"], 0);
+    } else if (row["kernel"] == "exact" || method == "depth" || method == "weighted") {
       if (row["errors"]["wrong"] > 0) wrong.insert(method);
     }
     EXPECT_NE(method, "warnock");
@@ -156,7 +166,11 @@ TEST_F(Render, of_wrong_arguments_says_what_to_do_and_leaves_no_file) {
   EXPECT_TRUE(says(refusal({cube, "--field", "0"}, usage), "--field"));
   EXPECT_TRUE(says(refusal({cube, "--size", "1000000x1000000"}, usage), "--size"));
   EXPECT_TRUE(says(refusal({cube, "--look", "0,0,0"}, usage), "--look"));
-  EXPECT_TRUE(says(refusal({cube, "--method", "depth", "--kernel", "double"}, usage), "leave out --kernel"));
+  for (const char* method : {"depth", "bsp2d"})
+    EXPECT_TRUE(says(refusal({cube, "--method", method, "--kernel", "double"}, usage), "leave out --kernel"));
+  EXPECT_TRUE(
+      says(refusal({(corpus / "robust" / "huge.off").string(), "--method", "graph", "--kernel", "float"}, usage),
+           "take exact"));
   EXPECT_TRUE(says(refusal({cube, "--method", "centres", "--samples", "4"}, usage), "--samples is for --method rays"));
   EXPECT_TRUE(says(refusal({cube, "--method", "newell", "--bits", "16"}, usage), "--bits is for --method depth"));
   EXPECT_TRUE(says(refusal({cube, "--method", "warnock", "--alpha", "0.5"}, usage), "shows only what is first"));
