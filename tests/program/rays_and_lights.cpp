@@ -5,6 +5,7 @@
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
+#include <chrono>
 
 namespace program {
 
@@ -77,6 +78,19 @@ TEST_F(Rays_and_lights, compare_trace_holds_exact_methods_to_the_truth) {
       EXPECT_EQ(row["status"], "done");
       EXPECT_EQ(row["errors"], (Json{{"rays", 240}, {"missed", 0}, {"invented", 0}, {"wrong_face", 0}}));
     }
+}
+
+/// A ground on which thousands of parts are seen and thousands lie in shadow: each against each would take a minute.
+TEST_F(Rays_and_lights, shadow_draws_a_town_by_where_shadows_are) {
+  const std::string town = path("town.off").string(), svg = path("town.svg").string();
+  ASSERT_EQ(run({"generate", "city", "--size", "1000", "--out", town}).code, done);
+  const auto begin = std::chrono::steady_clock::now();
+  const Outcome r = run({"shadow", town, "--sun=-1,-2,3", "--svg", svg});
+  EXPECT_EQ(r.code, done) << r;
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+  EXPECT_NE(r.out.find("smaller than a pixel are drawn whole"), std::string::npos) << r;
+  const std::string text = read_file(svg);
+  EXPECT_NE(text.find("in the shadow of"), std::string::npos);
 }
 
 TEST_F(Rays_and_lights, shadow_names_lit_and_dark_parts) {
