@@ -44,8 +44,10 @@ Rational rational_from_string(std::string_view text) {
   };
   const std::size_t slash = text.find('/');
   const std::string_view top = text.substr(0, slash);
-  const std::string_view bottom = slash == std::string_view::npos ? std::string_view("1") : text.substr(slash + 1);
+  const bool whole = slash == std::string_view::npos;
+  const std::string_view bottom = whole ? std::string_view("1") : text.substr(slash + 1);
   if (!all_digits(top) || !all_digits(bottom)) throw std::invalid_argument("not a number p or p/q: " + quoted(text));
+  if (whole) return integer(top);
   const Integer denominator = integer(bottom);
   if (sgn(denominator) == 0) throw std::invalid_argument("zero denominator in " + quoted(text));
   Rational value(integer(top), denominator);

@@ -14,6 +14,29 @@ namespace sightline::certificate_json {
 
 std::string entry_name(const std::string& key, std::size_t number) { return key + '[' + std::to_string(number) + ']'; }
 
+/// Where something stands, put together only where something is wrong with it. It refers to that in which it is, which
+/// must last as long.
+class At {
+ public:
+  At(const std::string& whole) : text_(whole) {}
+  At operator+(const char* text) const { return {this, text, none}; }
+  At operator[](std::size_t number) const { return {this, {}, number}; }
+  std::string text() const {
+    const std::string whole = (in_ != nullptr ? in_->text() : "") + std::string(text_);
+    return number_ == none ? whole : entry_name(whole, number_);
+  }
+
+  At(std::string_view key, std::size_t number) : text_(key), number_(number) {}
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  At(const At* in, std::string_view text, std::size_t number) : in_(in), text_(text), number_(number) {}
+
+  const At* in_ = nullptr;
+  std::string_view text_;
+  std::size_t number_ = none;
+};
+
 namespace {
 
 using Json = nlohmann::json;
@@ -21,25 +44,26 @@ using Json = nlohmann::json;
 // ---- Parts of entries
 
 [[noreturn]] void fail(const std::string& place, const std::string& what) { throw Fault{place + ": " + what}; }
+[[noreturn]] void fail(const At& place, const std::string& what) { fail(place.text(), what); }
 
-const Json& member(const Json& object, const char* key, const std::string& place) {
+const Json& member(const Json& object, const char* key, const At& place) {
   if (!object.is_object()) fail(place, "expected an object");
   const auto found = object.find(key);
   if (found == object.end()) fail(place, std::string("no \"") + key + '"');
   return *found;
 }
 
-const Json& array(const Json& value, const std::string& place) {
+const Json& array(const Json& value, const At& place) {
   if (!value.is_array()) fail(place, "expected an array");
   return value;
 }
-std::uint32_t number32(const Json& value, const std::string& place) {
+std::uint32_t number32(const Json& value, const At& place) {
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() > UINT32_MAX)
     fail(place, "expected an integer from 0 to 4294967295");
   return value.get<std::uint32_t>();
 }
 
-Rational exact_number(const Json& value, const std::string& place) {
+Rational exact_number(const Json& value, const At& place) {
   if (!value.is_string()) fail(place, "expected exact numbers as strings \"p\" or \"p/q\"");
   try {
     return rational_from_string(value.get_ref<const std::string&>());
@@ -49,15 +73,15 @@ Rational exact_number(const Json& value, const std::string& place) {
 }
 
 template <std::size_t n>
-std::array<Rational, n> exact_numbers(const Json& value, const std::string& place) {
+std::array<Rational, n> exact_numbers(const Json& value, const At& place) {
   if (array(value, place).size() != n) fail(place, std::string("expected ") + (n == 3 ? "three" : "four") + " numbers");
   std::array<Rational, n> result;
   for (std::size_t k = 0; k < n; ++k) result[k] = exact_number(value[k], place);
   return result;
 }
-Exact_point point(const Json& value, const std::string& place) { return exact_numbers<3>(value, place); }
+Exact_point point(const Json& value, const At& place) { return exact_numbers<3>(value, place); }
 
-bool truth(const Json& value, const std::string& at) {
+bool truth(const Json& value, const At& at) {
   if (!value.is_boolean()) fail(at, "expected true or false");
   return value.get<bool>();
 }
@@ -72,7 +96,7 @@ constexpr std::array<std::pair<const char*, Weak_certificate::Node::Kind>, 6> no
      {"away", Weak_certificate::Node::Kind::away}}};
 
 /// [line, factor] or [line, factor, {"source": form, "target": form}].
-Weak_certificate::Term term(const Json& value, const std::string& at) {
+Weak_certificate::Term term(const Json& value, const At& at) {
   if (array(value, at).size() != 2 && value.size() != 3) fail(at, "expected [line, factor] or [line, factor, forms]");
   Weak_certificate::Term result;
   result.line = number32(value[0], at + "[0]");
@@ -85,7 +109,7 @@ Weak_certificate::Term term(const Json& value, const std::string& at) {
 }
 
 /// [word], or [word, what it is about].
-Weak_certificate::Node node(const Json& value, const std::string& at) {
+Weak_certificate::Node node(const Json& value, const At& at) {
   using Kind = Weak_certificate::Node::Kind;
   if (array(value, at).empty() || !value[0].is_string()) fail(at, "expected an array that begins with a word");
   const auto found = std::find_if(node_words.begin(), node_words.end(), [&](const auto& known) {
@@ -102,12 +126,12 @@ Weak_certificate::Node node(const Json& value, const std::string& at) {
     result.plane = exact_numbers<4>(value[1], at + "[1]");
   if (result.kind == Kind::empty)
     for (const Json& entry : array(value[1], at + "[1]"))
-      result.terms.push_back(term(entry, entry_name(at + "[1]", result.terms.size())));
+      result.terms.push_back(term(entry, (at + "[1]")[result.terms.size()]));
   return result;
 }
 
 /// {"root": t}, or {"quadratic": [a, b, c], "low", "high"}.
-Path_moment moment(const Json& value, const std::string& at) {
+Path_moment moment(const Json& value, const At& at) {
   if (value.is_object() && value.contains("root")) {
     const Rational root = exact_number(value["root"], at + ".root");
     return {{}, root, root};
@@ -119,13 +143,13 @@ Path_moment moment(const Json& value, const std::string& at) {
 }
 
 /// [low, high]
-Along_certificate::Range range(const Json& value, const std::string& at) {
+Along_certificate::Range range(const Json& value, const At& at) {
   if (array(value, at).size() != 2) fail(at, "expected two moments");
   return {number32(value[0], at + "[0]"), number32(value[1], at + "[1]")};
 }
 
 /// ["edge", fragment, corner, sign] or ["meet", fragment, sign].
-Along_certificate::Side side(const Json& value, const std::string& at) {
+Along_certificate::Side side(const Json& value, const At& at) {
   using Kind = Along_certificate::Side::Kind;
   if (array(value, at).empty() || (value[0] != "edge" && value[0] != "meet"))
     fail(at, "expected an array that begins with \"edge\" or \"meet\"");
@@ -141,7 +165,7 @@ Along_certificate::Side side(const Json& value, const std::string& at) {
 }
 
 /// ["blocked", fragment], or a cut.
-Along_certificate::Node along_node(const Json& value, const std::string& at) {
+Along_certificate::Node along_node(const Json& value, const At& at) {
   if (!array(value, at).empty() && value[0] == "blocked") {
     if (value.size() != 2) fail(at, "expected 2 entries");
     return {false, {}, number32(value[1], at + "[1]")};
@@ -208,20 +232,20 @@ void Contents::put_late(Table& table) {
   table.late = {};
 }
 
-std::vector<Exact_point> Contents::points(const Json& value, const std::string& place, Table& table, Place::List list,
+std::vector<Exact_point> Contents::points(const Json& value, const At& place, Table& table, Place::List list,
                                           std::size_t entry) {
   std::vector<Exact_point> result(array(value, place).size());
   for (std::size_t k = 0; k < result.size(); ++k) {
     if (!value[k].is_number()) {
-      result[k] = point(value[k], entry_name(place, k));
+      result[k] = point(value[k], place[k]);
       continue;
     }
-    const std::uint32_t number = number32(value[k], entry_name(place, k));
+    const std::uint32_t number = number32(value[k], place[k]);
     if (!table.is_whole) {
       table.late.push_back({number, {list, entry, k}});
       continue;
     }
-    table.check(number, entry_name(place, k));
+    if (number >= table.points.size()) table.check(number, place[k].text());
     put(table, number, result[k], {list, entry, k});
   }
   return result;
@@ -229,19 +253,19 @@ std::vector<Exact_point> Contents::points(const Json& value, const std::string& 
 
 /// {face, piece, vertices}: a fragment or a piece.
 template <class Part>
-Part Contents::part(const Json& entry, const std::string& at, Place::List list, std::size_t number) {
+Part Contents::part(const Json& entry, const At& at, Place::List list, std::size_t number) {
   return {number32(member(entry, "face", at), at + ".face"), number32(member(entry, "piece", at), at + ".piece"),
           points(member(entry, "vertices", at), at + ".vertices", points_, list, number)};
 }
 
 /// {fragment, vertices, ray} or {fragment, rays}.
-void Contents::take_part(const Json& entry, const std::string& at) {
+void Contents::take_part(const Json& entry, const At& at) {
   Visible_certificate::Part part;
   part.fragment = number32(member(entry, "fragment", at), at + ".fragment");
   if (entry.contains("rays")) {
-    const std::string place = at + ".rays";
+    const At place = at + ".rays";
     for (const Json& number : array(entry["rays"], place))
-      part.rays.push_back(number32(number, entry_name(place, part.rays.size())));
+      part.rays.push_back(number32(number, place[part.rays.size()]));
     if (part.rays.size() < 3) fail(place, "expected three or more numbers");
     if (entry.contains("vertices") || entry.contains("ray"))
       fail(at, "expected either \"rays\", or \"vertices\" and \"ray\"");
@@ -254,33 +278,33 @@ void Contents::take_part(const Json& entry, const std::string& at) {
 }
 
 /// {fragment, source, proof}.
-void Contents::take_hidden(const Json& entry, const std::string& at) {
+void Contents::take_hidden(const Json& entry, const At& at) {
   Weak_certificate::Hidden hidden;
   hidden.fragment = number32(member(entry, "fragment", at), at + ".fragment");
   hidden.source = number32(member(entry, "source", at), at + ".source");
   for (const Json& step : array(member(entry, "proof", at), at + ".proof"))
-    hidden.proof.push_back(node(step, entry_name(at + ".proof", hidden.proof.size())));
+    hidden.proof.push_back(node(step, (at + ".proof")[hidden.proof.size()]));
   weak_.hidden.push_back(std::move(hidden));
 }
 
 /// {fragment, from_behind, moments, cone or tree}.
-void Contents::take_proof(const Json& entry, const std::string& at) {
+void Contents::take_proof(const Json& entry, const At& at) {
   Along_certificate::Proof proof;
   proof.fragment = number32(member(entry, "fragment", at), at + ".fragment");
   if (entry.contains("from_behind")) proof.from_behind = truth(entry["from_behind"], at + ".from_behind");
   proof.range = range(member(entry, "moments", at), at + ".moments");
   if (entry.contains("cone") == entry.contains("tree")) fail(at, "expected either \"cone\" or \"tree\"");
   const bool is_cone = entry.contains("cone");
-  const std::string place = at + (is_cone ? ".cone" : ".tree");
+  const At place = at + (is_cone ? ".cone" : ".tree");
   for (const Json& step : array(entry[is_cone ? "cone" : "tree"], place))
-    if (is_cone) proof.cone.push_back(side(step, entry_name(place, proof.cone.size())));
-    else proof.tree.push_back(along_node(step, entry_name(place, proof.tree.size())));
+    if (is_cone) proof.cone.push_back(side(step, place[proof.cone.size()]));
+    else proof.tree.push_back(along_node(step, place[proof.tree.size()]));
   if (proof.cone.empty() && proof.tree.empty()) fail(place, "is empty");
   along_.proofs.push_back(std::move(proof));
 }
 
 void Contents::take(const std::string& key, std::size_t number, const Json& entry) {
-  const std::string at = entry_name(key, number);
+  const At at(key, number);
   const auto numbers = [&](std::size_t count, const char* wanted) {
     if (array(entry, at).size() != count) fail(at, wanted);
     std::vector<std::uint32_t> result;
@@ -316,7 +340,7 @@ void Contents::take(const std::string& key, std::size_t number, const Json& entr
   else if (key == "faces") {
     Along_certificate::Face face{number32(member(entry, "face", at), at + ".face"), {}};
     for (const Json& seen : array(member(entry, "seen", at), at + ".seen"))
-      face.seen.push_back(range(seen, entry_name(at + ".seen", face.seen.size())));
+      face.seen.push_back(range(seen, (at + ".seen")[face.seen.size()]));
     along_.faces.push_back(std::move(face));
   } else weak_.undecided.push_back(number32(entry, at));
 }
@@ -328,8 +352,8 @@ void Contents::take(const std::string& key, const Json& value) {
   else if (key == "two_sided") two_sided_ = truth(value, key);
   else if (key == "path") {
     if (array(value, key).size() != 2) fail(key, "expected two points");
-    along_.from = point(value[0], "path[0]");
-    along_.to = point(value[1], "path[1]");
+    along_.from = point(value[0], std::string("path[0]"));
+    along_.to = point(value[1], std::string("path[1]"));
   } else visible_.field = points(value, key, rays_, Place::field, 0);
 }
 

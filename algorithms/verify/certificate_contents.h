@@ -24,6 +24,8 @@ struct Fault {
 /// "fragments[3]"
 std::string entry_name(const std::string& key, std::size_t number);
 
+class At;
+
 /// Where a number stands that names a point of a table.
 struct Place {
   enum List : std::uint8_t { fragments, pieces, parts, field, empty, sources } list;
@@ -66,13 +68,13 @@ class Contents {
   Certificate finish(const std::vector<std::pair<std::string, std::optional<Certificate_error>>>& keys);
 
  private:
-  std::vector<Exact_point> points(const nlohmann::json& value, const std::string& at, Table& table, Place::List list,
+  std::vector<Exact_point> points(const nlohmann::json& value, const At& at, Table& table, Place::List list,
                                   std::size_t entry);
   template <class Part>
-  Part part(const nlohmann::json& entry, const std::string& at, Place::List list, std::size_t number);
-  void take_part(const nlohmann::json& entry, const std::string& at);
-  void take_hidden(const nlohmann::json& entry, const std::string& at);
-  void take_proof(const nlohmann::json& entry, const std::string& at);
+  Part part(const nlohmann::json& entry, const At& at, Place::List list, std::size_t number);
+  void take_part(const nlohmann::json& entry, const At& at);
+  void take_hidden(const nlohmann::json& entry, const At& at);
+  void take_proof(const nlohmann::json& entry, const At& at);
   Exact_point& at(const Place& place);
   void put(const Table& table, std::uint32_t number, Exact_point& there, const Place& place);
   void put_late(Table& table);

@@ -4,6 +4,7 @@
 #include <sightline/algorithms/verify/covering.h>
 
 #include <sightline/algorithms/verify/faces.h>
+#include <sightline/algorithms/verify/numbered_points.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/set_aside.h>
 #include <sightline/algorithms/verify/surface.h>
@@ -14,8 +15,11 @@
 #include <atomic>
 #include <cstddef>
 #include <map>
+#include <span>
 #include <set>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace sightline::certificate_check {
 namespace {
@@ -27,6 +31,7 @@ struct Tile {
   const Polygon* polygon;
   std::string name;
   std::vector<std::size_t> fragments;
+  std::span<const Numbered_points::Number> numbers = {};  // of its corners, if they have such
 };
 
 bool is_rotation(const Polygon& a, const Polygon& b) {
@@ -38,13 +43,15 @@ bool is_rotation(const Polygon& a, const Polygon& b) {
 }
 
 /// Rejects unless the tiles are convex polygons in the plane that cover once what the loops bound, and nothing else.
-/// Pre: no loop is empty. Proof: P-21
+/// `points`: those that numbers of corners name. Pre: no loop is empty. Proof: P-21
 void check_tiling(const std::string& what, const std::vector<Polygon>& loops, const Plane& plane,
-                  const std::vector<Tile>& tiles) {
+                  const std::vector<Tile>& tiles, const std::vector<Homogeneous>& points = {}) {
   if (tiles.empty()) reject(what + " has no fragment and is not set aside");
   const Homogeneous front = plane_of(plane);
   for (const Tile& tile : tiles)
-    if (const std::string fault = not_convex(homogeneous(*tile.polygon), front); !fault.empty())
+    if (const std::string fault =
+            not_convex(tile.numbers.empty() ? homogeneous(*tile.polygon) : each_of(points, tile.numbers), front);
+        !fault.empty())
       reject(tile.name + " of " + what + " " + fault, tile.fragments);
   if (tiles.size() == 1 && loops.size() == 1 && is_rotation(loops[0], *tiles[0].polygon)) return;
 
@@ -92,8 +99,8 @@ std::string Covered::text() const {
 }
 
 Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Workers& workers,
-                       const Exact_point* eye, const std::vector<bool>& known) {
-  constexpr std::size_t faces_worth_a_thread = 100;
+                       const Exact_point* eye, const std::vector<bool>& known, Numbered_polygons* numbered) {
+  constexpr std::size_t faces_worth_a_thread = 100, points_worth_a_thread = 1000;
   const auto left_out = [&](const Plane& plane, const std::vector<Tile>& tiles) {
     return eye != nullptr && tiles.empty() && plane.side(*eye) <= 0;
   };
@@ -120,21 +127,36 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
     if (!pieces[piece.face].emplace(piece.piece, &piece.vertices).second)
       reject(name("face", piece.face) + " has " + name("piece", piece.piece) + " twice");
   }
+  Numbered_polygons own_numbered;
+  Numbered_polygons& corners = numbered != nullptr ? *numbered : own_numbered;
+  std::vector<char> in_canonical_numbers;  // points of fragments
+  for (const Order_fragment& fragment : covering.fragments) {
+    corners.add(fragment.vertices);
+    while (in_canonical_numbers.size() < corners.points().size())
+      in_canonical_numbers.push_back(
+          canonical(corners.points()[static_cast<Numbered_points::Number>(in_canonical_numbers.size())]));
+  }
   std::vector<std::map<std::uint32_t, std::vector<Tile>>> tiles(
       soup.face_count());  // by face, then by piece where it has such
   for (std::size_t i = 0; i < covering.fragments.size(); ++i) {
     const Order_fragment& fragment = covering.fragments[i];
     in_scene(name("fragment", i), fragment.face);
-    if (!canonical(fragment.vertices))
+    if (!std::all_of(corners[i].begin(), corners[i].end(),
+                     [&](Numbered_points::Number p) { return in_canonical_numbers[p] != 0; }))
       reject(name("fragment", i) + " has a vertex that is not in canonical numbers", {i});
     if (set_aside.count(fragment.face)) reject(name("face", fragment.face) + " is set aside but drawn", {i});
     const auto& own = pieces[fragment.face];
     if (!own.empty() && !own.count(fragment.piece))
       reject(name("fragment", i) + " is of a piece that its face does not have", {i});
-    tiles[fragment.face][own.empty() ? 0 : fragment.piece].push_back({&fragment.vertices, name("fragment", i), {i}});
+    tiles[fragment.face][own.empty() ? 0 : fragment.piece].push_back(
+        {&fragment.vertices, name("fragment", i), {i}, corners[i]});
   }
 
   // 2. Nothing is lost and nothing is drawn twice.
+  std::vector<Homogeneous> points(corners.points().size());
+  for_each_below(points.size(), points_worth_a_thread, workers, [&](std::size_t i) {
+    points[i] = homogeneous(corners.points()[static_cast<Numbered_points::Number>(i)]);
+  });
   Covered covered;
   for (const auto& entry : covering.set_aside) check_set_aside(soup, entry, set_aside);
   covered.set_aside = set_aside.size();
@@ -148,7 +170,7 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
     if (pieces[f].empty()) {
       if (!face.planar) reject(what + " is not planar and has no pieces");
       if (!face.has_front) reject(what + " has no front and is not set aside");
-      if (!left_out(face.plane, tiles[f][0])) check_tiling(what, face.loops, face.plane, tiles[f][0]);
+      if (!left_out(face.plane, tiles[f][0])) check_tiling(what, face.loops, face.plane, tiles[f][0], points);
       return;
     }
     if (face.planar && !face.has_front) reject(what + " has no front and is not set aside");
@@ -158,7 +180,7 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
     for (const auto& [number, polygon] : pieces[f]) {
       const Plane plane{newell_normal(*polygon), polygon->front()};
       if (!left_out(plane, tiles[f][number]))
-        check_tiling(what + ", " + name("piece", number), {*polygon}, plane, tiles[f][number]);
+        check_tiling(what + ", " + name("piece", number), {*polygon}, plane, tiles[f][number], points);
     }
   });
   covered.not_planar = not_planar;

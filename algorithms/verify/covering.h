@@ -42,6 +42,8 @@ struct Covering {
 
 namespace certificate_check {
 
+class Numbered_polygons;
+
 /// What a verdict says of the scene, whatever it is about.
 struct Covered {
   std::size_t set_aside = 0, not_planar = 0;  ///< faces
@@ -50,9 +52,11 @@ struct Covered {
 
 /// Rejects unless the fragments are the scene: they refer to it, tile each face piece by piece, and all else is set
 /// aside rightly. With an eye, polygons that it is not strictly in front of may be left out, whole. Faces that are
-/// `known` to be tiled need no fragments. Proof: P-21, P-22
+/// `known` to be tiled need no fragments. Post: the corners of the fragments are in `numbered`. Pre: nothing is.
+/// Proof: P-21, P-22
 Covered check_covering(const Polygon_soup& soup, const Covering& covering, const Workers& workers,
-                       const Exact_point* eye = nullptr, const std::vector<bool>& known = {});
+                       const Exact_point* eye = nullptr, const std::vector<bool>& known = {},
+                       Numbered_polygons* numbered = nullptr);
 
 }  // namespace certificate_check
 

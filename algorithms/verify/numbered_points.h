@@ -30,6 +30,36 @@ class Numbered_points {
   std::vector<Number> table_;        // by hash, open; size() or more: empty
 };
 
+/// The corners of polygons by number.
+class Numbered_polygons {
+ public:
+  using Number = Numbered_points::Number;
+
+  void add(const Polygon& polygon) {
+    for (const Exact_point& p : polygon) numbers_.push_back(points_.add(p));
+    ends_.push_back(numbers_.size());
+  }
+  const Numbered_points& points() const { return points_; }
+  std::span<const Number> operator[](std::size_t polygon) const {
+    const std::size_t begin = polygon == 0 ? 0 : ends_[polygon - 1];
+    return std::span(numbers_).subspan(begin, ends_[polygon] - begin);
+  }
+
+ private:
+  Numbered_points points_;
+  std::vector<Number> numbers_;
+  std::vector<std::size_t> ends_;
+};
+
+/// What there is for each number, for the corners of a polygon.
+template <class Value>
+std::vector<Value> each_of(const std::vector<Value>& values, std::span<const Numbered_points::Number> numbers) {
+  std::vector<Value> result;
+  result.reserve(numbers.size());
+  for (const Numbered_points::Number number : numbers) result.push_back(values[number]);
+  return result;
+}
+
 /// A sum of directed segments between numbered points as a chain: two sums are the same chain iff on each line, at each
 /// point, the net number of arrivals is the same. A line through a known point is its direction, so the key is
 /// (direction up to sign, point). Segments with the same two ends cancel first. Proof: P-21b

@@ -2,11 +2,13 @@
 
 #include <sightline/algorithms/verify/order.h>
 
+#include <sightline/algorithms/verify/numbered_points.h>
 #include <sightline/algorithms/verify/pairs.h>
 #include <sightline/algorithms/verify/planes_between.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/rounded_cones.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <mutex>
 #include <numeric>
@@ -28,19 +30,36 @@ std::optional<std::pair<std::size_t, std::size_t>> first_misordered(const std::v
   const Planes_between planes(cones, in_doubles, workers);
   std::optional<std::pair<std::size_t, std::size_t>> first;  // (later, earlier)
   std::mutex mutex;
-  Pairs pairs(cones, in_doubles, [&](std::size_t earlier, std::size_t later) {
+  Pairs pairs(cones, in_doubles, [&](std::size_t one, std::size_t other) {
     thread_local Pair_check check;
-    if (earlier >= later || planes.in_order(earlier, later) || nowhere_nearer(in_doubles[earlier], in_doubles[later]))
-      return;
-    if (!check.nearer_somewhere(cones[earlier], cones[later])) return;
+    const auto [earlier, later] = std::minmax({one, other});
+    if (planes.in_order(earlier, later) || nowhere_nearer(in_doubles[earlier], in_doubles[later])) return;
+    if (!check.nearer_somewhere(cones[earlier], in_doubles[earlier], cones[later], in_doubles[later])) return;
     const std::lock_guard lock(mutex);
     if (const std::pair here(later, earlier); !first || here < *first) first = here;
   });
   std::vector<std::size_t> all(cones.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
-  pairs.each(all, all, workers, share_of(options, cones.size()));
+  pairs.each(all, workers, share_of(options, cones.size()));
   if (first) std::swap(first->first, first->second);
   return first;
+}
+
+/// The cones of polygons; what many have is found once for each corner.
+std::vector<Cone> cones_of(const Numbered_polygons& polygons, std::size_t count, const Exact_point& at,
+                           const Workers& workers) {
+  const Homogeneous eye = homogeneous(at);
+  std::vector<Homogeneous> points(polygons.points().size());
+  std::vector<Integer_vector> rays(points.size());
+  for_each_below(points.size(), 1000, workers, [&](std::size_t i) {
+    points[i] = homogeneous(polygons.points()[static_cast<Numbered_points::Number>(i)]);
+    rays[i] = ray_to(points[i], eye);
+  });
+  std::vector<Cone> cones(count);
+  for_each_below(count, 100, workers, [&](std::size_t i) {
+    cones[i] = Cone(each_of(points, polygons[i]), each_of(rays, polygons[i]), eye);
+  });
+  return cones;
 }
 
 /// The certificate, step by step; throws a Rejection. Returns what was shown, in one line.
@@ -48,12 +67,12 @@ std::string check(const Polygon_soup& soup, const Order_certificate& certificate
   // 1. The eye is a point, and the fragments are the scene.
   if (!canonical(certificate.eye)) reject("the eye is not a point in canonical numbers");
   const Workers workers(options, certificate.fragments.size());
-  const Covered covered = check_covering(soup, certificate, workers, certificate.on_view ? &certificate.eye : nullptr);
+  Numbered_polygons corners;
+  const Covered covered =
+      check_covering(soup, certificate, workers, certificate.on_view ? &certificate.eye : nullptr, {}, &corners);
 
   // 2. No fragment is nearer than one that is drawn after it.
-  std::vector<Cone> cones(certificate.fragments.size());
-  for_each_below(cones.size(), 100, workers,
-                 [&](std::size_t i) { cones[i] = Cone(certificate.fragments[i].vertices, certificate.eye); });
+  const std::vector<Cone> cones = cones_of(corners, certificate.fragments.size(), certificate.eye, workers);
   const auto pair = first_misordered(cones, options);
   if (pair) {
     const auto [earlier, later] = *pair;

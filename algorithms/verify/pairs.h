@@ -27,6 +27,8 @@ class Pair_check {
  public:
   /// Whether a is strictly nearer than b in some direction inside both cones. Pre: neither is edge-on. Proof: P-20
   bool nearer_somewhere(const Cone& a, const Cone& b);
+  /// The same by doubles where they can tell. Pre: the rounded ones are the cones.
+  bool nearer_somewhere(const Cone& a, const Rounded_cone& rounded_a, const Cone& b, const Rounded_cone& rounded_b);
 
  private:
   /// How the rays of cone b lie about the edge planes of cone a.
@@ -38,6 +40,10 @@ class Pair_check {
     void find(const Cone& a, const Cone& b);
   };
 
+  bool nearer_in_common_part(const Cone& a, const Cone& b);
+  void find_farther(const Cone& a, const Cone& b);
+
+  Integer_vector farther_;   // 1/t of b minus 1/t of a is linear in the direction
   Sides a_sides_, b_sides_;  // of a's planes at b's rays, of b's planes at a's rays
   std::vector<Integer_vector> common_;
 };
@@ -73,13 +79,26 @@ class Pairs {
   /// but never from two at once.
   void each(const Places& a, const Places& b, const Workers& workers,
             const std::function<void(double)>& progress = {}) {
+    each_of_parts(a, &b, workers, progress);
+  }
+  /// Of the pairs of one list, each in one of its two senses, whichever.
+  void each(const Places& all, const Workers& workers, const std::function<void(double)>& progress = {}) {
+    each_of_parts(all, nullptr, workers, progress);
+  }
+
+ private:
+  using Windows = std::vector<Window>;
+
+  void each_of_parts(const Places& a, const Places* b, const Workers& workers,
+                     const std::function<void(double)>& progress) {
     // 1. Windows, and parts that threads can share, in halves.
     std::vector<Part> parts;
     double all = 0;
     for (std::size_t side = 0; side < cube_sides; ++side) {
       Part part;
       part.a = windows(a, side, workers);
-      part.b = &a == &b ? part.a : windows(b, side, workers);
+      part.one_list = b == nullptr;
+      if (b != nullptr) part.b = &a == b ? part.a : windows(*b, side, workers);
       if (part.pairs() == 0) continue;
       all += part.pairs();
       parts.push_back(std::move(part));
@@ -93,21 +112,24 @@ class Pairs {
                    [&](std::size_t i) { share_out(parts[i]); });
   }
 
- private:
-  using Windows = std::vector<Window>;
-
   static constexpr std::size_t small = 16, crowded = 100;  // below them, cuts by windows and by planes do not pay
   static constexpr unsigned deepest = 64, tries = 6;
   static constexpr std::size_t rounds_for_threads = 4, enough_windows = 1000;
   static constexpr double worth_threads = 1e5;  // pairs
 
-  /// Windows of both lists. Pairs whose lower corners have their join in the region are this part's.
+  /// Windows of both lists, or of the only one. Pairs whose lower corners have their join in the region are this
+  /// part's.
   struct Part {
     Windows a, b;
     Window region{0, {least, least}, {most, most}};
     double share = 0;  // of the work
     unsigned depth = 0;
-    double pairs() const { return static_cast<double>(a.size()) * static_cast<double>(b.size()); }
+    bool one_list = false;  // a
+    std::size_t size() const { return a.size() + (one_list ? a : b).size(); }
+    double pairs() const {
+      const auto n = static_cast<double>(a.size());
+      return one_list ? n * (n - 1) / 2 : n * static_cast<double>(b.size());
+    }
 
     static constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min(),
                                   most = std::numeric_limits<std::int64_t>::max();
@@ -117,6 +139,7 @@ class Pairs {
     void pass_on(const Part& whole) {
       for (Part* half : {&front, &behind}) {
         half->region = whole.region;
+        half->one_list = whole.one_list;
         half->share = whole.share / 2;
         half->depth = whole.depth + 1;
       }
@@ -183,12 +206,12 @@ class Pairs {
 
   /// Two parts of fewer pairs in all, by windows if they allow it, else by planes; nothing where neither helps.
   std::optional<Halves> halved(const Part& part) const {
-    const std::size_t size = part.a.size() + part.b.size();
+    const std::size_t size = part.size();
     if (size <= small || part.depth >= deepest) return std::nullopt;
     for (const std::size_t axis : {part.depth % 2, 1 - part.depth % 2})
       if (Halves halves = cut_windows(part, axis); halves.help(part)) return halves;
     for (unsigned k = 0; k < tries && size > crowded; ++k) {
-      const Windows& from = k % 2 == 0 ? part.a : part.b;
+      const Windows& from = k % 2 == 0 || part.one_list ? part.a : part.b;
       const Cone& cone = cones_[from[(2 * k + 1) * from.size() / (2 * tries)].cone];
       const Integer_vector& plane = cone.edge_planes[(k + part.depth) % cone.edge_planes.size()];
       if (Halves halves = cut_cones(part, plane); halves.help(part)) return halves;
@@ -216,10 +239,12 @@ class Pairs {
       share_out(halves->behind);
       return;
     }
-    for (const Window& a : part.a) {
+    for (std::size_t i = 0; i < part.a.size(); ++i) {
+      const Window& a = part.a[i];
       count(part.share / static_cast<double>(part.a.size()));
-      for (const Window& b : part.b)
-        if (overlap_here(a, b, part.region)) take_(a.cone, b.cone);
+      const Windows& others = part.one_list ? part.a : part.b;
+      for (std::size_t j = part.one_list ? i + 1 : 0; j < others.size(); ++j)
+        if (overlap_here(a, others[j], part.region)) take_(a.cone, others[j].cone);
     }
   }
   void count(double share) {

@@ -3,6 +3,8 @@
 #include <sightline/kernel/number.h>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 namespace sightline::order_check {
 
@@ -10,15 +12,13 @@ using namespace certificate_check;
 
 namespace {
 
-/// The side of the plane of b on which ray `ray` of a meets the polygon of a, as side_to_plane(), exactly. It is met at
-/// t where nearness.d t = distance.
-int exact_side_to_plane(const Cone& a, std::size_t ray, const Cone& b) {
-  thread_local Integer_vector height;
+/// For the side of the plane of b on which a ray of a meets the polygon of a, as side_to_plane(), exactly: the sign of
+/// its product with the ray. It is met at t where nearness.d t = distance.
+void find_height(Integer_vector& height, const Cone& a, const Cone& b) {
   for (std::size_t k = 0; k < 3; ++k) {
     mpz_mul(height[k].get_mpz_t(), a.distance.get_mpz_t(), b.nearness[k].get_mpz_t());
     mpz_submul(height[k].get_mpz_t(), b.distance.get_mpz_t(), a.nearness[k].get_mpz_t());
   }
-  return sign_of_dot(height, a.rays[ray]);
 }
 
 }  // namespace
@@ -41,12 +41,21 @@ Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector
 bool Planes_between::is_apart(std::size_t i, std::size_t at) const {
   if (cones_[i].edge_on || cones_[at].edge_on) return false;
   const int own_side = i < at ? 1 : -1;
+  // Where doubles can tell of no ray that it is on the wrong side, the others are asked exactly.
+  thread_local std::vector<std::size_t> open;
+  open.clear();
   for (std::size_t ray = 0; ray < cones_[i].rays.size(); ++ray) {
-    std::optional<int> side = side_to_plane(rounded_[i], ray, rounded_[at]);
-    if (!side) side = exact_side_to_plane(cones_[i], ray, cones_[at]);
-    if (*side == -own_side) return false;
+    const std::optional<int> side = side_to_plane(rounded_[i], ray, rounded_[at]);
+    if (!side) open.push_back(ray);
+    else if (*side == -own_side) return false;
   }
-  return true;
+  if (open.empty()) return true;
+  const Cone &own = cones_[i], &plane = cones_[at];
+  if (own.distance == plane.distance && own.nearness == plane.nearness) return true;  // in it
+  thread_local Integer_vector height;
+  find_height(height, own, plane);
+  return std::none_of(open.begin(), open.end(),
+                      [&](std::size_t ray) { return sign_of_dot(height, own.rays[ray]) == -own_side; });
 }
 
 std::vector<Planes_between::Part> Planes_between::cut(const Part& part, const Workers& workers) {

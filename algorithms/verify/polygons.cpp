@@ -225,26 +225,44 @@ std::string not_convex(const std::vector<Homogeneous>& corners, const Homogeneou
 
 Cone::Cone(const Polygon& polygon, const Exact_point& eye) : Cone(homogeneous(polygon), homogeneous(eye)) {}
 
-Cone::Cone(const std::vector<Homogeneous>& corners, const Homogeneous& from) {
+Integer_vector ray_to(const Homogeneous& p, const Homogeneous& eye) { return primitive(minus(p, eye)); }
+
+namespace {
+
+std::vector<Integer_vector> rays_to(const std::vector<Homogeneous>& corners, const Homogeneous& eye) {
+  std::vector<Integer_vector> rays;
+  rays.reserve(corners.size());
+  for (const Homogeneous& p : corners) rays.push_back(ray_to(p, eye));
+  return rays;
+}
+
+}  // namespace
+
+Cone::Cone(const std::vector<Homogeneous>& corners, const Homogeneous& from)
+    : Cone(corners, rays_to(corners, from), from) {}
+
+Cone::Cone(const std::vector<Homogeneous>& corners, const std::vector<Integer_vector>& all, const Homogeneous& from) {
   const Integer_vector normal = primitive(normal_of_convex(corners));
   Rational height(dot(normal, minus(from, corners[0])), from[3] * corners[0][3]);
   height.canonicalize();
   edge_on = sgn(height) == 0;
   if (edge_on) return;
   const bool front = sgn(height) > 0;
-  std::vector<Integer_vector> all;
-  for (const Homogeneous& p : corners) all.push_back(primitive(minus(p, from)));
-  const auto edge_plane = [&](std::size_t i) {
-    const Integer_vector plane = primitive(cross(all[i], all[(i + 1) % all.size()]));
-    return front ? negated(plane) : plane;
+  rays.reserve(corners.size()), edge_planes.reserve(corners.size());
+  sense = front ? -1 : 1;
+  const auto edge_plane = [&](const Integer_vector& first, const Integer_vector& second) {
+    Integer_vector plane = cross(first, second);
+    if (front)
+      for (Integer& x : plane) mpz_neg(x.get_mpz_t(), x.get_mpz_t());
+    return plane;
   };
-  Integer_vector previous = edge_plane(all.size() - 1);
+  Integer_vector plane = edge_plane(all.back(), all.front());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    Integer_vector next = edge_plane(i);
-    if (next == previous) continue;  // a straight corner
+    const Integer_vector& next = all[i + 1 == all.size() ? 0 : i + 1];
+    if (sign_of_dot(plane, next) == 0) continue;  // straight on
+    plane = edge_plane(all[i], next);
     rays.push_back(all[i]);
-    edge_planes.push_back(next);
-    previous = std::move(next);
+    edge_planes.push_back(plane);
   }
   const Integer_vector inward = front ? negated(normal) : normal;
   for (std::size_t k = 0; k < 3; ++k) nearness[k] = inward[k] * height.get_den();

@@ -75,17 +75,24 @@ std::string not_convex(const std::vector<Homogeneous>& polygon, const Homogeneou
 
 // ---- What the eye sees of a polygon
 
+/// The direction from the eye to a point, coprime integers.
+Integer_vector ray_to(const Homogeneous& p, const Homogeneous& eye);
+
 /// The cone of directions from the eye to a convex polygon. Pre: not_convex() is empty for it.
 struct Cone {
   bool edge_on = false;                     ///< the eye is in the polygon's plane; the rest is then empty
   std::vector<Integer_vector> rays;         ///< to the vertices, without straight corners
-  std::vector<Integer_vector> edge_planes;  ///< normal, pointing inwards, of the plane of rays i and i + 1
+  std::vector<Integer_vector> edge_planes;  ///< normal, pointing inwards, of the plane of rays i and i + 1: sense x
+                                            ///< their product
+  int sense = 1;                            ///< 1, or -1 where the eye is in front
   Integer_vector nearness;  ///< the polygon's plane is met along d at t where nearness.d x t = distance;
   Integer distance;         ///< nearness.d > 0 in the cone, distance > 0
 
   Cone() = default;
   Cone(const Polygon& polygon, const Exact_point& eye);
   Cone(const std::vector<Homogeneous>& polygon, const Homogeneous& eye);
+  /// Pre: the second ones are the ray_to() of each of the polygon's corners.
+  Cone(const std::vector<Homogeneous>& polygon, const std::vector<Integer_vector>& to_corners, const Homogeneous& eye);
 };
 
 /// Whether an edge plane of a has no ray of b on its inner side: then the cones have no open set in common.

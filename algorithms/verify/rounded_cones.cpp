@@ -48,6 +48,7 @@ Rounded_cone::Rounded_cone(const Cone& cone) {
   long exponent = 0;
   distance = mpz_get_d_2exp(&exponent, cone.distance.get_mpz_t());
   nearness = form.rounded;
+  sense = cone.sense;
   exponent -= form.exponent;
   distance = std::abs(exponent) < range ? std::ldexp(distance, static_cast<int>(exponent))
                                         : std::numeric_limits<double>::quiet_NaN();
@@ -59,6 +60,14 @@ std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const R
   if (height > error * std::max(a.distance, b.distance)) return 1;
   if (height < -error * std::max(a.distance, b.distance)) return -1;
   return std::nullopt;
+}
+
+std::optional<int> side_of_edge(const Rounded_cone& a, std::size_t edge, const Rounded_vector& ray) {
+  const Rounded_vector &from = a.rays[edge], &to = a.rays[edge + 1 == a.rays.size() ? 0 : edge + 1];
+  const Rounded_vector plane{from[1] * to[2] - from[2] * to[1], from[2] * to[0] - from[0] * to[2],
+                             from[0] * to[1] - from[1] * to[0]};
+  const std::optional<int> sign = sign_in_doubles(plane, ray);
+  return sign ? std::optional(*sign * a.sense) : std::nullopt;
 }
 
 std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, const Workers& workers) {

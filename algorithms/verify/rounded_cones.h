@@ -5,6 +5,7 @@
 #include <sightline/algorithms/verify/polygons.h>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct Rounded_cone {
   std::vector<Rounded_vector> rays;
   Rounded_vector nearness{};
   double distance = 0;  ///< by the same scale as nearness; not a number where that is beyond the range of doubles
+  int sense = 1;        ///< of the cone
 
   Rounded_cone() = default;
   explicit Rounded_cone(const Cone& cone);
@@ -33,6 +35,9 @@ struct Rounded_cone {
 /// The side of the plane of b on which ray `ray` of a meets the polygon of a: 1 beyond it as seen from the eye, -1
 /// before it; nothing where doubles cannot tell. Proof: P-20
 std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const Rounded_cone& b);
+
+/// The side of edge plane `edge` of a on which a ray is, 1 inside; nothing where doubles cannot tell. Proof: P-20
+std::optional<int> side_of_edge(const Rounded_cone& a, std::size_t edge, const Rounded_vector& ray);
 
 /// All of them.
 std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, const Workers& workers);

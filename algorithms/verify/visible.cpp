@@ -86,7 +86,8 @@ class Arc_chain {
 
 void Arc_chain::add(const Cone& cone, long multiplicity) {
   for (std::size_t i = 0; i < cone.rays.size(); ++i) {
-    Integer_vector axis = cone.edge_planes[i], from = cone.rays[i], to = cone.rays[(i + 1) % cone.rays.size()];
+    Integer_vector axis = primitive(cone.edge_planes[i]), from = cone.rays[i],
+                   to = cone.rays[(i + 1) % cone.rays.size()];
     long count = multiplicity;  // taken with the side that the cone is on
     if (axis < Integer_vector{}) {
       axis = negated(axis);

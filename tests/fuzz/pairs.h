@@ -236,6 +236,9 @@ inline void pairs(std::string_view bytes) {
     const order_check::Rounded_cone rounded_i(cones[i]), rounded_j(cones[j]);
     require(!nowhere_nearer(rounded_i, rounded_j) || !check.nearer_somewhere(cones[i], cones[j]),
             "what doubles tell to be nowhere nearer is so");
+    require(
+        check.nearer_somewhere(cones[i], rounded_i, cones[j], rounded_j) == check.nearer_somewhere(cones[i], cones[j]),
+        "doubles that help to compare do not change the answer");
     require((separates(cones[i], cones[j]) || separates(cones[j], cones[i])) <= is_apart(polygons[i], polygons[j]),
             "what an edge's plane separates is apart");
   }

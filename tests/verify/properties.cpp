@@ -250,6 +250,33 @@ TEST(Pairs, hand_on_all_that_overlap_and_few_others) {
   EXPECT_GT(left_out, apart / 4);
 }
 
+TEST(Pairs, of_one_list_are_those_of_it_twice_once) {
+  Dice dice(9);
+  std::vector<order_check::Cone> cones;
+  for (int i = 0; i < 240; ++i) {
+    const order_check::Cone cone(random_polygon(dice, 1 + i % 2, false), at(0, 0, 0));
+    if (!cone.edge_on) cones.push_back(cone);
+  }
+  std::vector<std::size_t> all(cones.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+  const std::vector<order_check::Rounded_cone> rounded = order_check::rounded(cones, 1);
+  std::set<std::pair<std::size_t, std::size_t>> once, twice;
+  std::size_t calls_once = 0, calls_twice = 0;
+  order_check::Pairs(cones, rounded, [&](std::size_t i, std::size_t j) {
+    ++calls_once;
+    once.insert(std::minmax({i, j}));
+    ASSERT_NE(i, j);
+  }).each(all, 1);
+  order_check::Pairs(cones, rounded, [&](std::size_t i, std::size_t j) {
+    ++calls_twice;
+    if (i != j) twice.insert(std::minmax({i, j}));
+  }).each(all, all, 1);
+  EXPECT_LT(calls_once, calls_twice * 2 / 3);
+  for (const auto& [i, j] : twice)
+    ASSERT_TRUE(once.contains({i, j}) || separates(cones[i], cones[j]) || separates(cones[j], cones[i]));
+  EXPECT_GT(once.size(), cones.size());
+}
+
 TEST(Pairs, of_needles_across_are_told_apart_by_planes_where_windows_overlap) {
   const long count = 300;
   std::vector<Points> polygons;

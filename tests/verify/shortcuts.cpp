@@ -50,7 +50,7 @@ int side_beyond(const Points& a, std::size_t k, const Points& b) {
 
 TEST(Rounded_cones, know_sides_or_say_nothing) {
   Dice dice(1);
-  std::size_t told = 0, silent = 0, close = 0, signs_told = 0;
+  std::size_t told = 0, silent = 0, close = 0, signs_told = 0, sides_told = 0;
   for (int trial = 0; trial < sample(20000); ++trial) {
     const long exponent = roll(dice, 0, 70);
     Points about;
@@ -72,13 +72,22 @@ TEST(Rounded_cones, know_sides_or_say_nothing) {
         ASSERT_TRUE(!sign || *sign == certificate_check::sign_of_dot(plane, cone_b.rays[ray])) << trial;
         signs_told += sign.has_value();
       }
+      for (std::size_t edge = 0; edge < 3; ++edge) {
+        const std::optional<int> sign = order_check::side_of_edge(rounded_a, edge, rounded_b.rays[ray]);
+        ASSERT_TRUE(!sign || *sign == certificate_check::sign_of_dot(cone_a.edge_planes[edge], cone_b.rays[ray]))
+            << trial;
+        sides_told += sign.has_value();
+      }
       told += side.has_value(), silent += !side && expected != 0, close += side && exponent > 25;
     }
     order_check::Pair_check check;
-    ASSERT_FALSE(nowhere_nearer(rounded_a, rounded_b) && check.nearer_somewhere(cone_a, cone_b)) << trial;
+    const bool is_nearer = check.nearer_somewhere(cone_a, cone_b);
+    ASSERT_FALSE(nowhere_nearer(rounded_a, rounded_b) && is_nearer) << trial;
+    ASSERT_EQ(check.nearer_somewhere(cone_a, rounded_a, cone_b, rounded_b), is_nearer) << trial;
   }
   EXPECT_GT(told, least(10000u));
   EXPECT_GT(signs_told, least(20000u));
+  EXPECT_GT(sides_told, least(1000u));
   EXPECT_GT(silent, least(2000u));
   EXPECT_GT(close, least(200u));
 }
