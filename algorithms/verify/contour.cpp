@@ -1,5 +1,7 @@
 #include <sightline/algorithms/verify/contour.h>
 
+#include <sightline/algorithms/verify/boxes.h>
+
 #include <algorithm>
 #include <iterator>
 #include <map>
@@ -75,27 +77,52 @@ Contour::Point Contour::look(const Exact_point& p, std::size_t axis, bool mirror
   return {x, y};
 }
 
+Contour seen_from_front(const std::vector<Polygon>& loops, const Plane& plane) {
+  std::size_t axis = 0;
+  while (sgn(plane.normal[axis]) == 0) ++axis;
+  return Contour(loops, axis, sgn(plane.normal[axis]) < 0);
+}
+
 bool Contour::crosses_itself() const {
-  for (auto e = edges.begin(); e != edges.end(); ++e)
-    for (auto f = edges.begin(); f != e; ++f)
-      if (cross_inside(*e, *f) && !points.count(crossing(*e, *f))) return true;
-  return false;
+  // Edges cross in a point of both, so that their boxes meet.
+  std::vector<Outward_box> boxes;
+  boxes.reserve(edges.size());
+  for (const Edge& e : edges)
+    boxes.emplace_back(Polygon{{e.from[0], e.from[1], Rational(0)}, {e.to[0], e.to[1], Rational(0)}});
+  const Boxes tree(boxes);
+  bool found = false;
+  for (std::size_t leaf = 0; leaf < tree.leaves() && !found; ++leaf)
+    tree.for_each_pair(leaf, [&](std::size_t i, std::size_t j) {
+      const Edge &e = edges[i], &f = edges[j];
+      found = found || (cross_inside(e, f) && !points.count(crossing(e, f)));
+    });
+  return found;
 }
 
 Contour::Winding Contour::winding() const {
+  // 1. The edges from left to right; upright ones meet no line in the middle.
+  std::vector<std::pair<const Rational*, const Edge*>> by_left_end;
+  for (const Edge& e : edges)
+    if (e.from[0] != e.to[0]) by_left_end.emplace_back(&std::min(e.from, e.to)[0], &e);
+  std::stable_sort(by_left_end.begin(), by_left_end.end(),
+                   [](const auto& a, const auto& b) { return *a.first < *b.first; });
+  // 2. Between neighbouring abscissae no edges cross: add up the winding number from below on a line in the middle.
   std::set<Rational> abscissae;
   for (const Point& p : points) abscissae.insert(p[0]);
   Winding found = Winding::none;
   if (abscissae.empty()) return found;
-  // Between neighbouring abscissae no edges cross: add up the winding number from below on a line in the middle.
+  std::vector<const Edge*> here;
+  auto next = by_left_end.begin();
   for (auto left = abscissae.begin(), right = std::next(left); right != abscissae.end(); ++left, ++right) {
+    std::erase_if(here, [&](const Edge* e) { return std::max(e->from, e->to)[0] == *left; });
+    for (; next != by_left_end.end() && *next->first == *left; ++next) here.push_back(next->second);
     const Rational middle = (*left + *right) / 2;
     std::map<Rational, int> steps;
-    for (const auto& [from, to] : edges)
-      if (std::min(from[0], to[0]) < middle && middle < std::max(from[0], to[0])) {
-        const Rational height = from[1] + (to[1] - from[1]) * (middle - from[0]) / (to[0] - from[0]);
-        steps[height] += from[0] < to[0] ? 1 : -1;
-      }
+    for (const Edge* e : here) {
+      const auto& [from, to] = *e;
+      const Rational height = from[1] + (to[1] - from[1]) * (middle - from[0]) / (to[0] - from[0]);
+      steps[height] += from[0] < to[0] ? 1 : -1;
+    }
     int number = 0;
     for (const auto& [height, step] : steps) {
       number += step;

@@ -3,6 +3,7 @@
 
 #include <sightline/algorithms/verify/covering.h>
 
+#include <sightline/algorithms/verify/contour.h>
 #include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/numbered_points.h>
 #include <sightline/algorithms/verify/polygons.h>
@@ -42,8 +43,9 @@ bool is_rotation(const Polygon& a, const Polygon& b) {
   return true;
 }
 
-/// Rejects unless the tiles are convex polygons in the plane that cover once what the loops bound, and nothing else.
-/// `points`: those that numbers of corners name. Pre: no loop is empty. Proof: P-21
+/// Rejects unless the tiles are convex polygons in the plane that cover once what the loops bound, and nothing else,
+/// and the loops cross nowhere else than in points of theirs. `points`: those that numbers of corners name. Pre: no
+/// loop is empty. Proof: P-21
 void check_tiling(const std::string& what, const std::vector<Polygon>& loops, const Plane& plane,
                   const std::vector<Tile>& tiles, const std::vector<Homogeneous>& points = {}) {
   if (tiles.empty()) reject(what + " has no fragment and is not set aside");
@@ -73,6 +75,8 @@ void check_tiling(const std::string& what, const std::vector<Polygon>& loops, co
         both.insert(both.end(), tiles[j].fragments.begin(), tiles[j].fragments.end());
         reject(tiles[i].name + " and " + tiles[j].name + " of " + what + " overlap", both);
       }
+  if (seen_from_front(loops, plane).crosses_itself())  // what a spike crosses does not show in the chain
+    reject(what + " crosses itself and is not set aside");
 }
 
 /// Rejects unless the pieces are the face: of one that is planar a tiling on its own vertices, else its surface.

@@ -17,10 +17,7 @@
 namespace sightline::certificate_check {
 
 bool self_intersecting(const Face& face) {
-  // Seen from the front, as if a coordinate plane were the face's.
-  std::size_t axis = 0;
-  while (sgn(face.plane.normal[axis]) == 0) ++axis;
-  const Contour contour(face.loops, axis, sgn(face.plane.normal[axis]) < 0);
+  const Contour contour = seen_from_front(face.loops, face.plane);
   return contour.crosses_itself() || contour.winding() == Contour::Winding::other;
 }
 

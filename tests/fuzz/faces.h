@@ -1,10 +1,11 @@
 #pragma once
 // What becomes of faces, and what checkers take for it: the scene and the checkers, which share nothing, agree about
-// what is set aside and why, and about the one surface of a face that is not planar; no two parts of a planar face
-// could be one.
+// what is set aside and why, about the one surface of a face that is not planar, and about faces drawn without their
+// spikes; no two parts of a planar face could be one.
 
 #include "soups.h"
 
+#include <sightline/algorithms/verify/covering.h>
 #include <sightline/algorithms/verify/faces.h>
 #include <sightline/algorithms/verify/set_aside.h>
 #include <sightline/algorithms/verify/surface.h>
@@ -16,6 +17,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace fuzz {
@@ -34,6 +36,12 @@ bool passes(Check check) {
 
 // ---- What is set aside
 
+/// Whether nothing is left of a contour without its spikes.
+inline bool all_spikes(const Polygon_soup& soup, Face_id face) {
+  const certificate_check::Face given(soup, face);
+  return certificate_check::without_straight_points(given.loops[0]).empty();
+}
+
 /// Reasons, right and wrong, of every face: one is accepted iff the scene says the same.
 inline void try_reasons(const Polygon_soup& soup, const Scene& scene) {
   std::vector<std::string> why(soup.face_count());
@@ -50,9 +58,9 @@ inline void try_reasons(const Polygon_soup& soup, const Scene& scene) {
       if (reason.starts_with(duplicate) && soup.loop_count(face) > 1 && reason != why[face]) continue;
       // Of what has no area both may hold.
       if (why[face] == text_of(Set_aside_reason::zero_area) && reason.starts_with("not planar")) continue;
-      // So may these, where a hole takes all of a contour that crosses itself.
+      // So may these, where a hole takes all of a contour that crosses itself, or it is nothing but spikes.
       if (why[face] == text_of(Set_aside_reason::self_intersecting) && reason == text_of(Set_aside_reason::zero_area) &&
-          soup.loop_count(face) > 1)
+          (soup.loop_count(face) > 1 || all_spikes(soup, face)))
         continue;
       const bool accepted = passes([&] { certificate_check::check_set_aside(soup, {face, reason}, set_aside); });
       if (accepted != (!reason.empty() && reason == why[face]))
@@ -123,6 +131,34 @@ inline void try_surface(const Polygon_soup& soup, Face_id face, const Outlined& 
 
 // ---- Planar faces
 
+/// What is left of a face without its spikes is a tiling of it iff the scene keeps the face.
+inline void try_without_spikes(const Polygon_soup& soup, Face_id face, bool kept) {
+  const certificate_check::Face given(soup, face);
+  if (!given.planar || !given.has_front) return;
+  // 1. The face alone, and less its spikes.
+  Polygon_soup as_it_is, bare;
+  for (const certificate_check::Polygon& loop : given.loops) {
+    const certificate_check::Polygon left = certificate_check::without_straight_points(loop);
+    if (&loop == &given.loops[0] && left.empty()) return;
+    for (const auto& [to, points] : {std::pair(&as_it_is, &loop), std::pair(&bare, &left)}) {
+      std::vector<Point_id> ids;
+      for (const Exact_point& p : *points) ids.push_back(to->add_point(p[0], p[1], p[2]));
+      if (&loop == &given.loops[0]) to->add_face(ids);
+      else if (!ids.empty()) to->add_hole(ids);
+    }
+  }
+  // 2. Drawn in the parts of the latter.
+  const Scene scene(bare);
+  Covering drawn;
+  for (const Piece& piece : scene.pieces()) {
+    Order_fragment& fragment = drawn.fragments.emplace_back();
+    for (const Piece_corner& corner : scene.corners(piece)) fragment.vertices.push_back(scene.position(corner.point));
+  }
+  const bool accepted = passes([&] { certificate_check::check_covering(as_it_is, drawn, 1); });
+  require(accepted == kept, kept ? "a face without its spikes is a tiling of it"
+                                 : "a face that is set aside is not drawn without its spikes");
+}
+
 /// Twice the area of points' convex hull in a plane, by the normal.
 inline Rational hull_area(const generate::Points& points, const Exact_point& normal) {
   Rational area = 0;
@@ -166,7 +202,11 @@ inline void faces(std::string_view bytes) {
     for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
   }
   const std::set<Face_id> skew(scene.non_planar().begin(), scene.non_planar().end());
+  std::vector<char> kept(soup.face_count(), 1);
+  for (const Set_aside& entry : scene.set_aside())
+    kept[entry.face] = entry.why.starts_with(text_of(Set_aside_reason::duplicate)) ? 2 : 0;
   for (Face_id face = 0; face < parts.size(); ++face) {
+    if (kept[face] != 2) try_without_spikes(soup, face, kept[face] == 1);
     if (parts[face].empty()) continue;
     if (skew.count(face) > 0) try_surface(soup, face, parts[face], random);
     else try_parts(parts[face]);

@@ -24,7 +24,7 @@ using Outline = std::vector<std::array<long, 2>>;
 using Outlines = std::vector<Outline>;  // the first, and its holes
 
 /// Convex, straight, concave, keyholes, pinched, with holes that touch; and what is set aside.
-inline Outlines any_outlines(Random& random) {
+inline Outlines outlines_without_thorns(Random& random) {
   static const std::vector<Outlines> some{
       {{{0, 0}, {3, 0}, {0, 3}}},
       {{{0, 0}, {3, 0}, {3, 3}, {0, 3}}},
@@ -55,6 +55,19 @@ inline Outlines any_outlines(Random& random) {
       if (half(p) != half(q)) return half(p) < half(q);
       return (p[0] - 2) * (q[1] - 2) - (p[1] - 2) * (q[0] - 2) > 0;
     });
+  }
+  return any;
+}
+
+/// Such outlines; some with a spike that goes anywhere and comes back.
+inline Outlines any_outlines(Random& random) {
+  Outlines any = outlines_without_thorns(random);
+  if (random.chance(1, 6)) {
+    Outline& loop = any[random.below(any.size())];
+    const auto at = loop.begin() + static_cast<std::ptrdiff_t>(random.below(loop.size()));
+    const std::array<long, 2> from = *at;
+    const std::array<long, 2> to{static_cast<long>(random.between(-1, 9)), static_cast<long>(random.between(-1, 9))};
+    if (to != from) loop.insert(at, {from, to});
   }
   return any;
 }

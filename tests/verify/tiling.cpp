@@ -211,6 +211,37 @@ TEST(Tiling, of_keyhole_faces_repeated_points_and_spikes) {
   expect_accepted(one_face_drawn(spiked, {ground}));
 }
 
+TEST(Tiling, of_a_face_whose_spike_crosses_its_own_edge_is_none) {
+  // What is left without the spike is tiled; the law sets such a face aside (P-21d).
+  const auto with_spike_to = [&](const Exact_point& end) {
+    Points face = ground;
+    face.insert(face.begin() + 1, {end, ground[0]});
+    return face;
+  };
+  const std::vector<Points> left{ground};
+  expect_accepted(one_face_drawn(with_spike_to(at(3, 3, 0)), left));
+  expect_accepted(one_face_drawn(with_spike_to(at(-2, -3, 0)), left));
+  expect_accepted(one_face_drawn(with_spike_to(at(4, 3, 0)), left));  // ends on an edge
+  expect_accepted(one_face_drawn(with_spike_to(at(6, 0, 0)), left));  // runs along one
+  expect_accepted(one_face_drawn(with_spike_to(at(6, 6, 0)), left));  // passes a corner
+  for (const Points& p : {with_spike_to(at(5, 4, 0)), with_spike_to(at(4 + tiny(300), 3, 0))})
+    for (const bool turn : {false, true}) {
+      Points face = turn ? reversed(p) : p;
+      const std::vector<Points> tiles{turn ? reversed(ground) : ground};
+      for (std::size_t k = 0; k < face.size(); ++k) {
+        expect_rejected(one_face_drawn(face, tiles), "face 0 crosses itself and is not set aside");
+        std::rotate(face.begin(), face.begin() + 1, face.end());
+      }
+    }
+  // Of a hole, whose spike crosses the contour.
+  Points hole = reversed(rectangle(1, 3, 1, 3, 0));
+  const std::vector<Points> around{rectangle(0, 4, 0, 1, 0), rectangle(0, 4, 3, 4, 0), rectangle(0, 1, 1, 3, 0),
+                                   rectangle(3, 4, 1, 3, 0)};
+  expect_accepted(one_face_drawn(ground, around, {hole}));
+  hole.insert(hole.begin() + 1, {at(-1, ratio(1, 2), 0), hole[0]});
+  expect_rejected(one_face_drawn(ground, around, {hole}), "face 0 crosses itself and is not set aside");
+}
+
 TEST(Tiling, of_a_face_that_winds_twice_is_an_overlap) {
   Points twice = ground;
   twice.insert(twice.end(), ground.begin(), ground.end());
