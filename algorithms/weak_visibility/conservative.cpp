@@ -8,32 +8,6 @@
 #include <utility>
 
 namespace sightline {
-namespace {
-
-/// Whether all lines from the inside of a source to that of a target are blocked by one piece: its plane is between
-/// them, and on no pair of corners does a line pass an edge outside. Exact: yes. Proof: P-70
-bool blocks_all(const Occluders& occluders, std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
-                std::span<const Pluecker> pairs) {
-  const int front = side(occluders.plane(piece), source);
-  if (front == 0 || front == both_sides || side(occluders.plane(piece), target) != -front) return false;
-  const std::span<const Triple> corners = occluders.corners(piece);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Ends of_edge = ends(size(corners[i]), size(corners[(i + 1) % corners.size()]));
-    std::optional<Exact_pluecker> edge;  // once doubles do not tell
-    for (std::size_t c = 0; c < pairs.size(); ++c) {
-      const Near_point &p = source[c / target.size()], &q = target[c % target.size()];
-      const double value = front * dot(pairs[c], occluders.edges(piece)[i]),
-                   bound = side_error(ends(size(p.near), size(q.near)), of_edge);
-      if (value < -bound) return false;
-      if (value > bound) continue;
-      if (!edge) edge = occluders.exact_pluecker_of(occluders.edge_points(piece, i));
-      if (front * sgn(dot(pluecker_of_pair(p.exact, q.exact), *edge)) < 0) return false;
-    }
-  }
-  return true;
-}
-
-}  // namespace
 
 std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders& occluders, const Weak_source& source,
                                                           std::uint32_t piece, bool two_sided) {
@@ -44,11 +18,9 @@ std::optional<std::vector<Weak_step>> hidden_by_one_piece(const Occluders& occlu
   const auto leaf = [&](const Near_polygon& from) -> std::optional<Weak_step> {
     const int towards = side(source.plane, target), back = side(plane, from);
     if (towards <= 0 || (back < 0 && !two_sided)) return Weak_step{Kind::away, 0, {}, {}};
-    std::vector<Pluecker> pairs;
-    for (const Near_point& p : from)
-      for (const Near_point& q : target) pairs.push_back(pluecker_of_pair(p.near, q.near));
+    const std::vector<Pluecker> pairs = pairs_of(from, target);
     for (const std::uint32_t near : occluders.near_shaft(from, target))
-      if (blocks_all(occluders, near, from, target, pairs)) return Weak_step{Kind::blocked, near, {}, {}};
+      if (occluders.blocks_all(near, from, target, pairs)) return Weak_step{Kind::blocked, near, {}, {}};
     return {};
   };
   const bool cut_target = is_across(source.plane, target);

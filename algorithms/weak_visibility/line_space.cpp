@@ -49,17 +49,20 @@ Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exa
   return h;
 }
 
-int side(const Near_plane& h, const Near_point& p) {
+int likely_side(const Near_plane& h, const Triple& p) {
   double value = h.near[3], size = std::fabs(h.near[3]), reach = 1;
   for (std::size_t k = 0; k < 3; ++k) {
-    const double product = h.near[k] * p.near[k];
+    const double product = h.near[k] * p[k];
     value += product;
     size += std::fabs(product);
-    reach += std::fabs(p.near[k]);
+    reach += std::fabs(p[k]);
   }
   const double bound = 0x1p-49 * size + 0x1p-1000 * reach;
-  if (value > bound) return 1;
-  if (value < -bound) return -1;
+  return value > bound ? 1 : value < -bound ? -1 : 0;
+}
+
+int side(const Near_plane& h, const Near_point& p) {
+  if (const int s = likely_side(h, p.near); s != 0) return s;
   thread_local Integer sum;
   mpz_mul(sum.get_mpz_t(), h.exact[0].get_mpz_t(), p.exact[0].get_mpz_t());
   for (std::size_t k = 1; k < 4; ++k) mpz_addmul(sum.get_mpz_t(), h.exact[k].get_mpz_t(), p.exact[k].get_mpz_t());
@@ -101,6 +104,14 @@ Pluecker pluecker_of_pair(const Triple& p, const Triple& q) {
           p[0] - q[0],
           p[1] - q[1],
           p[2] - q[2]};
+}
+
+std::vector<Pluecker> pairs_of(const Near_polygon& source, const Near_polygon& target) {
+  std::vector<Pluecker> pairs;
+  pairs.reserve(source.size() * target.size());
+  for (const Near_point& p : source)
+    for (const Near_point& q : target) pairs.push_back(pluecker_of_pair(p.near, q.near));
+  return pairs;
 }
 
 Pluecker pluecker_of_edge(const Triple& a, const Triple& b) {

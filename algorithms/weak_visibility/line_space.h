@@ -71,6 +71,8 @@ struct Near_plane {
 
 Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact);
 
+/// The side of a point that is known within a relative 2^-52 and 2^-1074, where doubles tell it; else 0. Proof: P-70
+int likely_side(const Near_plane& h, const Triple& p);
 /// The side of a point: doubles where they tell, integers where not. The bound: four products of factors each within
 /// 2^-52, and their sum; and what underflows, the more the farther the point is. Exact: yes. Proof: P-70
 int side(const Near_plane& h, const Near_point& p);
@@ -106,6 +108,9 @@ Pluecker pluecker_of_edge(const Triple& a, const Triple& b);
 inline double dot(const Pluecker& a, const Pluecker& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] + a[4] * b[4] + a[5] * b[5];
 }
+
+/// Of all pairs of corners, those with one corner of the source next to each other.
+std::vector<Pluecker> pairs_of(const Near_polygon& source, const Near_polygon& target);
 
 /// The same in integers: of grid points, and of homogeneous ones.
 Exact_pluecker pluecker_of_edge(const std::array<Integer, 3>& a, const std::array<Integer, 3>& b);

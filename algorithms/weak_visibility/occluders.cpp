@@ -99,6 +99,34 @@ bool misses(const Piece_boxes::Box& box, const Triple& p, const Triple& q, doubl
   return false;
 }
 
+/// A segment in the coordinates of boxes, for proposals.
+struct Segment_of_boxes {
+  Triple from, along;
+  double slack;
+
+  Segment_of_boxes(const Triple& p, const Triple& q, double to_boxes) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      from[k] = p[k] * to_boxes;
+      along[k] = (q[k] - p[k]) * to_boxes;
+    }
+    slack = 1e-12 * (sightline::size(from) + sightline::size(along));
+  }
+  bool is_near(const Piece_boxes::Box& box) const {
+    double enter = 0, leave = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double low = box.low[k] - slack - from[k], high = box.high[k] + slack - from[k];
+      if (along[k] == 0) {
+        if (low > 0 || high < 0) return false;
+        continue;
+      }
+      const double a = low / along[k], b = high / along[k];
+      enter = std::max(enter, std::min(a, b));
+      leave = std::min(leave, std::max(a, b));
+    }
+    return enter <= leave;
+  }
+};
+
 bool same_plane(const Near_plane& g, const Near_plane& h) {
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t k = i + 1; k < 4; ++k)
@@ -128,51 +156,127 @@ Near_polygon Occluders::polygon(std::uint32_t piece) const {
   return corners;
 }
 
+int Occluders::side_of(std::uint32_t piece, const Near_plane& h) const {
+  bool front = false, behind = false;
+  const std::span<const Piece_corner> all = scene_->corners(scene_->pieces()[piece]);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    int s = likely_side(h, corners(piece)[i]);
+    if (s == 0) {
+      const std::array<Integer, 3> p = grid_point(all[i].point);
+      s = sgn(Integer(h.exact[0] * p[0] + h.exact[1] * p[1] + h.exact[2] * p[2] + h.exact[3]));
+    }
+    front |= s > 0;
+    behind |= s < 0;
+  }
+  return front && behind ? both_sides : front ? 1 : behind ? -1 : 0;
+}
+
 std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Near_polygon& t) const {
   const std::vector<std::array<double, 4>> shaft = shaft_planes(s, t);
-  std::vector<std::uint32_t> found;
   const double to_boxes = frame_.to_boxes();
-  each_box(
-      [&](const Piece_boxes::Box& box) {
-        return std::none_of(shaft.begin(), shaft.end(), [&](const std::array<double, 4>& h) {
-          double most = h[3] * to_boxes;
-          for (std::size_t k = 0; k < 3; ++k) most += h[k] * (h[k] > 0 ? box.high[k] : box.low[k]);
-          return most < 0;
-        });
-      },
-      [&](std::uint32_t piece) {
-        const std::span<const Triple> polygon = corners(piece);
-        const bool away = std::any_of(shaft.begin(), shaft.end(), [&](const std::array<double, 4>& h) {
-          return std::all_of(polygon.begin(), polygon.end(),
-                             [&](const Triple& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3] < 0; });
-        });
-        if (!away) found.push_back(piece);
-      });
+  const std::span<const Piece_boxes::Node> nodes = boxes_.nodes();
+  std::vector<std::uint32_t> found;
+  struct Waiting {
+    std::uint32_t node;
+    std::uint64_t inside;  // of which of the first planes its box is in front
+  };
+  std::vector<Waiting> stack;
+  if (!nodes.empty()) stack.push_back({0, 0});
+  while (!stack.empty()) {
+    auto [at, inside] = stack.back();
+    stack.pop_back();
+    const Piece_boxes::Node& node = nodes[at];
+    // 1. The box: whether a plane keeps it away, and which ones no part of it.
+    Triple middle, reach;
+    for (std::size_t k = 0; k < 3; ++k) {
+      middle[k] = (node.box.low[k] / 2 + node.box.high[k] / 2);
+      reach[k] = (node.box.high[k] / 2 - node.box.low[k] / 2);
+    }
+    bool away = false;
+    const auto is_inside = [&](std::size_t i) { return i < 64 && (inside >> i & 1) != 0; };
+    for (std::size_t i = 0; i < shaft.size() && !away; ++i) {
+      if (is_inside(i)) continue;
+      const std::array<double, 4>& h = shaft[i];
+      const double height = h[3] * to_boxes + h[0] * middle[0] + h[1] * middle[1] + h[2] * middle[2],
+                   extent = std::fabs(h[0]) * reach[0] + std::fabs(h[1]) * reach[1] + std::fabs(h[2]) * reach[2];
+      away = height + extent < 0;
+      if (i < 64 && height - extent >= 0) inside |= std::uint64_t{1} << i;
+    }
+    if (away) continue;
+    // 2. Its parts.
+    if (node.second != 0) {
+      stack.push_back({node.second, inside});
+      stack.push_back({at + 1, inside});
+      continue;
+    }
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+      const std::uint32_t piece = boxes_.chunks()[node.first + k].piece;
+      const std::span<const Triple> polygon = corners(piece);
+      const auto keeps_away = [&](const std::array<double, 4>& h) {
+        return std::all_of(polygon.begin(), polygon.end(),
+                           [&](const Triple& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3] < 0; });
+      };
+      for (std::size_t i = 0; i < shaft.size() && !away; ++i) away = !is_inside(i) && keeps_away(shaft[i]);
+      if (!away) found.push_back(piece);
+      away = false;
+    }
+  }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
 
-std::vector<std::uint32_t> Occluders::on_segment(const Triple& p, const Triple& q) const {
-  const Pluecker pluecker = pluecker_of_pair(p, q);
-  const double to_boxes = frame_.to_boxes();
-  const Piece_boxes::Box around = box_around(p, q, to_boxes);
+std::vector<std::uint32_t> Occluders::near_segment(const Triple& p, const Triple& q) const {
+  const Segment_of_boxes segment(p, q, frame_.to_boxes());
   std::vector<std::uint32_t> found;
-  each_box(
-      [&](const Piece_boxes::Box& box) { return overlap(box, around) && !misses(box, p, q, to_boxes); },
-      [&](std::uint32_t piece) {
-        const std::array<double, 4>& h = planes_[piece].near;
-        const double at_p = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
-                     at_q = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
-        if ((at_p > 0) == (at_q > 0)) return;
-        const double sense = at_p > 0 ? 1 : -1;
-        const std::span<const Pluecker> all = edges(piece);
-        if (std::all_of(all.begin(), all.end(), [&](const Pluecker& edge) { return sense * dot(pluecker, edge) > 0; }))
-          found.push_back(piece);
-      });
+  each_box([&](const Piece_boxes::Box& box) { return segment.is_near(box); },
+           [&](std::uint32_t piece) { found.push_back(piece); });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+std::optional<std::uint32_t> Occluders::on_segment(const Triple& p, const Triple& q,
+                                                   const std::function<bool(std::uint32_t)>& accept) const {
+  const Segment_of_boxes segment(p, q, frame_.to_boxes());
+  const Pluecker pluecker = pluecker_of_pair(p, q);
+  std::optional<std::uint32_t> found;
+  each_box([&](const Piece_boxes::Box& box) { return !found && segment.is_near(box); },
+           [&](std::uint32_t piece) {
+             if (found) return;
+             const std::array<double, 4>& h = planes_[piece].near;
+             const double at_p = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
+                          at_q = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
+             if ((at_p > 0) == (at_q > 0)) return;
+             const double sense = at_p > 0 ? 1 : -1;
+             const std::span<const Pluecker> all = edges(piece);
+             if (std::all_of(all.begin(), all.end(),
+                             [&](const Pluecker& edge) { return sense * dot(pluecker, edge) > 0; }) &&
+                 accept(piece))
+               found = piece;
+           });
+  return found;
+}
+
+bool Occluders::blocks_all(std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
+                           std::span<const Pluecker> pairs) const {
+  const int front = side(planes_[piece], source);
+  if (front == 0 || front == both_sides || side(planes_[piece], target) != -front) return false;
+  const std::span<const Triple> polygon = corners(piece);
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Ends of_edge = ends(sightline::size(polygon[i]), sightline::size(polygon[(i + 1) % polygon.size()]));
+    std::optional<Exact_pluecker> edge;  // once doubles do not tell
+    for (std::size_t c = 0; c < pairs.size(); ++c) {
+      const Near_point &p = source[c / target.size()], &q = target[c % target.size()];
+      const double height = front * dot(pairs[c], edges(piece)[i]),
+                   bound = side_error(ends(sightline::size(p.near), sightline::size(q.near)), of_edge);
+      if (height < -bound) return false;
+      if (height > bound) continue;
+      if (!edge) edge = exact_pluecker_of(edge_points(piece, i));
+      if (front * sgn(sightline::dot(pluecker_of_pair(p.exact, q.exact), *edge)) < 0) return false;
+    }
+  }
+  return true;
 }
 
 std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple& direction) const {
@@ -233,14 +337,14 @@ template <class Open, class Visit>
 void Occluders::each_box(Open open, Visit visit) const {
   const std::span<const Piece_boxes::Node> nodes = boxes_.nodes();
   if (nodes.empty()) return;
-  std::vector<std::uint32_t> stack{0};
-  while (!stack.empty()) {
-    const std::uint32_t at = stack.back();
-    stack.pop_back();
+  std::array<std::uint32_t, 64> stack{};  // a tree of halves is less deep
+  std::size_t waiting = 1;
+  while (waiting > 0) {
+    const std::uint32_t at = stack[--waiting];
     if (!open(nodes[at].box)) continue;
     if (nodes[at].second != 0) {
-      stack.push_back(nodes[at].second);
-      stack.push_back(at + 1);
+      stack[waiting++] = nodes[at].second;
+      stack[waiting++] = at + 1;
     } else
       for (std::uint32_t k = 0; k < nodes[at].count; ++k) visit(boxes_.chunks()[nodes[at].first + k].piece);
   }

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -26,6 +27,7 @@ class Occluders {
   const Scene& scene() const { return *scene_; }
   const Near_frame& frame() const { return frame_; }
   const Near_plane& plane(std::uint32_t piece) const { return planes_[piece]; }
+  const Piece_boxes& boxes() const { return boxes_; }
   std::size_t size(std::uint32_t piece) const { return scene_->pieces()[piece].size; }
   std::span<const Pluecker> edges(std::uint32_t piece) const { return {edges_.data() + first_[piece], size(piece)}; }
   std::span<const Triple> corners(std::uint32_t piece) const { return {corners_.data() + first_[piece], size(piece)}; }
@@ -39,6 +41,8 @@ class Occluders {
   }
   Triple near_point_of(std::uint32_t point) const { return near(point); }
   Near_polygon polygon(std::uint32_t piece) const;
+  /// Where a piece is: side(h, polygon(piece)). Exact: yes.
+  int side_of(std::uint32_t piece, const Near_plane& h) const;
   Exact_pluecker exact_pluecker_of(const std::array<std::uint32_t, 2>& points) const {
     return pluecker_of_edge(grid_point(points[0]), grid_point(points[1]));
   }
@@ -47,8 +51,18 @@ class Occluders {
   /// keeps away. In doubles, for proposals.
   std::vector<std::uint32_t> near_shaft(const Near_polygon& s, const Near_polygon& t) const;
 
-  /// The pieces that the segment from p to q crosses, inside all of their edges. In doubles, for proposals.
-  std::vector<std::uint32_t> on_segment(const Triple& p, const Triple& q) const;
+  /// The pieces whose boxes the segment from p to q meets, and some more, sorted. In doubles, for proposals.
+  std::vector<std::uint32_t> near_segment(const Triple& p, const Triple& q) const;
+  /// Of the pieces that the segment from p to q crosses, inside all of their edges, the first one that is accepted. In
+  /// doubles, for proposals.
+  std::optional<std::uint32_t> on_segment(const Triple& p, const Triple& q,
+                                          const std::function<bool(std::uint32_t)>& accept) const;
+
+  /// Whether one piece blocks all lines from the inside of a source to that of a target: its plane is between them, and
+  /// on no pair of corners does a line pass an edge outside. `pairs`: of the corners, those of the target next to each
+  /// other. Exact: yes. Proof: P-70
+  bool blocks_all(std::uint32_t piece, const Near_polygon& source, const Near_polygon& target,
+                  std::span<const Pluecker> pairs) const;
 
   /// What a ray hits first, in doubles: the piece, and whether from its front; nothing within a billionth of its length
   /// 1 counts. For samples. Exact: no

@@ -1,6 +1,8 @@
 #include <sightline/algorithms/weak_visibility/weak.h>
 
+#include <sightline/algorithms/weak_visibility/search/likely_blockers.h>
 #include <sightline/algorithms/weak_visibility/search/line_search.h>
+#include <sightline/kernel/threads.h>
 
 #include <algorithm>
 #include <utility>
@@ -21,16 +23,36 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
   const auto is_wanted = [&](std::size_t f) {
     return wanted.empty() || std::binary_search(wanted.begin(), wanted.end(), pieces[first[f]].face);
   };
+  // What hides many targets at once is found once, where most of them are asked about.
+  std::vector<std::vector<std::uint32_t>> likely(sources.size());
+  constexpr std::size_t most_are = 8;
+  if (wanted.empty() || wanted.size() * most_are > first.size())
+    parallel_for(sources.size(), [&](std::size_t s) { likely[s] = likely_blockers(occluders, sources[s]); });
+  const auto answer_of = [&](std::uint32_t piece, std::uint32_t s, Weak_counters& counters) {
+    const auto& [source, plane] = sources[s];
+    if (options.search.out_of_time && options.search.out_of_time()) return nothing_known();
+    const int towards = occluders.side_of(piece, plane), back = side(occluders.plane(piece), source);
+    if (towards <= 0 || back == 0 || (back < 0 && !options.search.two_sided)) {
+      ++counters.targets;
+      ++counters.away;
+      return facing_away();
+    }
+    Near_polygon target = occluders.polygon(piece);
+    if (const std::uint32_t blocker = likely[s].empty() ? no_blocker : likely[s][piece];
+        blocker != no_blocker && occluders.blocks_all(blocker, source, target, pairs_of(source, target))) {
+      ++counters.targets;
+      ++counters.by_one;
+      ++counters.blocked;
+      return blocked_by(blocker);
+    }
+    return Line_search(occluders, source, plane, std::move(target), piece, options.search).run(counters);
+  };
   const auto decide = [&](std::size_t f, std::uint32_t begin, std::uint32_t end) {
     Result& result = results[f];
     if (!is_wanted(f)) return;
     for (std::uint32_t piece = begin; piece < end && result.status != Weak_status::visible; ++piece)
       for (std::uint32_t s = 0; s < sources.size(); ++s) {
-        const auto& out_of_time = options.search.out_of_time;
-        Weak_answer answer = out_of_time && out_of_time() ? nothing_known()
-                                                          : Line_search(occluders, sources[s].polygon, sources[s].plane,
-                                                                        occluders.polygon(piece), piece, options.search)
-                                                                .run(result.counters);
+        Weak_answer answer = answer_of(piece, s, result.counters);
         if (answer.status == Weak_status::visible) {
           result.status = Weak_status::visible;
           result.pairs.clear();

@@ -96,6 +96,22 @@ inline Weak_answer nothing_known() {
   return answer;
 }
 
+/// The answer where a source and a piece look away from each other.
+inline Weak_answer facing_away() {
+  Weak_answer answer;
+  answer.status = Weak_status::hidden;
+  answer.proof.push_back({Weak_step::Kind::away, 0, {}, {}});
+  return answer;
+}
+
+/// The answer where one piece blocks all lines.
+inline Weak_answer blocked_by(std::uint32_t piece) {
+  Weak_answer answer;
+  answer.status = Weak_status::hidden;
+  answer.proof.push_back({Weak_step::Kind::blocked, piece, {}, {}});
+  return answer;
+}
+
 struct Weak_search_options {
   bool two_sided = false;
   std::size_t cells = 200000;  ///< that a search may take; then `undecided`

@@ -5,6 +5,7 @@
 #include "../sample.h"
 
 #include <sightline/algorithms/weak_visibility/search/cell_proofs.h>
+#include <sightline/algorithms/weak_visibility/search/likely_blockers.h>
 #include <sightline/algorithms/weak_visibility/search/touching_lines.h>
 #include <sightline/algorithms/weak_visibility/weak.h>
 
@@ -211,6 +212,61 @@ TEST(Sector_planes, hold_a_touching_line_and_cut_a_polygon) {
   EXPECT_TRUE(std::any_of(lines.begin(), lines.end(), [&](const Touching_line& line) {
     return value(cut->plane, {line.from, {}}) == 0 && value(cut->plane, {line.to, {}}) == 0;
   }));
+}
+
+TEST(Likely_blockers, are_found_for_all_that_is_behind_a_wall_and_for_nothing_beside_it) {
+  using weak_scenes::rectangle;
+  using weak_scenes::reversed;
+  // A wall at z = 2, and squares at z = 3 behind it and beside it, that look down.
+  std::vector<std::vector<Exact_point>> faces{reversed(rectangle(-9, 9, -9, 9, 2))};
+  const auto in_shadow = [](int x, int y) { return std::abs(x) < 9 && std::abs(y) < 9; };
+  for (int x = -12; x < 12; ++x)
+    for (int y = -12; y < 12; ++y) faces.push_back(reversed(rectangle(x, x + 1, y, y + 1, 3)));
+  const Scene scene(weak_scenes::soup_of(faces));
+  const Occluders occluders(scene);
+  const Weak_source source = weak_source(occluders, rectangle(-1, 1, -1, 1, 0));
+  const std::vector<std::uint32_t> likely = likely_blockers(occluders, source);
+  std::size_t found = 0;
+  for (std::uint32_t k = 1; k < likely.size(); ++k) {
+    const int x = static_cast<int>(k - 1) / 24 - 12, y = static_cast<int>(k - 1) % 24 - 12;
+    const Near_polygon target = occluders.polygon(k);
+    if (likely[k] == no_blocker) {
+      found += in_shadow(x, y) && in_shadow(x + 1, y + 1) ? 0 : 1;
+      continue;
+    }
+    EXPECT_EQ(likely[k], 0u);
+    EXPECT_TRUE(occluders.blocks_all(0, source.polygon, target, pairs_of(source.polygon, target))) << x << ' ' << y;
+    ++found;
+  }
+  EXPECT_GT(found, 23u * 24);  // all but those in boxes that are in shadow in part
+  const std::size_t with =
+      static_cast<std::size_t>(likely.size() - std::count(likely.begin(), likely.end(), no_blocker));
+  EXPECT_GT(with, 200u);
+  EXPECT_EQ(likely[0], no_blocker);
+  // What looks away needs none.
+  Weak_source away = weak_source(occluders, reversed(rectangle(-1, 1, -1, 1, 0)));
+  const std::vector<std::uint32_t> none = likely_blockers(occluders, away);
+  EXPECT_EQ(std::count(none.begin(), none.end(), no_blocker), static_cast<std::ptrdiff_t>(none.size()));
+}
+
+TEST(One_piece, blocks_all_up_to_the_edge_of_its_shadow_and_no_further) {
+  using weak_scenes::rectangle;
+  using weak_scenes::reversed;
+  // From [-1, 1] at z = 0 over the edges of [-3, 3] at z = 2 lines reach z = 4 within [-5, 5].
+  const Rational little = Rational(1, 1024) / (Integer(1) << 60);
+  for (const Rational& more : {Rational(0), little, Rational(-little)}) {
+    const Scene scene(weak_scenes::soup_of(
+        {reversed(rectangle(-3, 3, -3, 3, 2)), reversed(rectangle(-5, Rational(5 + more), -5, 5, 4))}));
+    const Occluders occluders(scene);
+    const Weak_source source = weak_source(occluders, rectangle(-1, 1, -1, 1, 0));
+    const Near_polygon target = occluders.polygon(1);
+    const std::vector<Pluecker> pairs = pairs_of(source.polygon, target);
+    EXPECT_EQ(occluders.blocks_all(0, source.polygon, target, pairs), more <= 0);
+    EXPECT_FALSE(occluders.blocks_all(1, source.polygon, target, pairs));  // it is not between
+    const Weakly_visible found = weakly_visible(occluders, {source});
+    EXPECT_EQ(found.visible.size(), more <= 0 ? 1u : 2u);
+    EXPECT_EQ(found.counters.by_one, more <= 0 ? 1u : 0u);
+  }
 }
 
 TEST(Occluders_of_a_line, are_faces_that_its_end_is_on_and_not_those_whose_plane_it_is_in_beside_them) {

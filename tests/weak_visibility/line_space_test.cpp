@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace {
 
 using namespace sightline;
@@ -59,6 +61,19 @@ TEST(Side_of_a_near_plane, is_that_of_integers_for_coordinates_of_all_exponents)
         }
   });
   EXPECT_GT(asked, 5000u);
+}
+
+TEST(Side_of_a_piece, is_that_of_its_polygon_for_coordinates_of_all_exponents) {
+  std::array<std::size_t, 4> found{};
+  in_each_mixed_scene([&](std::uint64_t seed, const Occluders& occluders, const Weak_source& source) {
+    for (std::uint32_t piece = 0; piece < occluders.scene().pieces().size(); ++piece)
+      for (const Near_plane* h : {&source.plane, &occluders.plane(0)}) {
+        const int s = side(*h, occluders.polygon(piece));
+        EXPECT_EQ(occluders.side_of(piece, *h), s) << seed << ", " << piece;
+        ++found[static_cast<std::size_t>(s + 1)];
+      }
+  });
+  for (const std::size_t count : found) EXPECT_GT(count, 0u);
 }
 
 TEST(Side_error, bounds_the_sides_of_edges_for_coordinates_of_all_exponents) {

@@ -21,8 +21,7 @@ Line_domain::Line_domain(Shared_polygon s, Shared_polygon t)
     : shared_source(std::move(s)), shared_target(std::move(t)), source(*shared_source), target(*shared_target) {
   for (const Near_point& p : source) source_size = std::max(source_size, size(p.near));
   for (const Near_point& q : target) target_size = std::max(target_size, size(q.near));
-  for (const Near_point& p : source)
-    for (const Near_point& q : target) pairs.push_back(pluecker_of_pair(p.near, q.near));
+  pairs = pairs_of(source, target);
 }
 
 const Exact_pluecker& Line_domain::exact_pluecker_of(std::size_t c) {
@@ -59,12 +58,28 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
     most = std::max(most, std::fabs(r.values.back()));
   }
   r.error = side_error(ends(source_size, target_size), line.ends);
+  // 1. One side on all pairs? Integers are asked only if doubles do not show both signs.
+  bool positive = false, negative = false;
+  for (const double v : r.values) {
+    positive |= v > r.error;
+    negative |= v < -r.error;
+  }
+  std::vector<std::size_t> zeros;
+  for (std::size_t c = 0; c < r.values.size() && !(positive && negative); ++c) {
+    if (std::fabs(r.values[c]) > r.error) continue;
+    const int sign = sgn(dot(exact_pluecker_of(c), line.exact));
+    positive |= sign > 0;
+    negative |= sign < 0;
+    if (sign == 0) zeros.push_back(c);
+  }
+  r.decided = positive == negative ? 0 : positive ? 1 : -1;
+  // 2. At most 1. Where it is decided nobody asks for more than its sign.
   if (most >= 0x1p30 * r.error) {
     r.exponent = -std::ilogb(most) - 1;
     const double scale = std::ldexp(1.0, static_cast<int>(r.exponent));
     for (double& v : r.values) v *= scale;
     r.error *= scale;
-  } else {  // small polygons, a line close to all of them, or far away: integers, scaled and rounded once
+  } else if (r.decided == 0) {  // small polygons, a line close to all of them, or far away: integers, rounded once
     std::vector<Rational> sides;
     for (std::size_t c = 0; c < pairs.size(); ++c) sides.push_back(exact_side(line, c, frame));
     r.exponent = -exponent_of_largest(sides);
@@ -72,20 +87,7 @@ Side_row Line_domain::row_of(const Edge_lines::Edge_line& line, const Near_frame
       r.values[c] = nearest_double(times_power(std::move(sides[c]), r.exponent));
     r.error = 0x1p-52;
   }
-  // One side on all pairs? Integers are asked only if doubles do not show both signs.
-  bool positive = false, negative = false;
-  for (const double v : r.values) {
-    positive |= v > r.error;
-    negative |= v < -r.error;
-  }
-  for (std::size_t c = 0; c < r.values.size() && !(positive && negative); ++c) {
-    if (std::fabs(r.values[c]) > r.error) continue;
-    const int sign = sgn(dot(exact_pluecker_of(c), line.exact));
-    positive |= sign > 0;
-    negative |= sign < 0;
-    if (sign == 0) r.values[c] = 0;
-  }
-  r.decided = positive == negative ? 0 : positive ? 1 : -1;
+  for (const std::size_t c : zeros) r.values[c] = 0;
   return r;
 }
 

@@ -14,11 +14,12 @@
 
 namespace sightline {
 
-/// The sides of a line on all pairs of vertices of two polygons, scaled by a power of two to at most 1. Proof: P-70
+/// The sides of a line on all pairs of vertices of two polygons, scaled by a power of two to at most 1. Of a row that
+/// is decided only that is to be asked. Proof: P-70
 struct Side_row {
   std::vector<double> values;
   double error;
-  long exponent;                     ///< of that scale
+  long exponent = 0;                 ///< of that scale
   int decided;                       ///< 1: nowhere negative, -1: nowhere positive, 0: neither
   std::vector<Rational> exact = {};  ///< unscaled, once they are asked for
 };

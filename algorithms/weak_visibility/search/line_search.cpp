@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <unordered_map>
 #include <utility>
 
 namespace sightline {
@@ -17,6 +16,7 @@ constexpr std::size_t deepest = 1000;
 // nothing.
 constexpr int forms_after = 2, special_after = 3, smallest = 80, most_sectors = 24;
 constexpr double close = 1e-12;  // to an edge, where its own row of the domain tells more; doubles err by a hundredth
+constexpr std::size_t many = 1000;  // candidates: those near a line are sooner found in the tree of boxes
 constexpr float edges_for_all = 6;  // of 0 to 20, what takes the fewest cells among random triangles
 constexpr double thin = 1e-8;       // what doubles leave to exact programs
 
@@ -79,7 +79,7 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
     return leaf({Weak_step::Kind::away, 0, {}, {}}, {});
   }
   facing_ = true;
-  if (const std::optional<std::uint32_t> blocker = whole_blocker(d)) {
+  if (const std::optional<std::uint32_t> blocker = whole_blocker(*domains_[d])) {
     ++counters_->blocked;
     ++counters_->by_one;
     return leaf({Weak_step::Kind::blocked, *blocker, {}, {}}, {});
@@ -94,27 +94,11 @@ Line_search::Refutation Line_search::begin(std::uint32_t d) {
   return refute(d, 0);
 }
 
-std::optional<std::uint32_t> Line_search::whole_blocker(std::uint32_t d) {
-  Line_domain& domain = *domains_[d];
+std::optional<std::uint32_t> Line_search::whole_blocker(const Line_domain& domain) const {
   const Line_weights line = Line_weights::middle(domain);
-  for (const std::uint32_t piece :
-       occluders_->on_segment(weighted_mean(domain.source, line.source), weighted_mean(domain.target, line.target))) {
-    const Near_plane& h = occluders_->plane(piece);
-    const int sense = side(h, domain.source);
-    if (sense == 0 || sense == both_sides || side(h, domain.target) != -sense) continue;
-    // By doubles first: most pieces do not, and their lines are not needed for anything else.
-    const std::span<const Pluecker> edges = occluders_->edges(piece);
-    const auto may_pass = [&](const Pluecker& edge) {
-      return std::any_of(domain.pairs.begin(), domain.pairs.end(),
-                         [&](const Pluecker& pair) { return sense * dot(pair, edge) < -close; });
-    };
-    if (std::any_of(edges.begin(), edges.end(), may_pass)) continue;
-    const std::vector<Edge_sign> signs = signs_of({piece, sense, 0});
-    if (std::all_of(signs.begin(), signs.end(),
-                    [&](const Edge_sign& edge) { return row(domain, edge.line).decided == edge.inside; }))
-      return piece;
-  }
-  return std::nullopt;
+  return occluders_->on_segment(
+      weighted_mean(domain.source, line.source), weighted_mean(domain.target, line.target),
+      [&](std::uint32_t piece) { return occluders_->blocks_all(piece, domain.source, domain.target, domain.pairs); });
 }
 
 const std::vector<Candidate>& Line_search::candidates_of(std::uint32_t d) {
@@ -160,17 +144,16 @@ bool Line_search::try_rays(std::uint32_t d) {
 }
 
 void Line_search::weigh_candidates(std::uint32_t d) {
-  const std::size_t samples = std::min<std::size_t>(32, domains_[d]->candidates.size() / 8);
-  if (samples == 0) return;
-  std::unordered_map<std::uint32_t, int> hits;
-  std::vector<Candidate> blockers;
-  for (std::size_t k = 0; k < samples; ++k) {
-    find_blockers(d, random_line(*domains_[d]), blockers, false);
-    for (const Candidate& blocker : blockers) ++hits[blocker.piece];
-  }
-  for (Candidate& candidate : domains_[d]->candidates)
-    if (const auto found = hits.find(candidate.piece); found != hits.end())
-      candidate.share = static_cast<float>(found->second) / static_cast<float>(samples);
+  constexpr std::size_t most = 8;  // with four times as many some searches take a twentieth less cells, and longer
+  Line_domain& domain = *domains_[d];
+  const std::size_t samples = std::min(most, domain.candidates.size() / 8);
+  for (std::size_t k = 0; k < samples; ++k)
+    for_each_blocker(domain, random_line(domain), [](Candidate& blocker) {
+      ++blocker.share;
+      return true;
+    });
+  if (samples != 0)
+    for (Candidate& candidate : domain.candidates) candidate.share /= static_cast<float>(samples);
 }
 
 Line_weights Line_search::random_line(const Line_domain& domain) {
@@ -374,34 +357,54 @@ const std::vector<Edge_lines::Edge>& Line_search::edge_lines(std::uint32_t piece
   return edges;
 }
 
-void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one) {
-  Line_domain& domain = *domains_[d];
-  blockers.clear();
+template <class Visit>
+void Line_search::for_each_blocker(Line_domain& domain, const Line_weights& line, Visit visit) {
   const Triple p = weighted_mean(domain.source, line.source), q = weighted_mean(domain.target, line.target);
   const Pluecker pluecker = pluecker_of_pair(p, q);
-  for (const Candidate& candidate : candidates_of(d)) {
-    int sense = candidate.sense;
-    if (sense == 0) {
-      const std::array<double, 4>& h = occluders_->plane(candidate.piece).near;
-      const double from = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
-                   to = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
-      if ((from > 0) == (to > 0)) continue;
-      sense = from > 0 ? 1 : -1;
-    }
-    const std::span<const Pluecker> edges = occluders_->edges(candidate.piece);
-    bool inside = true;
-    for (std::size_t e = 0; e < edges.size() && inside; ++e) {
-      double height = dot(pluecker, edges[e]);
-      if (std::fabs(height) < close) {
-        const Edge_lines::Edge edge = edge_lines(candidate.piece)[e];
-        height = edge.sense * height_of(domain, edge.line, line);
-      }
-      inside = sense * height > 0;
-    }
-    if (!inside) continue;
-    blockers.push_back(candidate);
-    if (one) return;
+  std::vector<Candidate>& candidates = domain.candidates;
+  if (candidates.size() < many) {
+    for (Candidate& candidate : candidates)
+      if (is_in_the_way(domain, line, p, q, pluecker, candidate) && !visit(candidate)) return;
+    return;
   }
+  auto next = candidates.begin();  // both are sorted
+  for (const std::uint32_t piece : occluders_->near_segment(p, q)) {
+    next = std::lower_bound(next, candidates.end(), piece,
+                            [](const Candidate& candidate, std::uint32_t id) { return candidate.piece < id; });
+    if (next == candidates.end()) return;
+    if (next->piece == piece && is_in_the_way(domain, line, p, q, pluecker, *next) && !visit(*next)) return;
+  }
+}
+
+bool Line_search::is_in_the_way(Line_domain& domain, const Line_weights& line, const Triple& p, const Triple& q,
+                                const Pluecker& pluecker, const Candidate& candidate) {
+  int sense = candidate.sense;
+  if (sense == 0) {
+    const std::array<double, 4>& h = occluders_->plane(candidate.piece).near;
+    const double from = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
+                 to = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
+    if ((from > 0) == (to > 0)) return false;
+    sense = from > 0 ? 1 : -1;
+  }
+  const std::span<const Pluecker> edges = occluders_->edges(candidate.piece);
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    double height = dot(pluecker, edges[e]);
+    if (std::fabs(height) < close) {
+      const Edge_lines::Edge edge = edge_lines(candidate.piece)[e];
+      height = edge.sense * height_of(domain, edge.line, line);
+    }
+    if (!(sense * height > 0)) return false;
+  }
+  return true;
+}
+
+void Line_search::find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one) {
+  blockers.clear();
+  candidates_of(d);
+  for_each_blocker(*domains_[d], line, [&](const Candidate& blocker) {
+    blockers.push_back(blocker);
+    return !one;
+  });
 }
 
 double Line_search::height_of(Line_domain& domain, std::uint32_t line, const Line_weights& weights) const {
@@ -415,8 +418,10 @@ double Line_search::height_of(Line_domain& domain, std::uint32_t line, const Lin
   return sum;
 }
 
-const Candidate* Line_search::choose(Line_domain& domain, const std::vector<Candidate>& blockers,
+const Candidate* Line_search::choose(Line_domain& domain, std::vector<Candidate>& blockers,
                                      std::vector<Edge_sign>& unknown) {
+  std::stable_sort(blockers.begin(), blockers.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.share > b.share; });
   const Candidate* best = nullptr;
   float best_cost = 0;
   std::vector<Edge_sign> open_edges;
@@ -425,18 +430,23 @@ const Candidate* Line_search::choose(Line_domain& domain, const std::vector<Cand
       if (best == nullptr) best = &blocker;
       continue;
     }
+    const auto cost = [&] { return static_cast<float>(open_edges.size()) - edges_for_all * blocker.share; };
+    const auto is_worse = [&] {
+      return best != nullptr && best->sense != 0 &&
+             (cost() > best_cost || (cost() == best_cost && open_edges.size() >= unknown.size()));
+    };
     open_edges.clear();
-    bool outside = false;
+    if (is_worse()) break;  // whatever its edges are, and those of all that follow
+    bool outside = false;   // then the line is not strictly in the cell
     for (const Edge_sign& edge : signs_of(blocker)) {
       const int known = sign_[edge.line] != 0 ? sign_[edge.line] : row(domain, edge.line).decided;
       if (known == 0) open_edges.push_back(edge);
       else if (known != edge.inside) outside = true;
+      if (outside || is_worse()) break;
     }
-    if (outside) continue;  // the line is not strictly in the cell
-    const float cost = static_cast<float>(open_edges.size()) - edges_for_all * blocker.share;
-    if (best != nullptr && best->sense != 0 && cost >= best_cost) continue;
+    if (outside || is_worse()) continue;
     best = &blocker;
-    best_cost = cost;
+    best_cost = cost();
     unknown = open_edges;
     if (unknown.empty()) break;
   }

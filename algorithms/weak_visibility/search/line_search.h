@@ -73,7 +73,7 @@ class Line_search {
   Refutation begin(std::uint32_t d);
 
   /// A piece that blocks all of a domain's lines, if one of those that the line of middles meets does. Proof: P-71
-  std::optional<std::uint32_t> whole_blocker(std::uint32_t d);
+  std::optional<std::uint32_t> whole_blocker(const Line_domain& domain) const;
 
   /// What may come between the polygons of a domain. Many domains end without that question.
   const std::vector<Candidate>& candidates_of(std::uint32_t d);
@@ -126,14 +126,19 @@ class Line_search {
     return domain.row(lines_, line, occluders_->frame());
   }
 
-  /// The pieces that a line meets, by doubles; only one where that is enough. Close to an edge, its own row of the
-  /// domain tells more. Senses are those that the domain has.
+  /// Whether a line, from p to q, meets a piece, by doubles. Close to an edge, its own row of the domain tells more.
+  bool is_in_the_way(Line_domain& domain, const Line_weights& line, const Triple& p, const Triple& q,
+                     const Pluecker& pluecker, const Candidate& candidate);
+  /// The candidates that a line meets, in order, while `visit` says so.
+  template <class Visit>
+  void for_each_blocker(Line_domain& domain, const Line_weights& line, Visit visit);
+  /// All of them, or one where that is enough. Senses are those that the domain has.
   void find_blockers(std::uint32_t d, const Line_weights& line, std::vector<Candidate>& blockers, bool one);
   double height_of(Line_domain& domain, std::uint32_t line, const Line_weights& weights) const;
 
   /// The blocker with the fewest edges that are not known to have the line inside; some more are worth it for one that
-  /// blocks much. One that is cut first comes last.
-  const Candidate* choose(Line_domain& domain, const std::vector<Candidate>& blockers, std::vector<Edge_sign>& unknown);
+  /// blocks much. One that is cut first comes last. Post: those that block more come first.
+  const Candidate* choose(Line_domain& domain, std::vector<Candidate>& blockers, std::vector<Edge_sign>& unknown);
   std::vector<Edge_sign> signs_of(const Candidate& blocker);
 
   // ---- A line of the cell, or none
