@@ -182,8 +182,19 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
   };
   std::vector<Waiting> stack;
   if (!nodes.empty()) stack.push_back({0, 0});
+  // What one plane keeps away, it often does with the next one, too.
+  std::size_t last = 0;
+  const auto any_plane = [&](auto keeps_away) {
+    for (std::size_t n = 0, i = last; n < shaft.size(); ++n, i = i + 1 < shaft.size() ? i + 1 : 0)
+      if (keeps_away(i)) {
+        last = i;
+        return true;
+      }
+    return false;
+  };
   while (!stack.empty()) {
-    auto [at, inside] = stack.back();
+    const std::uint32_t at = stack.back().node;
+    std::uint64_t inside = stack.back().inside;
     stack.pop_back();
     const Piece_boxes::Node& node = nodes[at];
     // 1. The box: whether a plane keeps it away, and which ones no part of it.
@@ -192,16 +203,15 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
       middle[k] = (node.box.low[k] / 2 + node.box.high[k] / 2);
       reach[k] = (node.box.high[k] / 2 - node.box.low[k] / 2);
     }
-    bool away = false;
     const auto is_inside = [&](std::size_t i) { return i < 64 && (inside >> i & 1) != 0; };
-    for (std::size_t i = 0; i < shaft.size() && !away; ++i) {
-      if (is_inside(i)) continue;
+    const bool away = any_plane([&](std::size_t i) {
+      if (is_inside(i)) return false;
       const std::array<double, 4>& h = shaft[i];
       const double height = h[3] * to_boxes + h[0] * middle[0] + h[1] * middle[1] + h[2] * middle[2],
                    extent = std::fabs(h[0]) * reach[0] + std::fabs(h[1]) * reach[1] + std::fabs(h[2]) * reach[2];
-      away = height + extent < 0;
       if (i < 64 && height - extent >= 0) inside |= std::uint64_t{1} << i;
-    }
+      return height + extent < 0;
+    });
     if (away) continue;
     // 2. Its parts.
     if (node.second != 0) {
@@ -212,13 +222,13 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const std::uint32_t piece = boxes_.chunks()[node.first + k].piece;
       const std::span<const Triple> polygon = corners(piece);
-      const auto keeps_away = [&](const std::array<double, 4>& h) {
-        return std::all_of(polygon.begin(), polygon.end(),
-                           [&](const Triple& p) { return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3] < 0; });
+      const auto keeps_away = [&](std::size_t i) {
+        const std::array<double, 4>& h = shaft[i];
+        return !is_inside(i) && std::all_of(polygon.begin(), polygon.end(), [&](const Triple& p) {
+          return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3] < 0;
+        });
       };
-      for (std::size_t i = 0; i < shaft.size() && !away; ++i) away = !is_inside(i) && keeps_away(shaft[i]);
-      if (!away) found.push_back(piece);
-      away = false;
+      if (!any_plane(keeps_away)) found.push_back(piece);
     }
   }
   std::sort(found.begin(), found.end());
