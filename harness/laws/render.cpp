@@ -265,6 +265,37 @@ Outcome heedless(const Seen& seen) {
   return {};
 }
 
+/// Whether all corners, the eye, and all directions are multiples of 1/8 up to `most`.
+bool has_small_numbers(const Seen& seen, long most) {
+  const auto is_small = [&](const Exact_point& v) {
+    return std::all_of(v.begin(), v.end(),
+                       [&](const Rational& x) { return abs(x) <= most && Rational(8 * x).get_den() == 1; });
+  };
+  for (const std::array<double, 3>& v : {seen.pixels.look, seen.pixels.right, seen.pixels.up})
+    if (!is_small({exact(v[0]), exact(v[1]), exact(v[2])})) return false;
+  for (Point_id p = 0; p < seen.soup.point_count(); ++p)
+    if (!is_small(seen.soup.point(p))) return false;
+  return is_small(seen.pixels.eye);
+}
+
+/// In floats and doubles, too, spans and windows show what exact rays do, where nothing is tied and numbers are so
+/// small that rounding tells all signs but those that are zero.
+Outcome in_few_bits(const Seen& seen) {
+  if (!has_small_numbers(seen, 256)) return Outcome::not_applicable();
+  const Piece_image truth = seen.truth();
+  for (const Image_kernel kernel : {Image_kernel::double_numbers, Image_kernel::float_numbers}) {
+    if (kernel == Image_kernel::float_numbers && !has_small_numbers(seen, 8)) break;
+    const std::string numbers = kernel == Image_kernel::double_numbers ? " in doubles" : " in floats";
+    const Outcome spans =
+        same(seen.pixels, truth, scan_line(seen.scene, seen.pixels, kernel, serial()), "spans" + numbers, false);
+    if (spans.state != Outcome::State::passed) return spans;
+    const Outcome windows =
+        same(seen.pixels, truth, warnock(seen.scene, seen.pixels, kernel, serial()), "windows" + numbers, false);
+    if (windows.state != Outcome::State::passed) return windows;
+  }
+  return {};
+}
+
 /// Tints of pieces, three of four let light through.
 std::vector<Tint> glass(const Scene& scene) {
   std::vector<Tint> tints;
@@ -445,6 +476,8 @@ Subject render() {
   // Behind the others, whose random numbers depend on their places.
   subject.checks.push_back(windows_check());
   subject.checks.push_back(check_of("heedless", "the heedless painters show what comes last by their keys", heedless));
+  subject.checks.push_back(
+      check_of("few_bits", "small numbers in floats and doubles show what exact rays do", in_few_bits));
   subject.checks.push_back(check_of("squares", "a pixel's mean is that of areas in rationals", in_squares<false>));
   subject.checks.push_back(check_of("squares_layers", "so it is where faces let light through", in_squares<true>));
   return subject;
