@@ -14,9 +14,11 @@
 #include <sightline/io/format.h>
 #include <sightline/kernel/threads.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace sightline::app {
@@ -117,21 +119,27 @@ double size_of(const Corners& corners) {
 struct Shown {
   std::uint32_t piece;
   Sign side;
-  Corners corners;
   bool is_small;  ///< in the picture
   std::size_t lights = 0;
   bool turned = false;  ///< to a light
   std::uint32_t by = Shadow_part::nothing;
+  Corners corners = {};
+
+  /// What looks alike is one shape.
+  auto look() const { return std::tuple(piece, lights, turned, by); }
 };
 
 using Flat_box = std::array<Flat_point, 2>;  // least, most
+constexpr Flat_box empty_box{{{1e300, 1e300}, {-1e300, -1e300}}};
+void add_to(Flat_box& box, const Flat_point& p) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    box[0][k] = std::min(box[0][k], p[k]);
+    box[1][k] = std::max(box[1][k], p[k]);
+  }
+}
 Flat_box box_of(const std::vector<Flat_point>& points) {
-  Flat_box box{{{1e300, 1e300}, {-1e300, -1e300}}};
-  for (const Flat_point& p : points)
-    for (std::size_t k = 0; k < 2; ++k) {
-      box[0][k] = std::min(box[0][k], p[k]);
-      box[1][k] = std::max(box[1][k], p[k]);
-    }
+  Flat_box box = empty_box;
+  for (const Flat_point& p : points) add_to(box, p);
   return box;
 }
 
@@ -144,13 +152,10 @@ class Parts_on_piece {
   void prepare() {
     if (parts_.empty()) return;
     axis_ = axis_of(parts_[0].corners);
-    whole_ = {{{1e300, 1e300}, {-1e300, -1e300}}};
+    whole_ = empty_box;
     for (One& one : parts_) {
       one.box = box(one.corners);
-      for (std::size_t k = 0; k < 2; ++k) {
-        whole_[0][k] = std::min(whole_[0][k], one.box[0][k]);
-        whole_[1][k] = std::max(whole_[1][k], one.box[1][k]);
-      }
+      for (const Flat_point& p : one.box) add_to(whole_, p);
     }
     side_ = std::clamp<std::size_t>(static_cast<std::size_t>(std::sqrt(static_cast<double>(parts_.size()))), 1, 512);
     cells_.assign(side_ * side_, {});
@@ -183,9 +188,9 @@ class Parts_on_piece {
   };
 
   Flat_box box(const Corners& corners) const {
-    std::vector<Flat_point> points;
-    for (const Direction3& p : corners) points.push_back({p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]});
-    return box_of(points);
+    Flat_box box = empty_box;
+    for (const Direction3& p : corners) add_to(box, {p[(axis_ + 1) % 3], p[(axis_ + 2) % 3]});
+    return box;
   }
   static bool are_near(const Flat_box& a, const Flat_box& b) {
     return a[0][0] <= b[1][0] && b[0][0] <= a[1][0] && a[0][1] <= b[1][1] && b[0][1] <= a[1][1];
@@ -208,6 +213,23 @@ class Parts_on_piece {
   std::uint64_t asked_ = 0;
 };
 
+Look look_of(const Scene& scene, const Shown& one, std::size_t lights, double shade) {
+  const std::string face = fmt::format("face {}", scene.pieces()[one.piece].face);
+  const double light = static_cast<double>(one.lights) / static_cast<double>(lights);
+  const auto mixed = [&](int dark, int bright, double by_shade) {
+    return static_cast<int>(std::clamp(dark + light * (bright - dark) + by_shade * shade, 0.0, 255.0));
+  };
+  const double less = one.turned ? 1 : 0.72;  // what is turned away is darkest
+  const std::string fill =
+      fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(less * mixed(98, 232, 26)),
+                  static_cast<int>(less * mixed(104, 206, 26)), static_cast<int>(less * mixed(128, 140, 22)));
+  if (!one.turned) return {fill, face + ", turned away"};
+  if (one.by == Shadow_part::nothing) return {fill, face + ", lit"};
+  return {fill, fmt::format("{}, {}in the shadow of face {}", face,
+                            one.lights > 0 ? fmt::format("lit by {} of {}, ", one.lights, lights) : "",
+                            scene.pieces()[one.by].face)};
+}
+
 /// What an eye sees, each part cut by the shadows on it; but what is smaller than a pixel is drawn whole, in the light
 /// of the largest part of it. Returns how many are.
 std::size_t draw(const Shadow_arguments& arguments, const Scene& scene, const Piece_boxes& boxes,
@@ -221,16 +243,22 @@ std::size_t draw(const Shadow_arguments& arguments, const Scene& scene, const Pi
     options.threads = arguments.common.threads;
     options.progress = arguments.common.within_budget([](std::size_t, std::size_t) {});
     const auto surface = visible_surface(seen_from, boxes, field_of_view(seen_from), options);
+    const Axes axes = axes_of(view);
+    const Direction3 from{nearest_double(eye[0]), nearest_double(eye[1]), nearest_double(eye[2])};
+    const auto in_picture = [&](const Corners& corners) {
+      std::vector<Flat_point> points;
+      for (const Direction3& p : corners) points.push_back(projected(view, axes, minus(p, from)));
+      return points;
+    };
     std::vector<Shown> shown;
     for (const auto& part : surface.parts) {
       if (part.piece == surface.nothing) continue;
-      const std::vector<Exact_point> corners = vertices(seen_from, surface, part);
-      std::vector<Flat_point> points;
-      for (const Exact_point& p : corners) points.push_back(projected(view, p));
-      const auto [least, most] = box_of(points);
-      const bool is_small = most[0] - least[0] < 1 && most[1] - least[1] < 1;
-      whole += is_small;
-      shown.push_back({part.piece, seen_from.eye_side(part.piece), rounded_corners(corners), is_small});
+      Corners corners = rounded_corners(vertices(seen_from, surface, part));
+      const auto [least, most] = box_of(in_picture(corners));
+      Shown& one = shown.emplace_back(Shown{part.piece, seen_from.eye_side(part.piece), false});
+      one.is_small = most[0] - least[0] < 1 && most[1] - least[1] < 1;
+      one.corners = std::move(corners);
+      whole += one.is_small;
     }
     for (const Shadows& of_light : all) {
       std::map<std::pair<std::uint32_t, Sign>, Parts_on_piece> by_piece;  // the light is on that side
@@ -263,39 +291,32 @@ std::size_t draw(const Shadow_arguments& arguments, const Scene& scene, const Pi
           continue;
         }
         parts->second.cut(one.corners, [&](const Shadow_part& part, Corners&& common) {
-          Shown cut = one;
-          cut.corners = std::move(common);
+          Shown& cut =
+              finer.emplace_back(Shown{one.piece, one.side, false, one.lights, one.turned, one.by, std::move(common)});
           put(cut, part);
-          finer.push_back(std::move(cut));
         });
       }
       shown = std::move(finer);
     }
-    std::vector<Drawn> drawn;
+    // What looks alike, in the order in which its first part is found.
+    std::map<decltype(shown[0].look()), std::size_t> places;
+    std::vector<std::pair<const Shown*, std::vector<std::vector<Flat_point>>>> shapes;
     for (const Shown& one : shown) {
-      Drawn& item = drawn.emplace_back();
-      item.fragment = {scene.pieces()[one.piece].face, scene.pieces()[one.piece].number, {}};
-      for (const Direction3& p : one.corners) item.fragment.vertices.push_back({exact(p[0]), exact(p[1]), exact(p[2])});
-      item.side = one.side;
+      const auto [place, is_new] = places.try_emplace(one.look(), shapes.size());
+      if (is_new) shapes.push_back({&one, {}});
+      shapes[place->second].second.push_back(in_picture(one.corners));
     }
-    std::size_t next = 0;
-    paint(svg, view, drawn, false, [&](const Drawn& item, double shade) -> Look {
-      const Shown& one = shown[next++];
-      const std::string face = fmt::format("face {}", item.fragment.face);
-      const double light = static_cast<double>(one.lights) / static_cast<double>(all.size());
-      const auto mixed = [&](int dark, int bright, double by_shade) {
-        return static_cast<int>(std::clamp(dark + light * (bright - dark) + by_shade * shade, 0.0, 255.0));
-      };
-      const double less = one.turned ? 1 : 0.72;  // what is turned away is darkest
-      const std::string fill =
-          fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(less * mixed(98, 232, 26)),
-                      static_cast<int>(less * mixed(104, 206, 26)), static_cast<int>(less * mixed(128, 140, 22)));
-      if (!one.turned) return {fill, face + ", turned away"};
-      if (one.by == Shadow_part::nothing) return {fill, face + ", lit"};
-      return {fill, fmt::format("{}, {}in the shadow of face {}", face,
-                                one.lights > 0 ? fmt::format("lit by {} of {}, ", one.lights, all.size()) : "",
-                                scene.pieces()[one.by].face)};
-    });
+    std::map<Face_id, std::size_t> of_face;
+    std::vector<Exact_point> corners;
+    for (const auto& [first, polygons] : shapes) {
+      const Piece& piece = scene.pieces()[first->piece];
+      corners.clear();
+      for (const Piece_corner& corner : scene.corners(piece)) corners.push_back(scene.position(corner.point));
+      if (first->side == CGAL::NEGATIVE) std::reverse(corners.begin(), corners.end());
+      const Look look = look_of(scene, *first, all.size(), view.lit ? shade_of(corners) : 0);
+      svg.shape(polygons, look.fill, look.fill, 0.4, fmt::format("face-{}-{}", piece.face, ++of_face[piece.face]),
+                look.title);
+    }
   }
   write_file(arguments.svg, svg.text());
   return whole;

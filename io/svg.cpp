@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <cstdlib>
 #include <utility>
 
 namespace sightline {
@@ -37,19 +38,56 @@ std::string chain_of(std::vector<std::string> places, std::size_t least) {
 
 }  // namespace
 
-void Svg::shape(const std::vector<std::vector<Flat_point>>& polygons, std::string_view fill) {
+std::string Svg::path_of(const std::vector<std::vector<Flat_point>>& polygons) const {
+  using Place = std::array<long, 2>;  // in hundredths of a pixel
+  // With its sign where it is negative, which parts it from a number before it, or with what parts them else.
+  const auto add = [](std::string& path, long hundredths, const char* parting) {
+    path += hundredths < 0 ? "-" : parting;
+    const long size = std::labs(hundredths), whole = size / 100, rest = size % 100;
+    if (whole > 0 || rest == 0) path += std::to_string(whole);
+    if (rest == 0) return;
+    path += '.';
+    path += static_cast<char>('0' + rest / 10);
+    if (rest % 10 > 0) path += static_cast<char>('0' + rest % 10);
+  };
   std::string path;
   for (const std::vector<Flat_point>& polygon : polygons) {
     if (std::any_of(polygon.begin(), polygon.end(),
                     [](const Flat_point& p) { return !std::isfinite(p[0]) || !std::isfinite(p[1]); }))
       continue;
     // A corner is rounded alike wherever it stands; what that leaves without a width is left out.
-    std::vector<std::string> places;
-    for (const Flat_point& p : clipped(polygon)) places.push_back(number(p[0]) + ',' + number(p[1]));
+    std::vector<Place> places;
+    for (const Flat_point& p : clipped(polygon)) places.push_back({std::lround(100 * p[0]), std::lround(100 * p[1])});
+    places.erase(std::unique(places.begin(), places.end()), places.end());
     while (places.size() > 1 && places.front() == places.back()) places.pop_back();
-    if (const std::string chain = chain_of(std::move(places), 3); !chain.empty()) path += chain + 'Z';
+    if (places.size() < 3) continue;
+    path += 'M';
+    add(path, places[0][0], "");
+    add(path, places[0][1], ",");
+    for (std::size_t k = 1; k < places.size(); ++k) {  // by steps, which are short
+      if (k == 1) path += 'l';
+      add(path, places[k][0] - places[k - 1][0], k == 1 ? "" : " ");
+      add(path, places[k][1] - places[k - 1][1], ",");
+    }
+    path += 'z';
   }
+  return path;
+}
+
+void Svg::shape(const std::vector<std::vector<Flat_point>>& polygons, std::string_view fill) {
+  const std::string path = path_of(polygons);
   if (!path.empty()) body_ += "<path d=\"" + path + "\" fill=\"" + std::string(fill) + "\"/>\n";
+}
+
+void Svg::shape(const std::vector<std::vector<Flat_point>>& polygons, std::string_view fill, std::string_view stroke,
+                double stroke_width, std::string_view id, std::string_view title) {
+  const std::string path = path_of(polygons);
+  if (path.empty()) return;
+  body_ += "<path ";
+  if (!id.empty()) body_ += "id=\"" + std::string(id) + "\" ";
+  body_ += "d=\"" + path + "\" fill=\"" + std::string(fill) + "\" stroke=\"" + std::string(stroke) +
+           "\" stroke-width=\"" + number(stroke_width) +
+           (title.empty() ? "\"/>\n" : "\"><title>" + std::string(title) + "</title></path>\n");
 }
 
 void Svg::chains(const std::vector<std::vector<Flat_point>>& lines, std::string_view stroke, double stroke_width) {

@@ -28,6 +28,9 @@ class Svg {
   /// Polygons that run round in one sense, filled as one shape without an outline: where they touch, nothing shows
   /// between them. Degenerate: as polygon().
   void shape(const std::vector<std::vector<Flat_point>>& polygons, std::string_view fill);
+  /// The same with an outline, an id and a title, as polygon() has them: what is many polygons and looks alike.
+  void shape(const std::vector<std::vector<Flat_point>>& polygons, std::string_view fill, std::string_view stroke,
+             double stroke_width, std::string_view id, std::string_view title);
   /// Chains of straight lines, as one. Degenerate: a chain is left out as line() is.
   void chains(const std::vector<std::vector<Flat_point>>& lines, std::string_view stroke, double stroke_width);
 
@@ -46,6 +49,7 @@ class Svg {
 
  private:
   static std::string number(double x);
+  std::string path_of(const std::vector<std::vector<Flat_point>>& polygons) const;
   /// Sutherland and Hodgman, with a margin so that no outline of the frame shows.
   std::vector<Flat_point> clipped(std::vector<Flat_point> points) const;
 

@@ -82,8 +82,11 @@ class Clip_polygon {
 /// ones are; inside, what is behind it is dropped, and where something turns out to be in front of it, that is the
 /// clip polygon there. Polygons that pierce each other are cut by the line where they cross. Clip polygons are convex
 /// pieces, of up to 32 corners each; the outside of one is a union of convex windows, each with a list of its own,
-/// where Weiler and Atherton have one concave window with holes (concave_window.h), so that what is there is cut more
-/// often; a polygon is cut by keeping it in the lists of several windows, never by new corners. Degenerate: of polygons
+/// where Weiler and Atherton have one concave window with holes (clip_to_window() in concave_window.h), so that what is
+/// there is cut more often; a polygon is cut by keeping it in the lists of several windows, never by new corners. It is
+/// not made of clip_to_window(), which is in rationals alone and costs a thousand times as much: corners are made of
+/// corners, and all edges of a ground with the holes that were cut into it are compared, where a convex window is a
+/// handful of planes through the eye, by which filters decide (bench_render). Degenerate: of polygons
 /// in one plane the one seen from its front is the nearer, then by face id, then by number; pieces in whose plane the
 /// eye is are not seen; an empty scene is one part for each cone. Cost: windows, each times the polygons that come down
 /// to it: all of them at first. Parallel. Exact: as the view is. Ref: Weiler and Atherton, Hidden surface removal using

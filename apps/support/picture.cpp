@@ -322,7 +322,7 @@ std::vector<Exact_point> corner_rays(const View& view) {
   return rays;
 }
 
-static Flat_point projected(const View& view, const Axes& axes, const Direction3& v) {
+Flat_point projected(const View& view, const Axes& axes, const Direction3& v) {
   const double scale = scale_of(view), depth = dot(v, view.look);
   return {view.width / 2.0 + scale * dot(v, axes.right) / depth, view.height / 2.0 - scale * dot(v, axes.up) / depth};
 }

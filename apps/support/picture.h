@@ -91,6 +91,8 @@ std::optional<std::array<Integer, 4>> near_plane(const View& view, const Scene& 
 std::vector<Exact_point> corner_rays(const View& view);
 /// A point of the scene in the picture. Pre: in front of the eye.
 Flat_point projected(const View& view, const Exact_point& p);
+/// The same of what is so far from the eye, in doubles. Pre: the axes are the view's.
+Flat_point projected(const View& view, const Axes& axes, const Direction3& from_eye);
 /// How a polygon is drawn.
 struct Look {
   std::string fill;   ///< a colour that SVG knows

@@ -66,15 +66,31 @@ Polygon_soup grid(std::size_t n) {
 }
 
 Polygon_soup lattice(std::size_t n) {
-  require(n >= 1 && n <= 500, "lattice: size must be in 1 .. 500");
+  require(n >= 1 && n <= 10000000, "lattice: size must be in 1 .. 10^7");
   Polygon_soup soup;
   soup.file = "lattice";
-  Lattice_points points(soup, {unit_planes(n), unit_planes(n), unit_planes(n)});
+  // Corners are on the twelve edges of the cube: a place for each of these, where Lattice_points has them all over it.
+  constexpr Point_id absent = std::numeric_limits<Point_id>::max();
+  std::vector<Point_id> ids(12 * (n + 1), absent);
+  const auto id = [&](const std::array<std::size_t, 3>& p) {
+    std::size_t along = 0;  // the cube's own corners are on edges along x
+    for (std::size_t k = 1; k < 3; ++k)
+      if (p[k] != 0 && p[k] != n) along = k;
+    const std::size_t edge = 2 * (p[(along + 1) % 3] == n) + (p[(along + 2) % 3] == n);
+    Point_id& known = ids[(4 * along + edge) * (n + 1) + p[along]];
+    if (known == absent)
+      known = soup.add_point(static_cast<double>(p[0]), static_cast<double>(p[1]), static_cast<double>(p[2]));
+    return known;
+  };
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i <= n; ++i) {
-      std::array<std::size_t, 3> p{};
+      std::array<std::size_t, 3> p{}, q, r, s;
       p[axis] = i;
-      points.add_wall(p, axis, true, n, n);
+      q = r = s = p;
+      const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
+      q[b] = r[b] = r[c] = s[c] = n;
+      const Point_id first = id(p), second = id(q), third = id(r), fourth = id(s);
+      soup.add_face({first, second, third, fourth});
     }
   return soup;
 }

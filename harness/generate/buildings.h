@@ -89,7 +89,8 @@ std::vector<double> unit_planes(std::size_t n);
 Polygon_soup grid(std::size_t n);
 
 /// 3 (n + 1) squares, each across the whole cube of n x n x n unit cells: a partition cuts them into the walls of
-/// grid(n), and nearly every test of a vertex against a plane is an incidence.
+/// grid(n), and nearly every test of a vertex against a plane is an incidence. Pre: n <= 10^7; what asks for the
+/// crossings has n^2 lines of them.
 Polygon_soup lattice(std::size_t n);
 
 /// The boundary of the Menger sponge of a level: 2 20^level + 4 8^level unit quads, fronts outwards, coordinates 0 ..

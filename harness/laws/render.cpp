@@ -20,12 +20,16 @@
 #include <sightline/algorithms/priority/eye_order.h>
 #include <sightline/algorithms/priority/tree.h>
 #include <sightline/algorithms/verify/visible.h>
+#include <sightline/harness/compare/pixel_squares.h>
 #include <sightline/harness/generate/pixel_views.h>
+#include <sightline/harness/laws/flat_faces.h>
 #include <sightline/harness/laws/laws.h>
+#include <sightline/harness/laws/window_laws.h>
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/vectors.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -221,6 +225,77 @@ Outcome by_method(const Seen& seen) {
               ties);
 }
 
+/// The heedless painters, by their words: of the pieces that a centre's ray meets the one whose key comes last is on
+/// top. At some pixels.
+Outcome heedless(const Seen& seen) {
+  std::vector<Flat_face> faces;
+  for (const Piece& piece : seen.scene.pieces()) {
+    generate::Points corners;
+    for (const Piece_corner& corner : seen.scene.corners(piece)) corners.push_back(seen.scene.position(corner.point));
+    faces.emplace_back(std::move(corners));
+  }
+  const Exact_point eye = seen.pixels.eye,
+                    look{exact(seen.pixels.look[0]), exact(seen.pixels.look[1]), exact(seen.pixels.look[2])};
+  for (const Painter_key key : {Painter_key::nearest, Painter_key::farthest, Painter_key::mean}) {
+    const Piece_image image = heedless_painter(seen.scene, seen.pixels, key, Image_kernel::exact, serial());
+    std::vector<Rational> keys;
+    for (const Flat_face& face : faces) {
+      std::vector<Rational> depths;
+      Rational sum = 0;
+      for (const Exact_point& p : face.corners) sum += depths.emplace_back(dot(minus(p, eye), look));
+      const auto [least, most] = std::minmax_element(depths.begin(), depths.end());
+      keys.push_back(key == Painter_key::nearest    ? *least
+                     : key == Painter_key::farthest ? *most
+                                                    : Rational(sum / static_cast<unsigned long>(depths.size())));
+    }
+    for (std::size_t k = 0; k < 8; ++k) {
+      const std::size_t i = (2 * k + 1) * image.pieces.size() / 16;
+      const Exact_point ray = seen.pixels.centre(static_cast<std::uint32_t>(i % seen.pixels.width),
+                                                 static_cast<std::uint32_t>(i / seen.pixels.width));
+      std::uint32_t top = Piece_image::nothing;
+      for (std::uint32_t f = 0; f < faces.size(); ++f)
+        if ((top == Piece_image::nothing || keys[f] <= keys[top]) && faces[f].height(eye) != 0 &&
+            met_at(faces[f], eye, ray))
+          top = f;
+      if (image.pieces[i] != top)
+        return Outcome::failed(place(seen.pixels, i) + " shows " + name(image.pieces[i]) +
+                               " by a heedless painter, not " + name(top) + ", whose key comes last");
+    }
+  }
+  return {};
+}
+
+/// Whether all corners, the eye, and all directions are multiples of 1/8 up to `most`.
+bool has_small_numbers(const Seen& seen, long most) {
+  const auto is_small = [&](const Exact_point& v) {
+    return std::all_of(v.begin(), v.end(),
+                       [&](const Rational& x) { return abs(x) <= most && Rational(8 * x).get_den() == 1; });
+  };
+  for (const std::array<double, 3>& v : {seen.pixels.look, seen.pixels.right, seen.pixels.up})
+    if (!is_small({exact(v[0]), exact(v[1]), exact(v[2])})) return false;
+  for (Point_id p = 0; p < seen.soup.point_count(); ++p)
+    if (!is_small(seen.soup.point(p))) return false;
+  return is_small(seen.pixels.eye);
+}
+
+/// In floats and doubles, too, spans and windows show what exact rays do, where nothing is tied and numbers are so
+/// small that rounding tells all signs but those that are zero.
+Outcome in_few_bits(const Seen& seen) {
+  if (!has_small_numbers(seen, 256)) return Outcome::not_applicable();
+  const Piece_image truth = seen.truth();
+  for (const Image_kernel kernel : {Image_kernel::double_numbers, Image_kernel::float_numbers}) {
+    if (kernel == Image_kernel::float_numbers && !has_small_numbers(seen, 8)) break;
+    const std::string numbers = kernel == Image_kernel::double_numbers ? " in doubles" : " in floats";
+    const Outcome spans =
+        same(seen.pixels, truth, scan_line(seen.scene, seen.pixels, kernel, serial()), "spans" + numbers, false);
+    if (spans.state != Outcome::State::passed) return spans;
+    const Outcome windows =
+        same(seen.pixels, truth, warnock(seen.scene, seen.pixels, kernel, serial()), "windows" + numbers, false);
+    if (windows.state != Outcome::State::passed) return windows;
+  }
+  return {};
+}
+
 /// Tints of pieces, three of four let light through.
 std::vector<Tint> glass(const Scene& scene) {
   std::vector<Tint> tints;
@@ -276,6 +351,8 @@ Outcome by_layers(const Seen& seen) {
   return check(blended_painting(sorted.polygons, seen.pixels, Image_kernel::exact, tints, serial()), "newell", false);
 }
 
+Colour opaque_colour(std::uint32_t piece) { return {piece % 2 + 1.0, piece % 3 * 1.0, 1}; }
+
 /// The means of what a view sees; with glass, of all layers.
 template <bool Transparent>
 Mean_image means(const Seen& seen, const Pixel_view& pixels) {
@@ -284,12 +361,41 @@ Mean_image means(const Seen& seen, const Pixel_view& pixels) {
   Visible_options alone;
   alone.threads = 1;
   const auto surface = visible_surface(view, Piece_boxes(seen.scene), field_of_view(view), alone);
-  return visible_means(
-      view, surface, pixels,
-      [](std::uint32_t piece) {
-        return Colour{piece % 2 + 1.0, piece % 3 * 1.0, 1};
-      },
-      serial());
+  return visible_means(view, surface, pixels, opaque_colour, serial());
+}
+
+/// Some pixels' means are those of areas in rationals.
+template <bool Transparent>
+Outcome as_areas(const Seen& seen, const Pixel_view& pixels) {
+  std::vector<Tint> tints = glass(seen.scene);
+  if (!Transparent)
+    for (std::uint32_t i = 0; i < tints.size(); ++i) tints[i] = {opaque_colour(i), 1};
+  const Mean_image image = means<Transparent>(seen, pixels);
+  const Pixel_squares squares(seen.scene, pixels);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const std::size_t i = (2 * k + 1) * image.covered.size() / 12;
+    const Layer right =
+        squares.mean(static_cast<std::uint32_t>(i % pixels.width), static_cast<std::uint32_t>(i / pixels.width), tints);
+    double error = std::fabs(image.covered[i] - right.alpha);
+    for (std::size_t c = 0; c < 3; ++c) error = std::max(error, std::fabs(image.colours[i][c] - right.colour[c]));
+    if (!(error < 1e-6))
+      return Outcome::failed(place(pixels, i) + " is off by " + std::to_string(error) + " from areas in rationals");
+  }
+  return {};
+}
+
+/// So in a view, and in one that is skew: its directions to the right and forward are next to one another.
+template <bool Transparent>
+Outcome in_squares(const Seen& seen) {
+  const Outcome straight = as_areas<Transparent>(seen, seen.pixels);
+  if (straight.state != Outcome::State::passed) return straight;
+  Pixel_view skew = seen.pixels;
+  for (std::size_t k = 0; k < 3; ++k) skew.right[k] = skew.look[k] / 2 + 0x1p-20 * skew.right[k];
+  const auto exactly = [](const std::array<double, 3>& v) {
+    return Exact_point{exact(v[0]), exact(v[1]), exact(v[2])};
+  };
+  if (dot(exactly(skew.look), cross(exactly(skew.right), exactly(skew.up))) == 0) return {};
+  return as_areas<Transparent>(seen, skew);
 }
 
 /// Whether pixels of an image, those of its first columns and rows, have the means of four pixels each of a finer one.
@@ -367,6 +473,13 @@ Subject render() {
       check_of("quarter_layers", "so it is where faces let light through", quartered<true>),
   };
   add_laws(subject, {"permute", "translate", "scale", "bystander"});
+  // Behind the others, whose random numbers depend on their places.
+  subject.checks.push_back(windows_check());
+  subject.checks.push_back(check_of("heedless", "the heedless painters show what comes last by their keys", heedless));
+  subject.checks.push_back(
+      check_of("few_bits", "small numbers in floats and doubles show what exact rays do", in_few_bits));
+  subject.checks.push_back(check_of("squares", "a pixel's mean is that of areas in rationals", in_squares<false>));
+  subject.checks.push_back(check_of("squares_layers", "so it is where faces let light through", in_squares<true>));
   return subject;
 }
 

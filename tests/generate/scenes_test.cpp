@@ -240,6 +240,23 @@ TEST(Generate, triangles_between_squares_are_those_of_the_formula) {
   EXPECT_GT(clamped, 0u);
 }
 
+TEST(Generate, lattice_of_many_squares_has_its_corners_on_the_edges_of_a_cube) {
+  constexpr std::size_t n = 20000;
+  const Polygon_soup soup = generate::lattice(n);
+  EXPECT_EQ(soup.face_count(), 3 * (n + 1));
+  EXPECT_EQ(soup.point_count(), 12 * (n - 1) + 8);  // each once
+  for (Face_id f = 0; f < soup.face_count(); f += 1001) {
+    const std::size_t axis = f / (n + 1);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Exact_point p = soup.point(soup.loop(f)[k]);
+      EXPECT_EQ(p[axis], static_cast<long>(f % (n + 1)));
+      EXPECT_EQ(p[(axis + 1) % 3], k == 1 || k == 2 ? static_cast<long>(n) : 0);
+      EXPECT_EQ(p[(axis + 2) % 3], k >= 2 ? static_cast<long>(n) : 0);
+    }
+  }
+  EXPECT_THROW(generate::lattice(0), std::invalid_argument);
+}
+
 TEST(Generate, lattice_and_merged_sponge_have_the_area_of_their_unit_quads) {
   const auto area = [](const Polygon_soup& soup) {  // axis-parallel faces only
     const Integer_soup integers{soup};

@@ -46,7 +46,13 @@ TEST(Svg, fills_polygons_as_one_shape_and_leaves_out_what_has_no_width) {
   Svg svg(100, 100);
   svg.shape({{{0, 0}, {5, 0}, {5, 5}}, {{5, 0}, {5.001, 0}, {5.002, 5}, {5, 5}}, {{5, 0}, {9, 0}, {9, 9}, {5, 5}}},
             "#ff0000");
-  EXPECT_NE(svg.text().find("<path d=\"M0,0 5,0 5,5ZM5,0 9,0 9,9 5,5Z\" fill=\"#ff0000\"/>"), std::string::npos)
+  EXPECT_NE(svg.text().find("<path d=\"M0,0l5,0 0,5zM5,0l4,0 0,9-4-4z\" fill=\"#ff0000\"/>"), std::string::npos)
+      << svg.text();
+  svg.shape({{{-3, 7}, {1.25, 6.05}, {0.5, 8}}, {{1, 1}, {1, 1}, {2, 2}}}, "#0000ff", "#000000", 0.4, "face-7-1",
+            "face 7");
+  EXPECT_NE(svg.text().find("<path id=\"face-7-1\" d=\"M-3,7l4.25-.95-.75,1.95z\" fill=\"#0000ff\" "
+                            "stroke=\"#000000\" stroke-width=\"0.4\"><title>face 7</title></path>"),
+            std::string::npos)
       << svg.text();
   svg.chains({{{1, 1}, {2, 2}, {2, 2.001}, {3, 1}}, {{4, 4}, {4, 4}}}, "#00ff00", 2);
   EXPECT_NE(svg.text().find("<path d=\"M1,1 2,2 3,1\" fill=\"none\" stroke=\"#00ff00\""), std::string::npos)

@@ -91,6 +91,10 @@ TEST_F(Rays_and_lights, shadow_draws_a_town_by_where_shadows_are) {
   EXPECT_NE(r.out.find("smaller than a pixel are drawn whole"), std::string::npos) << r;
   const std::string text = read_file(svg);
   EXPECT_NE(text.find("in the shadow of"), std::string::npos);
+  // All of the ground that is lit is one shape, however many parts it has.
+  const std::size_t lit = text.find("<title>face 5000, lit</title>");
+  EXPECT_NE(lit, std::string::npos);
+  EXPECT_EQ(text.find("<title>face 5000, lit</title>", lit + 1), std::string::npos);
 }
 
 TEST_F(Rays_and_lights, shadow_names_lit_and_dark_parts) {
