@@ -27,12 +27,13 @@ struct Order_arguments {
 };
 
 /// What `verify` reads.
-static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const std::vector<Drawn>& drawn,
+static Order_certificate certificate_of(const Scene& scene, const Exact_point& eye, const Outcome& outcome,
                                         bool on_view) {
   Order_certificate certificate;
   certificate.eye = eye;
   certificate.on_view = on_view;
-  for (const Drawn& item : drawn) certificate.fragments.push_back(item.fragment);
+  certificate.cuts = outcome.cuts;
+  for (const Drawn& item : outcome.drawn) certificate.fragments.push_back(item.fragment);
   add_pieces(certificate, scene);
   return certificate;
 }
@@ -221,7 +222,7 @@ static Exit run(const Order_arguments& arguments) {
     write_file(arguments.certificate, [&](std::ostream& out) {
       if (arguments.skip_hidden)
         write_visible_certificate(out, Exact_view(scene, eye), skipped.surface, eye, {}, task.bsp.progress);
-      else write_certificate(out, certificate_of(scene, eye, outcome.drawn, by_graph && !arguments.two_sided));
+      else write_certificate(out, certificate_of(scene, eye, outcome, by_graph && !arguments.two_sided));
     });
   }
   if (!arguments.svg.empty()) {

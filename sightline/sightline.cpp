@@ -3,6 +3,7 @@
 #include <sightline/algorithms/bsp/build.h>
 #include <sightline/algorithms/bsp/traverse.h>
 #include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/order_cuts.h>
 #include <sightline/algorithms/cutset/tracker.h>
 #include <sightline/algorithms/point_visibility/certificate.h>
 #include <sightline/algorithms/point_visibility/line_drawing.h>
@@ -241,15 +242,17 @@ Visibility_order order(const Model& model, const Exact_point& eye, const Asking&
   const Exact_traits& traits = inside->traits;
   Visibility_order answer;
   answer.eye = eye;
-  traverse(traits, inside->tree(asking), traits.eye(eye), Direction::back_to_front,
-           [&](const Fragment<Exact_traits>& fragment, Sign) {
-             const Piece& piece = inside->scene.pieces()[fragment.polygon.piece];
-             Part& part = answer.parts.emplace_back(Part{piece.face, piece.number, {}});
-             for (const Corner<Exact_traits>& corner : fragment.polygon)
-               part.corners.push_back(traits.position(*corner.vertex));
-           });
-  answer.certificate_ = [inside, eye, parts = answer.parts] {
+  Order_cuts cuts;
+  traverse_with_cuts(traits, inside->tree(asking), traits.eye(eye), &inside->scene, cuts,
+                     [&](const Fragment<Exact_traits>& fragment, Sign) {
+                       const Piece& piece = inside->scene.pieces()[fragment.polygon.piece];
+                       Part& part = answer.parts.emplace_back(Part{piece.face, piece.number, {}});
+                       for (const Corner<Exact_traits>& corner : fragment.polygon)
+                         part.corners.push_back(traits.position(*corner.vertex));
+                     });
+  answer.certificate_ = [inside, eye, parts = answer.parts, cuts = std::move(cuts)] {
     Order_certificate certificate;
+    certificate.cuts = cuts;
     certificate.eye = eye;
     for (const Part& part : parts) certificate.fragments.push_back({part.face, part.piece, part.corners});
     add_pieces(certificate, inside->scene);

@@ -198,7 +198,7 @@ std::optional<bool> is_list(std::string_view key) {
     if (key == known) return false;
   for (const std::string_view known :
        {"points", "fragments", "pieces", "set_aside", "sizes", "arcs", "rays", "parts", "empty", "sources", "visible",
-        "lines", "hidden", "undecided", "moments", "faces", "proofs"})
+        "lines", "hidden", "undecided", "moments", "faces", "proofs", "depths", "cuts"})
     if (key == known) return true;
   return std::nullopt;
 }
@@ -319,6 +319,11 @@ void Contents::take(const std::string& key, std::size_t number, const Json& entr
     const Json& why = member(entry, "why", at);
     if (!why.is_string()) fail(at + ".why", "expected a string");
     covering_.set_aside.push_back({number32(member(entry, "face", at), at + ".face"), why.get<std::string>()});
+  } else if (key == "depths") cuts_.depths.push_back(number32(entry, at));
+  else if (key == "cuts") {
+    if (array(entry, at).size() != 3) fail(at, "expected [place, depth, plane]");
+    cuts_.others.push_back(
+        {number32(entry[0], at + "[0]"), number32(entry[1], at + "[1]"), exact_numbers<4>(entry[2], at + "[2]")});
   } else if (key == "sizes") graph_.sizes.push_back(number32(entry, at));
   else if (key == "arcs") {
     const auto arc = numbers(4, "expected [from, to, corner of from, corner of to]");
@@ -444,7 +449,7 @@ struct Kind {
   std::vector<std::string_view> needed, optional;
 };
 const std::array<Kind, 5>& kinds() {
-  static const std::array<Kind, 5> all{{{"order", {"eye"}, {"on_view"}},
+  static const std::array<Kind, 5> all{{{"order", {"eye"}, {"on_view", "depths", "cuts"}},
                                         {"graph", {"sizes", "arcs"}, {}},
                                         {"see", {"eye", "parts", "empty"}, {"field", "rays"}},
                                         {"weak", {"sources", "lines", "visible", "hidden"}, {"two_sided", "undecided"}},
@@ -508,6 +513,7 @@ Certificate Contents::finish(const std::vector<std::pair<std::string, std::optio
   Order_certificate order;
   order.eye = std::move(eye_);
   order.on_view = on_view_;
+  order.cuts = std::move(cuts_);
   return with_covering(std::move(order));
 }
 

@@ -90,6 +90,7 @@ class Contents {
   Covering covering_;
   Exact_point eye_;
   bool on_view_ = false;
+  Order_cuts cuts_;
   Graph_certificate graph_;
   Visible_certificate visible_;
   Weak_certificate weak_;

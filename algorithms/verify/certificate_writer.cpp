@@ -220,6 +220,19 @@ void write_certificate(std::ostream& out, const Order_certificate& certificate) 
   write(out, certificate.eye);
   if (certificate.on_view) out << R"(,"on_view":true)";
   write_covering(out, certificate);
+  const auto& [depths, others] = certificate.cuts;
+  if (!depths.empty()) {
+    out << R"(,"depths":)";
+    write_numbers(out, std::span(depths));
+  }
+  if (!others.empty()) {
+    out << R"(,"cuts":)";
+    write_list(out, others, [&](const Order_cuts::Cut& cut) {
+      out << '[' << cut.place << ',' << cut.depth << ',';
+      write(out, cut.plane);
+      out << ']';
+    });
+  }
   out << "}\n";
 }
 

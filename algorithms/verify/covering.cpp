@@ -27,15 +27,31 @@ namespace {
 
 // ---- Tilings
 
+using Corner_numbers = std::span<const Numbered_points::Number>;
+
 /// A polygon that should be part of a tiling, with its name for messages and its place in the order, if it has one.
 struct Tile {
   const Polygon* polygon;
   std::string name;
   std::vector<std::size_t> fragments;
-  std::span<const Numbered_points::Number> numbers = {};  // of its corners, if they have such
+  Corner_numbers corners;
 };
 
-bool is_rotation(const Polygon& a, const Polygon& b) {
+/// The points that numbers of corners name.
+struct Corner_points {
+  const Numbered_points& numbered;
+  std::vector<Homogeneous> in_integers;
+
+  /// Pre: each was given a number.
+  std::vector<Numbered_points::Number> numbers_of(const Polygon& polygon) const {
+    std::vector<Numbered_points::Number> numbers;
+    numbers.reserve(polygon.size());
+    for (const Exact_point& p : polygon) numbers.push_back(numbered.find(p).value());
+    return numbers;
+  }
+};
+
+bool is_turned_polygon(Corner_numbers a, Corner_numbers b) {
   if (a.size() != b.size()) return false;
   const auto begin = static_cast<std::size_t>(std::find(b.begin(), b.end(), a.front()) - b.begin());
   for (std::size_t i = 0; i < a.size(); ++i)
@@ -44,25 +60,24 @@ bool is_rotation(const Polygon& a, const Polygon& b) {
 }
 
 /// Rejects unless the tiles are convex polygons in the plane that cover once what the loops bound, and nothing else,
-/// and the loops cross nowhere else than in points of theirs. `points`: those that numbers of corners name. Pre: no
-/// loop is empty. Proof: P-21
+/// and the loops cross nowhere else than in points of theirs. Pre: no loop is empty. Proof: P-21
 void check_tiling(const std::string& what, const std::vector<Polygon>& loops, const Plane& plane,
-                  const std::vector<Tile>& tiles, const std::vector<Homogeneous>& points = {}) {
+                  const std::vector<Tile>& tiles, const Corner_points& points) {
   if (tiles.empty()) reject(what + " has no fragment and is not set aside");
   const Homogeneous front = plane_of(plane);
   for (const Tile& tile : tiles)
-    if (const std::string fault =
-            not_convex(tile.numbers.empty() ? homogeneous(*tile.polygon) : each_of(points, tile.numbers), front);
-        !fault.empty())
+    if (const std::string fault = not_convex(each_of(points.in_integers, tile.corners), front); !fault.empty())
       reject(tile.name + " of " + what + " " + fault, tile.fragments);
-  if (tiles.size() == 1 && loops.size() == 1 && is_rotation(loops[0], *tiles[0].polygon)) return;
+  std::vector<std::vector<Numbered_points::Number>> corners;
+  for (const Polygon& loop : loops) corners.push_back(points.numbers_of(loop));
+  if (tiles.size() == 1 && loops.size() == 1 && is_turned_polygon(corners[0], tiles[0].corners)) return;
 
-  Boundary_chain left;
-  left.add(loops, 1);
-  for (const Tile& tile : tiles) left.add(*tile.polygon, -1);
-  if (const auto point = left.nonzero())
+  Numbered_chain left;
+  for (const Corner_numbers loop : corners) left.add(loop, 1);
+  for (const Tile& tile : tiles) left.add(tile.corners, -1);
+  if (const auto point = left.nonzero(points.numbered, points.in_integers))
     reject(what + " is not tiled by its parts: boundaries do not cancel near " + name(*point));
-  const bool winds_once = loops.size() == 1 && not_convex(homogeneous(loops[0]), front).empty();
+  const bool winds_once = loops.size() == 1 && not_convex(each_of(points.in_integers, corners[0]), front).empty();
   if (winds_once) return;
   Exact_point eye = plane.origin;
   for (std::size_t k = 0; k < 3; ++k) eye[k] += plane.normal[k];
@@ -81,7 +96,8 @@ void check_tiling(const std::string& what, const std::vector<Polygon>& loops, co
 
 /// Rejects unless the pieces are the face: of one that is planar a tiling on its own vertices, else its surface.
 /// Proof: P-22
-void check_pieces(const std::string& what, const Face& face, const std::vector<Tile>& pieces) {
+void check_pieces(const std::string& what, const Face& face, const std::vector<Tile>& pieces,
+                  const Corner_points& points) {
   if (!face.planar) {
     std::vector<Surface_piece> surface;
     for (const Tile& piece : pieces) surface.push_back({piece.polygon, piece.name});
@@ -93,7 +109,7 @@ void check_pieces(const std::string& what, const Face& face, const std::vector<T
   for (const Tile& piece : pieces)
     for (const Exact_point& p : *piece.polygon)
       if (!own.count(p)) reject(piece.name + " of " + what + " has a vertex that is not one of the face's");
-  check_tiling(what, face.loops, face.plane, pieces);
+  check_tiling(what, face.loops, face.plane, pieces, points);
 }
 
 }  // namespace
@@ -122,13 +138,13 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
     in_scene("set_aside", entry.face);
     if (!set_aside.insert(entry.face).second) reject(name("face", entry.face) + " is set aside twice");
   }
-  std::vector<std::map<std::uint32_t, const Polygon*>> pieces(soup.face_count());
+  std::vector<std::map<std::uint32_t, std::size_t>> pieces(soup.face_count());  // by number, their places
   for (std::size_t i = 0; i < covering.pieces.size(); ++i) {
     const auto& piece = covering.pieces[i];
     in_scene(name("piece", i), piece.face);
     if (!canonical(piece.vertices)) reject(name("piece", i) + " has a vertex that is not in canonical numbers");
     if (set_aside.count(piece.face)) reject(name("face", piece.face) + " is set aside but has pieces");
-    if (!pieces[piece.face].emplace(piece.piece, &piece.vertices).second)
+    if (!pieces[piece.face].emplace(piece.piece, i).second)
       reject(name("face", piece.face) + " has " + name("piece", piece.piece) + " twice");
   }
   Numbered_polygons own_numbered;
@@ -140,6 +156,7 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
       in_canonical_numbers.push_back(
           canonical(corners.points()[static_cast<Numbered_points::Number>(in_canonical_numbers.size())]));
   }
+  for (const Covering::Piece& piece : covering.pieces) corners.add(piece.vertices);
   std::vector<std::map<std::uint32_t, std::vector<Tile>>> tiles(
       soup.face_count());  // by face, then by piece where it has such
   for (std::size_t i = 0; i < covering.fragments.size(); ++i) {
@@ -157,9 +174,16 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
   }
 
   // 2. Nothing is lost and nothing is drawn twice.
-  std::vector<Homogeneous> points(corners.points().size());
-  for_each_below(points.size(), points_worth_a_thread, workers, [&](std::size_t i) {
-    points[i] = homogeneous(corners.points()[static_cast<Numbered_points::Number>(i)]);
+  std::vector<bool> is_added(soup.point_count());
+  for (Face_id f = 0; f < soup.face_count(); ++f)
+    for (std::size_t k = 0; k < soup.loop_count(f); ++k)
+      for (const Point_id p : soup.loop(f, k)) {
+        if (!is_added[p]) corners.add_point(soup.point(p));
+        is_added[p] = true;
+      }
+  Corner_points points{corners.points(), std::vector<Homogeneous>(corners.points().size())};
+  for_each_below(points.in_integers.size(), points_worth_a_thread, workers, [&](std::size_t i) {
+    points.in_integers[i] = homogeneous(points.numbered[static_cast<Numbered_points::Number>(i)]);
   });
   Covered covered;
   for (const auto& entry : covering.set_aside) check_set_aside(soup, entry, set_aside);
@@ -179,12 +203,15 @@ Covered check_covering(const Polygon_soup& soup, const Covering& covering, const
     }
     if (face.planar && !face.has_front) reject(what + " has no front and is not set aside");
     std::vector<Tile> parts;
-    for (const auto& [number, polygon] : pieces[f]) parts.push_back({polygon, name("piece", number), {}});
-    check_pieces(what, face, parts);
-    for (const auto& [number, polygon] : pieces[f]) {
-      const Plane plane{newell_normal(*polygon), polygon->front()};
+    for (const auto& [number, i] : pieces[f])
+      parts.push_back(
+          {&covering.pieces[i].vertices, name("piece", number), {}, corners[covering.fragments.size() + i]});
+    check_pieces(what, face, parts, points);
+    for (const auto& [number, i] : pieces[f]) {
+      const Polygon& polygon = covering.pieces[i].vertices;
+      const Plane plane{newell_normal(polygon), polygon.front()};
       if (!left_out(plane, tiles[f][number]))
-        check_tiling(what + ", " + name("piece", number), {*polygon}, plane, tiles[f][number], points);
+        check_tiling(what + ", " + name("piece", number), {polygon}, plane, tiles[f][number], points);
     }
   });
   covered.not_planar = not_planar;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -23,20 +24,29 @@ std::size_t hash_of(const Exact_point& p) {
 
 }  // namespace
 
+std::size_t Numbered_points::place_of(const Exact_point& p, std::size_t hash) const {
+  std::size_t place = hash % table_.size();
+  while (table_[place] != empty && (hashes_[table_[place]] != hash || points_[table_[place]] != p))
+    place = place + 1 == table_.size() ? 0 : place + 1;
+  return place;
+}
+
 Numbered_points::Number Numbered_points::add(const Exact_point& p) {
   if (2 * (points_.size() + 1) > table_.size()) grow();
   const std::size_t hash = hash_of(p);
-  for (std::size_t place = hash % table_.size();; place = place + 1 == table_.size() ? 0 : place + 1) {
-    Number& number = table_[place];
-    if (number == empty) {
-      number = static_cast<Number>(points_.size());
-      points_.push_back(p);
-      hashes_.push_back(hash);
-    } else if (hashes_[number] != hash || points_[number] != p) {
-      continue;
-    }
-    return number;
+  Number& number = table_[place_of(p, hash)];
+  if (number == empty) {
+    number = static_cast<Number>(points_.size());
+    points_.push_back(p);
+    hashes_.push_back(hash);
   }
+  return number;
+}
+
+std::optional<Numbered_points::Number> Numbered_points::find(const Exact_point& p) const {
+  if (table_.empty()) return std::nullopt;
+  const Number number = table_[place_of(p, hash_of(p))];
+  return number == empty ? std::nullopt : std::optional(number);
 }
 
 std::vector<Numbered_points::Number> Numbered_points::add(const Polygon& polygon) {
@@ -65,28 +75,79 @@ void Numbered_chain::add(std::span<const Number> loop, long multiplicity) {
   }
 }
 
-std::optional<Exact_point> Numbered_chain::nonzero(const Numbered_points& points) const {
+namespace {
+
+/// A direction and how often a point is arrived at along its line.
+struct Arrival {
+  Numbered_points::Number point;
+  std::size_t direction;
+  long times;
+};
+
+bool are_parallel(const Integer_vector& a, const Integer_vector& b) {
+  thread_local Integer one, other;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t x = (k + 1) % 3, y = (k + 2) % 3;
+    mpz_mul(one.get_mpz_t(), a[x].get_mpz_t(), b[y].get_mpz_t());
+    mpz_mul(other.get_mpz_t(), a[y].get_mpz_t(), b[x].get_mpz_t());
+    if (one != other) return false;
+  }
+  return true;
+}
+
+/// Whether, of arrivals at one point, those along each line add up to none.
+bool cancel(std::span<Arrival> arrivals, const std::vector<Integer_vector>& directions) {
+  constexpr std::size_t one_by_one = 8;
+  if (arrivals.size() > one_by_one) {
+    std::map<Integer_vector, long> sums;
+    for (const Arrival& arrival : arrivals) {
+      Integer_vector direction = primitive(directions[arrival.direction]);
+      if (direction < Integer_vector{}) direction = negated(direction);
+      sums[std::move(direction)] += arrival.times;
+    }
+    return std::all_of(sums.begin(), sums.end(), [](const auto& sum) { return sum.second == 0; });
+  }
+  while (!arrivals.empty()) {
+    const Integer_vector& direction = directions[arrivals[0].direction];
+    const auto others = std::partition(arrivals.begin() + 1, arrivals.end(), [&](const Arrival& arrival) {
+      return are_parallel(direction, directions[arrival.direction]);
+    });
+    long sum = 0;
+    for (auto arrival = arrivals.begin(); arrival != others; ++arrival) sum += arrival->times;
+    if (sum != 0) return false;
+    arrivals = {others, arrivals.end()};
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<Exact_point> Numbered_chain::nonzero(const Numbered_points& points,
+                                                   const std::vector<Homogeneous>& in_integers) const {
   // 1. What is left between points.
-  std::vector<Segment> sorted = segments_, left;
+  std::vector<Segment> sorted = segments_;
   std::sort(sorted.begin(), sorted.end(),
             [](const Segment& a, const Segment& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
+  std::vector<Integer_vector> directions;
+  std::vector<Arrival> arrivals;
   for (std::size_t i = 0; i < sorted.size();) {
-    Segment sum = sorted[i];
-    for (++i; i < sorted.size() && sorted[i].from == sum.from && sorted[i].to == sum.to; ++i)
-      sum.times += sorted[i].times;
-    if (sum.times != 0) left.push_back(sum);
+    auto [from, to, times] = sorted[i];
+    for (++i; i < sorted.size() && sorted[i].from == from && sorted[i].to == to; ++i) times += sorted[i].times;
+    if (times == 0) continue;
+    arrivals.push_back({to, directions.size(), times});
+    arrivals.push_back({from, directions.size(), -times});
+    directions.push_back(in_integers.empty() ? minus(homogeneous(points[to]), homogeneous(points[from]))
+                                             : minus(in_integers[to], in_integers[from]));
   }
   // 2. Laid on lines, where parts of segments may cancel.
-  std::map<std::pair<Integer_vector, Number>, long> arrivals;
-  for (const auto& [from, to, times] : left) {
-    Integer_vector direction = primitive(minus(homogeneous(points[to]), homogeneous(points[from])));
-    if (direction < Integer_vector{}) direction = negated(direction);
-    arrivals[{direction, to}] += times;
-    arrivals[{std::move(direction), from}] -= times;
-  }
+  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) { return a.point < b.point; });
   const Exact_point* least = nullptr;  // so that what is said does not depend on numbers
-  for (const auto& [place, count] : arrivals)
-    if (count != 0 && (least == nullptr || points[place.second] < *least)) least = &points[place.second];
+  for (std::size_t i = 0, end = 0; i < arrivals.size(); i = end) {
+    const Number point = arrivals[i].point;
+    while (end < arrivals.size() && arrivals[end].point == point) ++end;
+    if ((least == nullptr || points[point] < *least) && !cancel({&arrivals[i], end - i}, directions))
+      least = &points[point];
+  }
   return least == nullptr ? std::nullopt : std::optional(*least);
 }
 

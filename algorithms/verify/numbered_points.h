@@ -19,11 +19,14 @@ class Numbered_points {
 
   Number add(const Exact_point& p);  ///< its number, which is the next one if it is new
   std::vector<Number> add(const Polygon& polygon);
+  std::optional<Number> find(const Exact_point& p) const;  ///< nothing where it was not added
   std::size_t size() const { return points_.size(); }
   const Exact_point& operator[](Number number) const { return points_[number]; }
 
  private:
   void grow();
+  /// Where in the table it is, or would be. Pre: the table is not full.
+  std::size_t place_of(const Exact_point& p, std::size_t hash) const;
 
   std::vector<Exact_point> points_;
   std::vector<std::size_t> hashes_;  // of the points
@@ -39,6 +42,7 @@ class Numbered_polygons {
     for (const Exact_point& p : polygon) numbers_.push_back(points_.add(p));
     ends_.push_back(numbers_.size());
   }
+  void add_point(const Exact_point& p) { points_.add(p); }
   const Numbered_points& points() const { return points_; }
   std::span<const Number> operator[](std::size_t polygon) const {
     const std::size_t begin = polygon == 0 ? 0 : ends_[polygon - 1];
@@ -51,25 +55,26 @@ class Numbered_polygons {
   std::vector<std::size_t> ends_;
 };
 
-/// What there is for each number, for the corners of a polygon.
+/// Where what there is for each number stands, for the corners of a polygon.
 template <class Value>
-std::vector<Value> each_of(const std::vector<Value>& values, std::span<const Numbered_points::Number> numbers) {
-  std::vector<Value> result;
+std::vector<const Value*> each_of(const std::vector<Value>& values, std::span<const Numbered_points::Number> numbers) {
+  std::vector<const Value*> result;
   result.reserve(numbers.size());
-  for (const Numbered_points::Number number : numbers) result.push_back(values[number]);
+  for (const Numbered_points::Number number : numbers) result.push_back(&values[number]);
   return result;
 }
 
 /// A sum of directed segments between numbered points as a chain: two sums are the same chain iff on each line, at each
 /// point, the net number of arrivals is the same. A line through a known point is its direction, so the key is
-/// (direction up to sign, point). Segments with the same two ends cancel first. Proof: P-21b
+/// (point, direction up to length and sign). Segments with the same two ends cancel first. Proof: P-21b
 class Numbered_chain {
  public:
   using Number = Numbered_points::Number;
 
   void add(std::span<const Number> loop, long multiplicity);
-  /// A point where the chain is not zero, the least of them, if there is one.
-  std::optional<Exact_point> nonzero(const Numbered_points& points) const;
+  /// A point where the chain is not zero, the least of them, if there is one. `in_integers`: the points, or none.
+  std::optional<Exact_point> nonzero(const Numbered_points& points,
+                                     const std::vector<Homogeneous>& in_integers = {}) const;
 
  private:
   struct Segment {

@@ -6,7 +6,25 @@
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 namespace sightline {
+
+/// Where a tree of planes cuts a sequence of fragments in two, and its parts again: at the least depth first. A plane
+/// has on it or in front what comes before the cut, on it or behind what comes after, and the eye.
+struct Order_cuts {
+  /// For each fragment, the depth of a cut just before it, and after those next to it of the same depth, by its plane.
+  /// Not looked at where they are not as many as fragments.
+  std::vector<std::uint32_t> depths;
+  /// A cut before fragment `place` by the plane (a, b, c, d): ax + by + cz + d = 0.
+  struct Cut {
+    std::uint32_t place = 0, depth = 0;
+    std::array<Rational, 4> plane;
+  };
+  std::vector<Cut> others;
+};
 
 /// The claim "drawn in this order, every fragment covers only what is not nearer than itself, and the fragments are the
 /// scene". Fragments are farthest first.
@@ -14,6 +32,8 @@ struct Order_certificate : Covering {
   Exact_point eye;
   /// Of the on-view pieces only: the others, which the eye is not strictly in front of, may be left out.
   bool on_view = false;
+  /// What spares the check most pairs. The verdict is the same for any.
+  Order_cuts cuts;
 };
 
 /// Whether the certificate proves a back-to-front order of the scene: (1) for each two fragments whose cones from the

@@ -1,24 +1,48 @@
 #pragma once
 // Pairs that need not be compared, as a plane of the sequence itself is between them. To be read after rounded_cones.h.
 
+#include <sightline/algorithms/verify/order.h>
 #include <sightline/algorithms/verify/polygons.h>
 #include <sightline/algorithms/verify/rounded_cones.h>
 
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace sightline::order_check {
+
+/// Where a sequence may be cut.
+struct Cut_places {
+  std::span<const std::uint32_t> depths = {};  ///< of the polygons, as in Order_cuts; none, or one for each
+  struct Cut {
+    std::size_t place;
+    std::uint32_t depth;
+    Cone plane;  ///< met as it says, but without rays
+    Rounded_cone in_doubles;
+  };
+  std::vector<Cut> others = {};  ///< from the first place to the last
+};
+
+/// Where a certificate says that its fragments may be cut; its depths must outlast it. Left out are planes that the eye
+/// is in front of, or that are none; and all if the depths are not as many as the fragments.
+Cut_places cut_places(const Order_certificate& certificate);
 
 /// Shows of pairs of a sequence that the earlier one is nowhere nearer than the later one. The sequence is cut at the
 /// place of one of its polygons, and so is each part, until single ones are left. Of an earlier polygon beyond that
 /// one's plane and a later one before it no more is to be asked. Proof: P-20
 class Planes_between {
  public:
-  /// Pre: `rounded` are the cones, but for those that are edge-on; both outlive it. Cost: O(n log n) sides of polygons
-  /// to planes, for any sequence.
-  Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, const Workers& workers = 1);
+  /// Cuts where `places` say, the least depth first, or, without them, where a few of the polygons let it seem best.
+  /// Pre: `rounded` are the cones, but for those that are edge-on; all outlive it, and so do the depths. Cost: O(n log
+  /// n) sides of polygons to planes, for any sequence; with depths n for each depth.
+  Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, const Workers& workers = 1,
+                 Cut_places places = {});
+
+  /// Whether a polygon is on its side of all planes by which parts that hold it were cut, or edge-on, down to itself
+  /// alone. No two such need be compared.
+  bool is_settled(std::size_t polygon) const { return settled_[polygon] != 0; }
 
   /// Whether a plane is between them; what has no such plane may be in order all the same. Pre: earlier < later,
   /// neither is edge-on.
@@ -35,7 +59,8 @@ class Planes_between {
     std::uint64_t apart = 0;  ///< 1: it is on its side of the cut's plane, or in it
   };
 
-  static constexpr int deepest = 64;
+  static constexpr int deepest = 64;         ///< of what paths tell
+  static constexpr int deepest_part = 1024;  ///< of what settles polygons
   static constexpr std::uint64_t first = std::uint64_t{1} << 63;
 
   /// Of the sequence: [begin, end), and how many parts hold it.
@@ -45,15 +70,30 @@ class Planes_between {
     std::size_t size() const { return end - begin; }
   };
 
-  /// Cuts a part, its polygons shared out. Returns its two parts, none where it has one polygon.
+  /// Before the polygon at a place.
+  struct Cut {
+    std::size_t place;
+    const Cone* plane;
+    const Rounded_cone* in_doubles;
+  };
+
+  /// Cuts a part, its polygons shared out. Returns its two parts, none where it has one polygon, or no cut helps.
   std::vector<Part> cut(const Part& part, const Workers& workers);
   void cut_to_the_end(const Part& part);
-  /// Whether polygon i is on its side of the plane of polygon `at`: beyond it if it is earlier, before it if not.
-  bool is_apart(std::size_t i, std::size_t at) const;
+  /// Pre: it has two polygons, or more.
+  Cut cut_by_depth(const Part& part) const;
+  Cut cut_by_samples(const Part& part) const;
+  Cut at_plane_of(std::size_t polygon, std::size_t place) const {
+    return {place, &cones_[polygon], &rounded_[polygon]};
+  }
+  /// Whether polygon i is on its side of the plane at a cut: beyond it if it is earlier, before it if not.
+  bool is_apart(std::size_t i, const Cut& cut) const;
 
   const std::vector<Cone>& cones_;
   const std::vector<Rounded_cone>& rounded_;
+  Cut_places places_;
   std::vector<Path> paths_;
+  std::vector<char> settled_;
 };
 
 }  // namespace sightline::order_check

@@ -139,6 +139,14 @@ int side(const Homogeneous& plane, const Homogeneous& p) {
 
 namespace {
 
+template <class Value>
+std::vector<const Value*> pointers_to(const std::vector<Value>& values) {
+  std::vector<const Value*> places;
+  places.reserve(values.size());
+  for (const Value& value : values) places.push_back(&value);
+  return places;
+}
+
 /// The axis along which a vector is longest.
 std::size_t longest(const Integer_vector& v) {
   std::size_t axis = 0;
@@ -156,20 +164,20 @@ int sign_of_difference(const Integer& a, const Integer& b, const Integer& c, con
 }
 
 /// Around which a convex polygon runs counterclockwise: of its first corner that is not straight. Pre: it has area.
-Integer_vector normal_of_convex(const std::vector<Homogeneous>& corners) {
-  const Integer_vector first = minus(corners[1], corners[0]);
+Integer_vector normal_of_convex(Corner_places corners) {
+  const Integer_vector first = minus(*corners[1], *corners[0]);
   for (std::size_t i = 2; i < corners.size(); ++i)
-    if (Integer_vector normal = cross(first, minus(corners[i], corners[0])); !is_zero(normal)) return normal;
+    if (Integer_vector normal = cross(first, minus(*corners[i], *corners[0])); !is_zero(normal)) return normal;
   return {};
 }
 
 /// The sign of the area that a polygon winds around a normal.
-int sign_of_area(const std::vector<Homogeneous>& corners, const Integer_vector& normal) {
+int sign_of_area(Corner_places corners, const Integer_vector& normal) {
   Polygon polygon;
-  for (const Homogeneous& p : corners) {
+  for (const Homogeneous* const p : corners) {
     Exact_point& q = polygon.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
-      q[k] = Rational(p[k], p[3]);
+      q[k] = Rational((*p)[k], (*p)[3]);
       q[k].canonicalize();
     }
   }
@@ -183,15 +191,19 @@ std::string not_convex(const Polygon& polygon, const Plane& plane) {
 }
 
 std::string not_convex(const std::vector<Homogeneous>& corners, const Homogeneous& plane) {
+  return not_convex(pointers_to(corners), plane);
+}
+
+std::string not_convex(Corner_places corners, const Homogeneous& plane) {
   const std::size_t n = corners.size();
   if (n < 3) return "has fewer than three vertices";
   // 1. In the plane, and each vertex another one than the next.
-  for (const Homogeneous& p : corners)
-    if (side(plane, p) != 0) return "has a vertex off the plane of its face";
+  for (const Homogeneous* const p : corners)
+    if (side(plane, *p) != 0) return "has a vertex off the plane of its face";
   const Integer_vector normal{plane[0], plane[1], plane[2]};
   std::vector<Integer_vector> edges(n);  // positive multiples
   for (std::size_t i = 0; i < n; ++i) {
-    edges[i] = minus(corners[(i + 1) % n], corners[i]);
+    edges[i] = minus(*corners[(i + 1) % n], *corners[i]);
     if (is_zero(edges[i])) return "has a repeated vertex";
   }
   // 2. Every corner turns left by less than 180 degrees, and the edges turn once around in all. Seen along the axis in
@@ -223,27 +235,20 @@ std::string not_convex(const std::vector<Homogeneous>& corners, const Homogeneou
   return turns_left ? "is not convex (it turns more than once around)" : "is not convex";
 }
 
-Cone::Cone(const Polygon& polygon, const Exact_point& eye) : Cone(homogeneous(polygon), homogeneous(eye)) {}
-
 Integer_vector ray_to(const Homogeneous& p, const Homogeneous& eye) { return primitive(minus(p, eye)); }
 
-namespace {
+Cone::Cone(const Polygon& polygon, const Exact_point& eye) : Cone(homogeneous(polygon), homogeneous(eye)) {}
 
-std::vector<Integer_vector> rays_to(const std::vector<Homogeneous>& corners, const Homogeneous& eye) {
-  std::vector<Integer_vector> rays;
-  rays.reserve(corners.size());
-  for (const Homogeneous& p : corners) rays.push_back(ray_to(p, eye));
-  return rays;
+Cone::Cone(const std::vector<Homogeneous>& corners, const Homogeneous& from) {
+  std::vector<Integer_vector> to_corners;
+  to_corners.reserve(corners.size());
+  for (const Homogeneous& p : corners) to_corners.push_back(ray_to(p, from));
+  *this = Cone(pointers_to(corners), pointers_to(to_corners), from);
 }
 
-}  // namespace
-
-Cone::Cone(const std::vector<Homogeneous>& corners, const Homogeneous& from)
-    : Cone(corners, rays_to(corners, from), from) {}
-
-Cone::Cone(const std::vector<Homogeneous>& corners, const std::vector<Integer_vector>& all, const Homogeneous& from) {
+Cone::Cone(Corner_places corners, std::span<const Integer_vector* const> all, const Homogeneous& from) {
   const Integer_vector normal = primitive(normal_of_convex(corners));
-  Rational height(dot(normal, minus(from, corners[0])), from[3] * corners[0][3]);
+  Rational height(dot(normal, minus(from, *corners[0])), from[3] * (*corners[0])[3]);
   height.canonicalize();
   edge_on = sgn(height) == 0;
   if (edge_on) return;
@@ -256,12 +261,12 @@ Cone::Cone(const std::vector<Homogeneous>& corners, const std::vector<Integer_ve
       for (Integer& x : plane) mpz_neg(x.get_mpz_t(), x.get_mpz_t());
     return plane;
   };
-  Integer_vector plane = edge_plane(all.back(), all.front());
+  Integer_vector plane = edge_plane(*all.back(), *all.front());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const Integer_vector& next = all[i + 1 == all.size() ? 0 : i + 1];
+    const Integer_vector& next = *all[i + 1 == all.size() ? 0 : i + 1];
     if (sign_of_dot(plane, next) == 0) continue;  // straight on
-    plane = edge_plane(all[i], next);
-    rays.push_back(all[i]);
+    plane = edge_plane(*all[i], next);
+    rays.push_back(*all[i]);
     edge_planes.push_back(plane);
   }
   const Integer_vector inward = front ? negated(normal) : normal;

@@ -6,6 +6,7 @@
 #include <sightline/kernel/scene/polygon_soup.h>
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,9 @@ Integer height(const Homogeneous& plane, const Homogeneous& p);
 /// it is. Straight corners are allowed, repeated vertices and spikes are not. Pre: the normal is not zero. Cost:
 /// linear. Proof: P-21a
 std::string not_convex(const Polygon& polygon, const Plane& plane);
+/// Corner_places that stand elsewhere, as many polygons have them.
+using Corner_places = std::span<const Homogeneous* const>;
+std::string not_convex(Corner_places polygon, const Homogeneous& plane);
 std::string not_convex(const std::vector<Homogeneous>& polygon, const Homogeneous& plane);
 
 // ---- What the eye sees of a polygon
@@ -92,7 +96,7 @@ struct Cone {
   Cone(const Polygon& polygon, const Exact_point& eye);
   Cone(const std::vector<Homogeneous>& polygon, const Homogeneous& eye);
   /// Pre: the second ones are the ray_to() of each of the polygon's corners.
-  Cone(const std::vector<Homogeneous>& polygon, const std::vector<Integer_vector>& to_corners, const Homogeneous& eye);
+  Cone(Corner_places polygon, std::span<const Integer_vector* const> to_corners, const Homogeneous& eye);
 };
 
 /// Whether an edge plane of a has no ray of b on its inner side: then the cones have no open set in common.

@@ -11,9 +11,6 @@ namespace sightline::order_check {
 
 namespace {
 
-/// Of a product of two rounded vectors, and of a side by such products, but for distances: more than there may be.
-constexpr double error = 0x1p-45;
-
 /// Post: vector = (rounded + errors of less than 2^-52) x 2^exponent.
 struct Scaled_vector {
   Rounded_vector rounded;
@@ -28,16 +25,14 @@ struct Scaled_vector {
   }
 };
 
-double dot(const Rounded_vector& a, const Rounded_vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 }  // namespace
 
 Rounded_vector rounded(const Integer_vector& vector) { return Scaled_vector(vector).rounded; }
 
 std::optional<int> sign_in_doubles(const Rounded_vector& a, const Rounded_vector& b) {
-  const double value = dot(a, b);
-  if (value > error) return 1;
-  if (value < -error) return -1;
+  const double value = rounded_dot(a, b);
+  if (value > rounding_error) return 1;
+  if (value < -rounding_error) return -1;
   return std::nullopt;
 }
 
@@ -55,11 +50,7 @@ Rounded_cone::Rounded_cone(const Cone& cone) {
 }
 
 std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const Rounded_cone& b) {
-  const Rounded_vector& d = a.rays[ray];
-  const double height = a.distance * dot(b.nearness, d) - b.distance * dot(a.nearness, d);
-  if (height > error * std::max(a.distance, b.distance)) return 1;
-  if (height < -error * std::max(a.distance, b.distance)) return -1;
-  return std::nullopt;
+  return Rounded_height(a, b).side(a.rays[ray]);
 }
 
 std::optional<int> side_of_edge(const Rounded_cone& a, std::size_t edge, const Rounded_vector& ray) {
@@ -79,9 +70,9 @@ std::vector<Rounded_cone> rounded(const std::vector<Cone>& cones, const Workers&
 
 bool nowhere_nearer(const Rounded_cone& a, const Rounded_cone& b) {
   const auto all_are = [](const Rounded_cone& polygon, const Rounded_cone& plane, int side) {
-    for (std::size_t ray = 0; ray < polygon.rays.size(); ++ray)
-      if (side_to_plane(polygon, ray, plane) != side) return false;
-    return true;
+    const Rounded_height height(polygon, plane);
+    return std::all_of(polygon.rays.begin(), polygon.rays.end(),
+                       [&](const Rounded_vector& ray) { return height.side(ray) == side; });
   };
   return all_are(a, b, 1) || all_are(b, a, -1);
 }

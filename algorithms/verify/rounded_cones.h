@@ -32,6 +32,32 @@ struct Rounded_cone {
   explicit Rounded_cone(const Cone& cone);
 };
 
+/// Of a product of two rounded vectors, and of a side by such products, but for distances: more than there may be.
+/// Proof: P-20
+inline const double rounding_error = 0x1p-45;
+
+inline double rounded_dot(const Rounded_vector& a, const Rounded_vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// On which side of the plane of b rays meet the polygon of a: 1 beyond it as seen from the eye, -1 before it; nothing
+/// where doubles cannot tell. Proof: P-20
+class Rounded_height {
+ public:
+  Rounded_height(const Rounded_cone& a, const Rounded_cone& b)
+      : bound_(rounding_error * (a.distance > b.distance ? a.distance : b.distance)) {
+    for (std::size_t k = 0; k < 3; ++k) form_[k] = a.distance * b.nearness[k] - b.distance * a.nearness[k];
+  }
+  std::optional<int> side(const Rounded_vector& ray) const {
+    const double height = rounded_dot(form_, ray);
+    if (height > bound_) return 1;
+    if (height < -bound_) return -1;
+    return std::nullopt;
+  }
+
+ private:
+  Rounded_vector form_;
+  double bound_;
+};
+
 /// The side of the plane of b on which ray `ray` of a meets the polygon of a: 1 beyond it as seen from the eye, -1
 /// before it; nothing where doubles cannot tell. Proof: P-20
 std::optional<int> side_to_plane(const Rounded_cone& a, std::size_t ray, const Rounded_cone& b);

@@ -5,6 +5,7 @@
 
 #include <sightline/algorithms/bsp/options.h>
 #include <sightline/algorithms/bsp/traverse.h>
+#include <sightline/algorithms/verify/order.h>
 
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ struct Outcome {
   Traversal_counters walk;
   double build_seconds = 0, order_seconds = 0;
   std::vector<Drawn> drawn;  ///< back to front
+  Order_cuts cuts;           ///< of all that is drawn, unless something was left out
   /// Fragments of an inexact kernel with coordinates that are no numbers; they are left out.
   std::uint64_t not_finite = 0;
 };

@@ -4,9 +4,12 @@
 #include "methods.h"
 
 #include <sightline/algorithms/bsp/kernels.h>
+#include <sightline/algorithms/order_cuts.h>
 #include <sightline/kernel/traits/exact_traits.h>
 #include <sightline/kernel/traits/lockstep_traits.h>
 #include <sightline/kernel/traits/point_traits.h>
+
+#include <type_traits>
 
 namespace sightline::app {
 
@@ -22,10 +25,11 @@ Outcome run_traits(const Scene& scene, const Traits& traits, const Task& task, B
   std::vector<std::pair<const Fragment<Traits>*, Sign>> order;
   order.reserve(tree.fragments.size());
   const Stopwatch order_watch;
-  outcome.walk = traverse(traits, tree, traits.eye(*task.eye), Direction::back_to_front,
-                          [&](const Fragment<Traits>& fragment, Sign side) {
-                            order.emplace_back(&fragment, fragment.same_sense ? side : -side);
-                          });
+  const Scene* const of_planes = std::is_same_v<Traits, Exact_traits> ? &scene : nullptr;
+  outcome.walk = traverse_with_cuts(traits, tree, traits.eye(*task.eye), of_planes, outcome.cuts,
+                                    [&](const Fragment<Traits>& fragment, Sign side) {
+                                      order.emplace_back(&fragment, fragment.same_sense ? side : -side);
+                                    });
   outcome.order_seconds = order_watch.seconds();
   if (!task.keep_fragments) return outcome;
 
@@ -58,6 +62,7 @@ Outcome run_traits(const Scene& scene, const Traits& traits, const Task& task, B
     }
     outcome.drawn.push_back(std::move(drawn));
   }
+  if (outcome.drawn.size() != order.size()) outcome.cuts = {};
   return outcome;
 }
 

@@ -264,11 +264,25 @@ inline void pairs(std::string_view bytes) {
   };
   if (scene.below(4) != 0) std::sort(cones.begin(), cones.end(), farther);
   const std::vector<order_check::Rounded_cone> of_sequence(cones.begin(), cones.end());
-  const order_check::Planes_between planes(cones, of_sequence);
+  // Cut where its polygons seem to let it be cut, or anywhere.
+  std::vector<std::uint32_t> depths(scene.below(2) == 0 ? cones.size() : 0);
+  for (std::uint32_t& depth : depths) depth = static_cast<std::uint32_t>(scene.below(1 + scene.below(cones.size())));
+  order_check::Cut_places places{depths};
+  for (std::size_t place = 0; place < cones.size() && !depths.empty(); place += 1 + scene.below(9)) {
+    const std::size_t of = scene.below(cones.size());
+    order_check::Cone plane;
+    plane.nearness = cones[of].nearness, plane.distance = scene.below(4) == 0 ? Integer(0) : cones[of].distance;
+    plane.edge_on = cones[of].edge_on;
+    places.others.push_back({place, depths[of], plane, order_check::Rounded_cone(plane)});
+  }
+  const order_check::Planes_between planes(cones, of_sequence, 1, std::move(places));
   for (std::size_t later = 0; later < cones.size(); ++later)
     for (std::size_t earlier = 0; earlier < later; ++earlier) {
       require(!planes.in_order(earlier, later) || !check.nearer_somewhere(cones[earlier], cones[later]),
               "what a plane is between is in order");
+      require(!planes.is_settled(earlier) || !planes.is_settled(later) ||
+                  !check.nearer_somewhere(cones[earlier], cones[later]),
+              "what planes settle is in order");
       const order_check::Cone &a = cones[earlier], &b = cones[later];
       for (std::size_t ray = 0; ray < a.rays.size(); ++ray) {
         const std::optional<int> side = side_to_plane(of_sequence[earlier], ray, of_sequence[later]);

@@ -96,6 +96,29 @@ TEST(Certificate_json, what_is_written_is_read_back) {
   EXPECT_TRUE(read(certificate_text(on_view)).on_view);
 }
 
+TEST(Certificate_json, cuts_are_read_back_and_may_be_left_out) {
+  Order_certificate certificate = example().certificate;
+  EXPECT_FALSE(json_of(certificate).contains("depths"));
+  certificate.cuts = {{1, 0, 2}, {{2, 1, {ratio(1, 3), 0, -1, 7}}}};
+  const Json json = json_of(certificate);
+  EXPECT_EQ(json["depths"], Json::parse("[1, 0, 2]"));
+  EXPECT_EQ(json["cuts"], Json::parse(R"([[2, 1, ["1/3", "0", "-1", "7"]]])"));
+  const Order_certificate again = read(certificate_text(certificate));
+  EXPECT_EQ(again.cuts.depths, certificate.cuts.depths);
+  ASSERT_EQ(again.cuts.others.size(), 1u);
+  EXPECT_EQ(again.cuts.others[0].place, 2u);
+  EXPECT_EQ(again.cuts.others[0].depth, 1u);
+  EXPECT_EQ(again.cuts.others[0].plane, certificate.cuts.others[0].plane);
+  const auto with = [&](const char* key, const char* value) {
+    Json changed = json;
+    changed[key] = Json::parse(value);
+    return fault_of(changed.dump());
+  };
+  EXPECT_NE(with("depths", "[1, -1]").find("depths[1]: expected an integer"), std::string::npos);
+  EXPECT_NE(with("cuts", "[[2, 1]]").find("cuts[0]: expected [place, depth, plane]"), std::string::npos);
+  EXPECT_NE(with("cuts", R"([[2, 1, ["1", "0", "1"]]])").find("cuts[0][2]: expected four"), std::string::npos);
+}
+
 TEST(Certificate_json, has_the_documented_keys) {
   const Json json = json_of(example().certificate);
   EXPECT_EQ(json["format"], "sightline order 2");

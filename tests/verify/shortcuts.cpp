@@ -3,10 +3,15 @@
 #include "../sample.h"
 #include "scenes.h"
 
+#include <sightline/algorithms/bsp/build.h>
+#include <sightline/algorithms/covering_of_scene.h>
+#include <sightline/algorithms/order_cuts.h>
 #include <sightline/algorithms/verify/pairs.h>
 #include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/planes_between.h>
 #include <sightline/algorithms/verify/rounded_cones.h>
+#include <sightline/harness/generate/families.h>
+#include <sightline/kernel/traits/exact_traits.h>
 
 #include <atomic>
 #include <numeric>
@@ -150,6 +155,124 @@ TEST(Planes_between, are_right_of_sequences_that_are_nearly_in_order) {
   EXPECT_GT(told, least(10000u));
   EXPECT_GT(nearer, least(1000u));
   EXPECT_GT(in_a_plane, 0u);
+}
+
+/// The order that a tree gives, with its cuts.
+Order_certificate certificate_of_tree(const sightline::Scene& scene, const Exact_point& eye) {
+  const Exact_traits traits(scene);
+  Bsp_options options;
+  options.threads = 1;
+  const Bsp_tree<Exact_traits> tree = build_bsp(traits, options);
+  Order_certificate certificate;
+  certificate.eye = eye;
+  add_pieces(certificate, scene);
+  traverse_with_cuts(traits, tree, traits.eye(eye), &scene, certificate.cuts,
+                     [&](const Fragment<Exact_traits>& drawn, Sign) {
+                       const Piece& piece = scene.pieces()[drawn.polygon.piece];
+                       Order_fragment& fragment = certificate.fragments.emplace_back();
+                       fragment.face = piece.face, fragment.piece = piece.number;
+                       for (const auto& corner : drawn.polygon)
+                         fragment.vertices.push_back(traits.position(*corner.vertex));
+                     });
+  return certificate;
+}
+
+/// How many of a certificate's fragments its cuts leave to be compared.
+std::size_t not_settled(const Order_certificate& certificate) {
+  std::vector<Cone> cones;
+  for (const Order_fragment& fragment : certificate.fragments) cones.emplace_back(fragment.vertices, certificate.eye);
+  const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
+  const Planes_between planes(cones, rounded, 1, order_check::cut_places(certificate));
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cones.size(); ++i) count += !planes.is_settled(i);
+  return count;
+}
+
+TEST(Cuts, of_a_tree_leave_no_pair_whichever_planes_the_eye_is_in) {
+  std::size_t fragments = 0, with_planes = 0;
+  for (const char* family : {"uniform", "coplanar", "edge_on", "touching", "lattice_faces", "crossing_faces", "boxes"})
+    for (std::uint64_t seed = 1; seed <= sample(40u); ++seed) {
+      generate::Family_parameters parameters;
+      parameters.seed = seed;
+      const generate::Posed_scene posed = generate::family(family).make(parameters);
+      const sightline::Scene scene(posed.soup);
+      const Order_certificate certificate = certificate_of_tree(scene, posed.eye);
+      ASSERT_EQ(certificate.cuts.depths.size(), certificate.fragments.size());
+      ASSERT_EQ(not_settled(certificate), 0u) << family << ' ' << seed;
+      fragments += certificate.fragments.size(), with_planes += !certificate.cuts.others.empty();
+    }
+  EXPECT_GT(fragments, least(2000u));
+  EXPECT_GT(with_planes, least(20u));
+}
+
+TEST(Cuts, by_planes_of_no_fragment_settle_what_is_beside_them) {
+  // Two heaps, of which neither has a plane between them: the eye looks along that plane, or down on it.
+  for (const Exact_point& eye : {at(0, 0, 9), at(-5, 1, 9)}) {
+    Scene scene;
+    scene.seen_from(eye);
+    for (const long x : {1L, -3L})
+      for (const long z : {0L, 1L, 2L}) {
+        const Points square = rectangle(x, x + 2, -1, 1, x > 0 ? Rational(z) : Rational(z + ratio(1, 2)));
+        scene.draw(scene.face(square), square);
+      }
+    Order_cuts& cuts = scene.certificate.cuts;
+    cuts.depths = {3, 2, 1, 3, 2, 1};
+    EXPECT_GT(not_settled(scene.certificate), 0u);
+    cuts.others = {{3, 0, {1, 0, 0, 0}}};
+    EXPECT_EQ(not_settled(scene.certificate), 0u);
+    cuts.others = {{3, 0, {-1, 0, 0, 0}}};  // turned, or in front of the eye
+    EXPECT_GT(not_settled(scene.certificate), 0u);
+    expect_accepted(scene);
+  }
+}
+
+TEST(Cuts, of_more_levels_than_paths_tell_settle_what_they_cut) {
+  Scene scene;
+  scene.seen_from(at(0, 0, 1000));
+  for (long k = 0; k < 300; ++k) {
+    const Points square = rectangle(-1, 1, -1, 1, k);
+    scene.draw(scene.face(square), square);
+    scene.certificate.cuts.depths.push_back(static_cast<std::uint32_t>(k));
+  }
+  EXPECT_EQ(not_settled(scene.certificate), 0u);
+  std::swap(scene.certificate.fragments[200], scene.certificate.fragments[250]);
+  EXPECT_GT(not_settled(scene.certificate), 0u);
+  expect_rejected(scene, "is nearer", {200, 201});
+}
+
+TEST(Cuts, change_no_verdict) {
+  std::size_t accepted = 0, rejected = 0;
+  for (unsigned seed = 0; seed < sample(300u); ++seed) {
+    generate::Family_parameters parameters;
+    parameters.seed = seed;
+    const generate::Posed_scene posed = generate::family(seed % 2 == 0 ? "uniform" : "edge_on").make(parameters);
+    const sightline::Scene scene(posed.soup);
+    Order_certificate certificate = certificate_of_tree(scene, posed.eye);
+    Dice dice(seed);
+    const long last = static_cast<long>(certificate.fragments.size()) - 1;
+    if (last < 1) continue;
+    const auto any = [&] { return static_cast<std::size_t>(roll(dice, 0, last)); };
+    for (long k = roll(dice, 0, 2); k > 0; --k) std::swap(certificate.fragments[any()], certificate.fragments[any()]);
+    Order_certificate without = certificate;
+    without.cuts = {};
+    const Verdict expected = verify_order(posed.soup, without);
+    for (int trial = 0; trial < 4; ++trial) {  // its own cuts, then others
+      const Verdict verdict = verify_order(posed.soup, certificate);
+      ASSERT_EQ(verdict.accepted, expected.accepted) << seed << ": " << verdict.why;
+      ASSERT_EQ(verdict.why, expected.why) << seed;
+      std::vector<std::uint32_t>& depths = certificate.cuts.depths;
+      std::swap(depths[any()], depths[any()]);
+      if (trial == 2) depths.pop_back();
+      std::array<Rational, 4> plane;
+      for (Rational& x : plane) x = roll(dice, -2, 2);
+      if (trial == 1) mpz_set_ui(plane[1].get_den_mpz_t(), 0);  // no number
+      certificate.cuts.others.push_back(
+          {static_cast<std::uint32_t>(any() * 2), static_cast<std::uint32_t>(roll(dice, 0, 3)), plane});
+    }
+    (expected.accepted ? accepted : rejected) += 1;
+  }
+  EXPECT_GT(accepted, least(20u));
+  EXPECT_GT(rejected, least(20u));
 }
 
 /// Squares over one another from far to near, of which some are exchanged.
