@@ -36,7 +36,9 @@ struct Rounded_cone {
 /// Proof: P-20
 inline const double rounding_error = 0x1p-45;
 
-inline double rounded_dot(const Rounded_vector& a, const Rounded_vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+inline double rounded_dot(const Rounded_vector& a, const Rounded_vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// On which side of the plane of b rays meet the polygon of a: 1 beyond it as seen from the eye, -1 before it; nothing
 /// where doubles cannot tell. Proof: P-20
