@@ -322,6 +322,81 @@ TEST(Cuts, by_planes_that_cannot_tell_settle_nothing) {
     }
 }
 
+TEST(Cuts, settle_nothing_on_the_wrong_side_of_planes_that_doubles_take_for_one) {
+  const Integer large = Integer(1) << 60;
+  const Integer distance = large - 1;
+  const auto over = [](const auto& height) {  // the same directions from the origin, about
+    Points polygon = rectangle(1, 2, 1, 2, 0);
+    for (Exact_point& p : polygon) p[2] = height(p);
+    return polygon;
+  };
+  const auto at_height = [&](const Rational& z) { return over([&](const Exact_point&) { return z; }); };
+  struct Two {
+    Exact_point eye;
+    Points nearer, farther;
+  };
+  const Two all[] = {{at(0, 0, large), at_height(1), at_height(0)},  // of one normal
+                     {at(0, 0, 0),                                   // of one distance
+                      over([&](const Exact_point& p) { return Rational((distance - p[0]) / large); }),
+                      at_height(Rational(distance, large))},
+                     {at(0, 0, 3), at_height(1 + tiny(60)), at_height(1)}};
+  for (const auto& [eye, nearer, farther] : all)
+    for (const bool is_right : {true, false})
+      for (const std::uint32_t depth : {0u, 1u, 2u}) {
+        Scene scene;
+        scene.seen_from(eye).face(nearer);
+        scene.face(farther);
+        if (is_right) scene.draw(1, farther).draw(0, nearer);
+        else scene.draw(0, nearer).draw(1, farther);
+        scene.certificate.cuts.depths = {1, depth};
+        EXPECT_EQ(not_settled(scene.certificate) == 0, is_right);
+        if (is_right) expect_accepted(scene);
+        else expect_rejected(scene, "is nearer", {0, 1});
+      }
+}
+
+TEST(Cuts, are_passed_over_where_depths_are_not_as_many_as_fragments) {
+  Scene scene = good_stack(3);
+  scene.certificate.cuts.others = {{1, 0, {0, 0, -1, 1}}};
+  for (const std::size_t depths : {0u, 1u, 2u, 3u, 4u, 1000u}) {
+    scene.certificate.cuts.depths.assign(depths, 1);
+    const order_check::Cut_places places = order_check::cut_places(scene.certificate);
+    EXPECT_EQ(places.depths.size(), depths == 3 ? 3u : 0u);
+    EXPECT_EQ(places.others.size(), depths == 3 ? 1u : 0u);
+    expect_accepted(scene);
+  }
+}
+
+TEST(Cuts, are_by_the_plane_that_they_name) {
+  Dice dice(5);
+  std::size_t behind = 0, in_front = 0, through = 0;
+  for (int trial = 0; trial < sample(2000); ++trial) {
+    Scene scene = good_stack(2);
+    const auto any = [&] { return ratio(roll(dice, -4, 4), roll(dice, 1, 3)); };
+    const std::array<Rational, 4> plane{any(), any(), any(), any()};
+    if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0) continue;
+    const Exact_point eye = at(any(), any(), any());
+    scene.seen_from(eye);
+    scene.certificate.cuts = {{0, 0}, {{1, 0, plane}}};
+    const Rational of_eye = plane[0] * eye[0] + plane[1] * eye[1] + plane[2] * eye[2] + plane[3];
+    const std::vector<order_check::Cut_places::Cut> found = order_check::cut_places(scene.certificate).others;
+    ASSERT_EQ(found.size(), of_eye <= 0 ? 1u : 0u);
+    (of_eye < 0 ? behind : of_eye > 0 ? in_front : through) += 1;
+    if (found.empty()) continue;
+    // The same plane, with the eye as the origin: a positive multiple of it.
+    const Cone& cone = found[0].plane;
+    std::size_t k = 0;
+    while (plane[k] == 0) ++k;
+    const Rational factor = cone.nearness[k] / plane[k];
+    ASSERT_GT(factor, 0);
+    for (k = 0; k < 3; ++k) ASSERT_EQ(cone.nearness[k], factor * plane[k]);
+    ASSERT_EQ(cone.distance, -factor * of_eye);
+  }
+  EXPECT_GT(behind, least(500u));
+  EXPECT_GT(in_front, least(500u));
+  EXPECT_GT(through, least(10u));
+}
+
 TEST(Cuts, are_looked_at_once_for_each_place) {
   Scene scene = good_stack(3);
   Order_cuts& cuts = scene.certificate.cuts;
