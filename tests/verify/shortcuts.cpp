@@ -15,6 +15,7 @@
 
 #include <atomic>
 #include <numeric>
+#include <thread>
 
 namespace {
 
@@ -284,6 +285,27 @@ TEST(Cuts, of_no_use_tell_of_the_pairs_that_no_cuts_tell_of) {
   }
 }
 
+TEST(Cuts, that_settle_more_than_no_cuts_do_are_kept_where_they_leave_many_open) {
+  // Two heaps, of which neither has a plane between them but one that is said; the second one's other cut is of no use.
+  constexpr std::uint32_t count = 150;
+  Scene scene;
+  scene.seen_from(at(0, 0, 2 * count));
+  for (const long x : {1L, -3L})
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Points square = rectangle(x, x + 2, -1, 1, x > 0 ? Rational(k) : Rational(k + ratio(1, 2)));
+      scene.draw(scene.face(square), square);
+    }
+  EXPECT_GE(not_settled(scene.certificate), count);
+  for (std::uint32_t k = 0; k < 2 * count; ++k) scene.certificate.cuts.depths.push_back(10 + k % count);
+  scene.certificate.cuts.others = {{count, 0, {1, 0, 0, 0}}};
+  EXPECT_EQ(not_settled(scene.certificate), 0u);
+  scene.certificate.cuts.others.push_back({count + 80, 1, {1, 0, 0, 0}});  // all of the heap is behind it
+  EXPECT_EQ(not_settled(scene.certificate), 80u);
+  expect_accepted(scene);
+  std::swap(scene.certificate.fragments[count + 3], scene.certificate.fragments[count + 90]);
+  EXPECT_FALSE(scene.verdict().accepted);
+}
+
 /// Depths of a tree over `count` fragments that is balanced but for a chain of single ones at every leaf.
 void hang_chains(std::vector<std::uint32_t>& depths, std::size_t begin, std::size_t end, std::uint32_t depth) {
   constexpr std::size_t chain = 40;
@@ -446,6 +468,29 @@ TEST(Cuts, are_followed_for_as_long_as_progress_lets_them) {
     EXPECT_EQ(all, with_depths + 3000);
     std::swap(cuts, scene.certificate.cuts);
   }
+}
+
+TEST(Cuts, are_asked_about_by_one_thread_at_a_time) {
+  constexpr std::size_t count = 6000;  // two parts that threads have for themselves
+  const Scene scene = good_stack(count);
+  std::vector<Cone> cones;
+  std::vector<std::uint32_t> depths;
+  for (std::size_t k = 0; k < count; ++k) {
+    cones.emplace_back(scene.certificate.fragments[k].vertices, scene.certificate.eye);
+    depths.push_back(k == count / 2 ? 0 : static_cast<std::uint32_t>(1 + k % (count / 2)));
+  }
+  const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
+  std::atomic<int> asking = 0, asked = 0, together = 0;
+  certificate_check::Workers workers(2);
+  workers.go_on = [&] {
+    together += ++asking > 1;
+    ++asked;
+    std::this_thread::yield();
+    --asking;
+  };
+  const Planes_between planes(cones, rounded, workers, {depths});
+  EXPECT_GT(asked, 200);
+  EXPECT_EQ(together, 0);
 }
 
 TEST(Cuts, change_no_verdict) {
