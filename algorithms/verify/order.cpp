@@ -84,7 +84,7 @@ std::string check(const Polygon_soup& soup, const Order_certificate& certificate
 
   // 2. No fragment is nearer than one that is drawn after it.
   const std::vector<Cone> cones = cones_of(corners, certificate.fragments.size(), certificate.eye, workers);
-  const auto pair = first_misordered(cones, cut_places(certificate), options);
+  const auto pair = first_misordered(cones, cut_places(certificate, workers), options);
   if (pair) {
     const auto [earlier, later] = *pair;
     const auto full_name = [&](std::size_t i) {

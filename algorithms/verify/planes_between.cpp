@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
+#include <mutex>
 #include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,15 +44,25 @@ std::optional<Cone> plane_as_cone(const std::array<Rational, 4>& plane, const Ex
 
 }  // namespace
 
-Cut_places cut_places(const Order_certificate& certificate) {
+Cut_places cut_places(const Order_certificate& certificate, const Workers& workers) {
   Cut_places places;
-  if (certificate.cuts.depths.size() != certificate.fragments.size()) return places;
+  const std::size_t count = certificate.fragments.size();
+  if (certificate.cuts.depths.size() != count) return places;
   places.depths = certificate.cuts.depths;
+  // Of those at one place the first of the least depth, which is cut by before any other, and then nothing is left to
+  // be cut there: so there are no more planes than fragments, however many are said.
+  std::vector<const Order_cuts::Cut*> said;
   for (const Order_cuts::Cut& cut : certificate.cuts.others)
-    if (const std::optional<Cone> plane = plane_as_cone(cut.plane, certificate.eye))
-      places.others.push_back({cut.place, cut.depth, *plane, Rounded_cone(*plane)});
-  std::stable_sort(places.others.begin(), places.others.end(),
-                   [](const Cut_places::Cut& a, const Cut_places::Cut& b) { return a.place < b.place; });
+    if (cut.place > 0 && cut.place < count) said.push_back(&cut);
+  std::stable_sort(said.begin(), said.end(), [](const Order_cuts::Cut* a, const Order_cuts::Cut* b) {
+    return std::tie(a->place, a->depth) < std::tie(b->place, b->depth);
+  });
+  for (const Order_cuts::Cut* cut : said) {
+    if (!places.others.empty() && places.others.back().place == cut->place) continue;
+    workers.ask();
+    if (const std::optional<Cone> plane = plane_as_cone(cut->plane, certificate.eye))
+      places.others.push_back({cut->place, cut->depth, *plane, Rounded_cone(*plane)});
+  }
   return places;
 }
 
@@ -57,15 +70,29 @@ Planes_between::Planes_between(const std::vector<Cone>& cones, const std::vector
                                const Workers& workers, Cut_places places)
     : cones_(cones), rounded_(rounded), places_(std::move(places)), paths_(cones.size()), settled_(cones.size(), 1) {
   constexpr std::size_t large = 4096;  // threads share its polygons; of smaller parts each has its own
+  // Threads ask within small parts, too, which may be cut many times: never two at once, nonetheless.
+  std::mutex of_asking;
+  Workers all = workers, each = 1;
+  if (workers.go_on)
+    all.go_on = each.go_on = [&] {
+      const std::lock_guard lock(of_asking);
+      workers.go_on();
+    };
   std::vector<Part> parts{{0, cones.size(), 0}}, small;
   while (!parts.empty()) {
     const Part part = parts.back();
     parts.pop_back();
     if (part.size() < large) small.push_back(part);
     else
-      for (const Part& half : cut(part, workers)) parts.push_back(half);
+      for (const Part& half : cut(part, all)) parts.push_back(half);
   }
-  for_each_below(small.size(), 1, workers, [&](std::size_t i) { cut_to_the_end(small[i]); });
+  for_each_below(small.size(), 1, all, [&](std::size_t i) { cut_to_the_end(small[i], each); });
+  // What is said may be of no use: then it does no harm, either.
+  constexpr std::ptrdiff_t few = 64;
+  const auto open = [](const std::vector<char>& settled) { return std::count(settled.begin(), settled.end(), 0); };
+  if (places_.depths.empty() || open(settled_) <= few) return;
+  of_samples_ = std::make_unique<Planes_between>(cones, rounded, workers);
+  if (open(of_samples_->settled_) < open(settled_)) settled_ = of_samples_->settled_;
 }
 
 bool Planes_between::is_apart(std::size_t i, const Cut& cut) const {
@@ -132,7 +159,7 @@ std::vector<Planes_between::Part> Planes_between::cut(const Part& part, const Wo
   const auto of_part = settled_.begin() + static_cast<std::ptrdiff_t>(begin);
   const bool any_settled =
       std::find(of_part, of_part + static_cast<std::ptrdiff_t>(size), 1) != of_part + static_cast<std::ptrdiff_t>(size);
-  if (!has_bit && (!has_depths || !any_settled || depth >= deepest_part)) {
+  if (!has_bit && (!has_depths || !any_settled || depth >= deepest_part(size))) {
     std::fill_n(of_part, size, 0);
     return {};
   }
@@ -150,8 +177,9 @@ std::vector<Planes_between::Part> Planes_between::cut(const Part& part, const Wo
   return {{begin, cut.place, depth + 1}, {cut.place, end, depth + 1}};
 }
 
-void Planes_between::cut_to_the_end(const Part& part) {
-  for (const Part& half : cut(part, 1)) cut_to_the_end(half);
+void Planes_between::cut_to_the_end(const Part& part, const Workers& worker) {
+  constexpr std::size_t worth_asking = 512;
+  for (const Part& half : cut(part, part.size() < worth_asking ? 1 : worker)) cut_to_the_end(half, worker);
 }
 
 }  // namespace sightline::order_check

@@ -8,6 +8,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -26,17 +27,19 @@ struct Cut_places {
 };
 
 /// Where a certificate says that its fragments may be cut; its depths must outlast it. Left out are planes that the eye
-/// is in front of, or that are none; and all if the depths are not as many as the fragments.
-Cut_places cut_places(const Order_certificate& certificate);
+/// is in front of, or that are none, and all but one at each place, of the least depth, between fragments; and all if
+/// the depths are not as many as the fragments.
+Cut_places cut_places(const Order_certificate& certificate, const Workers& workers = 1);
 
 /// Shows of pairs of a sequence that the earlier one is nowhere nearer than the later one. The sequence is cut at the
 /// place of one of its polygons, and so is each part, until single ones are left. Of an earlier polygon beyond that
 /// one's plane and a later one before it no more is to be asked. Proof: P-20
 class Planes_between {
  public:
-  /// Cuts where `places` say, the least depth first, or, without them, where a few of the polygons let it seem best.
+  /// Cuts where `places` say, the least depth first; and without them, or where that leaves more than a few polygons
+  /// not settled, where a few of the polygons let it seem best.
   /// Pre: `rounded` are the cones, but for those that are edge-on; all outlive it, and so do the depths. Cost: O(n log
-  /// n) sides of polygons to planes, for any sequence; with depths n for each depth.
+  /// n) sides of polygons to planes, for any sequence and any depths.
   Planes_between(const std::vector<Cone>& cones, const std::vector<Rounded_cone>& rounded, const Workers& workers = 1,
                  Cut_places places = {});
 
@@ -49,7 +52,8 @@ class Planes_between {
   bool in_order(std::size_t earlier, std::size_t later) const {
     const Path &a = paths_[earlier], &b = paths_[later];
     const int part = std::countl_zero(a.turns ^ b.turns);  // the least part that has both; it was cut between them
-    return part < deepest && ((a.apart & b.apart) << part & first) != 0;
+    return (part < deepest && ((a.apart & b.apart) << part & first) != 0) ||
+           (of_samples_ != nullptr && of_samples_->in_order(earlier, later));
   }
 
  private:
@@ -59,8 +63,14 @@ class Planes_between {
     std::uint64_t apart = 0;  ///< 1: it is on its side of the cut's plane, or in it
   };
 
-  static constexpr int deepest = 64;         ///< of what paths tell
-  static constexpr int deepest_part = 1024;  ///< of what settles polygons
+  static constexpr int deepest = 64;  ///< of what paths tell
+  /// Of what settles polygons: below so many cuts a part of a size is followed no more. Parts of a tree that are so
+  /// deep are small; those of depths that take away one polygon at a time are not, and would be asked about each time.
+  /// Of a few polygons, all.
+  int deepest_part(std::size_t size) const {
+    constexpr std::size_t few = 1024;
+    return cones_.size() <= few ? int{few} : deepest + 8 * static_cast<int>(std::bit_width(cones_.size() / size));
+  }
   static constexpr std::uint64_t first = std::uint64_t{1} << 63;
 
   /// Of the sequence: [begin, end), and how many parts hold it.
@@ -79,7 +89,7 @@ class Planes_between {
 
   /// Cuts a part, its polygons shared out. Returns its two parts, none where it has one polygon, or no cut helps.
   std::vector<Part> cut(const Part& part, const Workers& workers);
-  void cut_to_the_end(const Part& part);
+  void cut_to_the_end(const Part& part, const Workers& worker);
   /// Pre: it has two polygons, or more.
   Cut cut_by_depth(const Part& part) const;
   Cut cut_by_samples(const Part& part) const;
@@ -94,6 +104,7 @@ class Planes_between {
   Cut_places places_;
   std::vector<Path> paths_;
   std::vector<char> settled_;
+  std::unique_ptr<const Planes_between> of_samples_;  ///< cut without places
 };
 
 }  // namespace sightline::order_check

@@ -36,8 +36,16 @@ inline const Known_scene& known_scene() {
 }
 
 /// In one thread: what is checked is small.
+/// Whatever it says of where planes cut the sequence, it is the same verdict as without.
 inline Verdict verdict_on(const Polygon_soup& soup, const Order_certificate& claim) {
-  return verify_order(soup, claim, {1, {}});
+  const Verdict verdict = verify_order(soup, claim, {1, {}});
+  if (claim.cuts.depths.empty()) return verdict;
+  Order_certificate without = claim;
+  without.cuts = {};
+  const Verdict other = verify_order(soup, without, {1, {}});
+  require(verdict.accepted == other.accepted && verdict.why == other.why && verdict.fragments == other.fragments,
+          "cuts of a sequence change no verdict");
+  return verdict;
 }
 inline Verdict verdict_on(const Polygon_soup& soup, const Graph_certificate& claim) {
   return verify_graph(soup, claim, {1, {}});

@@ -2,6 +2,7 @@
 // Lies about what a right certificate shows, each by a name. Every one says whether it changed anything.
 
 #include "certificate.h"
+#include "cut_lies.h"
 #include "retold.h"
 
 #include <sightline/harness/generate/families.h>
@@ -58,7 +59,7 @@ bool nudge_any(Entries& entries, Bytes& bytes) {
 
 // One more fragment, of the same face and piece as the k-th, wherever it disturbs nothing else.
 inline void add_beside(Order_certificate& claim, std::size_t k, const Order_fragment& fragment) {
-  claim.fragments.insert(claim.fragments.begin() + static_cast<std::ptrdiff_t>(k) + 1, fragment);
+  insert_fragment(claim, k + 1, fragment);
 }
 inline void add_beside(Graph_certificate& claim, std::size_t, const Order_fragment& fragment) {
   claim.fragments.push_back(fragment);
@@ -215,6 +216,15 @@ std::vector<Lie<Claim>> with_lies_about_fragments(std::vector<Lie<Claim>> lies) 
 
 // ---- In an order
 
+/// A lie that draws what it needs from a seed.
+template <bool (*tell)(Order_certificate&, Mutator&)>
+bool seeded(Order_certificate& claim, const Posed_scene&, Bytes& bytes) {
+  Mutator random(bytes.word());
+  if (!tell(claim, random)) return false;
+  for (std::size_t left = random.below(3); left > 0; --left) retell_cuts(claim, random);
+  return true;
+}
+
 inline const std::vector<Lie<Order_certificate>>& lies_in(const Order_certificate&) {
   using Claim = Order_certificate;
   static const std::vector<Lie<Claim>> all = with_lies_about_fragments<Claim>(
@@ -234,7 +244,9 @@ inline const std::vector<Lie<Order_certificate>>& lies_in(const Order_certificat
        {"on-view, one less",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {
           claim.on_view = true;
-          return remove_any(claim.fragments, bytes);
+          if (claim.fragments.empty()) return false;
+          remove_fragment(claim, any_of_first(claim.fragments, bytes));
+          return true;
         }},
        {"on-view, one twice",
         [](Claim& claim, const Posed_scene&, Bytes& bytes) {
@@ -246,12 +258,21 @@ inline const std::vector<Lie<Order_certificate>>& lies_in(const Order_certificat
           return true;
         }},
        {"neighbours swapped", swap_neighbours<Claim>},
+       {"exchanged across a cut", seeded<exchanged_across_a_cut>},
+       {"exchanged with their depths", seeded<exchanged_with_depths>},
+       {"a node's sides exchanged", seeded<sides_exchanged>},
+       {"from near to far", seeded<from_near_to_far>},
        {"one drawn elsewhere", [](Claim& claim, const Posed_scene&, Bytes& bytes) {
           if (claim.fragments.size() < 2) return false;
           const std::size_t from = any_of_first(claim.fragments, bytes), to = any_of_first(claim.fragments, bytes);
           const Order_fragment moved = claim.fragments[from];
-          claim.fragments.erase(claim.fragments.begin() + static_cast<std::ptrdiff_t>(from));
-          claim.fragments.insert(claim.fragments.begin() + static_cast<std::ptrdiff_t>(to), moved);
+          if (bytes.below(2) == 0) {  // past what is said of cuts, or with it
+            claim.fragments.erase(claim.fragments.begin() + static_cast<std::ptrdiff_t>(from));
+            claim.fragments.insert(claim.fragments.begin() + static_cast<std::ptrdiff_t>(to), moved);
+          } else {
+            remove_fragment(claim, from);
+            insert_fragment(claim, to, moved);
+          }
           return from != to;
         }}});
   return all;

@@ -267,6 +267,11 @@ inline void pairs(std::string_view bytes) {
   // Cut where its polygons seem to let it be cut, or anywhere.
   std::vector<std::uint32_t> depths(scene.below(2) == 0 ? cones.size() : 0);
   for (std::uint32_t& depth : depths) depth = static_cast<std::uint32_t>(scene.below(1 + scene.below(cones.size())));
+  if (scene.below(4) == 0) {  // one at a time: below more cuts than paths tell of
+    const bool from_behind = scene.below(2) == 0;
+    for (std::size_t k = 0; k < depths.size(); ++k)
+      depths[k] = static_cast<std::uint32_t>(from_behind ? depths.size() - k : k);
+  }
   order_check::Cut_places places{depths};
   for (std::size_t place = 0; place < cones.size() && !depths.empty(); place += 1 + scene.below(9)) {
     const std::size_t of = scene.below(cones.size());

@@ -2,6 +2,7 @@
 // What a forger has: the right certificate of another scene, told as one of the scene at hand.
 
 #include "certificate.h"
+#include "cut_lies.h"
 #include "truth.h"
 
 #include <sightline/algorithms/weak_visibility/along/certificate.h>
@@ -199,7 +200,7 @@ inline std::optional<Certificate> answered(Kind kind, const Posed_scene& scene) 
 
 // One more fragment, as the k-th or wherever it disturbs nothing else.
 inline void add_at(Order_certificate& claim, std::size_t k, const Order_fragment& fragment) {
-  claim.fragments.insert(claim.fragments.begin() + static_cast<std::ptrdiff_t>(k), fragment);
+  insert_fragment(claim, k, fragment);
 }
 inline void add_at(Graph_certificate& claim, std::size_t k, const Order_fragment& fragment) {  // before a component
   std::size_t component = 0, first = 0;

@@ -4,6 +4,7 @@
 // too: a checker that rejects what is right would not be found by lies.
 
 #include "claims.h"
+#include "cut_lies.h"
 #include "mutate.h"
 
 #include <algorithm>
@@ -77,16 +78,19 @@ inline void retell(Order_certificate& claim, Mutator& random) {
   if (claim.fragments.empty()) return;
   const std::size_t k = random.below(claim.fragments.size());
   Points& loop = claim.fragments[k].vertices;
-  switch (random.below(3)) {
+  switch (random.below(6)) {
     case 0: begin_elsewhere(loop, random); break;
     case 1: add_straight_corner(loop, random.below(loop.size())); break;
+    case 2:
+    case 3:
+    case 4: retell_cuts(claim, random); break;
     default: {
       const auto [one, other] = halves(loop, random);
       if (is_flat(one) || is_flat(other)) break;
       loop = one;
       Order_fragment rest = claim.fragments[k];
       rest.vertices = other;
-      claim.fragments.insert(claim.fragments.begin() + static_cast<std::ptrdiff_t>(k), std::move(rest));
+      insert_fragment(claim, k, rest);
     }
   }
 }

@@ -15,6 +15,7 @@
 
 #include <atomic>
 #include <numeric>
+#include <thread>
 
 namespace {
 
@@ -188,6 +189,17 @@ std::size_t not_settled(const Order_certificate& certificate) {
   return count;
 }
 
+/// Squares over one another, from far to near.
+Scene good_stack(std::size_t count) {
+  Scene scene;
+  scene.seen_from(at(0, 0, static_cast<long>(count) + 1));
+  for (std::size_t k = 0; k < count; ++k) {
+    const Points square = rectangle(-1, 1, -1, 1, static_cast<long>(k));
+    scene.draw(scene.face(square), square);
+  }
+  return scene;
+}
+
 TEST(Cuts, of_a_tree_leave_no_pair_whichever_planes_the_eye_is_in) {
   std::size_t fragments = 0, with_planes = 0;
   for (const char* family : {"uniform", "coplanar", "edge_on", "touching", "lattice_faces", "crossing_faces", "boxes"})
@@ -238,6 +250,247 @@ TEST(Cuts, of_more_levels_than_paths_tell_settle_what_they_cut) {
   std::swap(scene.certificate.fragments[200], scene.certificate.fragments[250]);
   EXPECT_GT(not_settled(scene.certificate), 0u);
   expect_rejected(scene, "is nearer", {200, 201});
+}
+
+TEST(Cuts, of_no_use_leave_no_more_than_no_cuts_do) {
+  for (const std::uint32_t count : {1024u, 1100u, 3000u})
+    for (const bool from_behind : {false, true}) {  // one at a time
+      Scene scene = good_stack(count);
+      for (std::uint32_t k = 0; k < count; ++k) scene.certificate.cuts.depths.push_back(from_behind ? count - k : k);
+      EXPECT_EQ(not_settled(scene.certificate), 0u);
+      expect_accepted(scene);
+      for (const std::size_t k : {std::size_t{5}, std::size_t{count / 2}, std::size_t{count - 5}}) {
+        std::swap(scene.certificate.fragments[k], scene.certificate.fragments[k + 1]);
+        expect_rejected(scene, "is nearer", {k, k + 1});
+        std::swap(scene.certificate.fragments[k], scene.certificate.fragments[k + 1]);
+      }
+    }
+}
+
+TEST(Cuts, of_no_use_tell_of_the_pairs_that_no_cuts_tell_of) {
+  Scene scene = good_stack(300);
+  Order_cuts& cuts = scene.certificate.cuts;
+  for (std::uint32_t k = 0; k < 300; ++k) {
+    cuts.depths.push_back(1);
+    cuts.others.push_back({k, k, {1, 0, 0, 0}});  // through the eye, and all of them
+  }
+  std::vector<Cone> cones;
+  for (const Order_fragment& fragment : scene.certificate.fragments)
+    cones.emplace_back(fragment.vertices, scene.certificate.eye);
+  const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
+  const Planes_between planes(cones, rounded, 1, order_check::cut_places(scene.certificate));
+  for (std::size_t later = 0; later < 300; ++later) {
+    ASSERT_TRUE(planes.is_settled(later));
+    for (std::size_t earlier = 0; earlier < later; ++earlier) ASSERT_TRUE(planes.in_order(earlier, later));
+  }
+}
+
+TEST(Cuts, that_settle_more_than_no_cuts_do_are_kept_where_they_leave_many_open) {
+  // Two heaps, of which neither has a plane between them but one that is said; the second one's other cut is of no use.
+  constexpr std::uint32_t count = 150;
+  Scene scene;
+  scene.seen_from(at(0, 0, 2 * count));
+  for (const long x : {1L, -3L})
+    for (std::uint32_t k = 0; k < count; ++k) {
+      const Points square = rectangle(x, x + 2, -1, 1, x > 0 ? Rational(k) : Rational(k + ratio(1, 2)));
+      scene.draw(scene.face(square), square);
+    }
+  EXPECT_GE(not_settled(scene.certificate), count);
+  for (std::uint32_t k = 0; k < 2 * count; ++k) scene.certificate.cuts.depths.push_back(10 + k % count);
+  scene.certificate.cuts.others = {{count, 0, {1, 0, 0, 0}}};
+  EXPECT_EQ(not_settled(scene.certificate), 0u);
+  scene.certificate.cuts.others.push_back({count + 80, 1, {1, 0, 0, 0}});  // all of the heap is behind it
+  EXPECT_EQ(not_settled(scene.certificate), 80u);
+  expect_accepted(scene);
+  std::swap(scene.certificate.fragments[count + 3], scene.certificate.fragments[count + 90]);
+  EXPECT_FALSE(scene.verdict().accepted);
+}
+
+/// Depths of a tree over `count` fragments that is balanced but for a chain of single ones at every leaf.
+void hang_chains(std::vector<std::uint32_t>& depths, std::size_t begin, std::size_t end, std::uint32_t depth) {
+  constexpr std::size_t chain = 40;
+  for (; end - begin <= chain && begin < end; ++begin, ++depth) depths[begin] = depth;
+  if (begin == end) return;
+  const std::size_t middle = begin + (end - begin) / 2;
+  depths[middle] = depth;
+  hang_chains(depths, begin, middle, depth + 1);
+  hang_chains(depths, middle + 1, end, depth + 1);
+}
+
+TEST(Cuts, of_deep_and_small_parts_are_followed_to_the_end) {
+  Scene scene = good_stack(2000);
+  scene.certificate.cuts.depths.resize(2000);
+  hang_chains(scene.certificate.cuts.depths, 0, 2000, 0);
+  EXPECT_EQ(not_settled(scene.certificate), 0u);
+}
+
+TEST(Cuts, by_planes_that_cannot_tell_settle_nothing) {
+  // The nearer square first: on their sides of all of these, if only these were planes, or not in front of the eye.
+  Scene scene;
+  const Points far = rectangle(-1, 1, -1, 1, 0), near = rectangle(-1, 1, -1, 1, 1);
+  scene.seen_from(at(0, 0, 3)).face(far);
+  scene.face(near);
+  scene.draw(1, near).draw(0, far);
+  scene.certificate.cuts.depths = {1, 1};
+  using Plane = std::array<Rational, 4>;
+  const Plane planes[] = {
+      {0, 0, 0, 0}, {0, 0, 0, 1},  {0, 0, 0, -1}, {0, 0, 1, ratio(-1, 2)}, {0, 0, -1, ratio(1, 2)}, {0, 0, 1, -1},
+      {0, 0, 1, 0}, {0, 0, 1, -3}, {0, 0, -1, 3}, {0, 0, 1, -9},           {0, 0, -1, ratio(1, 9)}, {1, 0, 0, 0}};
+  for (const Plane& plane : planes)
+    for (const std::uint32_t place : {0u, 1u, 2u, 4294967295u}) {
+      scene.certificate.cuts.others = {{place, 0, plane}};
+      EXPECT_GT(not_settled(scene.certificate), 0u) << plane[2] << ' ' << plane[3];
+      expect_rejected(scene, "is nearer", {0, 1});
+    }
+}
+
+TEST(Cuts, settle_nothing_on_the_wrong_side_of_planes_that_doubles_take_for_one) {
+  const Integer large = Integer(1) << 60;
+  const Integer distance = large - 1;
+  const auto over = [](const auto& height) {  // the same directions from the origin, about
+    Points polygon = rectangle(1, 2, 1, 2, 0);
+    for (Exact_point& p : polygon) p[2] = height(p);
+    return polygon;
+  };
+  const auto at_height = [&](const Rational& z) { return over([&](const Exact_point&) { return z; }); };
+  struct Two {
+    Exact_point eye;
+    Points nearer, farther;
+  };
+  const Two all[] = {{at(0, 0, large), at_height(1), at_height(0)},  // of one normal
+                     {at(0, 0, 0),                                   // of one distance
+                      over([&](const Exact_point& p) { return Rational((distance - p[0]) / large); }),
+                      at_height(Rational(distance, large))},
+                     {at(0, 0, 3), at_height(1 + tiny(60)), at_height(1)}};
+  for (const auto& [eye, nearer, farther] : all)
+    for (const bool is_right : {true, false})
+      for (const std::uint32_t depth : {0u, 1u, 2u}) {
+        Scene scene;
+        scene.seen_from(eye).face(nearer);
+        scene.face(farther);
+        if (is_right) scene.draw(1, farther).draw(0, nearer);
+        else scene.draw(0, nearer).draw(1, farther);
+        scene.certificate.cuts.depths = {1, depth};
+        EXPECT_EQ(not_settled(scene.certificate) == 0, is_right);
+        if (is_right) expect_accepted(scene);
+        else expect_rejected(scene, "is nearer", {0, 1});
+      }
+}
+
+TEST(Cuts, are_passed_over_where_depths_are_not_as_many_as_fragments) {
+  Scene scene = good_stack(3);
+  scene.certificate.cuts.others = {{1, 0, {0, 0, -1, 1}}};
+  for (const std::size_t depths : {0u, 1u, 2u, 3u, 4u, 1000u}) {
+    scene.certificate.cuts.depths.assign(depths, 1);
+    const order_check::Cut_places places = order_check::cut_places(scene.certificate);
+    EXPECT_EQ(places.depths.size(), depths == 3 ? 3u : 0u);
+    EXPECT_EQ(places.others.size(), depths == 3 ? 1u : 0u);
+    expect_accepted(scene);
+  }
+}
+
+TEST(Cuts, are_by_the_plane_that_they_name) {
+  Dice dice(5);
+  std::size_t behind = 0, in_front = 0, through = 0;
+  for (int trial = 0; trial < sample(2000); ++trial) {
+    Scene scene = good_stack(2);
+    const auto any = [&] { return ratio(roll(dice, -4, 4), roll(dice, 1, 3)); };
+    const std::array<Rational, 4> plane{any(), any(), any(), any()};
+    if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0) continue;
+    const Exact_point eye = at(any(), any(), any());
+    scene.seen_from(eye);
+    scene.certificate.cuts = {{0, 0}, {{1, 0, plane}}};
+    const Rational of_eye = plane[0] * eye[0] + plane[1] * eye[1] + plane[2] * eye[2] + plane[3];
+    const std::vector<order_check::Cut_places::Cut> found = order_check::cut_places(scene.certificate).others;
+    ASSERT_EQ(found.size(), of_eye <= 0 ? 1u : 0u);
+    (of_eye < 0 ? behind : of_eye > 0 ? in_front : through) += 1;
+    if (found.empty()) continue;
+    // The same plane, with the eye as the origin: a positive multiple of it.
+    const Cone& cone = found[0].plane;
+    std::size_t k = 0;
+    while (plane[k] == 0) ++k;
+    const Rational factor = cone.nearness[k] / plane[k];
+    ASSERT_GT(factor, 0);
+    for (k = 0; k < 3; ++k) ASSERT_EQ(cone.nearness[k], factor * plane[k]);
+    ASSERT_EQ(cone.distance, -factor * of_eye);
+  }
+  EXPECT_GT(behind, least(500u));
+  EXPECT_GT(in_front, least(500u));
+  EXPECT_GT(through, least(10u));
+}
+
+TEST(Cuts, are_looked_at_once_for_each_place) {
+  Scene scene = good_stack(3);
+  Order_cuts& cuts = scene.certificate.cuts;
+  cuts.depths = {5, 5, 5};
+  const auto below = [](long distance) { return std::array<Rational, 4>{0, 0, -1, 4 - distance}; };  // the eye
+  // Of each place the first of the least depth that is a plane, and not in front of the eye.
+  cuts.others = {{2, 3, below(0)}, {1, 9, below(0)},     {0, 0, below(1)},         {3, 0, below(1)},
+                 {2, 1, {}},       {2, 1, {0, 0, 1, 0}}, {1, 4, below(3)},         {2, 2, below(2)},
+                 {1, 4, below(1)}, {2, 2, below(0)},     {4294967295, 0, below(1)}};
+  const std::vector<order_check::Cut_places::Cut> found = order_check::cut_places(scene.certificate).others;
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].place, 1u);
+  EXPECT_EQ(found[0].depth, 4u);
+  EXPECT_EQ(found[0].plane.distance, 3);
+  EXPECT_EQ(found[1].place, 2u);
+  EXPECT_EQ(found[1].depth, 2u);
+  EXPECT_EQ(found[1].plane.distance, 2);
+}
+
+TEST(Cuts, are_followed_for_as_long_as_progress_lets_them) {
+  Scene scene = good_stack(3000);
+  for (std::uint32_t k = 0; k < 3000; ++k) scene.certificate.cuts.depths.push_back(k);
+  for (std::uint32_t k = 0; k < 3000; ++k)  // none of them is a plane
+    scene.certificate.cuts.others.push_back({1, k, {}});
+  for (const int threads : {1, 3}) {
+    std::atomic<int> asking = 0;
+    std::size_t before_pairs = 0;
+    Verify_options options;
+    options.threads = threads;
+    options.progress = [&](std::size_t done, std::size_t) {
+      EXPECT_EQ(++asking, 1);
+      before_pairs += done == 0;
+      --asking;
+    };
+    const auto asked = [&] {
+      before_pairs = 0;
+      EXPECT_TRUE(verify_order(scene.soup, scene.certificate, options).accepted);
+      return before_pairs;
+    };
+    const std::size_t all = asked();
+    Order_cuts cuts;
+    std::swap(cuts, scene.certificate.cuts);
+    const std::size_t without = asked();
+    scene.certificate.cuts.depths = cuts.depths;
+    const std::size_t with_depths = asked();
+    EXPECT_GT(with_depths, without + 60);
+    EXPECT_EQ(all, with_depths + 3000);
+    std::swap(cuts, scene.certificate.cuts);
+  }
+}
+
+TEST(Cuts, are_asked_about_by_one_thread_at_a_time) {
+  constexpr std::size_t count = 6000;  // two parts that threads have for themselves
+  const Scene scene = good_stack(count);
+  std::vector<Cone> cones;
+  std::vector<std::uint32_t> depths;
+  for (std::size_t k = 0; k < count; ++k) {
+    cones.emplace_back(scene.certificate.fragments[k].vertices, scene.certificate.eye);
+    depths.push_back(k == count / 2 ? 0 : static_cast<std::uint32_t>(1 + k % (count / 2)));
+  }
+  const std::vector<Rounded_cone> rounded(cones.begin(), cones.end());
+  std::atomic<int> asking = 0, asked = 0, together = 0;
+  certificate_check::Workers workers(2);
+  workers.go_on = [&] {
+    together += ++asking > 1;
+    ++asked;
+    std::this_thread::yield();
+    --asking;
+  };
+  const Planes_between planes(cones, rounded, workers, {depths});
+  EXPECT_GT(asked, 200);
+  EXPECT_EQ(together, 0);
 }
 
 TEST(Cuts, change_no_verdict) {
