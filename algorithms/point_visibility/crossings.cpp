@@ -18,10 +18,17 @@ namespace {
 
 using Planes = std::pair<std::uint32_t, std::uint32_t>;  // by id, the lower one first
 
-/// The pairs of pieces that have boxes with a point in common, each once or more.
+/// The pairs of pieces that have boxes with a point in common, of each at least one that is wanted; each pair once or
+/// more.
 class Close_pairs {
  public:
-  explicit Close_pairs(const Piece_boxes& boxes) : boxes_(boxes) {}
+  /// `wanted`: of each piece.
+  Close_pairs(const Piece_boxes& boxes, const std::vector<bool>& wanted) : boxes_(boxes) {
+    wanted_before_.reserve(boxes.chunks().size() + 1);
+    wanted_before_.push_back(0);
+    for (const Piece_boxes::Chunk& chunk : boxes.chunks())
+      wanted_before_.push_back(wanted_before_.back() + (wanted[chunk.piece] ? 1 : 0));
+  }
 
   template <class Visit>
   void each(const Visit& visit) const {
@@ -30,17 +37,26 @@ class Close_pairs {
 
  private:
   const Piece_boxes::Node& node(std::uint32_t at) const { return boxes_.nodes()[at]; }
+  bool has_wanted(const Piece_boxes::Node& of) const {
+    return wanted_before_[of.first] != wanted_before_[of.first + of.count];
+  }
+  bool is_wanted(std::uint32_t chunk) const { return wanted_before_[chunk] != wanted_before_[chunk + 1]; }
   static bool meet(const Piece_boxes::Box& a, const Piece_boxes::Box& b) {
     for (std::size_t k = 0; k < 3; ++k)
       if (a.high[k] < b.low[k] || b.high[k] < a.low[k]) return false;
     return true;
   }
   template <class Visit>
+  void look_at(std::uint32_t i, std::uint32_t j, const Visit& visit) const {
+    if (is_wanted(i) || is_wanted(j)) visit(boxes_.chunks()[i].piece, boxes_.chunks()[j].piece);
+  }
+  template <class Visit>
   void within(std::uint32_t at, const Visit& visit) const {
     const Piece_boxes::Node& own = node(at);
+    if (!has_wanted(own)) return;
     if (own.second == 0) {
       for (std::uint32_t i = own.first; i < own.first + own.count; ++i)
-        for (std::uint32_t j = own.first; j < i; ++j) visit(boxes_.chunks()[i].piece, boxes_.chunks()[j].piece);
+        for (std::uint32_t j = own.first; j < i; ++j) look_at(i, j, visit);
       return;
     }
     within(at + 1, visit);
@@ -50,11 +66,10 @@ class Close_pairs {
   template <class Visit>
   void between(std::uint32_t one, std::uint32_t other, const Visit& visit) const {
     const Piece_boxes::Node &a = node(one), &b = node(other);
-    if (!meet(a.box, b.box)) return;
+    if ((!has_wanted(a) && !has_wanted(b)) || !meet(a.box, b.box)) return;
     if (a.second == 0 && b.second == 0) {
       for (std::uint32_t i = a.first; i < a.first + a.count; ++i)
-        for (std::uint32_t j = b.first; j < b.first + b.count; ++j)
-          visit(boxes_.chunks()[i].piece, boxes_.chunks()[j].piece);
+        for (std::uint32_t j = b.first; j < b.first + b.count; ++j) look_at(i, j, visit);
     } else if (b.second == 0 || (a.second != 0 && a.count >= b.count)) {
       between(one + 1, other, visit);
       between(a.second, other, visit);
@@ -64,6 +79,7 @@ class Close_pairs {
     }
   }
 
+  std::vector<std::uint32_t> wanted_before_;  // of the chunks before each
   const Piece_boxes& boxes_;
 };
 
@@ -98,11 +114,24 @@ class Crossing_search {
     }
   }
 
-  std::vector<Crossing> find(const Piece_boxes& boxes) {
-    Close_pairs(boxes).each([&](std::uint32_t f, std::uint32_t g) { note(f, g); });
+  std::vector<Crossing> find(const Piece_boxes& boxes, const std::vector<bool>& wanted) {
+    Close_pairs(boxes, wanted).each([&](std::uint32_t f, std::uint32_t g) { note(f, g); });
     for (auto& [planes, reached] : reached_) add_chords(planes, reached);
     for (auto& [line, chords] : chords_) list(chords);
     return std::move(found_);
+  }
+
+  /// Some of the pieces, and those close to them that are in the plane of one, or in whose plane one has an edge.
+  std::vector<bool> with_neighbours(const std::vector<bool>& some, const Piece_boxes& boxes) {
+    std::vector<bool> all = some;
+    const auto add = [&](std::uint32_t f, std::uint32_t g) {
+      if (some[f] && !all[g] && (plane_of(f) == plane_of(g) || has_edge_in(f, plane_of(g)))) all[g] = true;
+    };
+    Close_pairs(boxes, some).each([&](std::uint32_t f, std::uint32_t g) {
+      add(f, g);
+      add(g, f);
+    });
+    return all;
   }
 
  private:
@@ -114,6 +143,12 @@ class Crossing_search {
   Sign side(std::uint32_t point, const Prepared_plane& h) {
     return predicates_.side(predicates_.input_vertex(point, Vertex::no_plane, Vertex::no_plane, Vertex::no_plane), h,
                             counts_);
+  }
+  bool has_edge_in(std::uint32_t piece, std::uint32_t plane) {
+    const Prepared_plane h = predicates_.prepare(Plane(plane, false));
+    std::size_t on = 0;
+    for (const Piece_corner& corner : scene_.corners(scene_.pieces()[piece])) on += side(corner.point, h) == CGAL::ZERO;
+    return on >= 2;
   }
   /// How a piece reaches the line of its plane and another one; none where it does not, or nothing can be on the other
   /// side of the line.
@@ -301,7 +336,12 @@ class Crossing_search {
 }  // namespace
 
 std::vector<Crossing> crossings(const Scene& scene, const Piece_boxes& boxes) {
-  return Crossing_search(scene).find(boxes);
+  return Crossing_search(scene).find(boxes, std::vector<bool>(scene.pieces().size(), true));
+}
+
+std::vector<Crossing> crossings_on(const std::vector<bool>& pieces, const Scene& scene, const Piece_boxes& boxes) {
+  Crossing_search search(scene);
+  return search.find(boxes, search.with_neighbours(pieces, boxes));
 }
 
 }  // namespace sightline

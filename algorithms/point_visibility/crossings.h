@@ -32,4 +32,10 @@ struct Crossing {
 /// Cost: follows the pairs of pieces whose boxes meet. Exact: yes. Proof: P-65
 std::vector<Crossing> crossings(const Scene& scene, const Piece_boxes& boxes);
 
+/// The same up to what is not on some of the pieces: each point of these (closed) that crossings() lists is listed,
+/// with the same faces, but finitely many; of others some are, perhaps with fewer faces. Pre: for each piece whether it
+/// is one. Cost: follows the pairs of which one is among the pieces, or is in the plane of one or holds its edge.
+/// Exact: yes. Proof: P-65
+std::vector<Crossing> crossings_on(const std::vector<bool>& pieces, const Scene& scene, const Piece_boxes& boxes);
+
 }  // namespace sightline

@@ -332,7 +332,10 @@ std::vector<Drawn_edge> hidden_lines(const Exact_view& view, const Visible_surfa
 
 std::vector<Drawn_crossing> visible_crossings(const Exact_view& view, const Visible_surface<Exact_view>& surface,
                                               const Piece_boxes& boxes, int threads) {
-  const std::vector<Crossing> all = crossings(view.scene(), boxes);
+  std::vector<bool> seen(view.scene().pieces().size(), false);  // all that is visible of crossings is on these. P-65
+  for (const auto& part : surface.parts)
+    if (part.piece != surface.nothing) seen[part.piece] = true;
+  const std::vector<Crossing> all = crossings_on(seen, view.scene(), boxes);
   std::vector<std::vector<Line_part>> parts(all.size());
   const Hidden_lines lines(view, surface);
   run_with_threads(threads, [&] { parallel_for(all.size(), [&](std::size_t i) { parts[i] = lines.parts(all[i]); }); });

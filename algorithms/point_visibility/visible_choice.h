@@ -80,17 +80,22 @@ class Cut_choice {
     return pile;
   }
 
-  /// Of items that do not cover the region; none where all do.
+  /// Of items that do not cover the region: of those that the middle meets, else of all, by their planes; none where
+  /// all cover it.
   const Item* nearest_in_the_middle(const Task<V>& task) const {
     const Approximate_vector middle = middle_of(view_, task.region);
     double nearest = -std::numeric_limits<double>::infinity();
+    bool met = false;
     const Item* best = nullptr;
     for (const Item& item : task.items) {
       if (item.covers()) continue;
       const double near = view_.nearness(chunks_.piece_of(item.chunk), middle);
-      if (best == nullptr || near > nearest) {
+      if (best != nullptr && met && near <= nearest) continue;
+      const bool meets = chunks_.holds(item, middle);
+      if (best == nullptr || (meets && !met) || (meets == met && near > nearest)) {
         nearest = near;
         best = &item;
+        met = meets;
       }
     }
     return best;

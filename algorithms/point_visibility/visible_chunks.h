@@ -146,6 +146,16 @@ class Chunks {
     });
   }
 
+  /// The same of a direction in the region, which need be held to the edges only that cut it.
+  bool holds(const Item& item, const Approximate_vector& direction) const {
+    const Plane* edges = item.active != 0 ? edges_of(item.chunk) : nullptr;
+    for (std::uint32_t bits = item.active; bits != 0; bits &= bits - 1) {
+      const std::array<double, 3> n = view_.approximate(edges[std::countr_zero(bits)]).normal;
+      if (!(n[0] * direction.x + n[1] * direction.y + n[2] * direction.z > 0)) return false;
+    }
+    return true;
+  }
+
   bool is_behind(std::uint32_t chunk, const Plane& w, Predicate_counts& counts) const {
     for (const std::uint32_t p : points_of(chunk))
       if (view_.side(w, p, counts) == CGAL::POSITIVE) return false;

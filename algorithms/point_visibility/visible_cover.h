@@ -26,6 +26,9 @@ struct Hiding {
   bool hides(const Piece_boxes::Box& box, double distance) const {
     return distance > farthest || Piece_boxes::is_behind(box, plane);
   }
+  static bool any_hides(const std::vector<Hiding>& all, const Piece_boxes::Box& box, double distance) {
+    return std::any_of(all.begin(), all.end(), [&](const Hiding& one) { return one.hides(box, distance); });
+  }
 };
 
 template <View V>
@@ -77,39 +80,75 @@ class Cover_search {
     return changed;
   }
 
+  /// Adds to `others` what else covers the region among the items from `checked` on, each crossing the cover there, the
+  /// nearer of two that do not cross each other: in a lattice each direction of squares has its own. They hide as the
+  /// cover does. Returns whether there are new ones.
+  bool find_others(const Task<V>& task, std::size_t checked, std::vector<std::uint32_t>& others,
+                   Visible_counters& counters) const {
+    constexpr std::size_t most = 8;  // what does not hide costs only that more is looked at
+    bool changed = false;
+    for (std::size_t i = checked; i < task.items.size(); ++i) {
+      if (!task.items[i].covers()) continue;
+      const std::uint32_t chunk = task.items[i].chunk;
+      const auto hides_chunk = [&](std::uint32_t other) {
+        return chunks_.same_plane(other, chunk) ||
+               compare(other, chunk, task.region, counters.predicates) == Depth::nearer;
+      };
+      if (std::any_of(others.begin(), others.end(), hides_chunk)) continue;
+      std::erase_if(others, [&](std::uint32_t other) {
+        return compare(chunk, other, task.region, counters.predicates) == Depth::nearer;
+      });
+      if (others.size() == most) continue;
+      others.push_back(chunk);
+      changed = true;
+    }
+    return changed;
+  }
+
   // ---- What is behind it
 
-  /// Drops what is behind the cover of the items from `checked` on.
-  void drop_hidden(Task<V>& task, std::size_t checked, Visible_counters& counters) const {
+  /// Drops what is behind the cover of the items from `checked` on, and what is behind the others.
+  void drop_hidden(Task<V>& task, std::size_t checked, const std::vector<std::uint32_t>& others,
+                   Visible_counters& counters) const {
     if (!task.has_cover()) return;
     for (std::size_t i = checked; i < task.items.size();) {
       const Item item = task.items[i];
       const Depth depth = compare(task.cover, item.chunk, task.region, counters.predicates);
       const bool drop =
           depth == Depth::nearer || depth == Depth::tied ||
-          (depth == Depth::crossing && !item.covers() && is_beyond(task.cover, item.chunk, counters.predicates));
+          (depth == Depth::crossing && !item.covers() && is_beyond(task.cover, item.chunk, counters.predicates)) ||
+          std::any_of(others.begin(), others.end(), [&](std::uint32_t other) {
+            return other != item.chunk && is_hidden_by(other, item, task.region, counters.predicates);
+          });
       if (depth == Depth::tied) task.tied.push_back(item.chunk);
       counters.hidden += drop;
       if (drop) task.remove_item(i);
       else ++i;
     }
   }
-  void drop_hidden_boxes(Task<V>& task, const Hiding& hiding, Visible_counters& counters) const {
-    counters.hidden_boxes += std::erase_if(
-        task.boxes, [&](const Closed_box& box) { return hiding.hides(chunks_.node(box).box, box.distance); });
+  void drop_hidden_boxes(Task<V>& task, const std::vector<Hiding>& hiding, Visible_counters& counters) const {
+    counters.hidden_boxes += std::erase_if(task.boxes, [&](const Closed_box& box) {
+      return Hiding::any_hides(hiding, chunks_.node(box).box, box.distance);
+    });
     std::make_heap(task.boxes.begin(), task.boxes.end());
   }
-  /// Pre: the region has a cover.
-  Hiding hiding_in(const Task<V>& task) const {
-    const std::uint32_t cover = chunks_.piece_of(task.cover);
+  /// Pre: the chunk covers the region.
+  Hiding hiding_in(const Region<V>& region, std::uint32_t chunk) const {
+    const std::uint32_t cover = chunks_.piece_of(chunk);
     double farthest = 0;  // of a polygon, so at a corner
-    for (const typename V::Ray& r : task.region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
+    for (const typename V::Ray& r : region.rays) farthest = std::max(farthest, view_.farthest(cover, r));
     const Plane support = view_.scene().pieces()[cover].support;
     return {farthest * (1 + 0x1p-40) + 4 * chunks_.eye().error + 0x1p-900,
             view_.scene().prepared(view_.eye_side(cover) == CGAL::POSITIVE ? support : support.opposite())};
   }
 
  private:
+  /// Whether an item is behind chunk f, which covers the region, and not in its plane: what is tied is noted with the
+  /// cover only.
+  bool is_hidden_by(std::uint32_t f, const Item& item, const Region<V>& region, Predicate_counts& counts) const {
+    const Depth depth = compare(f, item.chunk, region, counts);
+    return depth == Depth::nearer || (depth == Depth::crossing && !item.covers() && is_beyond(f, item.chunk, counts));
+  }
   /// Whether chunk g is behind f, which covers the region, although their planes cross there: no corner of it is on the
   /// eye's side of f's plane.
   bool is_beyond(std::uint32_t f, std::uint32_t g, Predicate_counts& counts) const {

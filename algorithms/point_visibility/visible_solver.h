@@ -101,13 +101,26 @@ class Solver {
 
   /// Drops what is hidden in the region, opens boxes, and returns the plane to cut it by; none where it is settled.
   std::optional<Plane> settle(Task<V>& task, Visible_counters& counters) const {
-    std::size_t checked = 0;  // items before this have been compared with the cover
-    std::optional<Hiding> hiding;
+    std::size_t checked = 0;     // items before this have been compared with the cover
+    std::vector<Hiding> hiding;  // of the cover, then of what else covers the region
+    std::vector<std::uint32_t> others;
     std::ptrdiff_t enough = 6;
     for (;;) {
-      if (covers_.find_cover(task, checked, counters) || (!hiding && task.has_cover()))
-        covers_.drop_hidden_boxes(task, hiding.emplace(covers_.hiding_in(task)), counters);
-      covers_.drop_hidden(task, checked, counters);
+      bool changed = hiding.empty() && task.has_cover();
+      if (covers_.find_cover(task, checked, counters)) {
+        others.clear();
+        changed = true;
+      }
+      if (covers_.find_others(task, checked, others, counters)) {
+        checked = 0;
+        changed = true;
+      }
+      if (changed) {
+        hiding.assign(1, covers_.hiding_in(task.region, task.cover));
+        for (const std::uint32_t other : others) hiding.push_back(covers_.hiding_in(task.region, other));
+        covers_.drop_hidden_boxes(task, hiding, counters);
+      }
+      covers_.drop_hidden(task, checked, others, counters);
       checked = task.items.size();
       if (task.boxes.empty()) break;
       if (has_edges(task, enough)) {
@@ -126,7 +139,7 @@ class Solver {
            enough;
   }
 
-  void open_nearest(Task<V>& task, const std::optional<Hiding>& hiding, Visible_counters& counters) const {
+  void open_nearest(Task<V>& task, const std::vector<Hiding>& hiding, Visible_counters& counters) const {
     std::pop_heap(task.boxes.begin(), task.boxes.end());
     const Closed_box opened = task.boxes.back();
     task.boxes.pop_back();
@@ -139,13 +152,13 @@ class Solver {
     add_box(opened.node + 1, task, hiding, counters);
     add_box(node.second, task, hiding, counters);
   }
-  void add_box(std::uint32_t child, Task<V>& task, const std::optional<Hiding>& hiding,
+  void add_box(std::uint32_t child, Task<V>& task, const std::vector<Hiding>& hiding,
                Visible_counters& counters) const {
     const Piece_boxes::Node& node = chunks_.boxes().nodes()[child];
     if (chunks_.is_outside(node, task.region)) return;
     if (task.through != nullptr && task.through->passes(node.box)) return;
     const double distance = chunks_.distance(node.box);
-    if (hiding && hiding->hides(node.box, distance)) {
+    if (Hiding::any_hides(hiding, node.box, distance)) {
       ++counters.hidden_boxes;
       return;
     }

@@ -6,6 +6,7 @@
 
 #include <sightline/algorithms/point_visibility/crossings.h>
 #include <sightline/algorithms/point_visibility/hidden_lines.h>
+#include <sightline/harness/generate/buildings.h>
 
 #include <gtest/gtest.h>
 
@@ -229,6 +230,35 @@ TEST(Crossing_lines, that_a_third_face_hides_are_not_listed_in_any_order) {
     }
     EXPECT_EQ(found, (std::set<std::pair<Exact_point, std::set<int>>>{{{-1, -3, 1}, {1, 2}}, {{1, -3, 1}, {0, 2}}}));
   } while (std::next_permutation(faces.begin(), faces.end()));
+}
+
+TEST(Crossing_lines, between_faces_that_are_not_seen_are_listed_where_what_is_seen_ends_in_them) {
+  // A valley, steeper than the ramps and on top of them: what it hides meets its bottom from below.
+  std::vector<Points> faces{{{0, -4, 0}, {4, -4, 8}, {4, 4, 8}, {0, 4, 0}},
+                            {{-4, -4, 8}, {0, -4, 0}, {0, 4, 0}, {-4, 4, 8}},
+                            ramp(1),
+                            ramp(-1)};
+  const Exact_point eye{view_scenes::ratio(1, 9), view_scenes::ratio(1, 4), 12};
+  const Scene scene(view_scenes::soup_of(faces));
+  EXPECT_EQ(visible_surface(Exact_view(scene, eye), Piece_boxes(scene)).visible, (std::vector<Face_id>{0, 1}));
+  EXPECT_EQ(crossings_in(view_scenes::soup_of(faces), eye), (std::set<Segment>{{{0, -3, 0}, {0, 3, 0}, {2, 3}}}));
+  // Through the bottom, the lower half of a wall that goes on as one side of the valley does not.
+  faces[2] = {{-3, -3, -3}, {0, -3, 0}, {0, 3, 0}, {-3, 3, -3}};
+  faces.push_back({{0, -2, 0}, {3, -2, 3}, {3, 2, 3}, {0, 2, 0}});
+  EXPECT_EQ(crossings_in(view_scenes::soup_of(faces), eye), (std::set<Segment>{{{0, -2, 0}, {0, 2, 0}, {2, 3, 4}}}));
+}
+
+TEST(Crossing_lines, are_sought_on_what_is_seen) {
+  constexpr std::size_t n = 30;
+  const Scene scene(generate::lattice(n));
+  const Piece_boxes boxes(scene);
+  std::vector<bool> some(scene.pieces().size(), false);
+  EXPECT_TRUE(crossings_on(some, scene, boxes).empty());
+  some[0] = true;  // a side of the cube, which no other square goes through
+  EXPECT_TRUE(crossings_on(some, scene, boxes).empty());
+  some[n / 2] = true;
+  EXPECT_EQ(crossings_on(some, scene, boxes).size(), 2 * (n - 1));
+  EXPECT_EQ(crossings(scene, boxes).size(), 3 * (n - 1) * (n - 1));
 }
 
 TEST(Crossing_lines, in_the_side_plane_of_an_octant_are_listed) {

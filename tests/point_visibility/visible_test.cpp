@@ -5,6 +5,7 @@
 #include "../sample.h"
 
 #include <sightline/algorithms/point_visibility/kernels.h>
+#include <sightline/harness/generate/buildings.h>
 #include <sightline/harness/generate/soups.h>
 
 #include <gtest/gtest.h>
@@ -155,6 +156,43 @@ TEST(Crossings, are_cut_where_many_faces_that_cover_a_region_cross) {
       const std::set<Face_id> lawful = oracle::visible_faces(scene, eye);
       EXPECT_EQ(std::vector<Face_id>(lawful.begin(), lawful.end()), surface.visible);
     }
+}
+
+// ---- Lattices: squares across a whole cube, of which few are seen
+
+TEST(Lattices, are_seen_as_brute_force_sees_them) {
+  using view_scenes::ratio;
+  for (const Exact_point& eye :
+       {Exact_point{-2, -3, ratio(7, 3)}, Exact_point{ratio(1, 3), ratio(5, 4), ratio(12, 5)}, Exact_point{-1, 1, 2}})
+    expect_as_brute_force({"lattice", generate::lattice(3), eye});
+}
+
+TEST(Lattices, are_cut_by_what_the_middle_of_a_region_meets) {
+  // From outside two sides of the cube are seen. Planes of squares that they hide are nearer there, but not the
+  // squares.
+  for (const std::size_t n : {100UL, 333UL}) {
+    const Scene scene(generate::lattice(n));
+    const auto k = static_cast<long>(n);
+    const Exact_view view(
+        scene, {view_scenes::ratio(-2 * k, 5), view_scenes::ratio(-3 * k, 5), view_scenes::ratio(7 * k, 10)});
+    const auto surface = visible_surface(view, Piece_boxes(scene));
+    EXPECT_EQ(surface.from_behind, (std::vector<Face_id>{0, static_cast<Face_id>(n + 1)}));
+    EXPECT_LT(surface.counters.regions, 30u) << n;
+    EXPECT_LT(surface.counters.looked_at, 16 * n) << n;
+  }
+}
+
+TEST(Lattices, are_hidden_by_all_that_cover_a_region_though_these_cross) {
+  for (const std::size_t n : {100UL, 1000UL}) {
+    const Scene scene(generate::lattice(n));
+    const auto k = static_cast<long>(n);
+    const Exact_view view(scene, {view_scenes::ratio(5 * k + 3, 10), view_scenes::ratio(5 * k + 4, 10),
+                                  view_scenes::ratio(7 * k + 5, 10)});
+    const auto surface = visible_surface(view, Piece_boxes(scene));
+    EXPECT_EQ(surface.visible.size() + surface.from_behind.size(), 6u);  // the walls of a cell
+    EXPECT_LT(surface.counters.regions, 400u) << n;
+    EXPECT_LT(surface.counters.looked_at, 1000u) << n;
+  }
 }
 
 // ---- Many of one plane, many corners
