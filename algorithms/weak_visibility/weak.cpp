@@ -27,7 +27,9 @@ Weakly_visible weakly_visible(const Occluders& occluders, const std::vector<Weak
   std::vector<std::vector<std::uint32_t>> likely(sources.size());
   constexpr std::size_t most_are = 8;
   if (wanted.empty() || wanted.size() * most_are > first.size())
-    parallel_for(sources.size(), [&](std::size_t s) { likely[s] = likely_blockers(occluders, sources[s]); });
+    parallel_for(sources.size(), [&](std::size_t s) {
+      likely[s] = likely_blockers(occluders, sources[s], options.search.out_of_time);
+    });
   const auto answer_of = [&](std::uint32_t piece, std::uint32_t s, Weak_counters& counters) {
     const auto& [source, plane] = sources[s];
     if (options.search.out_of_time && options.search.out_of_time()) return nothing_known();

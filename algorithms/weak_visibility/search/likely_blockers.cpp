@@ -63,13 +63,14 @@ struct Lines_to_box {
 
 }  // namespace
 
-std::vector<std::uint32_t> likely_blockers(const Occluders& occluders, const Weak_source& source) {
+std::vector<std::uint32_t> likely_blockers(const Occluders& occluders, const Weak_source& source,
+                                           const std::function<bool()>& out_of_time) {
   std::vector<std::uint32_t> likely(occluders.scene().pieces().size(), no_blocker);
   const Piece_boxes& boxes = occluders.boxes();
   const std::span<const Piece_boxes::Node> nodes = boxes.nodes();
   std::vector<std::uint32_t> waiting;
   if (!nodes.empty()) waiting.push_back(0);
-  while (!waiting.empty()) {
+  while (!waiting.empty() && !(out_of_time && out_of_time())) {
     const std::uint32_t at = waiting.back();
     waiting.pop_back();
     const Piece_boxes::Node& node = nodes[at];
