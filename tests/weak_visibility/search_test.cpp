@@ -220,7 +220,7 @@ TEST(Weak_visibility, is_undecided_and_never_a_guess_where_the_search_may_take_o
   options.search.out_of_time = [&] { return ++asked, true; };
   options.threads = 1;
   EXPECT_EQ(found_and_verified(soup, {square(0, 0, 0, 1, true)}, options, "no time").of(0), Weak_status::undecided);
-  EXPECT_EQ(asked, 3u) << "once a face, and nothing is begun";
+  EXPECT_EQ(asked, 4u) << "once before boxes of faces, once a face, and nothing is begun";
 }
 
 TEST(Weak_source, that_is_no_convex_polygon_is_refused_with_advice) {
