@@ -2,13 +2,10 @@
 
 #include "../sample.h"
 #include "scenes.h"
+#include "tree_order.h"
 
-#include <sightline/algorithms/bsp/build.h>
-#include <sightline/algorithms/bsp/traverse.h>
-#include <sightline/algorithms/covering_of_scene.h>
 #include <sightline/harness/generate/families.h>
 #include <sightline/kernel/scene/set_aside.h>
-#include <sightline/kernel/traits/exact_traits.h>
 
 namespace {
 
@@ -168,24 +165,6 @@ TEST(Set_aside, as_what_has_no_front_and_winds) {
   }
 }
 
-Order_certificate back_to_front(const sightline::Scene& scene, const Exact_point& eye) {
-  const Exact_traits traits(scene);
-  Bsp_options options;
-  options.threads = 1;
-  const Bsp_tree<Exact_traits> tree = build_bsp(traits, options);
-  Order_certificate certificate;
-  certificate.eye = eye;
-  add_pieces(certificate, scene);
-  traverse(traits, tree, traits.eye(eye), Direction::back_to_front, [&](const Fragment<Exact_traits>& drawn, Sign) {
-    const Piece& piece = scene.pieces()[drawn.polygon.piece];
-    Order_fragment& fragment = certificate.fragments.emplace_back();
-    fragment.face = piece.face;
-    fragment.piece = piece.number;
-    for (const auto& corner : drawn.polygon) fragment.vertices.push_back(traits.position(*corner.vertex));
-  });
-  return certificate;
-}
-
 TEST(Set_aside, as_scenes_do_it_with_twisted_holes) {
   std::size_t aside = 0, kept = 0;
   for (const std::int64_t ulps : {std::int64_t{0}, std::int64_t{1}, std::int64_t{-1}, generate::far_ulps})
@@ -194,7 +173,7 @@ TEST(Set_aside, as_scenes_do_it_with_twisted_holes) {
       parameters.seed = seed, parameters.ulps = ulps;
       const generate::Posed_scene posed = generate::family("twisted_holes").make(parameters);
       const sightline::Scene made(posed.soup);
-      const Order_certificate certificate = back_to_front(made, posed.eye);
+      const Order_certificate certificate = certificate_of_tree(made, posed.eye);
       const Verdict verdict = verify_order(posed.soup, certificate);
       EXPECT_TRUE(verdict.accepted) << posed.name << ", " << ulps << " ulps: " << verdict.why;
       aside += made.counters().no_simple_projection;

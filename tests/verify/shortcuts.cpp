@@ -2,16 +2,13 @@
 
 #include "../sample.h"
 #include "scenes.h"
+#include "tree_order.h"
 
-#include <sightline/algorithms/bsp/build.h>
-#include <sightline/algorithms/covering_of_scene.h>
-#include <sightline/algorithms/order_cuts.h>
 #include <sightline/algorithms/verify/pairs.h>
 #include <sightline/algorithms/verify/parallel.h>
 #include <sightline/algorithms/verify/planes_between.h>
 #include <sightline/algorithms/verify/rounded_cones.h>
 #include <sightline/harness/generate/families.h>
-#include <sightline/kernel/traits/exact_traits.h>
 
 #include <atomic>
 #include <numeric>
@@ -156,26 +153,6 @@ TEST(Planes_between, are_right_of_sequences_that_are_nearly_in_order) {
   EXPECT_GT(told, least(10000u));
   EXPECT_GT(nearer, least(1000u));
   EXPECT_GT(in_a_plane, 0u);
-}
-
-/// The order that a tree gives, with its cuts.
-Order_certificate certificate_of_tree(const sightline::Scene& scene, const Exact_point& eye) {
-  const Exact_traits traits(scene);
-  Bsp_options options;
-  options.threads = 1;
-  const Bsp_tree<Exact_traits> tree = build_bsp(traits, options);
-  Order_certificate certificate;
-  certificate.eye = eye;
-  add_pieces(certificate, scene);
-  traverse_with_cuts(traits, tree, traits.eye(eye), &scene, certificate.cuts,
-                     [&](const Fragment<Exact_traits>& drawn, Sign) {
-                       const Piece& piece = scene.pieces()[drawn.polygon.piece];
-                       Order_fragment& fragment = certificate.fragments.emplace_back();
-                       fragment.face = piece.face, fragment.piece = piece.number;
-                       for (const auto& corner : drawn.polygon)
-                         fragment.vertices.push_back(traits.position(*corner.vertex));
-                     });
-  return certificate;
 }
 
 /// How many of a certificate's fragments its cuts leave to be compared.
