@@ -141,9 +141,9 @@ class Builder {
     };
     if (!is_large(cell.polygons)) return settle_here(std::move(cell), part, mine);
     Draws draws(cell.seed);
-    const auto middle = cell.polygons.begin() +
-                        static_cast<std::ptrdiff_t>(divide(
-                            cell.polygons, {0, nowhere, cell.seed, cell.depth, cell.given}, draws.own, part, mine));
+    const std::size_t first_in_front =  // asked first: it moves the polygons
+        divide(cell.polygons, {0, nowhere, cell.seed, cell.depth, cell.given}, draws.own, part, mine);
+    const auto middle = cell.polygons.begin() + static_cast<std::ptrdiff_t>(first_in_front);
     const auto [given_front, given_behind] = given_below(cell.given, cell.depth);
     Cell front{{middle, cell.polygons.end()}, draws.front, cell.depth + 1, given_front};
     cell.polygons.erase(middle, cell.polygons.end());

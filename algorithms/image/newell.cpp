@@ -366,7 +366,7 @@ class Newell {
   }
 
   /// Behind all where it was not moved.
-  std::vector<Moved>::iterator place_of(std::uint32_t polygon) {
+  auto place_of(std::uint32_t polygon) {
     return std::find_if(moved_.begin(), moved_.end(), [&](const Moved& moved) { return moved.polygon == polygon; });
   }
 

@@ -73,7 +73,7 @@ using Loop = std::vector<std::uint32_t>;
 std::vector<Loop> loops_of(std::vector<std::pair<std::uint32_t, std::uint32_t>>& edges, const Group_view& view) {
   std::sort(edges.begin(), edges.end());
   const auto after = [&](std::size_t e) {
-    const auto [u, v] = edges[e];
+    const std::uint32_t u = edges[e].first, v = edges[e].second;
     const auto begin = std::lower_bound(edges.begin(), edges.end(), std::pair(v, std::uint32_t{0}));
     auto best = begin;
     const auto rank = [&, from = u](std::uint32_t w) {

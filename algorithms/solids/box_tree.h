@@ -20,9 +20,9 @@ class Box_tree {
   struct Box {
     std::array<double, 3> low, high;
     bool meets(const Box& other) const {
-      bool apart = false;  // without a branch for each of six, which no processor can predict
-      for (std::size_t k = 0; k < 3; ++k) apart |= (low[k] > other.high[k]) | (other.low[k] > high[k]);
-      return !apart;
+      unsigned apart = 0;  // without a branch for each of six, which no processor can predict
+      for (std::size_t k = 0; k < 3; ++k) apart |= unsigned{low[k] > other.high[k]} | unsigned{other.low[k] > high[k]};
+      return apart == 0;
     }
   };
 
@@ -108,8 +108,9 @@ template <class Visit>
 void Box_tree::for_each_along(const std::array<double, 3>& from, std::size_t axis, bool upwards, Visit visit) const {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
   const auto is_on_way = [&](const Box& box) {
-    return (box.low[u] <= from[u]) & (from[u] <= box.high[u]) & (box.low[v] <= from[v]) & (from[v] <= box.high[v]) &
-           (upwards ? from[axis] <= box.high[axis] : box.low[axis] <= from[axis]);
+    const unsigned within_u = unsigned{box.low[u] <= from[u]} & unsigned{from[u] <= box.high[u]};
+    const unsigned within_v = unsigned{box.low[v] <= from[v]} & unsigned{from[v] <= box.high[v]};
+    return (within_u & within_v) != 0 && (upwards ? from[axis] <= box.high[axis] : box.low[axis] <= from[axis]);
   };
   std::uint32_t stack[64];
   std::size_t size = 0;

@@ -118,7 +118,7 @@ bool Planes_between::is_apart(std::size_t i, const Cut& cut) const {
 }
 
 Planes_between::Cut Planes_between::cut_by_depth(const Part& part) const {
-  const auto [begin, end, depth] = part;
+  const std::size_t begin = part.begin, end = part.end;
   const std::span<const std::uint32_t> depths = places_.depths.subspan(begin, part.size());
   const auto least = std::min_element(depths.begin(), depths.end());
   // 1. By a plane that no polygon has.
@@ -151,7 +151,8 @@ Planes_between::Cut Planes_between::cut_by_samples(const Part& part) const {
 
 std::vector<Planes_between::Part> Planes_between::cut(const Part& part, const Workers& workers) {
   constexpr std::size_t block = 512;
-  const auto [begin, end, depth] = part;
+  const std::size_t begin = part.begin, end = part.end;
+  const int depth = part.depth;
   const std::size_t size = part.size();
   if (size < 2) return {};
   // 1. Where it is cut, unless that would tell nothing any more.

@@ -16,7 +16,8 @@ std::vector<Group_row> rows_of_groups(const std::vector<std::uint32_t>& groups, 
     row.undecided.insert(row.undecided.end(), seen->undecided.begin(), seen->undecided.end());
   }
   std::vector<Group_row> list;
-  for (auto& [number, row] : rows) {
+  for (auto& [number, of_group] : rows) {
+    Group_row& row = of_group;
     for (std::vector<Face_id>* faces : {&row.visible, &row.undecided}) {
       std::sort(faces->begin(), faces->end());
       faces->erase(std::unique(faces->begin(), faces->end()), faces->end());

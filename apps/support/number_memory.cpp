@@ -30,7 +30,7 @@ constexpr bool has_small_blocks = false;
 
 // Blocks of 24, 40, 56, ... bytes: as much as glibc's malloc gives at least for what is asked for. So numbers that were
 // made before the lists may come to them too.
-constexpr std::size_t least_block = 24, step_size = 16, sizes = 16, at_once = std::size_t{1} << 16;
+constexpr std::size_t least_block = 24, step_size = 16, size_classes = 16, at_once = std::size_t{1} << 16;
 
 constexpr std::size_t place_of(std::size_t size) {
   return size <= least_block ? 0 : (size - least_block + step_size - 1) / step_size;
@@ -50,12 +50,12 @@ constexpr std::size_t most_at_hand = 1024;
 
 /// Two lists of a thread for each size, so that threads meet once in a thousand times: one from which it takes and to
 /// which it gives, and one that is full or empty. They outlive whatever the thread still has to destroy.
-thread_local std::array<Blocks, sizes> at_hand{}, in_reserve{};
+thread_local std::array<Blocks, size_classes> at_hand{}, in_reserve{};
 
 /// What threads have too much of, and what those that have ended left.
 struct Left_over {
   std::mutex mutex;
-  std::array<std::vector<Blocks>, sizes> lists;
+  std::array<std::vector<Blocks>, size_classes> lists;
 
   void add(std::size_t place, Blocks& blocks) {
     const std::lock_guard lock(mutex);
@@ -76,7 +76,7 @@ Left_over& left_over() {
 
 struct At_end_of_thread {
   ~At_end_of_thread() {
-    for (std::size_t place = 0; place < sizes; ++place)
+    for (std::size_t place = 0; place < size_classes; ++place)
       for (Blocks* blocks : {&at_hand[place], &in_reserve[place]}) left_over().add(place, *blocks);
   }
 };
@@ -109,7 +109,7 @@ void put_away_blocks(std::size_t place) {
 extern "C" {
 static void* allocated(std::size_t size) {
   const std::size_t place = place_of(size);
-  if (!has_small_blocks || place >= sizes) return checked(std::malloc(size));
+  if (!has_small_blocks || place >= size_classes) return checked(std::malloc(size));
   if (at_hand[place].first == nullptr) fetch_blocks(place);
   Block* const block = at_hand[place].first;
   at_hand[place].first = block->next;
@@ -119,7 +119,7 @@ static void* allocated(std::size_t size) {
 
 static void released(void* memory, std::size_t size) {
   const std::size_t place = place_of(size);
-  if (!has_small_blocks || place >= sizes) {
+  if (!has_small_blocks || place >= size_classes) {
     std::free(memory);
     return;
   }
@@ -130,7 +130,8 @@ static void released(void* memory, std::size_t size) {
 
 static void* reallocated(void* before, std::size_t old_size, std::size_t size) {
   const std::size_t old_place = place_of(old_size), place = place_of(size);
-  if (!has_small_blocks || (old_place >= sizes && place >= sizes)) return checked(std::realloc(before, size));
+  if (!has_small_blocks || (old_place >= size_classes && place >= size_classes))
+    return checked(std::realloc(before, size));
   if (old_place == place) return before;
   void* const memory = allocated(size);
   std::memcpy(memory, before, old_size < size ? old_size : size);

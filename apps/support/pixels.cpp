@@ -65,7 +65,7 @@ std::string painted(const Pixel_image& image) {
     svg.rectangle(left, title, wide, high, colours[0]);
     for (std::uint32_t y = 0; y < height; ++y)
       for (std::uint32_t x = 0, end = 0; x < width; x = end) {  // a rectangle for each run of one colour
-        const auto at = [&](std::uint32_t column) {
+        const auto at = [&, statistics = statistics](std::uint32_t column) {
           return colour(statistics->image[std::size_t{y} * width + column]);
         };
         for (end = x + 1; end < width && at(end) == at(x);) ++end;

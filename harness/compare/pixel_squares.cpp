@@ -141,7 +141,7 @@ void Pixel_squares::show(const Flat_polygon& cell, const Members& members, const
   Members hiding;
   for (const auto& [nearness, j] : by_depth) {
     if (std::any_of(hiding.begin(), hiding.end(),
-                    [&](std::uint32_t i) { return !signs(before(i, j), corners).negative; }))
+                    [&, j = j](std::uint32_t i) { return !signs(before(i, j), corners).negative; }))
       continue;
     here.push_back(j);
     if (tints[seen_[j].piece].alpha >= 1 && is_all_over(j)) hiding.push_back(j);

@@ -92,7 +92,7 @@ std::vector<Ray_truth> ray_truths(const Polygon_soup& soup, const Scene& scene, 
     // 3. Repetitions of these faces are as right.
     for (const auto& [face, corners] : repeated)
       if (std::any_of(truth.right.begin(), truth.right.end(),
-                      [&](Face_id right) { return corner_set(soup, right) == corners; }))
+                      [&, &corners = corners](Face_id right) { return corner_set(soup, right) == corners; }))
         truth.right.push_back(face);
     std::sort(truth.right.begin(), truth.right.end());
     truth.right.erase(std::unique(truth.right.begin(), truth.right.end()), truth.right.end());
