@@ -51,7 +51,7 @@ add_library(sightline_python MODULE ${sources})
 target_link_libraries(sightline_python PRIVATE own_settings sightline_harness)
 target_include_directories(sightline_python SYSTEM PRIVATE "${python_include}" "${SIGHTLINE_PYBIND11_INCLUDE_DIR}")
 # What takes its time is in the libraries.
-target_compile_options(sightline_python PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O1>)
+target_compile_options(sightline_python PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-O1> ${rough})
 set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/module/module.cpp" PROPERTIES COMPILE_DEFINITIONS SIGHTLINE_VERSION="${PROJECT_VERSION}")
 set_source_files_properties("${CMAKE_CURRENT_LIST_DIR}/module/harness.cpp" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # its questions are judge's
 set_target_properties(sightline_python PROPERTIES OUTPUT_NAME _sightline PREFIX "" SUFFIX "${python_suffix}" DEBUG_POSTFIX ""

@@ -4,7 +4,6 @@
 #include <sightline/algorithms/image/centres.h>
 #include <sightline/algorithms/image/piece_image.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
-#include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/scene/pixel_view.h>
 #include <sightline/kernel/scene/polygon_soup.h>

@@ -11,6 +11,7 @@ foreach(source IN LISTS sources)
   endif()
   add_executable(adapter_${name} EXCLUDE_FROM_ALL ${source})
   target_link_libraries(adapter_${name} PRIVATE program_settings)
+  target_compile_options(adapter_${name} PRIVATE ${rough})
   add_dependencies(adapters adapter_${name})
 endforeach()
 

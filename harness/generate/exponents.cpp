@@ -31,7 +31,8 @@ class Sizes {
     if (random_->chance(1, 5)) return 0;
     const std::vector<int>& powers = powers_[axis];
     const Rational size = power_of_two(powers[random_->below(powers.size())]);
-    return Rational(integer(*random_, 1, 3) * (random_->chance(1, 2) ? size : Rational(-size)));
+    const int sign = random_->chance(1, 2) ? 1 : -1;
+    return Rational(sign * integer(*random_, 1, 3) * size);
   }
   /// Two different ones, the smaller one first.
   std::pair<Rational, Rational> extent(std::size_t axis) {

@@ -77,11 +77,12 @@ Exact_ray edges(const std::array<Exact_point, 3>& face, const std::array<Exact_p
 Exact_ray grazing(const std::array<Exact_point, 3>& face, const std::array<Exact_point, 3>&, Random& random) {
   if (random.chance(1, 4))
     return towards(between(face[0], face[1], share(random, -8, 16, 8)), face[1]);  // along an edge
-  return towards(in_plane(face, random.chance(1, 3), random), in_plane(face, random.chance(1, 2), random));
+  const Exact_point to = in_plane(face, random.chance(1, 2), random);
+  return towards(in_plane(face, random.chance(1, 3), random), to);
 }
 Exact_ray surfaces(const std::array<Exact_point, 3>& face, const std::array<Exact_point, 3>& other, Random& random) {
-  return towards(in_plane(face, true, random),
-                 random.chance(1, 2) ? in_plane(other, true, random) : about(other, face[0], random));
+  const Exact_point to = random.chance(1, 2) ? in_plane(other, true, random) : about(other, face[0], random);
+  return towards(in_plane(face, true, random), to);
 }
 Exact_ray from_afar(const std::array<Exact_point, 3>& face, const std::array<Exact_point, 3>& other, Random& random) {
   const Exact_point to = random.chance(1, 2) ? face[0] : in_plane(face, true, random);

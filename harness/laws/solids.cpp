@@ -99,7 +99,8 @@ Exact_point any_point_of(const std::vector<Exact_point>& corners, Random& random
   const auto any = [&] { return corners[random.below(corners.size())]; };
   const Exact_point p = any(), q = any(), r = any();
   const Rational s = Rational(static_cast<long>(random.between(0, 8))) / 8;
-  const Rational t = Rational(static_cast<long>(random.between(-1, 4))) / (random.chance(1, 2) ? 1024 : 6);
+  const long parts = random.chance(1, 2) ? 1024 : 6;
+  const Rational t = Rational(static_cast<long>(random.between(-1, 4))) / parts;
   Exact_point point;
   for (std::size_t k = 0; k < 3; ++k) point[k] = p[k] + s * (q[k] - p[k]) + t * (r[k] - p[k]);
   return point;

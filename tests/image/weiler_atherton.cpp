@@ -54,7 +54,6 @@ TEST(Weiler_atherton_surfaces, are_cut_along_the_nearest_polygon) {
   const Scene scene(soup_of({rectangle(1, 9, 1, 9, -9), rectangle(1, 2, 1, 2, -4)}));
   const Exact_view view(scene, at(0, 0, 0));
   const Visible_surface<Exact_view> surface = weiler_atherton(view, whole_sphere(view));
-  Predicate_counts counts;
   std::size_t cuts = 0;
   for (const auto& node : surface.nodes) cuts += node.plane.name.is_edge();
   EXPECT_EQ(cuts, surface.nodes.size());

@@ -95,7 +95,7 @@ TEST_F(Judge, killed_in_the_middle_goes_on_where_it_was) {
     const std::string script =
         file("mine.sh", "echo x >> " + log + "\nif [ -e " + path("kill").string() + " ] && [ $(grep -c x " + log +
                             ") = 4 ]; then kill -9 $PPID; sleep 1; fi\n" + answer + "\n");
-    const auto asked = [&](const std::string& name, const std::vector<std::string>& more) {
+    const auto asked = [&, query = query](const std::string& name, const std::vector<std::string>& more) {
       std::vector<std::string> words{"judge",
                                      "--program",
                                      "sh " + script + " {scene} {query} {answer}",

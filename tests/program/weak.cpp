@@ -228,9 +228,9 @@ TEST_F(Weak, says_undecided_with_exit_code_4_where_it_may_not_search) {
   arguments.insert(arguments.end(), source.begin(), source.end());
   EXPECT_EQ(weak(arguments)["result"]["hidden"], Json({0, 1, 2}));  // the two are seen from behind
   arguments.insert(arguments.end(), {"--cells", "1"});
-  EXPECT_EQ(weak(arguments)["result"]["by_events"], Json({0}));
+  EXPECT_EQ(weak(arguments)["result"]["by_events"], Json::array({0}));
   arguments.insert(arguments.end(), {"--event-edges", "0"});
-  EXPECT_EQ(weak(arguments, undecided)["result"]["undecided"], Json({0}));
+  EXPECT_EQ(weak(arguments, undecided)["result"]["undecided"], Json::array({0}));
 }
 
 TEST_F(Weak, from_a_volume_sees_all_around_and_what_reaches_into_it) {
@@ -250,9 +250,9 @@ TEST_F(Weak, from_a_volume_sees_all_around_and_what_reaches_into_it) {
                                   "OFF\n8 2 0\n1.25 1.25 1.5\n1.75 1.25 1.5\n1.75 1.75 1.5\n1.25 1.75 1.5\n1.25 1.25 "
                                   "3\n1.75 1.25 3\n1.75 1.75 3\n1.25 1.75 3\n4 0 1 2 3\n4 4 5 6 7\n");
   const Json within = weak({sheets, "--from-volume", box})["result"];
-  EXPECT_EQ(within["within"], Json({0}));
-  EXPECT_EQ(within["visible"], Json({0}));  // the other one looks up, away from it
-  EXPECT_EQ(within["unproved"], Json({0}));
+  EXPECT_EQ(within["within"], Json::array({0}));
+  EXPECT_EQ(within["visible"], Json::array({0}));  // the other one looks up, away from it
+  EXPECT_EQ(within["unproved"], Json::array({0}));
   // The sides of a cube of the scene see nothing of it: it is convex. Of two, each sees the other.
   EXPECT_EQ(weak({cube, "--from-faces", "0,1,2,3,4,5"})["result"]["visible"].size(), 0u);
 }
@@ -306,7 +306,7 @@ TEST_F(Weak, hands_what_lines_leave_open_to_events_and_says_what_else_is_open) {
     return more;
   };
   const Json by_lines = weak(with({"--event-edges", "0", "--certificate", to}), undecided)["result"];
-  ASSERT_EQ(by_lines["undecided"], Json({0}));
+  ASSERT_EQ(by_lines["undecided"], Json::array({0}));
   EXPECT_EQ(run({"verify", scene, to}).code, done);
   ASSERT_EQ(by_lines["open"].size(), 1u);
   const Json& open = by_lines["open"][0];
@@ -328,7 +328,7 @@ TEST_F(Weak, hands_what_lines_leave_open_to_events_and_says_what_else_is_open) {
   const Json both = weak(with({"--certificate", to}))["result"];
   EXPECT_EQ(both["undecided"].size(), 0u);
   EXPECT_EQ(both["open"].size(), 0u);
-  EXPECT_EQ(both["by_events"], Json({0}));
+  EXPECT_EQ(both["by_events"], Json::array({0}));
   EXPECT_EQ(both["hidden"], weak({scene, "--from", words[2], "--method", "events"})["result"]["hidden"]);
   EXPECT_EQ(both["unproved"].size(), 0u);  // a proof was found once the answer was known
   const Outcome checked = run({"verify", scene, to, "--json", "-"});

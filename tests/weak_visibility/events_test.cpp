@@ -85,7 +85,6 @@ INSTANTIATE_TEST_SUITE_P(All, Event_families, testing::Range(std::size_t{0}, eve
 TEST_P(Event_families, and_the_search_among_lines_say_the_same) {
   const Family& family = event_families()[GetParam()];
   Event_counters counters;
-  Weak_counters others;
   std::size_t scenes = 0, visible = 0, hidden = 0, left = 0;
   for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 3); ++seed, ++scenes) {
     const Weak_scene scene = family.make(seed);
