@@ -159,7 +159,7 @@ TEST_F(Fuzz, a_case_that_does_not_end_in_time_ends_the_run_and_is_named) {
   // more than that, one of a run that is to end somewhere does not.
   const std::string before = "sightline fuzz: no end within ",
                     after = " s of processor time in the case that this replays: sightline fuzz ",
-                    name = sanitized ? "triangles:7:40:0:0,0,0:0" : "triangles:7:100:0:0,0,0:0";
+                    name = sanitized ? "triangles:7:15:0:0,0,0:0" : "triangles:7:60:0:0,0,0:0";
   const Outcome alone = run({"fuzz", "see", "--case", name, "--case-seconds", "0.05"});
   EXPECT_EQ(alone.code, disagreement) << alone;
   EXPECT_EQ(alone.err, before + "0.05" + after + "see --case " + name + "\n");
@@ -173,7 +173,7 @@ TEST_F(Fuzz, a_case_that_does_not_end_in_time_ends_the_run_and_is_named) {
   EXPECT_EQ(run({"fuzz", "weak", "--case", r.err.substr(replay.size(), r.err.size() - replay.size() - 1)}).code, done)
       << r;
   // Each case has its own time.
-  EXPECT_EQ(run({"fuzz", "io", "--seconds", "1", "--case-seconds", "0.5"}).code, done);
+  EXPECT_EQ(run({"fuzz", "io", "--seconds", "0.5", "--case-seconds", "0.3"}).code, done);
 }
 
 TEST_F(Fuzz, what_it_found_is_mended) {
