@@ -7,13 +7,16 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <new>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -37,6 +40,33 @@ static bool is_without_end(const std::exception& error) {
          std::string_view(error.what()).find("::") != std::string_view::npos;
 }
 
+// ---- Commands
+
+struct Named_command {
+  std::string_view name;
+  void (*add)(Command program);
+};
+static constexpr Named_command all_commands[] = {{"info", add_info},         {"bsp", add_bsp},
+                                                 {"order", add_order},       {"graph", add_graph},
+                                                 {"cutset", add_cutset},     {"see", add_see},
+                                                 {"weak", add_weak},         {"shadow", add_shadow},
+                                                 {"trace", add_trace},       {"render", add_render},
+                                                 {"boolean", add_boolean},   {"cells", add_cells},
+                                                 {"pvs", add_pvs},           {"merge", add_merge},
+                                                 {"verify", add_verify},     {"compare", add_compare},
+                                                 {"generate", add_generate}, {"fuzz", add_fuzz},
+                                                 {"reduce", add_reduce},     {"judge", add_judge},
+                                                 {"report", add_report},     {"completion", add_completion},
+                                                 {"schema", add_schema}};
+
+/// The commands that a command line with this first word is about: all of them where it is none of their names, and for
+/// `completion`, which lists them. The options of all are half of what a short run takes.
+static std::span<const Named_command> commands_for(std::string_view first_word) {
+  const auto named = std::ranges::find(all_commands, first_word, &Named_command::name);
+  if (named == std::end(all_commands) || first_word == "completion") return all_commands;
+  return {named, 1};
+}
+
 /// Does what the command line asks for, and says what went wrong.
 static Exit run(int argc, char** argv) {
   Program program("sightline", "Exact 3D visibility: who can see what, with answers that can be checked.");
@@ -45,11 +75,7 @@ static Exit run(int argc, char** argv) {
       "An OUTPUT is written whole or not at all, and is no FILE of the same command; - is standard output or input.\n"
       "Exit codes: 0 done; 1 a check failed, or methods disagree; 2 usage; 3 bad input, or an output that cannot be "
       "written; 4 undecided, or the budget or memory ran out.");
-  for (const auto add :
-       {add_info,     add_bsp,    add_order,   add_graph, add_cutset, add_see,        add_weak,   add_shadow,
-        add_trace,    add_render, add_boolean, add_cells, add_pvs,    add_merge,      add_verify, add_compare,
-        add_generate, add_fuzz,   add_reduce,  add_judge, add_report, add_completion, add_schema})
-    add(program.root());
+  for (const auto& [name, add] : commands_for(argc > 1 ? argv[1] : "")) add(program.root());
   try {
     return program.run(argc, argv).value_or(Exit::done);
   } catch (const std::bad_alloc&) {

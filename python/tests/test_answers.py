@@ -303,7 +303,7 @@ import numpy as np
 atexit.register(lambda: print("ended", flush=True))
 import sightline
 
-n = 700
+n = 400
 x, y = np.meshgrid(np.arange(n), np.arange(n))
 V = np.stack([x, y, np.random.default_rng(1).integers(0, 50, x.shape)], -1).reshape(-1, 3).astype(float)
 i = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()

@@ -8,13 +8,15 @@ namespace program {
 
 class Bad_input : public Program {
  protected:
-  /// info, bsp and order refuse a scene in one line, which says where.
+  /// info, bsp and order refuse a scene in one line, which says where. They read it alike: under sanitizers each of
+  /// them is asked in turn.
   void expect_refused(const std::string& scene, const std::string& where, Limits limits = {10, 1024}) {
-    for (const std::vector<std::string>& words : {std::vector<std::string>{"info", scene},
-                                                  {"bsp", scene},
-                                                  {"order", scene, "--eye", "3,4,5"},
-                                                  {"info", scene, "--json", "-"}}) {
-      std::vector<std::string> arguments = words;
+    const std::vector<std::vector<std::string>> commands{
+        {"info", scene}, {"bsp", scene}, {"order", scene, "--eye", "3,4,5"}, {"info", scene, "--json", "-"}};
+    ++refused_;
+    for (std::size_t k = 0; k < commands.size(); ++k) {
+      if (sanitized && k != refused_ % commands.size()) continue;
+      std::vector<std::string> arguments = commands[k];
       arguments.insert(arguments.end(), {"--threads", "1"});
       const Outcome r = run(arguments, limits);
       EXPECT_EQ(r.code, bad_input) << r;
@@ -37,6 +39,9 @@ class Bad_input : public Program {
     EXPECT_EQ(i.code, done) << i;
     return i.json();
   }
+
+ private:
+  std::size_t refused_ = 0;  ///< scenes
 };
 
 TEST_F(Bad_input, every_failure_of_the_corpus_is_refused_with_its_place) {
@@ -188,8 +193,9 @@ TEST_F(Bad_input, polygons_of_ten_thousand_corners_are_cut_and_ordered) {
 }
 
 TEST_F(Bad_input, a_million_repetitions_of_one_corner_are_one_point) {
-  std::string face = "1000003 0 1 2";
-  for (int i = 0; i < 1'000'000; ++i) face += " 2";
+  const int repetitions = sanitized ? 100'000 : 1'000'000;
+  std::string face = std::to_string(repetitions + 3) + " 0 1 2";
+  for (int i = 0; i < repetitions; ++i) face += " 2";
   const Json info = expect_taken(file("stutter.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n" + face + "\n"), {30, 1024});
   EXPECT_EQ(info["result"]["pieces"], 1);
 }

@@ -2,6 +2,7 @@
 
 #include "program.h"
 
+#include <cctype>
 #include <set>
 
 namespace program {
@@ -93,8 +94,10 @@ TEST_F(Generate, stl_holds_triangles_and_refuses_others) {
 }
 
 TEST_F(Generate, sizes_that_make_no_sense_are_usage_errors_at_once) {
-  for (const std::string& kind : kinds())
+  const std::vector<std::string> all = kinds();
+  for (const std::string& kind : all)
     for (const char* size : {"1000000000000", "9999999999999999999", "18446744073709551615", "-1", "many"}) {
+      if (std::isdigit(static_cast<unsigned char>(*size)) == 0 && kind != all[0]) continue;  // are numbers of no kind
       const Outcome r = run({"generate", kind, "--size", size, "--out", path("a.off").string()}, {10, 1024});
       EXPECT_EQ(r.code, usage) << r;
       EXPECT_TRUE(r.one_line_of_error()) << r;

@@ -239,10 +239,13 @@ TEST_F(Json_output, threads_change_nothing_but_seconds) {
         words.insert(words.end(), {"--json", "-"});
         const Outcome r = run(words);
         ASSERT_EQ(r.code, done) << r;
-        Json d = r.json();
-        d.erase("seconds");
-        const std::string text = d.dump() + (command[0] == "order" ? read_file(path("c.json")) : "");
-        if (first.empty()) first = text;
+        const std::string text =
+            r.out.substr(0, r.out.rfind("\"seconds\"")) + (command[0] == "order" ? read_file(path("c.json")) : "");
+        if (first.empty()) {
+          first = text;
+          const Json whole = r.json();
+          EXPECT_EQ((--whole.end()).key(), "seconds") << "nothing is behind them";
+        }
         EXPECT_TRUE(text == first) << command[0] << " --threads " << threads << " gives another result";
       }
     }

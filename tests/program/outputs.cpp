@@ -17,10 +17,11 @@ namespace program {
 class Outputs : public Program {
  protected:
   const std::string cube = read_file(corpus / "general" / "cube.off");
-  /// Some 20 MB of JSON.
+  /// Some 20 MB of JSON, and 5 where writing them takes longer.
   std::vector<std::string> much(const std::string& json) const {
     const std::string scene = path("many.off").string();
-    const bool made = fs::exists(scene) || run({"generate", "rooms", "--size", "12", "--out", scene}).code == done;
+    const bool made =
+        fs::exists(scene) || run({"generate", "rooms", "--size", sanitized ? "6" : "12", "--out", scene}).code == done;
     EXPECT_TRUE(made) << scene;
     return {"order", scene, "--eye", "3,4,5", "--json", json};
   }
@@ -321,7 +322,7 @@ TEST_F(Outputs, and_standard_input_is_read_in_the_format_that_is_said_by_all_com
       {"render", "--eye", "3,4,5", "--size", "32x32", "--json", path("r.json").string()},
       {"cells"},
       {"pvs"},
-      {"compare", "see", "--eye", "3,4,5"},
+      {"compare", "see", "--eye", "3,4,5", "--kernels", "exact", "--sizes", "8"},
       {"trace", "--rays", rays},
       {"shadow", "--light", "3,4,5"},
       {"boolean", "union"},
