@@ -40,9 +40,10 @@ Exact_ray towards(const Exact_point& from, const Exact_point& to) {
 /// A point about the corners, off their plane as a rule: what three random affine combinations give, axis by axis.
 Exact_point about(const std::array<Exact_point, 3>& p, const Exact_point& beside, Random& random) {
   Exact_point at;
-  for (std::size_t k = 0; k < 3; ++k)
-    at[k] = p[0][k] + share(random, -64, 64, 16) * (p[1][k] - p[0][k]) +
-            share(random, -64, 64, 16) * (p[2][k] - p[0][k]) + share(random, -16, 16, 16) * (beside[k] - p[0][k]);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Rational a = share(random, -16, 16, 16), b = share(random, -64, 64, 16), c = share(random, -64, 64, 16);
+    at[k] = p[0][k] + c * (p[1][k] - p[0][k]) + b * (p[2][k] - p[0][k]) + a * (beside[k] - p[0][k]);
+  }
   return at;
 }
 /// A point in the plane of the corners; inside the triangle where `inside`.
@@ -63,7 +64,8 @@ Exact_ray made(const Polygon_soup& soup, Random& random) {
 }
 
 Exact_ray anywhere(const std::array<Exact_point, 3>& face, const std::array<Exact_point, 3>& other, Random& random) {
-  return towards(about(face, other[0], random), about(other, face[1], random));
+  const Exact_point to = about(other, face[1], random);
+  return towards(about(face, other[0], random), to);
 }
 Exact_ray corners(const std::array<Exact_point, 3>& face, const std::array<Exact_point, 3>& other, Random& random) {
   const Exact_point from = random.chance(1, 3) ? other[1] : about(other, face[0], random);

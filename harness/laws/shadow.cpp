@@ -80,10 +80,11 @@ Answer labels(const Posed_scene& posed) {
 /// A direction to a sun: of an edge or a face's diagonal, along an axis, or any.
 Exact_point draw_sun(const Polygon_soup& soup, Random& random) {
   Exact_point d{0, 0, 0};
-  if (random.chance(1, 3) && soup.point_count() > 1)
-    d = minus(soup.point(static_cast<Point_id>(random.below(soup.point_count()))),
-              soup.point(static_cast<Point_id>(random.below(soup.point_count()))));
-  else
+  const auto any = [&] { return soup.point(static_cast<Point_id>(random.below(soup.point_count()))); };
+  if (random.chance(1, 3) && soup.point_count() > 1) {
+    const Exact_point from = any();
+    d = minus(any(), from);
+  } else
     for (Rational& x : d) x = static_cast<long>(random.between(-4, 4));
   if (d == Exact_point{0, 0, 0}) d[2] = 1;
   return d;

@@ -321,7 +321,8 @@ void dress(Polygons& polygons, Random& random) {
       case 0: loop.push_back(last); break;
       case 1: loop.push_back({Rational((last[0] + first[0]) / 2), Rational((last[1] + first[1]) / 2)}); break;
       default: {
-        const Image_point tip = grid_point(random.between(0, 4), random.between(0, 4));
+        const std::int64_t up = random.between(0, 4);
+        const Image_point tip = grid_point(random.between(0, 4), up);
         loop.insert(loop.end(), {tip, last});
       }
     }
