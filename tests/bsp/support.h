@@ -1,6 +1,8 @@
 #pragma once
 // Scenes by hand and at random, trees of them, and orders as certificates.
 
+#include "../products.h"
+
 #include <gtest/gtest.h>
 
 #include <sightline/algorithms/bsp/build.h>
@@ -53,11 +55,8 @@ inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
 inline Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
   return {Rational(p[0] + t * d[0]), Rational(p[1] + t * d[1]), Rational(p[2] + t * d[2])};
 }
-inline Rational dot(const Exact_point& a, const Exact_point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-inline Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
-          Rational(a[0] * b[1] - a[1] * b[0])};
-}
+using test_scenes::cross;
+using test_scenes::dot;
 inline Exact_point centroid(const Points& points) {
   Exact_point sum{0, 0, 0};
   for (const Exact_point& p : points) sum = along(sum, 1, p);

@@ -121,9 +121,15 @@ std::vector<std::pair<oracle::Points, Layer>> cut_everywhere(const oracle::Flats
   std::vector<oracle::Points> parts{{{-1, 1, 1}, {1, 1, 1}, {1, -1, 1}, {-1, -1, 1}}};
   for (const Exact_point& normal : changes(flats, pixels)) {
     std::vector<oracle::Points> halves;
-    for (const oracle::Points& part : parts)
-      for (const oracle::Half_space& side : {oracle::Half_space{normal, 0}, opposite(oracle::Half_space{normal, 0})})
-        if (oracle::Points half = oracle::clipped(part, side); !half.empty()) halves.push_back(std::move(half));
+    const oracle::Half_space plane{normal, 0};
+    for (oracle::Points& part : parts) {
+      if (oracle::is_beyond(part, opposite(plane)) || oracle::is_beyond(part, plane)) {  // whole, as most are
+        halves.push_back(std::move(part));
+        continue;
+      }
+      halves.push_back(oracle::clipped(part, plane));
+      halves.push_back(oracle::clipped(part, opposite(plane)));
+    }
     parts = std::move(halves);
   }
   std::vector<std::pair<oracle::Points, Layer>> all;

@@ -2,6 +2,8 @@
 // What an eye sees, by definition and by brute force: every piece against every other in plain rational arithmetic.
 // Knows the scene's pieces and where their corners are, nothing else of the library, and nothing of what it tests.
 
+#include "../products.h"
+
 #include <sightline/harness/generate/random.h>
 #include <sightline/kernel/scene/scene.h>
 
@@ -27,13 +29,8 @@ inline Exact_point minus(const Exact_point& a, const Exact_point& b) {
 inline Exact_point along(const Exact_point& p, const Rational& t, const Exact_point& d) {
   return {Rational(p[0] + t * d[0]), Rational(p[1] + t * d[1]), Rational(p[2] + t * d[2])};
 }
-inline Rational dot(const Exact_point& a, const Exact_point& b) {
-  return Rational(a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
-}
-inline Exact_point cross(const Exact_point& a, const Exact_point& b) {
-  return {Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
-          Rational(a[0] * b[1] - a[1] * b[0])};
-}
+using test_scenes::cross;
+using test_scenes::dot;
 inline bool is_zero(const Exact_point& v) { return sgn(v[0]) == 0 && sgn(v[1]) == 0 && sgn(v[2]) == 0; }
 inline Exact_point centroid(const Points& points) {
   Exact_point sum{0, 0, 0};
@@ -69,12 +66,20 @@ inline Points clipped(const Points& polygon, const Half_space& h) {
   }
   return part;
 }
+/// Whether nothing of a convex polygon is strictly on the positive side.
+inline bool is_beyond(const Points& polygon, const Half_space& h) {
+  return std::none_of(polygon.begin(), polygon.end(), [&](const Exact_point& p) { return sgn(h.height(p)) > 0; });
+}
 
 /// What is left of convex polygons without the interior of an intersection of half-spaces: convex polygons with
 /// disjoint interiors.
 inline std::vector<Points> without(const std::vector<Points>& polygons, const std::vector<Half_space>& hole) {
   std::vector<Points> left;
   for (const Points& polygon : polygons) {
+    if (std::any_of(hole.begin(), hole.end(), [&](const Half_space& side) { return is_beyond(polygon, side); })) {
+      left.push_back(polygon);
+      continue;
+    }
     Points rest = polygon;
     std::vector<Points> around;
     for (std::size_t k = 0; k < hole.size() && !rest.empty(); ++k) {
@@ -91,7 +96,7 @@ inline std::vector<Points> without(const std::vector<Points>& polygons, const st
 /// is on the side from which the corners run counterclockwise.
 inline int holds(const Points& polygon, const Exact_point& normal, const Exact_point& q) {
   int least = 1;
-  for (std::size_t k = 0; k < polygon.size(); ++k) {
+  for (std::size_t k = 0; k < polygon.size() && least >= 0; ++k) {
     const Exact_point &a = polygon[k], &b = polygon[(k + 1) % polygon.size()];
     least = std::min(least, sgn(dot(cross(minus(b, a), minus(q, a)), normal)));
   }

@@ -18,12 +18,14 @@ using namespace bsp_test;
 struct Flat {
   Points corners;
   Exact_point normal{0, 0, 0};  ///< twice the area vector (Newell)
+  Rational offset;              ///< of a point of the plane along the normal
 
   explicit Flat(Points points) : corners(std::move(points)) {
     for (std::size_t k = 0; k < corners.size(); ++k)
       normal = along(normal, 1, cross(corners[k], corners[(k + 1) % corners.size()]));
+    offset = dot(normal, corners[0]);
   }
-  Rational height(const Exact_point& p) const { return dot(normal, minus(p, corners[0])); }
+  Rational height(const Exact_point& p) const { return dot(normal, p) - offset; }
 
   /// Where the line from p through q meets the plane, as p + t (q - p); none if it is parallel.
   std::optional<Rational> crossing(const Exact_point& p, const Exact_point& q) const {
@@ -39,7 +41,7 @@ struct Flat {
       if (abs(normal[k]) > abs(normal[axis])) axis = k;
     const std::size_t i = (axis + 1) % 3, j = (axis + 2) % 3;
     int least = 1;
-    for (std::size_t k = 0; k < corners.size(); ++k) {
+    for (std::size_t k = 0; k < corners.size() && least >= 0; ++k) {
       const Exact_point &a = corners[k], &b = corners[(k + 1) % corners.size()];
       const Rational turn = (b[i] - a[i]) * (p[j] - a[j]) - (b[j] - a[j]) * (p[i] - a[i]);
       least = std::min(least, sgn(turn) * sgn(normal[axis]));

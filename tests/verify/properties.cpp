@@ -1,5 +1,6 @@
 // Orders known by construction, and the test of pairs against a clipping of polygons in space.
 
+#include "../products.h"
 #include "../sample.h"
 #include "scenes.h"
 
@@ -86,8 +87,7 @@ TEST(Random_stacks, are_accepted_in_their_order_and_rejected_with_two_exchanged)
 // ---- The oracle: clip polygon a in space by the planes through the eye (the origin) and b's edges
 
 Rational determinant(const Exact_point& a, const Exact_point& b, const Exact_point& c) {
-  const Exact_point n = order_check::cross(a, b);
-  return n[0] * c[0] + n[1] * c[1] + n[2] * c[2];
+  return test_scenes::dot(test_scenes::cross(a, b), c);
 }
 
 Points clipped(Points a, const Points& b) {
@@ -96,12 +96,14 @@ Points clipped(Points a, const Points& b) {
     for (std::size_t k = 0; k < 3; ++k) middle[k] += p[k];
   for (std::size_t j = 0; j < b.size(); ++j) {
     const Exact_point &b0 = b[j], &b1 = b[(j + 1) % b.size()];
-    const int inner = sgn(determinant(b0, b1, middle));
-    const auto value = [&](const Exact_point& p) { return Rational(inner * determinant(b0, b1, p)); };
+    const Exact_point n = test_scenes::cross(b0, b1);
+    const int inner = sgn(test_scenes::dot(n, middle));
+    std::vector<Rational> values;
+    for (const Exact_point& p : a) values.push_back(inner * test_scenes::dot(n, p));
     Points kept;
     for (std::size_t i = 0; i < a.size(); ++i) {
       const Exact_point &from = a[i], &to = a[(i + 1) % a.size()];
-      const Rational u = value(from), v = value(to);
+      const Rational &u = values[i], &v = values[(i + 1) % a.size()];
       if (sgn(u) >= 0) kept.push_back(from);
       if (sgn(u) * sgn(v) < 0) {
         const Rational t = u / (u - v);
