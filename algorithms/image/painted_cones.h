@@ -5,6 +5,7 @@
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/pixel_cones.h>
 #include <sightline/algorithms/point_visibility/exact_view.h>
+#include <sightline/algorithms/point_visibility/number_view.h>
 #include <sightline/algorithms/point_visibility/visible_surface.h>
 #include <sightline/kernel/number.h>
 

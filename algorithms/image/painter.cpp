@@ -2,6 +2,7 @@
 
 #include <sightline/algorithms/image/bands.h>
 #include <sightline/algorithms/image/number_cones.h>
+#include <sightline/algorithms/image/number_painter.h>
 #include <sightline/algorithms/image/painted_cones.h>
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/vectors.h>

@@ -36,13 +36,6 @@ Piece_image paint(const std::vector<Painted_polygon>& polygons, const Pixel_view
 Piece_image paint(const Exact_view& view, const Visible_surface<Exact_view>& surface, const Pixel_view& pixels,
                   const Image_options& options = {});
 
-/// The same of a surface in floats or doubles: cones through rounded rays, in the numbers that they are in. Where two
-/// parts of it do not fit, a centre may be in both, or in none.
-Piece_image paint(const Number_view<float>& view, const Visible_surface<Number_view<float>>& surface,
-                  const Pixel_view& pixels, const Image_options& options = {});
-Piece_image paint(const Number_view<double>& view, const Visible_surface<Number_view<double>>& surface,
-                  const Pixel_view& pixels, const Image_options& options = {});
-
 /// By which depth, along the direction that one looks in, the heedless painter sorts: of a polygon's nearest corner,
 /// of its farthest one, or of all corners' mean.
 enum class Painter_key { nearest, farthest, mean };

@@ -13,9 +13,6 @@
 
 namespace sightline {
 
-template <class FT>
-class Number_view;  // number_view.h, which takes CGAL's numbers along
-
 /// A plane through the eye by what it is made of, which is always of the input: an edge (two points of the scene), the
 /// line where two pieces' planes cross, or where any plane of the scene cuts a piece, a coordinate axis, or a side of
 /// the field of view. Planes of equal names are equal; the converse does not hold.

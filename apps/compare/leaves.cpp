@@ -112,7 +112,7 @@ Rows by_points(const Leaf_question& question, std::size_t segments, std::uint64_
     for (std::size_t k = 0; k < segments; ++k) {
       const std::size_t m = random() % count;
       if (m == l || rows[l][m] || !points.has(m + 1)) continue;
-      const Exact_point to = points.any(m + 1, random);
+      const Triple to = points.any(m + 1, random);
       if (is_free(question.occluders, points.any(l + 1, random), to)) rows[l][m] = rows[m][l] = true;
     }
   }

@@ -6,6 +6,7 @@
 #include <sightline/algorithms/baseline/blended_depth.h>
 #include <sightline/algorithms/image/bsp2d.h>
 #include <sightline/algorithms/image/newell.h>
+#include <sightline/algorithms/image/number_painter.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/algorithms/image/scan_line.h>
 #include <sightline/algorithms/image/warnock.h>

@@ -21,8 +21,8 @@ target_link_libraries(sample_targets PRIVATE test_settings sample_library)
 foreach(target IN ITEMS sample_program sample_targets)
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}")
 endforeach()
-if(SIGHTLINE_PCH)
-  target_precompile_headers(sample_library REUSE_FROM test_${first})
+if(SIGHTLINE_PCH)  # of its own, as a compiler may want the same options for it
+  target_precompile_headers(sample_library PRIVATE ${standard_headers})
 endif()
 if(BUILD_SHARED_LIBS)  # as ./check builds; else the test says that it is skipped until the target sample is built
   add_custom_target(sample ALL DEPENDS sample_program sample_targets)

@@ -5,6 +5,7 @@
 
 #include <sightline/algorithms/image/weiler_atherton.h>
 #include <sightline/algorithms/image/means.h>
+#include <sightline/algorithms/image/number_painter.h>
 #include <sightline/algorithms/image/painter.h>
 #include <sightline/harness/generate/buildings.h>
 #include <sightline/harness/generate/shapes.h>

@@ -102,10 +102,10 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
   const Points& first = face();
   const Exact_point size = minus(first[1], first[0]);
   const Rational along_edge = times(12);  // one after another: compilers evaluate arguments in orders of their own
-  const Exact_point to = corner(), from = corner();
+  const Exact_point way_to = corner(), way_from = corner();
   const Rational along_way = times(12);
   const Exact_point start = corner();
-  Pixel_view view{along(along(start, along_way, minus(from, to)), along_edge, size), {}, {}, {}, 12, 9};
+  Pixel_view view{along(along(start, along_way, minus(way_from, way_to)), along_edge, size), {}, {}, {}, 12, 9};
   switch (kind % 8) {
     case 0:
     case 1: {  // dyadic fractions across the axes: rays through lattice points
