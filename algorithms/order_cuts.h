@@ -8,10 +8,8 @@
 #include <sightline/kernel/scene/scene.h>
 #include <sightline/kernel/sign.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
 namespace sightline {

@@ -21,7 +21,6 @@
 
 #include <array>
 #include <cmath>
-#include <iostream>
 
 namespace sightline::app {
 

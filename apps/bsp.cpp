@@ -4,8 +4,6 @@
 
 #include <sightline/kernel/predicates.h>
 
-#include <iostream>
-
 namespace sightline::app {
 
 struct Bsp_arguments {

@@ -6,7 +6,6 @@
 #include <sightline/io/write.h>
 
 #include <charconv>
-#include <iostream>
 
 namespace sightline::app {
 

@@ -7,7 +7,6 @@
 #include "support/tints.h"
 
 #include <map>
-#include <optional>
 
 namespace sightline::app {
 

@@ -528,6 +528,7 @@ std::vector<std::pair<std::string, Json>> report_members() {
                                             {"again", text},
                                             {"picture", text}}));
   return {{"asked", type("object")},
+          {"contents", {{"type", "object"}, {"additionalProperties", text}}},
           {"shard", tuple_of(count, 2)},
           {"units", count},
           {"open", count},

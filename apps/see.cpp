@@ -15,7 +15,6 @@
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
 
-#include <iostream>
 #include <optional>
 #include <ostream>
 #include <set>

@@ -31,7 +31,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
-#include <iostream>
 #include <limits>
 #include <set>
 #include <string>

@@ -16,7 +16,6 @@
 #include <stdexcept>
 #include <streambuf>
 #include <system_error>
-#include <utility>
 #include <vector>
 #if __has_include(<unistd.h>)
 #include <unistd.h>

@@ -22,10 +22,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <stdexcept>
-#include <type_traits>
-#include <utility>
 
 namespace sightline {
 

@@ -6,7 +6,6 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <mutex>

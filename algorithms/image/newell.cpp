@@ -14,7 +14,6 @@
 #include <limits>
 #include <optional>
 #include <queue>
-#include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>

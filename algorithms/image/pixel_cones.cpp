@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <stdexcept>
-#include <utility>
 
 namespace sightline::image_detail {
 

@@ -3,7 +3,6 @@
 #include <sightline/kernel/threads.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 

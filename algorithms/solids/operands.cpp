@@ -5,7 +5,6 @@
 #include <sightline/kernel/predicates.h>
 
 #include <algorithm>
-#include <optional>
 #include <stdexcept>
 #include <unordered_map>
 

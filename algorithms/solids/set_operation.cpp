@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <atomic>
 #include <numeric>
-#include <optional>
 
 namespace sightline {
 

@@ -7,7 +7,6 @@
 #include <sightline/algorithms/verify/verdict.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
-#include <array>
 #include <cstddef>
 #include <vector>
 

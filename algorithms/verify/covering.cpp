@@ -19,7 +19,6 @@
 #include <span>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sightline::certificate_check {

@@ -3,7 +3,6 @@
 #include <sightline/algorithms/verify/cell_walls.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <map>

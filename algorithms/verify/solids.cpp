@@ -12,7 +12,6 @@
 #include <sightline/algorithms/verify/solid_faces.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <map>
 #include <numeric>

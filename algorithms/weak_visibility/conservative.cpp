@@ -4,7 +4,6 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <iterator>
-#include <span>
 #include <utility>
 
 namespace sightline {

@@ -71,6 +71,10 @@ struct Near_plane {
 
 Near_plane near_plane(const Near_frame& frame, const std::array<Integer, 4>& exact);
 
+/// A plane's value at a point, in doubles: what may be believed of it is likely_side()'s.
+inline double likely_value(const std::array<double, 4>& h, const Triple& p) {
+  return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3];
+}
 /// The side of a point that is known within a relative 2^-52 and 2^-1074, where doubles tell it; else 0. Proof: P-70
 int likely_side(const Near_plane& h, const Triple& p);
 /// The side of a point: doubles where they tell, integers where not. The bound: four products of factors each within

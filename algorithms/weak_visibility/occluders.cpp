@@ -224,9 +224,8 @@ std::vector<std::uint32_t> Occluders::near_shaft(const Near_polygon& s, const Ne
       const std::span<const Triple> polygon = corners(piece);
       const auto keeps_away = [&](std::size_t i) {
         const std::array<double, 4>& h = shaft[i];
-        return !is_inside(i) && std::all_of(polygon.begin(), polygon.end(), [&](const Triple& p) {
-          return h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3] < 0;
-        });
+        return !is_inside(i) &&
+               std::all_of(polygon.begin(), polygon.end(), [&](const Triple& p) { return likely_value(h, p) < 0; });
       };
       if (!any_plane(keeps_away)) found.push_back(piece);
     }
@@ -255,8 +254,7 @@ std::optional<std::uint32_t> Occluders::on_segment(const Triple& p, const Triple
            [&](std::uint32_t piece) {
              if (found) return;
              const std::array<double, 4>& h = planes_[piece].near;
-             const double at_p = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
-                          at_q = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
+             const double at_p = likely_value(h, p), at_q = likely_value(h, q);
              if ((at_p > 0) == (at_q > 0)) return;
              const double sense = at_p > 0 ? 1 : -1;
              const std::span<const Pluecker> all = edges(piece);
@@ -311,7 +309,7 @@ std::optional<Occluders::Hit> Occluders::first_hit(const Triple& p, const Triple
       },
       [&](std::uint32_t piece) {
         const std::array<double, 4>& h = planes_[piece].near;
-        const double height = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
+        const double height = likely_value(h, p),
                      slope = h[0] * direction[0] + h[1] * direction[1] + h[2] * direction[2];
         const double at = -height / slope;
         if (!(at > 1e-9) || at >= nearest) return;

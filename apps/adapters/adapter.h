@@ -5,6 +5,8 @@
 #include <sightline/io/read.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <nlohmann/json.hpp>
+
 #include <fstream>
 #include <iostream>
 

@@ -16,7 +16,6 @@
 
 #include <atomic>
 #include <iostream>
-#include <numeric>
 
 namespace sightline::app {
 

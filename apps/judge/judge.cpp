@@ -8,8 +8,6 @@
 
 #include <sightline/harness/laws/reduce.h>
 
-#include <iostream>
-
 namespace sightline::app {
 
 namespace {

@@ -6,7 +6,6 @@
 
 #include <sightline/harness/judge/case.h>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>

@@ -141,6 +141,22 @@ Json asked_json(const Report_arguments& a) {
           {"seed", a.seed},           {"limit", a.limit},       {"memory", a.memory},       {"quick", a.quick}};
 }
 
+/// A name of what each file holds that is asked about; of one that cannot be read, what is said of it.
+Json contents_json(const Report_arguments& a, const std::vector<Unit>& units) {
+  Json contents = Json::object();
+  if (!a.ask.empty()) contents[a.ask] = content_hash(a.ask);
+  for (const Unit& unit : units) {
+    const std::string& file = unit.group.file;
+    if (file.empty() || contents.contains(file)) continue;
+    try {
+      contents[file] = identity(unit.group);
+    } catch (const Input_error& error) {
+      contents[file] = error.what();
+    }
+  }
+  return contents;
+}
+
 // ---- Asking
 
 /// Rows of a unit, and what was not asked.
@@ -456,6 +472,7 @@ Exit run(const Report_arguments& given) {
     }
   }
   report.asked = asked_json(a);
+  report.contents = contents_json(a, units);
   report.shard = shard, report.shards = shards;
   report.units = units.size();
   for (const std::string& name : a.questions) report.questions.push_back({name, report_question(name).error_means});

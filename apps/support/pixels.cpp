@@ -6,7 +6,6 @@
 #include <sightline/kernel/quoted.h>
 
 #include <iostream>
-#include <sstream>
 
 namespace sightline::app {
 

@@ -1,6 +1,5 @@
 #include <sightline/harness/generate/twisted_holes.h>
 
-#include <array>
 #include <cstddef>
 #include <utility>
 

@@ -3,6 +3,8 @@
 #include <sightline/io/read.h>
 #include <sightline/kernel/quoted.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>

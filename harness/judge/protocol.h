@@ -7,7 +7,7 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <array>
 #include <cstddef>

@@ -13,7 +13,6 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <string>
 #include <utility>

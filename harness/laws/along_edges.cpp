@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <set>
-#include <span>
 #include <vector>
 
 namespace sightline::harness {

@@ -4,6 +4,8 @@
 #include <sightline/kernel/number.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <stdexcept>
 #include <string>

@@ -4,7 +4,7 @@
 
 #include <sightline/harness/generate/families.h>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <cstddef>
 #include <cstdint>

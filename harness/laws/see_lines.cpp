@@ -7,7 +7,6 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 #include <stdexcept>

@@ -8,11 +8,9 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 namespace sightline::harness {

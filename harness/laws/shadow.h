@@ -9,7 +9,6 @@
 #include <sightline/kernel/scene/scene.h>
 
 #include <cstddef>
-#include <optional>
 #include <string>
 
 namespace sightline::harness {

@@ -150,6 +150,7 @@ Json to_json(const Report& report) {
   for (const Example& example : report.examples) examples.push_back(to_json(example));
   return {{"command", "report"},
           {"asked", report.asked},
+          {"contents", report.contents},
           {"shard", {report.shard, report.shards}},
           {"units", report.units},
           {"open", report.open},
@@ -167,6 +168,7 @@ Report report_from_json(const nlohmann::json& document) {
     throw std::invalid_argument("no report: \"command\" is another one");
   Report report;
   report.asked = member<nlohmann::json>(document, "asked");
+  report.contents = member<nlohmann::json>(document, "contents");
   const nlohmann::json& shard = list(document, "shard");
   if (shard.size() != 2 || !shard[0].is_number_unsigned() || !shard[1].is_number_unsigned() || shard[0] >= shard[1])
     throw std::invalid_argument("no report: \"shard\" is none");
@@ -183,6 +185,15 @@ Report report_from_json(const nlohmann::json& document) {
   return report;
 }
 
+/// A file that only one of two reports asked about, or that had another content; empty where there is none.
+static std::string file_that_differs(const Json& contents, const Json& others) {
+  for (const auto& [file, name] : contents.items())
+    if (!others.contains(file) || others[file] != name) return file;
+  for (const auto& [file, name] : others.items())
+    if (!contents.contains(file)) return file;
+  return "";
+}
+
 Report merged(const std::vector<Report>& parts) {
   for (const Report& part : parts)
     if (part.open > 0)
@@ -194,6 +205,10 @@ Report merged(const std::vector<Report>& parts) {
     const Report& part = parts[k];
     if (part.asked != all.asked || part.shards != all.shards || part.units != all.units)
       throw std::invalid_argument("the parts are of different reports; give shards of one, made with the same options");
+    if (const std::string file = file_that_differs(part.contents, all.contents); !file.empty())
+      throw std::invalid_argument(file + " was another file for shard " + std::to_string(part.shard) +
+                                  " than for shard " + std::to_string(all.shard) +
+                                  "; run one of them again, and merge again");
     if (!there.insert(part.shard).second)
       throw std::invalid_argument("shard " + std::to_string(part.shard) + " is there twice; leave one of them out");
     all.rows.insert(all.rows.end(), part.rows.begin(), part.rows.end());

@@ -66,7 +66,8 @@ struct Question {
 };
 
 struct Report {
-  Json asked = Json::object();  ///< the options that say which rows there are
+  Json asked = Json::object();     ///< the options that say which rows there are
+  Json contents = Json::object();  ///< by file: a name of what it held, of all files that are asked about
   std::uint32_t shard = 0, shards = 1;
   std::size_t units = 0;  ///< of all shards
   std::size_t open = 0;   ///< of this one, not reached in time
@@ -86,8 +87,8 @@ Json to_json(const Report& report);
 Report report_from_json(const nlohmann::json& document);
 
 /// The shards of one report as one: rows in the order of units, of each method the example of the smallest wrong case.
-/// Errors: std::invalid_argument where parts are of different reports, a shard is there twice, not finished, or
-/// missing, which it names. Pre: at least one part.
+/// Errors: std::invalid_argument where parts are of different reports, or of files that changed between them, a shard
+/// is there twice, not finished, or missing, which it names. Pre: at least one part.
 Report merged(const std::vector<Report>& parts);
 
 /// All rows of a contender.

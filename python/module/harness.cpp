@@ -12,6 +12,8 @@
 #include <sightline/kernel/quoted.h>
 #include <sightline/kernel/scene/scene.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <chrono>
 #include <optional>

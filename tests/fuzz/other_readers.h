@@ -10,6 +10,8 @@
 #include <sightline/io/number_lines.h>
 #include <sightline/harness/judge/protocol.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <array>
 #include <set>

@@ -38,6 +38,18 @@ TEST(Scan_line_spans, of_one_face_are_shown_without_a_look_at_centres) {
   EXPECT_EQ(image.counters.centres, 0u);
 }
 
+TEST(Scan_line_spans, of_faces_that_meet_at_a_centre_end_there) {
+  // As near as each other in the third column, where the nearer face so far ends, too.
+  const Pixel_view row{{0, 0, 0}, {0, 0, 1}, {4, 0, 0}, {0, 1, 0}, 4, 1};
+  const Rational half(1, 2), sixteenth(1, 16);
+  const Scene scene(view_scenes::soup_of({{{-16, -1, 5}, {2, -1, half}, {2, 1, half}, {-16, 1, 5}},
+                                          {{-1, -1, sixteenth}, {4, -1, 1}, {4, 1, 1}, {-1, 1, sixteenth}}}));
+  const Piece_image truth = centres(Exact_view(scene, row.eye), row);
+  EXPECT_EQ(truth.pieces, (std::vector<std::uint32_t>{1, 1, 1, 0}));
+  for (const Image_kernel kernel : {Image_kernel::float_numbers, Image_kernel::double_numbers, Image_kernel::exact})
+    EXPECT_EQ(scan_line(scene, row, kernel, {.threads = 1}).pieces, truth.pieces);
+}
+
 TEST(Scan_line_spans, of_faces_that_cross_flatly_end_where_they_do) {
   // Two faces whose slopes are 2^-80 apart.
   const Rational hair = Rational(1) / Rational(Integer(1) << 80);

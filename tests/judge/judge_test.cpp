@@ -14,6 +14,7 @@
 #include <sightline/kernel/traits/exact_traits.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <iostream>
 

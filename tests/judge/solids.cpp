@@ -15,6 +15,7 @@
 #include <sightline/io/off.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <set>
 #include <sstream>

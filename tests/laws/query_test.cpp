@@ -5,6 +5,7 @@
 #include <sightline/harness/judge/protocol.h>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace {
 

@@ -125,8 +125,11 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
       const std::size_t k = random.below(c.size());
       const Exact_point normal = Flat(c).normal,
                         to = random.chance(1, 2) ? c[k] : centroid({c[k], c[(k + 1) % c.size()]});
-      if (random.chance(2, 3))
-        view.eye = along(along(to, ratio(random.between(1, 8), 4), normal), random.between(-2, 2), minus(c[0], c[1]));
+      if (random.chance(2, 3)) {
+        const std::int64_t beside = random.between(-2, 2);
+        const Rational away = ratio(random.between(1, 8), 4);
+        view.eye = along(along(to, away, normal), beside, minus(c[0], c[1]));
+      }
       view.look = nearest(minus(to, view.eye)), view.right = nearest(minus(c[(k + 1) % c.size()], c[k])),
       view.up = lattice(3);
       if (random.chance(1, 3)) std::swap(view.right, view.up);
@@ -137,14 +140,19 @@ Pixel_view random_view(const Flats& flats, std::uint64_t kind, Random& random) {
       view.look = lattice(2), view.right = lattice(20), view.up = lattice(1);
       break;  // at times zero, or without a right or an up
     case 5:   // in a face's plane, or at a corner; wide
-      view.eye =
-          random.chance(1, 2) ? corner() : along(along(first[0], times(8), size), times(8), minus(first[2], first[0]));
+      if (random.chance(1, 2)) {
+        view.eye = corner();
+      } else {
+        const Rational across = times(8), lengthways = times(8);
+        view.eye = along(along(first[0], lengthways, size), across, minus(first[2], first[0]));
+      }
       view.look = lattice(1), view.right = lattice(50), view.up = lattice(50);
       break;
     default: {  // at a face from its front, out of square
       const Points& c = face();
       const Exact_point to = inside_of(c, random);
-      view.eye = along(along(to, ratio(random.between(1, 16), 8), Flat(c).normal), times(8), size);
+      const Rational beside = times(8), away = ratio(random.between(1, 16), 8);
+      view.eye = along(along(to, away, Flat(c).normal), beside, size);
       view.look = nearest(minus(to, view.eye));
       const Triple a = nearest(minus(c[1], c[0])), b = nearest(minus(c[2], c[1]));
       for (std::size_t k = 0; k < 3; ++k)

@@ -7,7 +7,8 @@ namespace program {
 class Fuzz : public Program {};
 
 TEST_F(Fuzz, each_command_runs_scenes_and_counts_cases) {
-  for (const char* command : {"order", "graph", "cutset", "see", "weak", "trace", "shadow", "io"}) {
+  for (const char* command :
+       {"order", "graph", "cutset", "see", "weak", "render", "trace", "shadow", "boolean", "pvs", "io"}) {
     const Outcome r =
         run({"fuzz", command, "--scenes", "5", "--seed", "3", "--json", "-", "--out", path("found").string()});
     ASSERT_EQ(r.code, done) << r;

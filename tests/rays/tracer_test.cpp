@@ -217,6 +217,27 @@ TEST(Trace, scenes_smaller_than_the_least_double_are_met_exactly) {
   }
 }
 
+TEST(Trace, scenes_about_points_that_no_double_holds_are_met_exactly) {
+  // A square, and a triangle beside it that makes the scene large; the ray passes a quarter of the least double beside
+  // the square. The middle of the scene is none of its doubles.
+  const Rational size = Rational(1) / Rational(Integer("1" + std::string(322, '0')));
+  const long wide = 1L << 46;
+  Polygon_soup soup;
+  const auto face = [&](const std::vector<std::array<long, 2>>& corners) {
+    std::vector<Point_id> loop;
+    for (const auto& [x, y] : corners) loop.push_back(soup.add_point(Rational(x * size), Rational(y * size), 0));
+    soup.add_face(loop);
+  };
+  face({{384, -51}, {484, -51}, {484, 50}, {384, 50}});
+  face({{256 - wide, 1000}, {256 + wide, 1000}, {256, 2001}});
+  const Scene scene(soup);
+  const Ray_tracer tracer(scene);
+  const Double_ray beside{{7772 * 0x1p-1074, 0, -0x1p-1060}, {0, 0, 1}};
+  Ray_counters counters;
+  EXPECT_TRUE(tracer.first(beside.exact(), open, counters).empty());
+  EXPECT_EQ(tracer.nearest(beside, open, counters).face, Ray_tracer::Nearest::nothing);
+}
+
 TEST(Trace, rays_from_afar_are_as_sure) {
   const Polygon_soup soup = generate::make("city", 20, 9);
   const Scene scene(soup);

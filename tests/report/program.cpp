@@ -163,6 +163,15 @@ TEST_F(Report_command, resumed_asks_again_about_a_scene_that_changed_and_refuses
       << other;
   ASSERT_EQ(ask("whole.json", {}).code, done);
   EXPECT_EQ(lasting(read_file(path("r.json"))), lasting(read_file(path("whole.json"))));
+  ASSERT_EQ(ask("part0.json", {"--shard", "0/2"}).code, done);
+  becomes(two, "two_rooms.off");
+  ASSERT_EQ(ask("part1.json", {"--shard", "1/2"}).code, done);
+  const Outcome changed =
+      run({"report", "--merge", path("part0.json").string(), path("part1.json").string(), "--json", "-"});
+  EXPECT_EQ(changed.code, bad_input) << changed;
+  EXPECT_TRUE(changed.one_line_of_error()) << changed;
+  EXPECT_NE(changed.err.find(two + " was another file for shard 1 than for shard 0"), std::string::npos) << changed;
+  becomes(two, "cube.off");
 
   // 2. Another option, another program, and a file that is somebody else's: nothing is lost.
   ASSERT_EQ(ask("r.json", {"--resume", "--budget", "1e-9"}).code, undecided);

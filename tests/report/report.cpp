@@ -46,6 +46,7 @@ Example example(const Row& of, const std::string& file) {
 Report whole() {
   Report report;
   report.asked = {{"seed", 1}};
+  report.contents = {{"one.off", "a"}, {"two.off", "b"}};
   report.units = 4;
   report.questions = {{"see", "share of directions"}};
   for (std::size_t unit = 0; unit < 4; ++unit) {
@@ -79,7 +80,7 @@ TEST(Report, is_read_as_it_was_written) {
   EXPECT_EQ(nlohmann::json(to_json(read)), nlohmann::json(written));
   for (const Json& each : {Json(3), Json::object(), Json{{"command", "see"}}})
     EXPECT_THROW(report_from_json(nlohmann::json(each)), std::invalid_argument);
-  for (const char* key : {"asked", "shard", "units", "open", "result", "seconds"}) {
+  for (const char* key : {"asked", "contents", "shard", "units", "open", "result", "seconds"}) {
     Json less = written;
     less.erase(key);
     EXPECT_THROW(report_from_json(nlohmann::json::parse(less.dump())), std::invalid_argument) << key;
@@ -133,6 +134,15 @@ TEST(Report, of_all_shards_is_the_whole) {
   Report other = half(1);
   other.asked["seed"] = 2;
   EXPECT_NE(refused({half(0), other}).find("different reports"), std::string::npos);
+  for (const nlohmann::json& contents :
+       {nlohmann::json{{"one.off", "a"}, {"two.off", "c"}}, nlohmann::json{{"one.off", "a"}},
+        nlohmann::json{{"one.off", "a"}, {"two.off", "b"}, {"three.off", "c"}}}) {
+    Report changed = half(1);
+    changed.contents = contents;
+    const std::string file = contents.size() == 3 ? "three.off" : "two.off";
+    EXPECT_NE(refused({half(0), changed}).find(file + " was another file for shard 1 than for shard 0"),
+              std::string::npos);
+  }
   Report unfinished = half(1);
   unfinished.open = 1;
   EXPECT_NE(refused({half(0), unfinished}).find("shard 1 was not finished"), std::string::npos);

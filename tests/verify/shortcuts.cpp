@@ -229,6 +229,19 @@ TEST(Cuts, of_more_levels_than_paths_tell_settle_what_they_cut) {
   expect_rejected(scene, "is nearer", {200, 201});
 }
 
+TEST(Cuts, of_the_level_behind_the_last_that_paths_tell_tell_nothing_of_the_first) {
+  // The last square is behind the first, and 64 squares beside them are cut off one at a time until these two are left.
+  Scene scene;
+  scene.seen_from(at(0, 0, 1000));
+  for (long k = 0; k < 66; ++k) {
+    const bool is_beside = k != 0 && k != 65;
+    const Points square = rectangle(is_beside ? 10 : 0, is_beside ? 11 : 1, 0, 1, k == 0 ? 5 : is_beside ? 10 + k : 1);
+    scene.draw(scene.face(square), square);
+    scene.certificate.cuts.depths.push_back(static_cast<std::uint32_t>(66 - k));
+  }
+  expect_rejected(scene, "is nearer", {0, 65});
+}
+
 TEST(Cuts, of_no_use_leave_no_more_than_no_cuts_do) {
   for (const std::uint32_t count : {1024u, 1100u, 3000u})
     for (const bool from_behind : {false, true}) {  // one at a time
@@ -371,10 +384,14 @@ TEST(Cuts, are_by_the_plane_that_they_name) {
   std::size_t behind = 0, in_front = 0, through = 0;
   for (int trial = 0; trial < sample(2000); ++trial) {
     Scene scene = good_stack(2);
-    const auto any = [&] { return ratio(roll(dice, -4, 4), roll(dice, 1, 3)); };
+    const auto any = [&] {
+      const long parts = roll(dice, 1, 3);
+      return ratio(roll(dice, -4, 4), parts);
+    };
     const std::array<Rational, 4> plane{any(), any(), any(), any()};
     if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0) continue;
-    const Exact_point eye = at(any(), any(), any());
+    const Rational z = any(), y = any(), x = any();
+    const Exact_point eye = at(x, y, z);
     scene.seen_from(eye);
     scene.certificate.cuts = {{0, 0}, {{1, 0, plane}}};
     const Rational of_eye = plane[0] * eye[0] + plane[1] * eye[1] + plane[2] * eye[2] + plane[3];

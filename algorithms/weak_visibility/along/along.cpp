@@ -3,7 +3,6 @@
 #include <sightline/algorithms/weak_visibility/weak_answer.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <optional>
 #include <span>

@@ -3,7 +3,6 @@
 #include <sightline/kernel/vectors.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace sightline {
 

@@ -1,7 +1,6 @@
 #include <sightline/algorithms/weak_visibility/events/event_search.h>
 
 #include <algorithm>
-#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>

@@ -13,9 +13,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <set>
 #include <span>
-#include <utility>
 #include <vector>
 
 namespace sightline {

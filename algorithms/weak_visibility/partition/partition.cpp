@@ -4,8 +4,6 @@
 #include <sightline/algorithms/weak_visibility/partition/partition_builder.h>
 #include <sightline/kernel/scene/polygon_soup.h>
 
-#include <utility>
-
 namespace sightline {
 
 struct Light_partitioner::Merged {

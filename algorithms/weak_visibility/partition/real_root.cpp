@@ -1,7 +1,6 @@
 #include <sightline/algorithms/weak_visibility/partition/real_root.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <optional>
 #include <utility>

@@ -11,10 +11,6 @@ namespace {
 
 constexpr double on_plane = 1e-12;
 
-double height_over(const Near_plane& h, const Triple& p) {
-  return h.near[0] * p[0] + h.near[1] * p[1] + h.near[2] * p[2] + h.near[3];
-}
-
 /// The lines from the corners of a source to those of a box.
 struct Lines_to_box {
   std::vector<Triple> from;
@@ -29,14 +25,14 @@ struct Lines_to_box {
   Triple middle_from() const { return middle(from); }
   Triple middle_to() const { return middle(to); }
   bool all_behind(const Near_plane& h) const {
-    return std::all_of(to.begin(), to.end(), [&](const Triple& q) { return height_over(h, q) < -on_plane; });
+    return std::all_of(to.begin(), to.end(), [&](const Triple& q) { return likely_value(h.near, q) < -on_plane; });
   }
   bool blocked_by(const Occluders& occluders, std::uint32_t piece) {
     // 1. Its plane is between them.
     const Near_plane& h = occluders.plane(piece);
-    const double sense = height_over(h, from[0]) > 0 ? 1 : -1;
+    const double sense = likely_value(h.near, from[0]) > 0 ? 1 : -1;
     const auto on_side = [&](double side) {
-      return [&h, side](const Triple& p) { return side * height_over(h, p) > on_plane; };
+      return [&h, side](const Triple& p) { return side * likely_value(h.near, p) > on_plane; };
     };
     if (!std::all_of(from.begin(), from.end(), on_side(sense)) || !std::all_of(to.begin(), to.end(), on_side(-sense)))
       return false;

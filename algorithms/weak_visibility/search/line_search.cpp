@@ -381,8 +381,7 @@ bool Line_search::is_in_the_way(Line_domain& domain, const Line_weights& line, c
   int sense = candidate.sense;
   if (sense == 0) {
     const std::array<double, 4>& h = occluders_->plane(candidate.piece).near;
-    const double from = h[0] * p[0] + h[1] * p[1] + h[2] * p[2] + h[3],
-                 to = h[0] * q[0] + h[1] * q[1] + h[2] * q[2] + h[3];
+    const double from = likely_value(h, p), to = likely_value(h, q);
     if ((from > 0) == (to > 0)) return false;
     sense = from > 0 ? 1 : -1;
   }
