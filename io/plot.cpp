@@ -27,17 +27,17 @@ static constexpr std::array<const char*, 12> palette{"#1f5fa8", "#d1620b", "#2f8
 
 std::map<std::string, std::string> Log_plot::colours() const {
   std::map<std::string, std::string> result;
-  std::set<std::string> taken;
+  std::set<std::string> used;
   for (const auto& [series, colour] : colours_)
-    if (series_.contains(series)) taken.insert(result[series] = colour);
+    if (series_.contains(series)) used.insert(result[series] = colour);
   for (const auto& [series, points] : series_) {
     if (result.contains(series)) continue;
     std::uint32_t hash = 0;
     for (const char c : series) hash = 131 * hash + static_cast<unsigned char>(c);
     std::size_t place = hash % palette.size();
-    for (std::size_t step = 0; step < palette.size() && taken.contains(palette[place]); ++step)
+    for (std::size_t step = 0; step < palette.size() && used.contains(palette[place]); ++step)
       place = (place + 1) % palette.size();
-    taken.insert(result[series] = palette[place]);
+    used.insert(result[series] = palette[place]);
   }
   return result;
 }
