@@ -4,10 +4,7 @@
 
 #include "../sample.h"
 #include "rays.h"
-#include "z3_answers.h"
 
-#include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -163,49 +160,14 @@ inline std::string z3_output(const std::string& text, unsigned effort) {
   return output;
 }
 
-/// Whether z3 finds that a text can be satisfied; none where it gives up. Pre: has_z3()
-inline std::optional<bool> z3_answer(const std::string& text, unsigned effort) {
-  const std::string output = z3_output(text, effort);
+/// Whether a sentence can be satisfied; none where z3 gives up. Pre: has_z3()
+inline std::optional<bool> satisfiable(const Sentence& sentence, unsigned effort) {
+  const std::string output = z3_output(sentence.text() + sentence.question() + '\n', effort);
   if (output == "sat\n") return true;
   if (output == "unsat\n") return false;
   if (output == "unknown\n" || output == "timeout\n" || output.find("out of memory") != std::string::npos)
     return std::nullopt;
   throw std::runtime_error("z3 says: " + output);
-}
-
-// ---- What z3 said before
-// It says the same to the same text, and takes half of the time of this folder's tests. z3_answers.h holds what it
-// said; any other text, as of a scene that is made anew, goes to z3, and so does one text in `asked_again`, and all
-// where SIGHTLINE_LONG is set. SIGHTLINE_Z3_RECORD=FILE asks about all and appends a line for each, of which
-// z3_answers.h is made.
-
-constexpr std::uint64_t asked_again = 32;
-
-/// FNV-1a of a text and of the effort it is asked with.
-inline std::uint64_t name_of(const std::string& text, unsigned effort) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : text + std::to_string(effort)) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
-  return hash;
-}
-
-/// Whether a sentence can be satisfied; none where z3 gives up. Throws where z3 says otherwise than it did. Pre:
-/// has_z3()
-inline std::optional<bool> satisfiable(const Sentence& sentence, unsigned effort) {
-  const std::string text = sentence.text() + sentence.question() + '\n';
-  const std::uint64_t name = name_of(text, effort);
-  if (const char* const record = std::getenv("SIGHTLINE_Z3_RECORD")) {
-    const std::optional<bool> answer = z3_answer(text, effort);
-    std::ofstream(record, std::ios::app) << (answer ? *answer ? "sat " : "unsat " : "unknown ") << name << '\n';
-    return answer;
-  }
-  const auto is_in = [&](const auto& names) { return std::binary_search(std::begin(names), std::end(names), name); };
-  const bool can = is_in(satisfiable_texts), cannot = is_in(unsatisfiable_texts), open = is_in(open_texts);
-  if (!can && !cannot && !open) return z3_answer(text, effort);
-  const std::optional<bool> known = open ? std::nullopt : std::optional(can);
-  if (name % asked_again != 0 && std::getenv("SIGHTLINE_LONG") == nullptr) return known;
-  const std::optional<bool> now = z3_answer(text, effort);
-  if (known && now && *known != *now) throw std::runtime_error("z3 says otherwise than z3_answers.h: " + text);
-  return known ? known : now;
 }
 
 /// Whether a face is weakly visible from the scene's source; none where z3 gives up. Pre: has_z3()
