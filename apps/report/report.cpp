@@ -141,7 +141,8 @@ Json asked_json(const Report_arguments& a) {
           {"seed", a.seed},           {"limit", a.limit},       {"memory", a.memory},       {"quick", a.quick}};
 }
 
-/// A name of what each file holds that is asked about; of one that cannot be read, what is said of it.
+/// A name of what each file holds that is asked about, which is read once, whatever is asked of it; of one that cannot
+/// be read, what is said of it where it is asked about.
 Json contents_json(const Report_arguments& a, const std::vector<Unit>& units) {
   Json contents = Json::object();
   if (!a.ask.empty()) contents[a.ask] = content_hash(a.ask);
@@ -280,9 +281,13 @@ class Kept_units {
              const std::vector<Report_program>& programs)
       : journal_(a.json + ".units", resumed_head("report", asked_by_option(a, asked, own, programs))) {}
 
-  /// What was answered of these units before, where their scenes' files are what they were; and goes on behind it.
-  std::map<std::size_t, Answered> begin(const std::vector<Unit>& units) {
-    for (const Unit& unit : units) identities_.push_back(identity_of(unit));
+  /// What was answered of these units before, where their scenes' files are what they were, as contents_json() has
+  /// them; and goes on behind it.
+  std::map<std::size_t, Answered> begin(const std::vector<Unit>& units, const Json& contents) {
+    for (const Unit& unit : units)
+      identities_.push_back(
+          unit.question->name + ' ' +
+          (unit.group.file.empty() ? identity(unit.group) : contents.at(unit.group.file).get<std::string>()));
     std::map<std::size_t, Answered> all;
     for (const nlohmann::json& line : journal_.lines()) try {
         const auto number = line.at("unit").get<std::size_t>();
@@ -323,21 +328,9 @@ class Kept_units {
     named["--shard"] = fmt::format("{}/{}", own.shard, own.shards);
     return named;
   }
-  /// A file is read once, whatever is asked of it.
-  std::string identity_of(const Unit& unit) {
-    if (unit.group.file.empty()) return fmt::format("{} {}", unit.question->name, identity(unit.group));
-    const auto [found, is_new] = hashes_.try_emplace(unit.group.file);
-    if (is_new) try {
-        found->second = identity(unit.group);
-      } catch (const Input_error& error) {
-        found->second = error.what();  // as it is said where it is asked about
-      }
-    return fmt::format("{} {}", unit.question->name, found->second);
-  }
 
   Journal journal_;
   std::vector<std::string> identities_;
-  std::map<std::string, std::string> hashes_;  // by file
   std::set<std::size_t> changed_;
 };
 
@@ -453,7 +446,8 @@ Exit run(const Report_arguments& given) {
   const std::vector<Unit> units = units_of(a);
   std::optional<Kept_units> kept_units;
   std::map<std::size_t, Answered> done;
-  if (a.resume) done = kept_units.emplace(a, asked_json(a), own, programs).begin(units);
+  const Json contents = contents_json(a, units);
+  if (a.resume) done = kept_units.emplace(a, asked_json(a), own, programs).begin(units, contents);
   const std::size_t kept = done.size();
   report::Report report;
   {
@@ -472,7 +466,7 @@ Exit run(const Report_arguments& given) {
     }
   }
   report.asked = asked_json(a);
-  report.contents = contents_json(a, units);
+  report.contents = contents;
   report.shard = shard, report.shards = shards;
   report.units = units.size();
   for (const std::string& name : a.questions) report.questions.push_back({name, report_question(name).error_means});
