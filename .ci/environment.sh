@@ -17,7 +17,7 @@ libpng-dev|png.h|pictures
 nlohmann-json3-dev|nlohmann/json.hpp|--json
 '
 test_packages='
-clang|clang++|the Release build that is tested, as clang compiles tests in two thirds of the time; g++ has the sanitizers, headers and examples. Where it is missing g++ compiles all
+clang|clang++|the Release build that is tested, as clang compiles tests in two thirds of the time; g++ has the sanitizers and all headers in one unit. Where it is missing g++ compiles all
 libgtest-dev|gtest/gtest.h|tests
 librapidcheck-dev|rapidcheck.h|tests of laws on random input
 libembree-dev|embree3/rtcore.h|render --method rays, and an adapter of judge; their tests say that they are skipped where it is missing
@@ -100,7 +100,7 @@ build() {
   shift 2
   for option; do  # a folder of another compiler is begun anew
     if [[ $option == -DCMAKE_CXX_COMPILER=* ]] && [ -e "$folder/CMakeCache.txt" ] &&
-       ! grep -qxF -e "${option#-D}" -e "${option/#-DCMAKE_CXX_COMPILER=/CMAKE_CXX_COMPILER:STRING=}" "$folder/CMakeCache.txt"; then
+       ! grep -qxF "CMAKE_CXX_COMPILER:STRING=${option#*=}" "$folder/CMakeCache.txt"; then
       rm -rf "$folder"
     fi
   done

@@ -605,6 +605,23 @@ TEST(Scene_families, hold_what_they_are_for) {
   }
 }
 
+TEST(Products, are_those_that_are_reduced_at_each_step) {
+  sightline::generate::Random random(1);
+  const auto any = [&] {
+    const auto parts = static_cast<long>(random.between(1, 6));
+    return random.chance(1, 4) ? Rational(0) : ratio(static_cast<long>(random.between(-20, 20)), parts);
+  };
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Exact_point a{any(), any(), any()}, b{any(), any(), any()};
+    const Rational by_steps = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    EXPECT_EQ(dot(a, b), by_steps);
+    EXPECT_EQ(dot(a, b).get_den(), by_steps.get_den()) << "reduced";
+    const Exact_point n = cross(a, b);
+    EXPECT_EQ(n, (Exact_point{Rational(a[1] * b[2] - a[2] * b[1]), Rational(a[2] * b[0] - a[0] * b[2]),
+                              Rational(a[0] * b[1] - a[1] * b[0])}));
+  }
+}
+
 TEST(Scene_families, are_the_same_for_the_same_seed) {
   for (const Family family : view_scenes::families) {
     const std::vector<Case> once = view_scenes::make(family, 3), again = view_scenes::make(family, 3),
