@@ -338,8 +338,10 @@ Polygon_soup triangles(Random& random, long count, long size) {
     const auto coordinate = [&](long low, long high) { return low + static_cast<long>(random.below(high - low + 1)); };
     const long x = coordinate(3, 13), y = coordinate(3, 13), z = coordinate(3, 9);
     Points corners;
-    for (int n = 0; n < 3; ++n)
-      corners.push_back(at(x + coordinate(-size, size), y + coordinate(-size, size), z + coordinate(-2, 2)));
+    for (int n = 0; n < 3; ++n) {
+      const long dx = coordinate(-size, size), dy = coordinate(-size, size), dz = coordinate(-2, 2);
+      corners.push_back(at(x + dx, y + dy, z + dz));
+    }
     faces.push_back(corners);
   }
   return soup_of(faces);
@@ -347,9 +349,11 @@ Polygon_soup triangles(Random& random, long count, long size) {
 
 TEST(Partition, of_floors_under_triangles_has_conics_and_is_as_the_eye_says) {
   Tally tally;
-  for (std::uint64_t seed = 0; seed < weak_scenes::seeds(test_scenes::is_sanitized() ? 1 : 12); ++seed) {
+  const bool sanitized = test_scenes::is_sanitized();
+  const std::uint64_t first = sanitized ? 5 : 0, seeds = sanitized ? 1 : 12;  // 5: points of all kinds, and conics
+  for (std::uint64_t seed = first; seed < first + weak_scenes::seeds(seeds); ++seed) {
     Random random(seed);  // 11: a point of a sector in the plane of a triangle
-    const Polygon_soup soup = triangles(random, test_scenes::is_sanitized() ? 5 : 8, 6);
+    const Polygon_soup soup = triangles(random, sanitized ? 5 : 8, 6);
     SCOPED_TRACE(seed);
     expect_right(soup, reversed(parallelogram(at(6, 6, 12), at(4, 0, 0), at(0, 4, 0))), 0, 40, random, tally);
   }
